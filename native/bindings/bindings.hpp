@@ -1,0 +1,47 @@
+// What the binding files share: one `define_*` a topic, and waiting that leaves room for Ctrl-C.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+
+namespace coframe::bindings {
+
+namespace nb = nanobind;
+
+void define_transform(nb::module_& module);
+void define_buffer(nb::module_& module);
+void define_event(nb::module_& module);
+
+// Python's signal handlers run only in between: a wait that may be long is cut into slices of this length.
+inline constexpr std::int64_t kSignalSliceNs = 50'000'000;
+
+// Calls `wait(slice_ns)` without the GIL until it returns true or `timeout_ns` (negative: for ever) is over.
+// Raises what a signal handler raised, KeyboardInterrupt above all. The GIL must be held by the caller.
+template <class Wait>
+bool wait_with_signals(std::int64_t timeout_ns, Wait&& wait) {
+  using clock = std::chrono::steady_clock;
+  const auto start = clock::now();
+  for (;;) {
+    std::int64_t slice = kSignalSliceNs;
+    bool last = false;
+    if (timeout_ns >= 0) {
+      const std::int64_t elapsed =
+          std::chrono::duration_cast<std::chrono::nanoseconds>(clock::now() - start).count();
+      const std::int64_t left = std::max<std::int64_t>(timeout_ns - elapsed, 0);
+      last = left <= slice;
+      slice = std::min(slice, left);
+    }
+    bool done;
+    {
+      nb::gil_scoped_release release;
+      done = wait(slice);
+    }
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    if (done || last) return done;
+  }
+}
+
+}  // namespace coframe::bindings

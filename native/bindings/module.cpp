@@ -1,0 +1,10 @@
+// The private module coframe._core; the public face is the Python package around it.
+#include "bindings/bindings.hpp"
+
+NB_MODULE(_core, module) {
+  using namespace coframe::bindings;
+  module.doc() = "The native core of coframe. Private: use `import coframe`.";
+  define_transform(module);
+  define_buffer(module);
+  define_event(module);
+}

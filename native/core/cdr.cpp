@@ -1,0 +1,188 @@
+#include "core/cdr.hpp"
+
+#include <bit>
+#include <cstring>
+
+namespace coframe {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the fast path copies little-endian bytes as they are");
+
+constexpr std::size_t kHeader = 4;          // encapsulation: 00, 01 (little endian) or 00 (big), options
+constexpr std::size_t kLargestPadding = 3;  // some writers fill the last 4 bytes
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+// Reads primitives; positions are relative to the end of the header, as CDR aligns them.
+class Reader {
+ public:
+  Reader(const std::uint8_t* body, std::size_t size, bool swap) : body_(body), size_(size), swap_(swap) {}
+
+  std::size_t position() const { return position_; }
+  std::size_t left() const { return size_ - position_; }
+  const char* reason() const { return reason_; }
+
+  template <class T>
+  bool number(T& value) {
+    if (!align(sizeof(T)) || left() < sizeof(T)) return fail("the message ends inside a number");
+    std::uint8_t bytes[sizeof(T)];
+    std::memcpy(bytes, body_ + position_, sizeof(T));
+    if (swap_) {
+      for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+    }
+    std::memcpy(&value, bytes, sizeof(T));
+    position_ += sizeof(T);
+    return true;
+  }
+
+  bool text(std::string_view& value) {
+    std::uint32_t length;
+    if (!number(length)) return false;
+    if (length > left()) return fail("a string is longer than the message");
+    const auto* first = reinterpret_cast<const char*>(body_ + position_);
+    position_ += length;
+    value = std::string_view(first, length);
+    if (length == 0) return true;
+    if (value.back() != '\0') return fail("a string does not end with NUL");
+    value.remove_suffix(1);
+    return value.find('\0') == std::string_view::npos || fail("a string has a NUL inside");
+  }
+
+ private:
+  bool align(std::size_t width) {
+    const std::size_t aligned = (position_ + width - 1) & ~(width - 1);
+    if (aligned > size_) return false;
+    position_ = aligned;
+    return true;
+  }
+
+  bool fail(const char* reason) {
+    reason_ = reason;
+    return false;
+  }
+
+  const std::uint8_t* body_;
+  std::size_t size_;
+  std::size_t position_ = 0;
+  bool swap_;
+  const char* reason_ = nullptr;
+};
+
+bool read_transform(Reader& reader, TransformView& view) {
+  std::int32_t seconds;
+  std::uint32_t nanoseconds;
+  if (!reader.number(seconds) || !reader.number(nanoseconds)) return false;
+  view.stamp = seconds * kNanosecondsPerSecond + nanoseconds;
+  if (!reader.text(view.parent) || !reader.text(view.child)) return false;
+  for (double& value : view.values.translation) {
+    if (!reader.number(value)) return false;
+  }
+  for (double& value : view.values.rotation) {
+    if (!reader.number(value)) return false;
+  }
+  return true;
+}
+
+class Writer {
+ public:
+  Writer() : bytes_({'\0', '\1', '\0', '\0'}) {}
+
+  template <class T>
+  void number(T value) {
+    const std::size_t width = sizeof(T);
+    bytes_.resize(kHeader + ((bytes_.size() - kHeader + width - 1) & ~(width - 1)), '\0');
+    char raw[sizeof(T)];
+    std::memcpy(raw, &value, width);
+    bytes_.append(raw, width);
+  }
+
+  void text(std::string_view value) {
+    number(static_cast<std::uint32_t>(value.size() + 1));
+    bytes_.append(value);
+    bytes_.push_back('\0');
+  }
+
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+}  // namespace
+
+DecodeFailure decode_tf_message(const std::uint8_t* data, std::size_t size, std::vector<TransformView>& out) {
+  out.clear();
+  if (size < kHeader) return {size, "the message is shorter than its 4-byte header"};
+  if (data[0] != 0 || data[1] > 1) return {0, "the header does not say plain CDR (00 01 or 00 00)"};
+  Reader reader(data + kHeader, size - kHeader, data[1] == 0);
+  std::uint32_t count;
+  bool complete = reader.number(count);
+  for (std::uint32_t i = 0; complete && i < count; ++i) {
+    TransformView view;
+    complete = read_transform(reader, view);
+    if (complete) out.push_back(view);
+  }
+  if (!complete) {
+    out.clear();
+    return {kHeader + reader.position(), reader.reason()};
+  }
+  if (reader.left() > kLargestPadding) {
+    out.clear();
+    return {kHeader + reader.position(), "bytes are left over after the last transform"};
+  }
+  return {};
+}
+
+std::string encode_tf_message(const std::vector<TransformView>& transforms) {
+  Writer writer;
+  writer.number(static_cast<std::uint32_t>(transforms.size()));
+  for (const TransformView& view : transforms) {
+    std::int64_t seconds = view.stamp / kNanosecondsPerSecond;
+    std::int64_t nanoseconds = view.stamp % kNanosecondsPerSecond;
+    if (nanoseconds < 0) {
+      nanoseconds += kNanosecondsPerSecond;
+      --seconds;
+    }
+    writer.number(static_cast<std::int32_t>(seconds));
+    writer.number(static_cast<std::uint32_t>(nanoseconds));
+    writer.text(view.parent);
+    writer.text(view.child);
+    for (double value : view.values.translation) writer.number(value);
+    for (double value : view.values.rotation) writer.number(value);
+  }
+  return writer.take();
+}
+
+// Well-formed UTF-8 as in table 3-7 of the Unicode standard: no overlong forms, no surrogates.
+bool is_utf8(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  for (std::size_t i = 0; i < text.size();) {
+    const unsigned char lead = byte(i);
+    std::size_t length = 1;
+    unsigned char low = 0x80, high = 0xBF;  // bounds of the second byte
+    if (lead < 0x80) {
+      ++i;
+      continue;
+    } else if (lead >= 0xC2 && lead <= 0xDF) {
+      length = 2;
+    } else if (lead >= 0xE0 && lead <= 0xEF) {
+      length = 3;
+      if (lead == 0xE0) low = 0xA0;
+      if (lead == 0xED) high = 0x9F;
+    } else if (lead >= 0xF0 && lead <= 0xF4) {
+      length = 4;
+      if (lead == 0xF0) low = 0x90;
+      if (lead == 0xF4) high = 0x8F;
+    } else {
+      return false;
+    }
+    if (text.size() - i < length || byte(i + 1) < low || byte(i + 1) > high) return false;
+    for (std::size_t k = 2; k < length; ++k) {
+      if ((byte(i + k) & 0xC0) != 0x80) return false;
+    }
+    i += length;
+  }
+  return true;
+}
+
+}  // namespace coframe

@@ -1,0 +1,118 @@
+#include "core/dump.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+
+namespace coframe {
+
+namespace {
+
+double seconds(Stamp stamp) { return static_cast<double>(stamp) * 1e-9; }
+
+std::string fixed(double value, int decimals) {
+  char text[400];  // a double has up to 309 digits before the point
+  return std::string(text, static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.*f", decimals, value)));
+}
+
+double span(const History& history) { return seconds(history.newest()) - seconds(history.oldest()); }
+
+template <class Visit>
+void for_each_link(const Tree& tree, Visit&& visit) {
+  for (FrameId id = 1; id < tree.frame_count(); ++id) {
+    const History* history = tree.history(id);
+    if (history && !history->empty()) visit(id, *history);
+  }
+}
+
+// Names that YAML reads as themselves stay bare, as in tf2; others, which break tf2's YAML, are quoted.
+std::string yaml_key(const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '/' || c == '.'; };
+  if (std::all_of(name.begin(), name.end(), plain) && std::isalpha(static_cast<unsigned char>(name.front()))) {
+    return name;
+  }
+  std::string quoted = "\"";
+  for (const unsigned char c : name) {
+    char escape[8];
+    if (c == '"' || c == '\\') {
+      quoted += '\\';
+      quoted += static_cast<char>(c);
+    } else if (c < 0x20 || c == 0x7f) {
+      std::snprintf(escape, sizeof escape, "\\x%02x", c);
+      quoted += escape;
+    } else {
+      quoted += static_cast<char>(c);
+    }
+  }
+  return quoted + '"';
+}
+
+std::string yaml_value(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    quoted += c;
+    if (c == '\'') quoted += c;
+  }
+  return quoted + "'";
+}
+
+std::string dot_id(const std::string& name) {
+  std::string quoted = "\"";
+  for (const char c : name) {
+    if (c == '"') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
+double average_rate(const History& history) {
+  return static_cast<double>(history.size()) / std::max(span(history), 0.0001);
+}
+
+std::string frames_as_string(const Tree& tree) {
+  std::string text;
+  for (FrameId id = 1; id < tree.frame_count(); ++id) {
+    const History* history = tree.history(id);
+    if (!history) continue;
+    text += "Frame " + tree.name(id) + " exists with parent " + tree.name(history->parent()) + ".\n";
+  }
+  return text;
+}
+
+std::string frames_as_yaml(const Tree& tree) {
+  std::string text;
+  for_each_link(tree, [&](FrameId id, const History& history) {
+    text += yaml_key(tree.name(id)) + ": \n";
+    text += "  parent: " + yaml_value(tree.name(history.parent())) + "\n";
+    text += "  broadcaster: " + yaml_value(tree.authority_name(tree.frame(id).authority)) + "\n";
+    text += "  rate: " + fixed(average_rate(history), 3) + "\n";
+    text += "  most_recent_transform: " + fixed(seconds(history.newest()), 6) + "\n";
+    text += "  oldest_transform: " + fixed(seconds(history.oldest()), 6) + "\n";
+    text += "  buffer_length: " + fixed(span(history), 3) + "\n";
+  });
+  return text.empty() ? "[]" : text;
+}
+
+std::string frames_as_dot(const Tree& tree, Stamp now) {
+  std::string text = "digraph G {\n";
+  if (tree.frame_count() == 1) return text + "\"no tf data recieved\"}";
+  for_each_link(tree, [&](FrameId id, const History& history) {
+    text += dot_id(tree.name(history.parent())) + " -> " + dot_id(tree.name(id)) + "[label=\"";
+    text += "Broadcaster: " + tree.authority_name(tree.frame(id).authority) + "\\n";
+    text += "Average rate: " + fixed(average_rate(history), 3) + " Hz\\n";
+    text += "Most recent transform: " + fixed(seconds(history.newest()), 6) + " ";
+    if (now != 0) text += "( " + fixed(seconds(now) - seconds(history.newest()), 3) + " sec old)";
+    text += "\\nBuffer length: " + fixed(span(history), 3) + " sec\\n\"];\n";
+  });
+  for (FrameId id = 1; id < tree.frame_count() && now != 0; ++id) {
+    if (tree.history(id)) continue;
+    text += "edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label =\"view_frames Result\";\n";
+    text += "\"Recorded at time: " + fixed(seconds(now), 6) + "\"[ shape=plaintext ] ;\n }->" + dot_id(tree.name(id));
+    text += ";\n";
+  }
+  return text + "}";
+}
+
+}  // namespace coframe

@@ -1,0 +1,18 @@
+// The tree as text, in the forms that tf2's users and tools read.
+#pragma once
+
+#include <string>
+
+#include "core/tree.hpp"
+
+namespace coframe {
+
+std::string frames_as_string(const Tree& tree);
+std::string frames_as_yaml(const Tree& tree);
+// `now` 0: without ages and legend.
+std::string frames_as_dot(const Tree& tree, Stamp now);
+
+// Samples per second as tf2 computes it: n over the span, which is at least 100 microseconds.
+double average_rate(const History& history);
+
+}  // namespace coframe

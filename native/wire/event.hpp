@@ -1,0 +1,23 @@
+// A flag that threads wait for: set by DDS threads and by Python, consumed by one waiter at a time.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+
+namespace coframe {
+
+class Event {
+ public:
+  void set();
+  void clear();
+  // Waits until set or for `timeout_ns` (negative: for ever). True when it was set, which also clears it.
+  bool wait(std::int64_t timeout_ns);
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable condition_;
+  bool set_ = false;
+};
+
+}  // namespace coframe

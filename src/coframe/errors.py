@@ -1,0 +1,201 @@
+"""Everything coframe raises.
+
+    Exception
+    ├── TransformException              a transform could not be given or taken
+    │   ├── LookupException             a frame that nobody has mentioned; a loop in the tree
+    │   ├── ConnectivityException       the frames are in different trees
+    │   ├── ExtrapolationException      no sample at the requested time
+    │   ├── InvalidArgumentException    a name or value that tf2 refuses
+    │   │   └── FrameMismatchException  composing a<-b with c<-d where b is not c
+    │   └── TimeoutException            waited in vain
+    ├── WireError(RuntimeError)         the ROS graph could not be joined
+    └── DecodeError(ValueError)         bytes that are not what they claim to be
+
+The names of the transform exceptions are tf2's, and so are their texts (``str(error)``). Each also carries the facts
+behind its text, where they apply, and ``hint``: what to do next.
+"""
+
+from __future__ import annotations
+
+import difflib
+from typing import Protocol
+
+__all__ = [
+    "ConnectivityException",
+    "DecodeError",
+    "ExtrapolationException",
+    "FrameMismatchException",
+    "InvalidArgumentException",
+    "LookupException",
+    "TimeoutException",
+    "TransformException",
+    "WireError",
+]
+
+
+class Failure(Protocol):
+    """The facts of a failed look-up, as the native core gives them; ``str(failure)`` is tf2's text."""
+
+    @property
+    def code(self) -> str:
+        """One of the core's error codes, such as ``"too_new"``."""
+
+    @property
+    def target(self) -> str: ...
+    @property
+    def source(self) -> str: ...
+    @property
+    def requested(self) -> int | None: ...
+    @property
+    def earliest(self) -> int | None: ...
+    @property
+    def latest(self) -> int | None: ...
+    @property
+    def edge(self) -> tuple[str, str] | None: ...
+    @property
+    def roots(self) -> tuple[str, str] | None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def frame_names(self) -> list[str]: ...
+
+
+class TransformException(Exception):  # noqa: N818 - tf2's name
+    """A transform could not be given or taken.
+
+    Attributes:
+        target: The frame the answer was wanted in, or None.
+        source: The frame that was asked about, or None.
+        requested: The time asked for, in nanoseconds; 0 is the latest; None where time plays no part.
+        earliest: The oldest stamp of the link that has no sample at ``requested``, in nanoseconds, or None.
+        latest: The newest stamp of that link, in nanoseconds, or None.
+        edge: That link as (parent, child), or None.
+        hint: What to do next, in a sentence; may be empty.
+    """
+
+    def __init__(
+        self,
+        reason: str | Failure = "",
+        *,
+        target: str | None = None,
+        source: str | None = None,
+        requested: int | None = None,
+        earliest: int | None = None,
+        latest: int | None = None,
+        edge: tuple[str, str] | None = None,
+        hint: str = "",
+    ) -> None:
+        super().__init__(reason)  # its text is made when somebody reads it
+        self._failure = None if isinstance(reason, str) else reason
+        self._hint = hint
+        failure = self._failure
+        self.target = failure.target if failure else target
+        self.source = failure.source if failure else source
+        self.requested = failure.requested if failure else requested
+        self.earliest = failure.earliest if failure else earliest
+        self.latest = failure.latest if failure else latest
+        self.edge = failure.edge if failure else edge
+
+    @property
+    def hint(self) -> str:
+        """What to do next, in a sentence; may be empty."""
+        return _hint(self._failure) if self._failure else self._hint
+
+    def __reduce__(self) -> tuple[object, ...]:
+        facts = {name: getattr(self, name) for name in _FACTS}
+        return _restore, (type(self), str(self), facts)
+
+
+class LookupException(TransformException):
+    """A frame that nobody has mentioned, or a loop in the tree."""
+
+
+class ConnectivityException(TransformException):
+    """The frames are in different trees."""
+
+
+class ExtrapolationException(TransformException):
+    """No sample at the requested time, and tf2 never extrapolates."""
+
+
+class InvalidArgumentException(TransformException):
+    """A frame name or a transform that tf2 refuses."""
+
+
+class FrameMismatchException(InvalidArgumentException):
+    """Two transforms were composed whose inner frames differ."""
+
+
+class TimeoutException(TransformException):
+    """Something was waited for in vain."""
+
+
+class WireError(RuntimeError):
+    """The ROS graph could not be joined or used.
+
+    Attributes:
+        hint: What to do next, in a sentence; may be empty.
+    """
+
+    def __init__(self, text: str, *, hint: str = "") -> None:
+        super().__init__(text)
+        self.hint = hint
+
+
+class DecodeError(ValueError):
+    """Bytes that are not what they claim to be; the text says which type, where, and what was expected.
+
+    Attributes:
+        hint: What to do next, in a sentence; may be empty.
+    """
+
+    def __init__(self, text: str, *, hint: str = "") -> None:
+        super().__init__(text)
+        self.hint = hint
+
+
+_FACTS = ("target", "source", "requested", "earliest", "latest", "edge", "hint")
+
+
+def _restore(kind: type[TransformException], text: str, facts: dict[str, object]) -> TransformException:
+    return kind(text, **facts)  # type: ignore[arg-type]
+
+
+def _hint(failure: Failure) -> str:
+    if failure.code == "unknown_frame":
+        return _unknown_frame_hint(failure.name, failure.frame_names)
+    if failure.code == "not_connected":
+        return _not_connected_hint(failure)
+    if failure.code == "leading_slash":
+        return f"Leave the leading '/' off: {failure.name.lstrip('/')!r}."
+    if failure.code in _FIXED_HINTS:
+        parent, child = failure.edge or ("", "")
+        return _FIXED_HINTS[failure.code].format(parent=parent, child=child)
+    return ""
+
+
+_FIXED_HINTS = {
+    "empty_name": "Give the name of a frame; is a header's frame_id unset?",
+    "loop": "Two broadcasters disagree about parents: let each frame have one parent only.",
+    "only_other": "{parent} -> {child} has been heard once only: wait for more, or ask for the latest (stamp 0).",
+    "too_new": "{parent} -> {child} lags behind the request: wait for it (timeout=...) or ask for the latest (stamp 0).",
+    "too_old": "{parent} -> {child} has forgotten that time: use a longer cache, or ask for a newer time.",
+    "no_data": "The buffer was cleared and {child} has not been heard of since.",
+}
+
+
+def _unknown_frame_hint(name: str, known: list[str]) -> str:
+    if not known:
+        return "No transforms have arrived yet: is a broadcaster running, in the same ROS domain?"
+    close = difflib.get_close_matches(name, known, n=1)
+    guess = f"Did you mean {close[0]!r}? " if close else ""
+    return f"{guess}The frames are: {', '.join(sorted(known))}."
+
+
+def _not_connected_hint(failure: Failure) -> str:
+    target_root, source_root = failure.roots or ("", "")
+    return (
+        f"{failure.target!r} is in the tree of {target_root!r}, {failure.source!r} in the tree of {source_root!r}. "
+        f"Missing is a transform that says where {source_root!r} is (a link with the child {source_root!r}), "
+        f"or where {target_root!r} is."
+    )

@@ -1,0 +1,229 @@
+"""tf2's `BufferCore` on coframe's native buffer."""
+
+import sys
+from typing import Any, ClassVar
+
+from geometry_msgs.msg import TransformStamped
+from rclpy.duration import Duration
+from rclpy.time import Time
+
+import coframe
+from coframe import _core
+from coframe.errors import (
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
+from tf2_py import _convert
+from tf2_py._velocity import Vector, lookup_velocity
+
+__all__ = [
+    "BufferCore",
+    "ConnectivityException",
+    "ExtrapolationException",
+    "InvalidArgumentException",
+    "LookupException",
+    "TimeoutException",
+    "TransformException",
+]
+
+_NOW = Time()
+
+
+class BufferCore:
+    """Every transform of the last seconds, and the answers to "where was A seen from B at time t".
+
+    Names, arguments and texts are those of ROS 2's `tf2_py.BufferCore`; times and durations are rclpy's or
+    messages. Time zero asks for the latest. Look-ups raise `TransformException`'s children.
+    """
+
+    # console_bridge's prefixes, as Humble writes them to stderr.
+    _LOG_PREFIX: ClassVar[dict[str, str]] = {"error": "Error:   ", "warning": "Warning: "}
+
+    def __init__(self, cache_time: Any = Duration(seconds=10), /, **_ignored: Any) -> None:
+        """Create an empty buffer.
+
+        Args:
+            cache_time: How long a transform is kept after newer ones arrived.
+            **_ignored: tf2's native type takes no keywords and passes over them silently.
+        """
+        self._buffer = coframe.Buffer(_convert.nanoseconds(cache_time, "duration"))
+
+    def set_transform(self, transform: Any, authority: str, /) -> None:
+        """Add a transform that changes over time; refused data are reported on stderr, as tf2 does.
+
+        Args:
+            transform: A `geometry_msgs/TransformStamped`, or what looks like one.
+            authority: Who says so.
+        """
+        self._insert(transform, authority, static=False)
+
+    def set_transform_static(self, transform: Any, authority: str, /) -> None:
+        """Add a transform that holds at every time; refused data are reported on stderr, as tf2 does."""
+        self._insert(transform, authority, static=True)
+
+    def _insert(self, transform: Any, authority: str, *, static: bool) -> None:
+        authority = _convert.text(authority, 2)
+        parent = _convert.frame_id(transform.header.frame_id, "header.frame_id")
+        child = _convert.frame_id(transform.child_frame_id, "child_frame_id")
+        stamp = _convert.nanoseconds(transform.header.stamp, "time")
+        pose = _convert.values(transform.transform, static=static)
+        try:
+            refused = self._buffer.set_values(parent, child, stamp, *pose, static, authority)
+        except TypeError:
+            raise TypeError(f"translation and rotation must be numbers, but are {pose!r}") from None
+        if refused:
+            for level, text in _core.insert_texts(refused, parent, child, stamp, *pose, authority):
+                sys.stderr.write(f"{self._LOG_PREFIX[level]}{text}\n")
+
+    def can_transform_core(self, target_frame: str, source_frame: str, time: Any) -> tuple[int, str]:
+        """1 and an empty text if the look-up would succeed, else 0 and the reason."""
+        reason = self._buffer.why_not(
+            _convert.text(target_frame, 1), _convert.text(source_frame, 2), _convert.nanoseconds(time, "time")
+        )
+        return int(not reason), reason
+
+    def can_transform_full_core(
+        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
+    ) -> tuple[int, str]:
+        """The same for `lookup_transform_full_core`."""
+        reason = self._buffer.why_not_full(
+            *_full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
+        )
+        return int(not reason), reason
+
+    def lookup_transform_core(self, target_frame: str, source_frame: str, time: Any) -> TransformStamped:
+        """The transform that takes data from `source_frame` to `target_frame` at a time.
+
+        Raises:
+            TransformException: One of its children, with tf2's text.
+        """
+        return self._lookup(
+            _convert.text(target_frame, 1), _convert.text(source_frame, 2), _convert.nanoseconds(time, "time")
+        )
+
+    def _lookup(self, target: str, source: str, stamp: int, wait: int | None = None) -> TransformStamped:
+        found = self._buffer.lookup(target, source, stamp, timeout=wait)
+        return _convert.message(target, source, found.stamp or 0, found.values)
+
+    def lookup_transform_full_core(
+        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
+    ) -> TransformStamped:
+        """From `source_frame` at one time to `target_frame` at another, standing still in `fixed_frame` between.
+
+        Raises:
+            TransformException: One of its children, with tf2's text.
+        """
+        return self._lookup_full(
+            _full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
+        )
+
+    def _lookup_full(
+        self, query: tuple[str, int, str, int, str], wait: int | None = None
+    ) -> TransformStamped:
+        found = self._buffer.lookup_full(*query, timeout=wait)
+        return _convert.message(query[0], query[2], found.stamp or 0, found.values)
+
+    def get_latest_common_time(self, target_frame: str, source_frame: str, /) -> Time:
+        """The newest time at which every moving link between the frames is known; 0 if none moves."""
+        latest = self._buffer.latest_common_time(
+            _convert.text(target_frame, 1), _convert.text(source_frame, 2)
+        )
+        return Time(nanoseconds=latest)
+
+    def lookupVelocityCore(
+        self, tracking_frame: str, observation_frame: str, time: Any, averaging_interval: Any
+    ) -> tuple[Vector, Vector]:
+        """Linear (m/s) and angular (rad/s) velocity of the tracking frame's origin in the observation frame."""
+        tracking, observation = _convert.text(tracking_frame, 1), _convert.text(observation_frame, 2)
+        return self._velocity(
+            tracking, observation, observation, (0.0, 0.0, 0.0), tracking, time, averaging_interval
+        )
+
+    def lookupVelocityFullCore(
+        self,
+        tracking_frame: str,
+        observation_frame: str,
+        reference_frame: str,
+        reference_point: tuple[float, float, float],
+        reference_point_frame: str,
+        time: Any,
+        averaging_interval: Any,
+        /,
+    ) -> tuple[Vector, Vector]:
+        """The same for a point fixed to the tracking frame, expressed in the reference frame."""
+        x, y, z = reference_point
+        return self._velocity(
+            _convert.text(tracking_frame, 1),
+            _convert.text(observation_frame, 2),
+            _convert.text(reference_frame, 3),
+            (x, y, z),
+            _convert.text(reference_point_frame, 7),
+            time,
+            averaging_interval,
+        )
+
+    def _velocity(
+        self,
+        tracking: str,
+        observation: str,
+        reference: str,
+        point: tuple[float, float, float],
+        point_frame: str,
+        time: Any,
+        interval: Any,
+    ) -> tuple[Vector, Vector]:
+        return lookup_velocity(
+            self._buffer,
+            tracking,
+            observation,
+            reference,
+            point,
+            point_frame,
+            _convert.nanoseconds(time, "time"),
+            _convert.nanoseconds(interval, "duration"),
+        )
+
+    def all_frames_as_yaml(self, *_ignored: Any) -> str:
+        """One YAML block per frame that has a parent: who sends it, how often, from when to when."""
+        return self._buffer.all_frames_as_yaml()
+
+    def all_frames_as_string(self, *_ignored: Any) -> str:
+        """One sentence per frame that has a parent."""
+        return self._buffer.all_frames_as_string()
+
+    def _allFramesAsDot(self, time: Any = _NOW) -> str:
+        return self._buffer.all_frames_as_dot(_convert.nanoseconds(time, "time"))
+
+    def _chain(
+        self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
+    ) -> list[str]:
+        return self._buffer.chain(
+            *_full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
+        )
+
+    def _frameExists(self, frame: str, /) -> bool:
+        # tf2 keeps the root of all trees in its table of names.
+        return _convert.text(frame, 1) == "NO_PARENT" or self._buffer.frame_exists(frame)
+
+    def _getFrameStrings(self) -> list[str]:
+        return self._buffer.frame_names()
+
+    def clear(self) -> None:
+        """Forget every moving transform; frames and static transforms stay."""
+        self._buffer.clear()
+
+
+def _full_query(
+    target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
+) -> tuple[str, int, str, int, str]:
+    return (
+        _convert.text(target_frame, 1),
+        _convert.nanoseconds(target_time, "time"),
+        _convert.text(source_frame, 3),
+        _convert.nanoseconds(source_time, "time"),
+        _convert.text(fixed_frame, 5),
+    )
