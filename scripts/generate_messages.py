@@ -1,0 +1,355 @@
+"""Writes the message classes from the definitions in ``interfaces/``.
+
+    python scripts/generate_messages.py            write src/coframe/messages/generated and the packages in src/ros
+    python scripts/generate_messages.py --check    exit 1 if what is committed differs
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from coframe.messages.definition import (
+    AbstractNestedType,
+    AbstractType,
+    Array,
+    BasicType,
+    NamespacedType,
+)
+from coframe.messages.fields import number_of
+from coframe.messages.parser import Field, Structure, parse
+
+ROOT = Path(__file__).resolve().parents[1]
+INTERFACES = ROOT / "interfaces"
+GENERATED = ROOT / "src/coframe/messages/generated"
+ROS = ROOT / "src/ros"
+
+NOTICE = "# Written by scripts/generate_messages.py from interfaces/{package}/{kind}; do not edit.\n"
+PARTS = {"msg": 1, "srv": 2, "action": 3}
+
+GOAL_ID = Field("goal_id", NamespacedType(("unique_identifier_msgs", "msg"), "UUID"), None)
+TIME = NamespacedType(("builtin_interfaces", "msg"), "Time")
+
+
+class Message(NamedTuple):
+    """A class to write."""
+
+    package: str
+    kind: str
+    name: str
+    structure: Structure
+
+    @property
+    def ros_type(self) -> str:
+        """The ROS type name."""
+        return f"{self.package}/{self.kind}/{self.name}"
+
+
+def main() -> int:
+    """Writes everything, or compares with what is there."""
+    files = generate()
+    if "--check" not in sys.argv[1:]:
+        for path, text in files.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        return 0
+    stale = [path for path, text in files.items() if not path.is_file() or path.read_text("utf-8") != text]
+    stale += [path for path in GENERATED.rglob("*.py") if path not in files]
+    for path in stale:
+        print(f"{path.relative_to(ROOT)} is not what the definitions give; run scripts/generate_messages.py")
+    return 1 if stale else 0
+
+
+def generate() -> dict[Path, str]:
+    """The text of every file."""
+    files = {GENERATED / "__init__.py": '"""The message classes of each ROS package."""\n'}
+    for folder in sorted(path for path in INTERFACES.iterdir() if path.is_dir()):
+        package = folder.name
+        docstring = f'"""ROS package {package}."""\n'
+        files[GENERATED / package / "__init__.py"] = docstring
+        files[ROS / package / "__init__.py"] = docstring
+        files[ROS / package / "py.typed"] = ""
+        for kind in sorted(path.name for path in folder.iterdir()):
+            module = Module(package, kind)
+            for path in sorted((folder / kind).iterdir()):
+                module.add(path)
+            files[GENERATED / package / f"{kind}.py"] = module.text()
+            files[ROS / package / kind / "__init__.py"] = module.public_text()
+    return files
+
+
+class Module:
+    """One module to write: the messages, services or actions of one package."""
+
+    def __init__(self, package: str, kind: str) -> None:
+        self.package = package
+        self.kind = kind
+        self.messages: dict[str, Message] = {}
+        self.wholes: dict[str, list[str]] = {}  # services and actions: the lines of the class after their messages
+        self.imports: dict[str, set[str]] = {}
+        self.names: dict[str, set[str]] = {"definition": set(), "message": set(), "hints": set()}
+
+    def add(self, path: Path) -> None:
+        """Takes in one definition file."""
+        parts = parse(path.read_text("utf-8"), self.package, PARTS[self.kind])
+        name = path.stem
+        if self.kind == "msg":
+            self._add_message(name, parts[0])
+        elif self.kind == "srv":
+            self._add_service(name, *parts)
+        else:
+            self._add_action(name, *parts)
+
+    def _add_message(self, name: str, structure: Structure) -> None:
+        self.messages[name] = Message(self.package, self.kind, name, structure)
+
+    def _own(self, name: str) -> NamespacedType:
+        return NamespacedType((self.package, self.kind), name)
+
+    def _add_service(self, name: str, request: Structure, response: Structure) -> None:
+        self._add_message(f"{name}_Request", request)
+        self._add_message(f"{name}_Response", response)
+        self.names["message"].add("Service")
+        self.wholes[name] = [
+            f"class {name}(Service):",
+            f'    """Service {self.package}/{self.kind}/{name}."""',
+            "",
+            f'    ROS_TYPE = "{self.package}/{self.kind}/{name}"',
+            f"    Request = {name}_Request",
+            f"    Response = {name}_Response",
+        ]
+
+    def _add_action(self, name: str, goal: Structure, result: Structure, feedback: Structure) -> None:
+        for part, structure in (("Goal", goal), ("Result", result), ("Feedback", feedback)):
+            self._add_message(f"{name}_{part}", structure)
+        self._add_service(
+            f"{name}_SendGoal",
+            _structure(GOAL_ID, Field("goal", self._own(f"{name}_Goal"), None)),
+            _structure(Field("accepted", BasicType("boolean"), None), Field("stamp", TIME, None)),
+        )
+        self._add_service(
+            f"{name}_GetResult",
+            _structure(GOAL_ID),
+            _structure(
+                Field("status", BasicType("int8"), None), Field("result", self._own(f"{name}_Result"), None)
+            ),
+        )
+        self._add_message(
+            f"{name}_FeedbackMessage", _structure(GOAL_ID, Field("feedback", self._own(f"{name}_Feedback"), None))
+        )
+        self._import("action_msgs", "srv", "CancelGoal")
+        self._import("action_msgs", "msg", "GoalStatusArray")
+        self.names["message"].add("Action")
+        self.wholes[name] = [
+            f"class {name}(Action):",
+            f'    """Action {self.package}/{self.kind}/{name}."""',
+            "",
+            f'    ROS_TYPE = "{self.package}/{self.kind}/{name}"',
+            f"    Goal = {name}_Goal",
+            f"    Result = {name}_Result",
+            f"    Feedback = {name}_Feedback",
+            "",
+            "    class Impl:",
+            '        """The services and messages that carry the action."""',
+            "",
+            f"        SendGoalService = {name}_SendGoal",
+            f"        GetResultService = {name}_GetResult",
+            f"        FeedbackMessage = {name}_FeedbackMessage",
+            "        CancelGoalService = CancelGoal",
+            "        GoalStatusMessage = GoalStatusArray",
+        ]
+
+    def _import(self, package: str, kind: str, name: str) -> None:
+        if (package, kind) != (self.package, self.kind):
+            self.imports.setdefault(f"{package}.{kind}", set()).add(name)
+
+    def text(self) -> str:
+        """The generated module."""
+        self.names["message"].add("Message")
+        classes = ["\n".join(self._class(message)) for message in self._in_order()]
+        classes += ["\n".join(lines) for lines in self.wholes.values()]
+        header = NOTICE.format(package=self.package, kind=self.kind)
+        header += f'"""{self.package}.{self.kind}"""\n\nfrom __future__ import annotations\n\n'
+        if any("array(" in text for text in classes):
+            header += "from array import array\n"
+        header += "from typing import TYPE_CHECKING, Any, Final\n\n"
+        if any("np." in text for text in classes):
+            header += "import numpy as np\n\n"
+        for module in ("definition", "message"):
+            header += _import_line(f"coframe.messages.{module}", self.names[module])
+        for module, names in sorted(self.imports.items()):
+            header += _import_line(f"coframe.messages.generated.{module}", names)
+        if hints := self._hint_imports(classes):
+            header += "\nif TYPE_CHECKING:\n" + hints
+        return header + "\n\n" + "\n\n\n".join(classes) + "\n"
+
+    def _hint_imports(self, classes: list[str]) -> str:
+        lines = ""
+        if any(": Iterable[" in text or ": Sequence[" in text for text in classes):
+            lines += "    from collections.abc import Iterable\n\n"
+        if self.names["hints"]:
+            lines += "    " + _import_line("coframe.messages.hints", self.names["hints"])
+        return lines
+
+    def public_text(self) -> str:
+        """The ROS package's module that gives the classes their well-known place."""
+        names = sorted([*self.messages, *self.wholes])
+        lines = [
+            NOTICE.format(package=self.package, kind=self.kind).rstrip(),
+            f'"""{self.package}.{self.kind}"""',
+            "",
+            f"from coframe.messages.generated.{self.package}.{self.kind} import (",
+            *(f"    {name}," for name in names),
+            ")",
+            "",
+            "__all__ = [",
+            *(f'    "{name}",' for name in names),
+            "]",
+        ]
+        return "\n".join(lines) + "\n"
+
+    def _in_order(self) -> list[Message]:
+        """The messages, each after those it holds."""
+        ordered: dict[str, Message] = {}
+
+        def visit(message: Message) -> None:
+            for field in message.structure.fields:
+                inner = _value_type(field.type)
+                if isinstance(inner, NamespacedType) and inner.namespaces == (self.package, self.kind):
+                    visit(self.messages[inner.name])
+            ordered.setdefault(message.name, message)
+
+        for message in self.messages.values():
+            visit(message)
+        return list(ordered.values())
+
+    def _class(self, message: Message) -> list[str]:
+        structure = message.structure
+        slots = ", ".join(f'"_{field.name}"' for field in structure.fields)
+        return [
+            f"class {message.name}(Message):",
+            f'    """{structure.comment or f"Message {message.ros_type}."}"""',
+            "",
+            f'    ROS_TYPE = "{message.ros_type}"',
+            f"    __slots__ = [{slots}]",
+            *self._slot_types(structure.fields),
+            *(f"    {constant.name}: Final = {constant.value!r}" for constant in structure.constants),
+            *(
+                f"    {field.name.upper()}__DEFAULT: Final = {field.default!r}"
+                for field in structure.fields
+                if field.default is not None
+            ),
+            "",
+            *self._hints(structure.fields),
+            *self._constructor(structure.fields),
+        ]
+
+    def _slot_types(self, fields: list[Field]) -> list[str]:
+        if not fields:
+            return ["    SLOT_TYPES = ()"]
+        lines = ["    SLOT_TYPES = ("]
+        for field in fields:
+            lines.append(f"        {field.type!r},")
+            self.names["definition"].add(type(field.type).__name__)
+            inner = _value_type(field.type)
+            self.names["definition"].add(type(inner).__name__)
+            if isinstance(inner, NamespacedType):
+                self._import(*inner.namespaces, inner.name)
+        return [*lines, "    )"]
+
+    def _hints(self, fields: list[Field]) -> list[str]:
+        lines = ["    if TYPE_CHECKING:"]
+        lines += [self._attribute_hint(field) for field in fields]
+        parameters = "".join(f", {field.name}: {_parameter_hint(field.type)} = ..." for field in fields)
+        star = ", *" if fields else ""
+        return [*lines, f"        def __init__(self{star}{parameters}) -> None: ..."]
+
+    def _attribute_hint(self, field: Field) -> str:
+        number = number_of(field.type)
+        if number is None:
+            return f"        {field.name}: {_hint(field.type)}"
+        if isinstance(field.type, Array):
+            self.names["hints"].add("NumberArray")
+            return f"        {field.name} = NumberArray[np.{number.dtype.name}]()"
+        self.names["hints"].add("NumberSequence")
+        return f"        {field.name} = NumberSequence[{_hint(_value_type(field.type))}]()"
+
+    def _constructor(self, fields: list[Field]) -> list[str]:
+        if not fields:
+            body = []
+        else:
+            body = [f"            self._{field.name} = {_default(field)}" for field in fields]
+        return [
+            "    else:",
+            "        def __init__(self, **fields: Any) -> None:",
+            *body,
+            "            if fields:",
+            "                self._assign(fields)",
+        ]
+
+
+def _structure(*fields: Field) -> Structure:
+    return Structure(list(fields), [], "")
+
+
+def _import_line(module: str, names: set[str]) -> str:
+    return f"from {module} import {', '.join(sorted(names))}\n" if names else ""
+
+
+def _value_type(type_: AbstractType) -> AbstractType:
+    return type_.value_type if isinstance(type_, AbstractNestedType) else type_
+
+
+def _hint(type_: AbstractType) -> str:
+    if isinstance(type_, AbstractNestedType):
+        return f"list[{_hint(type_.value_type)}]"
+    if isinstance(type_, NamespacedType):
+        return type_.name
+    if isinstance(type_, BasicType):
+        hints = {"boolean": "bool", "octet": "bytes", "float": "float", "double": "float"}
+        return hints.get(type_.typename, "int")
+    return "str"
+
+
+def _parameter_hint(type_: AbstractType) -> str:
+    return f"Iterable[{_hint(_value_type(type_))}]" if number_of(type_) else _hint(type_)
+
+
+def _default(field: Field) -> str:
+    """The expression for the value a field has when the constructor is not given one."""
+    type_ = field.type
+    number = number_of(type_)
+    if field.default is not None:
+        return _given_default(field.default, type_)
+    if isinstance(type_, NamespacedType):
+        return f'fields.get("{field.name}") or {type_.name}()'
+    if isinstance(type_, Array) and number:
+        return f"np.zeros({type_.size}, np.{number.dtype.name})"
+    if isinstance(type_, Array):
+        return f"[{_zero(type_.value_type)} for _ in range({type_.size})]"
+    if number:
+        return f'array("{number.code}")'
+    return "[]" if isinstance(type_, AbstractNestedType) else _zero(type_)
+
+
+def _given_default(value: Any, type_: AbstractType) -> str:
+    number = number_of(type_)
+    if number is None:
+        return repr(value)
+    if isinstance(type_, Array):
+        return f"np.array({value!r}, np.{number.dtype.name})"
+    return f'array("{number.code}", {value!r})'
+
+
+def _zero(type_: AbstractType) -> str:
+    if isinstance(type_, NamespacedType):
+        return f"{type_.name}()"
+    if isinstance(type_, BasicType):
+        zeros = {"boolean": "False", "octet": 'b"\\x00"', "float": "0.0", "double": "0.0"}
+        return zeros.get(type_.typename, "0")
+    return '""'
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,302 @@
+"""The attributes of messages: what their setters accept, convert and refuse.
+
+The rules and the words of refusal are those of Humble's generated classes. They hold while Python runs without
+``-O`` and the environment variable ``ROS_PYTHON_CHECK_FIELDS`` is not ``0``.
+"""
+
+from __future__ import annotations
+
+import os
+from array import array
+from collections import UserList, UserString
+from collections.abc import Callable, Collection, Iterable, Sequence, Set
+from math import isinf
+from operator import attrgetter
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from coframe.messages.definition import (
+    AbstractNestableType,
+    AbstractNestedType,
+    AbstractType,
+    Array,
+    BasicType,
+    BoundedSequence,
+    BoundedString,
+    BoundedWString,
+    NamespacedType,
+)
+from coframe.messages.registry import find
+
+CHECKED = __debug__ and os.environ.get("ROS_PYTHON_CHECK_FIELDS", "1") != "0"
+
+# Takes what a user assigns and gives what the message keeps.
+Check = Callable[[Any], Any]
+
+
+class Number(NamedTuple):
+    """How Python keeps many numbers of one type: the type code of array.array and the type of numpy."""
+
+    code: str
+    dtype: np.dtype[Any]
+
+
+NUMBERS = {
+    "float": Number("f", np.dtype("float32")),
+    "double": Number("d", np.dtype("float64")),
+    "int8": Number("b", np.dtype("int8")),
+    "uint8": Number("B", np.dtype("uint8")),
+    "int16": Number("h", np.dtype("int16")),
+    "uint16": Number("H", np.dtype("uint16")),
+    "int32": Number("i", np.dtype("int32")),
+    "uint32": Number("I", np.dtype("uint32")),
+    "int64": Number("q", np.dtype("int64")),
+    "uint64": Number("Q", np.dtype("uint64")),
+}
+_FLOAT32_BOUND = 3.402823466e38
+_FLOAT64_BOUND = 1.7976931348623157e308
+
+
+def attribute(name: str, type_: AbstractType, slot: Any) -> Any:
+    """The descriptor behind ``message.name``, storing into the descriptor of the slot ``_name``."""
+    if not CHECKED and number_of(type_) is None:
+        return slot
+    check, store = _check(name, type_), slot.__set__
+
+    def assign(message: object, value: Any) -> None:
+        store(message, check(value))
+
+    return property(attrgetter(f"_{name}"), assign, doc=f"Message field '{name}'.")
+
+
+def number_of(type_: AbstractType) -> Number | None:
+    """How many numbers are kept if the type is an array or sequence of numbers, otherwise None."""
+    if isinstance(type_, AbstractNestedType) and isinstance(type_.value_type, BasicType):
+        return NUMBERS.get(type_.value_type.typename)
+    return None
+
+
+def constructor_conversion(type_: AbstractType) -> Check | None:
+    """What a constructor does to its argument before assigning it: numbers may come in any iterable."""
+    number = number_of(type_)
+    if number is None:
+        return None
+    if not isinstance(type_, Array):
+        return lambda values: _number_sequence(number, values)
+    shape = (type_.size,)
+
+    def to_numpy(values: Any) -> Any:
+        result = np.array(values, dtype=number.dtype)
+        assert result.size != type_.size or result.shape == shape, f"expected one row of {type_.size} numbers"
+        return result
+
+    return to_numpy
+
+
+def _number_sequence(number: Number, values: Iterable[Any]) -> array[Any]:
+    if isinstance(values, np.ndarray):
+        values = values.tolist()  # array.array would ask numpy for one scalar after another
+    return array(number.code, values)
+
+
+def _check(name: str, type_: AbstractType) -> Check:
+    number = number_of(type_)
+    if number is not None and isinstance(type_, Array):
+        return _number_array_check(name, type_, number)
+    if number is not None and isinstance(type_, AbstractNestedType):
+        return _number_sequence_check(name, type_, number)
+    if isinstance(type_, AbstractNestedType):
+        return _values_check(name, type_)
+    if isinstance(type_, NamespacedType):
+        return _message_check(name, type_)
+    if isinstance(type_, (BoundedString, BoundedWString)):
+        return _bounded_text_check(name, type_.maximum_size)
+    if isinstance(type_, BasicType) and type_.typename == "octet":
+        return _octet_check(name)
+    if isinstance(type_, BasicType) and "int" in type_.typename:
+        return _integer_check(name, type_)
+    if isinstance(type_, BasicType) and type_.typename == "float":
+        return _float32_check(name)
+    return _instance_check(name, _python_type(type_))
+
+
+def _python_type(type_: AbstractType) -> Any:
+    if isinstance(type_, NamespacedType):
+        return find("/".join(type_.namespaced_name()))
+    if isinstance(type_, BasicType):
+        return {"boolean": bool, "octet": bytes, "float": float, "double": float}.get(type_.typename, int)
+    return str
+
+
+def _instance_check(name: str, python_type: type) -> Check:
+    # Also for `double`: every Python float lies within its range.
+    def check(value: Any) -> Any:
+        assert isinstance(value, python_type), f"The '{name}' field must be of type '{python_type.__name__}'"
+        return value
+
+    return check
+
+
+def _message_check(name: str, type_: NamespacedType) -> Check:
+    message_type = _python_type(type_)
+
+    def check(value: Any) -> Any:
+        assert isinstance(value, message_type), (
+            f"The '{name}' field must be a sub message of type '{type_.name}'"
+        )
+        return value
+
+    return check
+
+
+def _bounded_text_check(name: str, maximum_size: int) -> Check:
+    def check(value: Any) -> Any:
+        assert isinstance(value, (str, UserString)) and len(value) <= maximum_size, (  # noqa: PT018 - one text
+            f"The '{name}' field must be string value not longer than {maximum_size}"
+        )
+        return value
+
+    return check
+
+
+def _octet_check(name: str) -> Check:
+    def check(value: Any) -> Any:
+        assert isinstance(value, (bytes, bytearray)) and len(value) == 1, (  # noqa: PT018 - one text
+            f"The '{name}' field must be of type 'bytes' or 'ByteString' with length 1"
+        )
+        return value
+
+    return check
+
+
+def _integer_bounds(type_: BasicType) -> tuple[int, int]:
+    bits = int(type_.typename.partition("int")[2])
+    return (0, 2**bits - 1) if type_.typename.startswith("u") else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+
+
+def _integer_check(name: str, type_: BasicType) -> Check:
+    low, high = _integer_bounds(type_)
+    kind = "an integer" if low else "an unsigned integer"
+
+    def check(value: Any) -> Any:
+        assert isinstance(value, int), f"The '{name}' field must be of type 'int'"
+        assert low <= value <= high, f"The '{name}' field must be {kind} in [{low}, {high}]"
+        return value
+
+    return check
+
+
+def _fits_float32(value: float) -> bool:
+    return not (value < -_FLOAT32_BOUND or value > _FLOAT32_BOUND) or isinf(value)
+
+
+def _float32_check(name: str) -> Check:
+    def check(value: Any) -> Any:
+        assert isinstance(value, float), f"The '{name}' field must be of type 'float'"
+        assert _fits_float32(value), (
+            f"The '{name}' field must be a float in [{-_FLOAT32_BOUND}, {_FLOAT32_BOUND}]"
+        )
+        return value
+
+    return check
+
+
+def _number_array_check(name: str, type_: Array, number: Number) -> Check:
+    check_values = _values_check(name, type_)
+
+    def check(value: Any) -> Any:
+        if isinstance(value, np.ndarray):
+            assert not CHECKED or value.dtype == number.dtype, (
+                f"The '{name}' numpy.ndarray() must have the dtype of 'numpy.{number.dtype.name}'"
+            )
+            assert not CHECKED or value.size == type_.size, (
+                f"The '{name}' numpy.ndarray() must have a size of {type_.size}"
+            )
+            return value
+        return np.array(check_values(value), dtype=number.dtype)
+
+    return check
+
+
+def _number_sequence_check(name: str, type_: AbstractNestedType, number: Number) -> Check:
+    check_values = _values_check(name, type_)
+    maximum_size = type_.maximum_size if isinstance(type_, BoundedSequence) else None
+
+    def check(value: Any) -> Any:
+        if isinstance(value, array):
+            assert not CHECKED or value.typecode == number.code, (
+                f"The '{name}' array.array() must have the type code of '{number.code}'"
+            )
+            assert not CHECKED or maximum_size is None or len(value) <= maximum_size, (
+                f"The '{name}' array.array() must have a size <= {maximum_size}"
+            )
+            return value
+        if number.code == "B" and isinstance(value, (bytes, bytearray)) and maximum_size is None:
+            return array("B", value)  # bytes are numbers of the right range
+        return _number_sequence(number, check_values(value))
+
+    return check
+
+
+def _values_check(name: str, type_: AbstractNestedType) -> Check:
+    if not CHECKED:
+        return lambda value: value
+    value_type = type_.value_type
+    python_type = _python_type(value_type)
+    value_fits = _value_rule(value_type)
+
+    def check(value: Any) -> Any:
+        assert (
+            isinstance(value, (Sequence, Set, UserList))
+            and not isinstance(value, (str, UserString))
+            and _size_fits(value, type_)
+            and ({*map(type, value)} <= {python_type} or all(isinstance(item, python_type) for item in value))
+            and value_fits(value)
+        ), _refusal(name, type_, python_type.__name__)
+        return value
+
+    return check
+
+
+def _size_fits(value: Collection[Any], type_: AbstractNestedType) -> bool:
+    if isinstance(type_, Array):
+        return len(value) == type_.size
+    return not isinstance(type_, BoundedSequence) or len(value) <= type_.maximum_size
+
+
+def _value_rule(type_: AbstractNestableType) -> Callable[[Collection[Any]], bool]:
+    """What holds for all values together, beyond their Python type."""
+    if isinstance(type_, (BoundedString, BoundedWString)):
+        longest = type_.maximum_size
+        return lambda values: all(len(value) <= longest for value in values)
+    if isinstance(type_, BasicType) and "int" in type_.typename:
+        low, high = _integer_bounds(type_)
+        return lambda values: not values or (min(values) >= low and max(values) <= high)
+    if isinstance(type_, BasicType) and type_.typename == "float":
+        return _fit_float32
+    return lambda values: True
+
+
+def _fit_float32(values: Collection[float]) -> bool:
+    # A NaN that max() starts with, or an infinity, only leads to the second, slower look.
+    return max(map(abs, values), default=0.0) <= _FLOAT32_BOUND or all(map(_fits_float32, values))
+
+
+def _refusal(name: str, type_: AbstractNestedType, type_name: str) -> str:
+    value_type = type_.value_type
+    rules = ["a set or sequence"]
+    if isinstance(type_, Array):
+        rules.append(f"with length {type_.size}")
+    if isinstance(type_, BoundedSequence):
+        rules.append(f"with length at most {type_.maximum_size}")
+    if isinstance(value_type, (BoundedString, BoundedWString)):
+        rules.append(f"and each string value not longer than {value_type.maximum_size}")
+    rules.append(f"and each value of type '{type_name}'")
+    if isinstance(value_type, BasicType) and "int" in value_type.typename:
+        low, high = _integer_bounds(value_type)
+        rules.append(f"and each {'integer' if low else 'unsigned integer'} in [{low}, {high}]")
+    if isinstance(value_type, BasicType) and value_type.typename in {"float", "double"}:
+        bound = _FLOAT32_BOUND if value_type.typename == "float" else _FLOAT64_BOUND
+        rules.append(f"and each {value_type.typename} in [{-bound:f}, {bound:f}]")
+    return f"The '{name}' field must be {' '.join(rules)}"

@@ -1,0 +1,1 @@
+"""ROS package action_msgs."""

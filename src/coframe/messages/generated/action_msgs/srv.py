@@ -1,0 +1,63 @@
+# Written by scripts/generate_messages.py from interfaces/action_msgs/srv; do not edit.
+"""action_msgs.srv"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence
+from coframe.messages.message import Message, Service
+from coframe.messages.generated.action_msgs.msg import GoalInfo
+
+
+class CancelGoal_Request(Message):
+    """A zero goal id or a zero stamp widens the request: see the design of ROS 2's actions."""
+
+    ROS_TYPE = "action_msgs/srv/CancelGoal_Request"
+    __slots__ = ["_goal_info"]
+    SLOT_TYPES = (
+        NamespacedType(('action_msgs', 'msg'), 'GoalInfo'),
+    )
+
+    if TYPE_CHECKING:
+        goal_info: GoalInfo
+        def __init__(self, *, goal_info: GoalInfo = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._goal_info = fields.get("goal_info") or GoalInfo()
+            if fields:
+                self._assign(fields)
+
+
+class CancelGoal_Response(Message):
+    """Message action_msgs/srv/CancelGoal_Response."""
+
+    ROS_TYPE = "action_msgs/srv/CancelGoal_Response"
+    __slots__ = ["_return_code", "_goals_canceling"]
+    SLOT_TYPES = (
+        BasicType('int8'),
+        UnboundedSequence(NamespacedType(('action_msgs', 'msg'), 'GoalInfo')),
+    )
+    ERROR_NONE: Final = 0
+    ERROR_REJECTED: Final = 1
+    ERROR_UNKNOWN_GOAL_ID: Final = 2
+    ERROR_GOAL_TERMINATED: Final = 3
+
+    if TYPE_CHECKING:
+        return_code: int
+        goals_canceling: list[GoalInfo]
+        def __init__(self, *, return_code: int = ..., goals_canceling: list[GoalInfo] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._return_code = 0
+            self._goals_canceling = []
+            if fields:
+                self._assign(fields)
+
+
+class CancelGoal(Service):
+    """Service action_msgs/srv/CancelGoal."""
+
+    ROS_TYPE = "action_msgs/srv/CancelGoal"
+    Request = CancelGoal_Request
+    Response = CancelGoal_Response

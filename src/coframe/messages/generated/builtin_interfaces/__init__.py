@@ -1,0 +1,1 @@
+"""ROS package builtin_interfaces."""

@@ -1,0 +1,53 @@
+# Written by scripts/generate_messages.py from interfaces/builtin_interfaces/msg; do not edit.
+"""builtin_interfaces.msg"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from coframe.messages.definition import BasicType
+from coframe.messages.message import Message
+
+
+class Duration(Message):
+    """A span of time; nanosec always counts forward, also for negative seconds."""
+
+    ROS_TYPE = "builtin_interfaces/msg/Duration"
+    __slots__ = ["_sec", "_nanosec"]
+    SLOT_TYPES = (
+        BasicType('int32'),
+        BasicType('uint32'),
+    )
+
+    if TYPE_CHECKING:
+        sec: int
+        nanosec: int
+        def __init__(self, *, sec: int = ..., nanosec: int = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._sec = 0
+            self._nanosec = 0
+            if fields:
+                self._assign(fields)
+
+
+class Time(Message):
+    """A point in time: whole seconds and the nanoseconds after them."""
+
+    ROS_TYPE = "builtin_interfaces/msg/Time"
+    __slots__ = ["_sec", "_nanosec"]
+    SLOT_TYPES = (
+        BasicType('int32'),
+        BasicType('uint32'),
+    )
+
+    if TYPE_CHECKING:
+        sec: int
+        nanosec: int
+        def __init__(self, *, sec: int = ..., nanosec: int = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._sec = 0
+            self._nanosec = 0
+            if fields:
+                self._assign(fields)

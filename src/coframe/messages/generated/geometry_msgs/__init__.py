@@ -1,0 +1,1 @@
+"""ROS package geometry_msgs."""

@@ -1,0 +1,1 @@
+"""ROS package nav_msgs."""

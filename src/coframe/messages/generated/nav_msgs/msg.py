@@ -1,0 +1,152 @@
+# Written by scripts/generate_messages.py from interfaces/nav_msgs/msg; do not edit.
+"""nav_msgs.msg"""
+
+from __future__ import annotations
+
+from array import array
+from typing import TYPE_CHECKING, Any, Final
+
+from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence, UnboundedString
+from coframe.messages.message import Message
+from coframe.messages.generated.builtin_interfaces.msg import Time
+from coframe.messages.generated.geometry_msgs.msg import Point, Pose, PoseStamped, PoseWithCovariance, TwistWithCovariance
+from coframe.messages.generated.std_msgs.msg import Header
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from coframe.messages.hints import NumberSequence
+
+
+class GridCells(Message):
+    """Message nav_msgs/msg/GridCells."""
+
+    ROS_TYPE = "nav_msgs/msg/GridCells"
+    __slots__ = ["_header", "_cell_width", "_cell_height", "_cells"]
+    SLOT_TYPES = (
+        NamespacedType(('std_msgs', 'msg'), 'Header'),
+        BasicType('float'),
+        BasicType('float'),
+        UnboundedSequence(NamespacedType(('geometry_msgs', 'msg'), 'Point')),
+    )
+
+    if TYPE_CHECKING:
+        header: Header
+        cell_width: float
+        cell_height: float
+        cells: list[Point]
+        def __init__(self, *, header: Header = ..., cell_width: float = ..., cell_height: float = ..., cells: list[Point] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._header = fields.get("header") or Header()
+            self._cell_width = 0.0
+            self._cell_height = 0.0
+            self._cells = []
+            if fields:
+                self._assign(fields)
+
+
+class MapMetaData(Message):
+    """Message nav_msgs/msg/MapMetaData."""
+
+    ROS_TYPE = "nav_msgs/msg/MapMetaData"
+    __slots__ = ["_map_load_time", "_resolution", "_width", "_height", "_origin"]
+    SLOT_TYPES = (
+        NamespacedType(('builtin_interfaces', 'msg'), 'Time'),
+        BasicType('float'),
+        BasicType('uint32'),
+        BasicType('uint32'),
+        NamespacedType(('geometry_msgs', 'msg'), 'Pose'),
+    )
+
+    if TYPE_CHECKING:
+        map_load_time: Time
+        resolution: float
+        width: int
+        height: int
+        origin: Pose
+        def __init__(self, *, map_load_time: Time = ..., resolution: float = ..., width: int = ..., height: int = ..., origin: Pose = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._map_load_time = fields.get("map_load_time") or Time()
+            self._resolution = 0.0
+            self._width = 0
+            self._height = 0
+            self._origin = fields.get("origin") or Pose()
+            if fields:
+                self._assign(fields)
+
+
+class OccupancyGrid(Message):
+    """Occupancy row by row from (0, 0): 0 free to 100 occupied, -1 unknown."""
+
+    ROS_TYPE = "nav_msgs/msg/OccupancyGrid"
+    __slots__ = ["_header", "_info", "_data"]
+    SLOT_TYPES = (
+        NamespacedType(('std_msgs', 'msg'), 'Header'),
+        NamespacedType(('nav_msgs', 'msg'), 'MapMetaData'),
+        UnboundedSequence(BasicType('int8')),
+    )
+
+    if TYPE_CHECKING:
+        header: Header
+        info: MapMetaData
+        data = NumberSequence[int]()
+        def __init__(self, *, header: Header = ..., info: MapMetaData = ..., data: Iterable[int] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._header = fields.get("header") or Header()
+            self._info = fields.get("info") or MapMetaData()
+            self._data = array("b")
+            if fields:
+                self._assign(fields)
+
+
+class Odometry(Message):
+    """Pose in the frame of the header, twist in child_frame_id."""
+
+    ROS_TYPE = "nav_msgs/msg/Odometry"
+    __slots__ = ["_header", "_child_frame_id", "_pose", "_twist"]
+    SLOT_TYPES = (
+        NamespacedType(('std_msgs', 'msg'), 'Header'),
+        UnboundedString(),
+        NamespacedType(('geometry_msgs', 'msg'), 'PoseWithCovariance'),
+        NamespacedType(('geometry_msgs', 'msg'), 'TwistWithCovariance'),
+    )
+
+    if TYPE_CHECKING:
+        header: Header
+        child_frame_id: str
+        pose: PoseWithCovariance
+        twist: TwistWithCovariance
+        def __init__(self, *, header: Header = ..., child_frame_id: str = ..., pose: PoseWithCovariance = ..., twist: TwistWithCovariance = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._header = fields.get("header") or Header()
+            self._child_frame_id = ""
+            self._pose = fields.get("pose") or PoseWithCovariance()
+            self._twist = fields.get("twist") or TwistWithCovariance()
+            if fields:
+                self._assign(fields)
+
+
+class Path(Message):
+    """Poses for a robot to follow."""
+
+    ROS_TYPE = "nav_msgs/msg/Path"
+    __slots__ = ["_header", "_poses"]
+    SLOT_TYPES = (
+        NamespacedType(('std_msgs', 'msg'), 'Header'),
+        UnboundedSequence(NamespacedType(('geometry_msgs', 'msg'), 'PoseStamped')),
+    )
+
+    if TYPE_CHECKING:
+        header: Header
+        poses: list[PoseStamped]
+        def __init__(self, *, header: Header = ..., poses: list[PoseStamped] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._header = fields.get("header") or Header()
+            self._poses = []
+            if fields:
+                self._assign(fields)

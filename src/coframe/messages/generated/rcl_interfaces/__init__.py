@@ -1,0 +1,1 @@
+"""ROS package rcl_interfaces."""

@@ -1,0 +1,296 @@
+# Written by scripts/generate_messages.py from interfaces/rcl_interfaces/srv; do not edit.
+"""rcl_interfaces.srv"""
+
+from __future__ import annotations
+
+from array import array
+from typing import TYPE_CHECKING, Any, Final
+
+from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence, UnboundedString
+from coframe.messages.message import Message, Service
+from coframe.messages.generated.rcl_interfaces.msg import ListParametersResult, Parameter, ParameterDescriptor, ParameterValue, SetParametersResult
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from coframe.messages.hints import NumberSequence
+
+
+class DescribeParameters_Request(Message):
+    """Message rcl_interfaces/srv/DescribeParameters_Request."""
+
+    ROS_TYPE = "rcl_interfaces/srv/DescribeParameters_Request"
+    __slots__ = ["_names"]
+    SLOT_TYPES = (
+        UnboundedSequence(UnboundedString()),
+    )
+
+    if TYPE_CHECKING:
+        names: list[str]
+        def __init__(self, *, names: list[str] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._names = []
+            if fields:
+                self._assign(fields)
+
+
+class DescribeParameters_Response(Message):
+    """Message rcl_interfaces/srv/DescribeParameters_Response."""
+
+    ROS_TYPE = "rcl_interfaces/srv/DescribeParameters_Response"
+    __slots__ = ["_descriptors"]
+    SLOT_TYPES = (
+        UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'ParameterDescriptor')),
+    )
+
+    if TYPE_CHECKING:
+        descriptors: list[ParameterDescriptor]
+        def __init__(self, *, descriptors: list[ParameterDescriptor] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._descriptors = []
+            if fields:
+                self._assign(fields)
+
+
+class GetParameterTypes_Request(Message):
+    """Message rcl_interfaces/srv/GetParameterTypes_Request."""
+
+    ROS_TYPE = "rcl_interfaces/srv/GetParameterTypes_Request"
+    __slots__ = ["_names"]
+    SLOT_TYPES = (
+        UnboundedSequence(UnboundedString()),
+    )
+
+    if TYPE_CHECKING:
+        names: list[str]
+        def __init__(self, *, names: list[str] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._names = []
+            if fields:
+                self._assign(fields)
+
+
+class GetParameterTypes_Response(Message):
+    """Message rcl_interfaces/srv/GetParameterTypes_Response."""
+
+    ROS_TYPE = "rcl_interfaces/srv/GetParameterTypes_Response"
+    __slots__ = ["_types"]
+    SLOT_TYPES = (
+        UnboundedSequence(BasicType('uint8')),
+    )
+
+    if TYPE_CHECKING:
+        types = NumberSequence[int]()
+        def __init__(self, *, types: Iterable[int] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._types = array("B")
+            if fields:
+                self._assign(fields)
+
+
+class GetParameters_Request(Message):
+    """Message rcl_interfaces/srv/GetParameters_Request."""
+
+    ROS_TYPE = "rcl_interfaces/srv/GetParameters_Request"
+    __slots__ = ["_names"]
+    SLOT_TYPES = (
+        UnboundedSequence(UnboundedString()),
+    )
+
+    if TYPE_CHECKING:
+        names: list[str]
+        def __init__(self, *, names: list[str] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._names = []
+            if fields:
+                self._assign(fields)
+
+
+class GetParameters_Response(Message):
+    """Message rcl_interfaces/srv/GetParameters_Response."""
+
+    ROS_TYPE = "rcl_interfaces/srv/GetParameters_Response"
+    __slots__ = ["_values"]
+    SLOT_TYPES = (
+        UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'ParameterValue')),
+    )
+
+    if TYPE_CHECKING:
+        values: list[ParameterValue]
+        def __init__(self, *, values: list[ParameterValue] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._values = []
+            if fields:
+                self._assign(fields)
+
+
+class ListParameters_Request(Message):
+    """Message rcl_interfaces/srv/ListParameters_Request."""
+
+    ROS_TYPE = "rcl_interfaces/srv/ListParameters_Request"
+    __slots__ = ["_prefixes", "_depth"]
+    SLOT_TYPES = (
+        UnboundedSequence(UnboundedString()),
+        BasicType('uint64'),
+    )
+    DEPTH_RECURSIVE: Final = 0
+
+    if TYPE_CHECKING:
+        prefixes: list[str]
+        depth: int
+        def __init__(self, *, prefixes: list[str] = ..., depth: int = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._prefixes = []
+            self._depth = 0
+            if fields:
+                self._assign(fields)
+
+
+class ListParameters_Response(Message):
+    """Message rcl_interfaces/srv/ListParameters_Response."""
+
+    ROS_TYPE = "rcl_interfaces/srv/ListParameters_Response"
+    __slots__ = ["_result"]
+    SLOT_TYPES = (
+        NamespacedType(('rcl_interfaces', 'msg'), 'ListParametersResult'),
+    )
+
+    if TYPE_CHECKING:
+        result: ListParametersResult
+        def __init__(self, *, result: ListParametersResult = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._result = fields.get("result") or ListParametersResult()
+            if fields:
+                self._assign(fields)
+
+
+class SetParameters_Request(Message):
+    """Message rcl_interfaces/srv/SetParameters_Request."""
+
+    ROS_TYPE = "rcl_interfaces/srv/SetParameters_Request"
+    __slots__ = ["_parameters"]
+    SLOT_TYPES = (
+        UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'Parameter')),
+    )
+
+    if TYPE_CHECKING:
+        parameters: list[Parameter]
+        def __init__(self, *, parameters: list[Parameter] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._parameters = []
+            if fields:
+                self._assign(fields)
+
+
+class SetParameters_Response(Message):
+    """Message rcl_interfaces/srv/SetParameters_Response."""
+
+    ROS_TYPE = "rcl_interfaces/srv/SetParameters_Response"
+    __slots__ = ["_results"]
+    SLOT_TYPES = (
+        UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'SetParametersResult')),
+    )
+
+    if TYPE_CHECKING:
+        results: list[SetParametersResult]
+        def __init__(self, *, results: list[SetParametersResult] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._results = []
+            if fields:
+                self._assign(fields)
+
+
+class SetParametersAtomically_Request(Message):
+    """Message rcl_interfaces/srv/SetParametersAtomically_Request."""
+
+    ROS_TYPE = "rcl_interfaces/srv/SetParametersAtomically_Request"
+    __slots__ = ["_parameters"]
+    SLOT_TYPES = (
+        UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'Parameter')),
+    )
+
+    if TYPE_CHECKING:
+        parameters: list[Parameter]
+        def __init__(self, *, parameters: list[Parameter] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._parameters = []
+            if fields:
+                self._assign(fields)
+
+
+class SetParametersAtomically_Response(Message):
+    """Message rcl_interfaces/srv/SetParametersAtomically_Response."""
+
+    ROS_TYPE = "rcl_interfaces/srv/SetParametersAtomically_Response"
+    __slots__ = ["_result"]
+    SLOT_TYPES = (
+        NamespacedType(('rcl_interfaces', 'msg'), 'SetParametersResult'),
+    )
+
+    if TYPE_CHECKING:
+        result: SetParametersResult
+        def __init__(self, *, result: SetParametersResult = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._result = fields.get("result") or SetParametersResult()
+            if fields:
+                self._assign(fields)
+
+
+class DescribeParameters(Service):
+    """Service rcl_interfaces/srv/DescribeParameters."""
+
+    ROS_TYPE = "rcl_interfaces/srv/DescribeParameters"
+    Request = DescribeParameters_Request
+    Response = DescribeParameters_Response
+
+
+class GetParameterTypes(Service):
+    """Service rcl_interfaces/srv/GetParameterTypes."""
+
+    ROS_TYPE = "rcl_interfaces/srv/GetParameterTypes"
+    Request = GetParameterTypes_Request
+    Response = GetParameterTypes_Response
+
+
+class GetParameters(Service):
+    """Service rcl_interfaces/srv/GetParameters."""
+
+    ROS_TYPE = "rcl_interfaces/srv/GetParameters"
+    Request = GetParameters_Request
+    Response = GetParameters_Response
+
+
+class ListParameters(Service):
+    """Service rcl_interfaces/srv/ListParameters."""
+
+    ROS_TYPE = "rcl_interfaces/srv/ListParameters"
+    Request = ListParameters_Request
+    Response = ListParameters_Response
+
+
+class SetParameters(Service):
+    """Service rcl_interfaces/srv/SetParameters."""
+
+    ROS_TYPE = "rcl_interfaces/srv/SetParameters"
+    Request = SetParameters_Request
+    Response = SetParameters_Response
+
+
+class SetParametersAtomically(Service):
+    """Service rcl_interfaces/srv/SetParametersAtomically."""
+
+    ROS_TYPE = "rcl_interfaces/srv/SetParametersAtomically"
+    Request = SetParametersAtomically_Request
+    Response = SetParametersAtomically_Response

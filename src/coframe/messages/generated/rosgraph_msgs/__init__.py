@@ -1,0 +1,1 @@
+"""ROS package rosgraph_msgs."""

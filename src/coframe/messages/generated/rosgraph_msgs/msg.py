@@ -1,0 +1,29 @@
+# Written by scripts/generate_messages.py from interfaces/rosgraph_msgs/msg; do not edit.
+"""rosgraph_msgs.msg"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from coframe.messages.definition import NamespacedType
+from coframe.messages.message import Message
+from coframe.messages.generated.builtin_interfaces.msg import Time
+
+
+class Clock(Message):
+    """The time that nodes with use_sim_time take as now."""
+
+    ROS_TYPE = "rosgraph_msgs/msg/Clock"
+    __slots__ = ["_clock"]
+    SLOT_TYPES = (
+        NamespacedType(('builtin_interfaces', 'msg'), 'Time'),
+    )
+
+    if TYPE_CHECKING:
+        clock: Time
+        def __init__(self, *, clock: Time = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._clock = fields.get("clock") or Time()
+            if fields:
+                self._assign(fields)

@@ -1,0 +1,1 @@
+"""ROS package sensor_msgs."""

@@ -1,0 +1,59 @@
+# Written by scripts/generate_messages.py from interfaces/sensor_msgs/srv; do not edit.
+"""sensor_msgs.srv"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from coframe.messages.definition import BasicType, NamespacedType, UnboundedString
+from coframe.messages.message import Message, Service
+from coframe.messages.generated.sensor_msgs.msg import CameraInfo
+
+
+class SetCameraInfo_Request(Message):
+    """Message sensor_msgs/srv/SetCameraInfo_Request."""
+
+    ROS_TYPE = "sensor_msgs/srv/SetCameraInfo_Request"
+    __slots__ = ["_camera_info"]
+    SLOT_TYPES = (
+        NamespacedType(('sensor_msgs', 'msg'), 'CameraInfo'),
+    )
+
+    if TYPE_CHECKING:
+        camera_info: CameraInfo
+        def __init__(self, *, camera_info: CameraInfo = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._camera_info = fields.get("camera_info") or CameraInfo()
+            if fields:
+                self._assign(fields)
+
+
+class SetCameraInfo_Response(Message):
+    """Message sensor_msgs/srv/SetCameraInfo_Response."""
+
+    ROS_TYPE = "sensor_msgs/srv/SetCameraInfo_Response"
+    __slots__ = ["_success", "_status_message"]
+    SLOT_TYPES = (
+        BasicType('boolean'),
+        UnboundedString(),
+    )
+
+    if TYPE_CHECKING:
+        success: bool
+        status_message: str
+        def __init__(self, *, success: bool = ..., status_message: str = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._success = False
+            self._status_message = ""
+            if fields:
+                self._assign(fields)
+
+
+class SetCameraInfo(Service):
+    """Service sensor_msgs/srv/SetCameraInfo."""
+
+    ROS_TYPE = "sensor_msgs/srv/SetCameraInfo"
+    Request = SetCameraInfo_Request
+    Response = SetCameraInfo_Response

@@ -1,0 +1,1 @@
+"""ROS package std_srvs."""

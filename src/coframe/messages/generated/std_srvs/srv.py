@@ -1,0 +1,141 @@
+# Written by scripts/generate_messages.py from interfaces/std_srvs/srv; do not edit.
+"""std_srvs.srv"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from coframe.messages.definition import BasicType, UnboundedString
+from coframe.messages.message import Message, Service
+
+
+class Empty_Request(Message):
+    """Message std_srvs/srv/Empty_Request."""
+
+    ROS_TYPE = "std_srvs/srv/Empty_Request"
+    __slots__ = []
+    SLOT_TYPES = ()
+
+    if TYPE_CHECKING:
+        def __init__(self) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            if fields:
+                self._assign(fields)
+
+
+class Empty_Response(Message):
+    """Message std_srvs/srv/Empty_Response."""
+
+    ROS_TYPE = "std_srvs/srv/Empty_Response"
+    __slots__ = []
+    SLOT_TYPES = ()
+
+    if TYPE_CHECKING:
+        def __init__(self) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            if fields:
+                self._assign(fields)
+
+
+class SetBool_Request(Message):
+    """Message std_srvs/srv/SetBool_Request."""
+
+    ROS_TYPE = "std_srvs/srv/SetBool_Request"
+    __slots__ = ["_data"]
+    SLOT_TYPES = (
+        BasicType('boolean'),
+    )
+
+    if TYPE_CHECKING:
+        data: bool
+        def __init__(self, *, data: bool = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._data = False
+            if fields:
+                self._assign(fields)
+
+
+class SetBool_Response(Message):
+    """Message std_srvs/srv/SetBool_Response."""
+
+    ROS_TYPE = "std_srvs/srv/SetBool_Response"
+    __slots__ = ["_success", "_message"]
+    SLOT_TYPES = (
+        BasicType('boolean'),
+        UnboundedString(),
+    )
+
+    if TYPE_CHECKING:
+        success: bool
+        message: str
+        def __init__(self, *, success: bool = ..., message: str = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._success = False
+            self._message = ""
+            if fields:
+                self._assign(fields)
+
+
+class Trigger_Request(Message):
+    """Message std_srvs/srv/Trigger_Request."""
+
+    ROS_TYPE = "std_srvs/srv/Trigger_Request"
+    __slots__ = []
+    SLOT_TYPES = ()
+
+    if TYPE_CHECKING:
+        def __init__(self) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            if fields:
+                self._assign(fields)
+
+
+class Trigger_Response(Message):
+    """Message std_srvs/srv/Trigger_Response."""
+
+    ROS_TYPE = "std_srvs/srv/Trigger_Response"
+    __slots__ = ["_success", "_message"]
+    SLOT_TYPES = (
+        BasicType('boolean'),
+        UnboundedString(),
+    )
+
+    if TYPE_CHECKING:
+        success: bool
+        message: str
+        def __init__(self, *, success: bool = ..., message: str = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._success = False
+            self._message = ""
+            if fields:
+                self._assign(fields)
+
+
+class Empty(Service):
+    """Service std_srvs/srv/Empty."""
+
+    ROS_TYPE = "std_srvs/srv/Empty"
+    Request = Empty_Request
+    Response = Empty_Response
+
+
+class SetBool(Service):
+    """Service std_srvs/srv/SetBool."""
+
+    ROS_TYPE = "std_srvs/srv/SetBool"
+    Request = SetBool_Request
+    Response = SetBool_Response
+
+
+class Trigger(Service):
+    """Service std_srvs/srv/Trigger."""
+
+    ROS_TYPE = "std_srvs/srv/Trigger"
+    Request = Trigger_Request
+    Response = Trigger_Response

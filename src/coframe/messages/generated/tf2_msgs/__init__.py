@@ -1,0 +1,1 @@
+"""ROS package tf2_msgs."""

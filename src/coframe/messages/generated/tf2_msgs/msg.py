@@ -1,0 +1,58 @@
+# Written by scripts/generate_messages.py from interfaces/tf2_msgs/msg; do not edit.
+"""tf2_msgs.msg"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence, UnboundedString
+from coframe.messages.message import Message
+from coframe.messages.generated.geometry_msgs.msg import TransformStamped
+
+
+class TF2Error(Message):
+    """Which of tf2's errors a look-up ended with."""
+
+    ROS_TYPE = "tf2_msgs/msg/TF2Error"
+    __slots__ = ["_error", "_error_string"]
+    SLOT_TYPES = (
+        BasicType('uint8'),
+        UnboundedString(),
+    )
+    NO_ERROR: Final = 0
+    LOOKUP_ERROR: Final = 1
+    CONNECTIVITY_ERROR: Final = 2
+    EXTRAPOLATION_ERROR: Final = 3
+    INVALID_ARGUMENT_ERROR: Final = 4
+    TIMEOUT_ERROR: Final = 5
+    TRANSFORM_ERROR: Final = 6
+
+    if TYPE_CHECKING:
+        error: int
+        error_string: str
+        def __init__(self, *, error: int = ..., error_string: str = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._error = 0
+            self._error_string = ""
+            if fields:
+                self._assign(fields)
+
+
+class TFMessage(Message):
+    """Transforms as published on /tf and /tf_static."""
+
+    ROS_TYPE = "tf2_msgs/msg/TFMessage"
+    __slots__ = ["_transforms"]
+    SLOT_TYPES = (
+        UnboundedSequence(NamespacedType(('geometry_msgs', 'msg'), 'TransformStamped')),
+    )
+
+    if TYPE_CHECKING:
+        transforms: list[TransformStamped]
+        def __init__(self, *, transforms: list[TransformStamped] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._transforms = []
+            if fields:
+                self._assign(fields)

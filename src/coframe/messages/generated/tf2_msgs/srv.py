@@ -1,0 +1,51 @@
+# Written by scripts/generate_messages.py from interfaces/tf2_msgs/srv; do not edit.
+"""tf2_msgs.srv"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from coframe.messages.definition import UnboundedString
+from coframe.messages.message import Message, Service
+
+
+class FrameGraph_Request(Message):
+    """Message tf2_msgs/srv/FrameGraph_Request."""
+
+    ROS_TYPE = "tf2_msgs/srv/FrameGraph_Request"
+    __slots__ = []
+    SLOT_TYPES = ()
+
+    if TYPE_CHECKING:
+        def __init__(self) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            if fields:
+                self._assign(fields)
+
+
+class FrameGraph_Response(Message):
+    """Message tf2_msgs/srv/FrameGraph_Response."""
+
+    ROS_TYPE = "tf2_msgs/srv/FrameGraph_Response"
+    __slots__ = ["_frame_yaml"]
+    SLOT_TYPES = (
+        UnboundedString(),
+    )
+
+    if TYPE_CHECKING:
+        frame_yaml: str
+        def __init__(self, *, frame_yaml: str = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._frame_yaml = ""
+            if fields:
+                self._assign(fields)
+
+
+class FrameGraph(Service):
+    """Service tf2_msgs/srv/FrameGraph."""
+
+    ROS_TYPE = "tf2_msgs/srv/FrameGraph"
+    Request = FrameGraph_Request
+    Response = FrameGraph_Response

@@ -1,0 +1,1 @@
+"""ROS package unique_identifier_msgs."""

@@ -1,0 +1,35 @@
+# Written by scripts/generate_messages.py from interfaces/unique_identifier_msgs/msg; do not edit.
+"""unique_identifier_msgs.msg"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+import numpy as np
+
+from coframe.messages.definition import Array, BasicType
+from coframe.messages.message import Message
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from coframe.messages.hints import NumberArray
+
+
+class UUID(Message):
+    """A universally unique id in 16 bytes."""
+
+    ROS_TYPE = "unique_identifier_msgs/msg/UUID"
+    __slots__ = ["_uuid"]
+    SLOT_TYPES = (
+        Array(BasicType('uint8'), 16),
+    )
+
+    if TYPE_CHECKING:
+        uuid = NumberArray[np.uint8]()
+        def __init__(self, *, uuid: Iterable[int] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._uuid = np.zeros(16, np.uint8)
+            if fields:
+                self._assign(fields)

@@ -1,0 +1,55 @@
+# Written by scripts/generate_messages.py from interfaces/visualization_msgs/srv; do not edit.
+"""visualization_msgs.srv"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence
+from coframe.messages.message import Message, Service
+from coframe.messages.generated.visualization_msgs.msg import InteractiveMarker
+
+
+class GetInteractiveMarkers_Request(Message):
+    """Message visualization_msgs/srv/GetInteractiveMarkers_Request."""
+
+    ROS_TYPE = "visualization_msgs/srv/GetInteractiveMarkers_Request"
+    __slots__ = []
+    SLOT_TYPES = ()
+
+    if TYPE_CHECKING:
+        def __init__(self) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            if fields:
+                self._assign(fields)
+
+
+class GetInteractiveMarkers_Response(Message):
+    """Message visualization_msgs/srv/GetInteractiveMarkers_Response."""
+
+    ROS_TYPE = "visualization_msgs/srv/GetInteractiveMarkers_Response"
+    __slots__ = ["_sequence_number", "_markers"]
+    SLOT_TYPES = (
+        BasicType('uint64'),
+        UnboundedSequence(NamespacedType(('visualization_msgs', 'msg'), 'InteractiveMarker')),
+    )
+
+    if TYPE_CHECKING:
+        sequence_number: int
+        markers: list[InteractiveMarker]
+        def __init__(self, *, sequence_number: int = ..., markers: list[InteractiveMarker] = ...) -> None: ...
+    else:
+        def __init__(self, **fields: Any) -> None:
+            self._sequence_number = 0
+            self._markers = []
+            if fields:
+                self._assign(fields)
+
+
+class GetInteractiveMarkers(Service):
+    """Service visualization_msgs/srv/GetInteractiveMarkers."""
+
+    ROS_TYPE = "visualization_msgs/srv/GetInteractiveMarkers"
+    Request = GetInteractiveMarkers_Request
+    Response = GetInteractiveMarkers_Response

@@ -1,0 +1,14 @@
+# Written by scripts/generate_messages.py from interfaces/action_msgs/srv; do not edit.
+"""action_msgs.srv"""
+
+from coframe.messages.generated.action_msgs.srv import (
+    CancelGoal,
+    CancelGoal_Request,
+    CancelGoal_Response,
+)
+
+__all__ = [
+    "CancelGoal",
+    "CancelGoal_Request",
+    "CancelGoal_Response",
+]

@@ -1,0 +1,32 @@
+# Written by scripts/generate_messages.py from interfaces/nav_msgs/srv; do not edit.
+"""nav_msgs.srv"""
+
+from coframe.messages.generated.nav_msgs.srv import (
+    GetMap,
+    GetMap_Request,
+    GetMap_Response,
+    GetPlan,
+    GetPlan_Request,
+    GetPlan_Response,
+    LoadMap,
+    LoadMap_Request,
+    LoadMap_Response,
+    SetMap,
+    SetMap_Request,
+    SetMap_Response,
+)
+
+__all__ = [
+    "GetMap",
+    "GetMap_Request",
+    "GetMap_Response",
+    "GetPlan",
+    "GetPlan_Request",
+    "GetPlan_Response",
+    "LoadMap",
+    "LoadMap_Request",
+    "LoadMap_Response",
+    "SetMap",
+    "SetMap_Request",
+    "SetMap_Response",
+]

@@ -1,0 +1,30 @@
+# Written by scripts/generate_messages.py from interfaces/rcl_interfaces/msg; do not edit.
+"""rcl_interfaces.msg"""
+
+from coframe.messages.generated.rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ListParametersResult,
+    Log,
+    Parameter,
+    ParameterDescriptor,
+    ParameterEvent,
+    ParameterEventDescriptors,
+    ParameterType,
+    ParameterValue,
+    SetParametersResult,
+)
+
+__all__ = [
+    "FloatingPointRange",
+    "IntegerRange",
+    "ListParametersResult",
+    "Log",
+    "Parameter",
+    "ParameterDescriptor",
+    "ParameterEvent",
+    "ParameterEventDescriptors",
+    "ParameterType",
+    "ParameterValue",
+    "SetParametersResult",
+]

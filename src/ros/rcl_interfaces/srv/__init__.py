@@ -1,0 +1,44 @@
+# Written by scripts/generate_messages.py from interfaces/rcl_interfaces/srv; do not edit.
+"""rcl_interfaces.srv"""
+
+from coframe.messages.generated.rcl_interfaces.srv import (
+    DescribeParameters,
+    DescribeParameters_Request,
+    DescribeParameters_Response,
+    GetParameterTypes,
+    GetParameterTypes_Request,
+    GetParameterTypes_Response,
+    GetParameters,
+    GetParameters_Request,
+    GetParameters_Response,
+    ListParameters,
+    ListParameters_Request,
+    ListParameters_Response,
+    SetParameters,
+    SetParametersAtomically,
+    SetParametersAtomically_Request,
+    SetParametersAtomically_Response,
+    SetParameters_Request,
+    SetParameters_Response,
+)
+
+__all__ = [
+    "DescribeParameters",
+    "DescribeParameters_Request",
+    "DescribeParameters_Response",
+    "GetParameterTypes",
+    "GetParameterTypes_Request",
+    "GetParameterTypes_Response",
+    "GetParameters",
+    "GetParameters_Request",
+    "GetParameters_Response",
+    "ListParameters",
+    "ListParameters_Request",
+    "ListParameters_Response",
+    "SetParameters",
+    "SetParametersAtomically",
+    "SetParametersAtomically_Request",
+    "SetParametersAtomically_Response",
+    "SetParameters_Request",
+    "SetParameters_Response",
+]

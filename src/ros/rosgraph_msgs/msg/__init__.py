@@ -1,0 +1,10 @@
+# Written by scripts/generate_messages.py from interfaces/rosgraph_msgs/msg; do not edit.
+"""rosgraph_msgs.msg"""
+
+from coframe.messages.generated.rosgraph_msgs.msg import (
+    Clock,
+)
+
+__all__ = [
+    "Clock",
+]

@@ -1,0 +1,14 @@
+# Written by scripts/generate_messages.py from interfaces/sensor_msgs/srv; do not edit.
+"""sensor_msgs.srv"""
+
+from coframe.messages.generated.sensor_msgs.srv import (
+    SetCameraInfo,
+    SetCameraInfo_Request,
+    SetCameraInfo_Response,
+)
+
+__all__ = [
+    "SetCameraInfo",
+    "SetCameraInfo_Request",
+    "SetCameraInfo_Response",
+]

@@ -1,0 +1,26 @@
+# Written by scripts/generate_messages.py from interfaces/std_srvs/srv; do not edit.
+"""std_srvs.srv"""
+
+from coframe.messages.generated.std_srvs.srv import (
+    Empty,
+    Empty_Request,
+    Empty_Response,
+    SetBool,
+    SetBool_Request,
+    SetBool_Response,
+    Trigger,
+    Trigger_Request,
+    Trigger_Response,
+)
+
+__all__ = [
+    "Empty",
+    "Empty_Request",
+    "Empty_Response",
+    "SetBool",
+    "SetBool_Request",
+    "SetBool_Response",
+    "Trigger",
+    "Trigger_Request",
+    "Trigger_Response",
+]

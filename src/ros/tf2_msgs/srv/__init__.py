@@ -1,0 +1,14 @@
+# Written by scripts/generate_messages.py from interfaces/tf2_msgs/srv; do not edit.
+"""tf2_msgs.srv"""
+
+from coframe.messages.generated.tf2_msgs.srv import (
+    FrameGraph,
+    FrameGraph_Request,
+    FrameGraph_Response,
+)
+
+__all__ = [
+    "FrameGraph",
+    "FrameGraph_Request",
+    "FrameGraph_Response",
+]

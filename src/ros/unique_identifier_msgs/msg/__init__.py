@@ -1,0 +1,10 @@
+# Written by scripts/generate_messages.py from interfaces/unique_identifier_msgs/msg; do not edit.
+"""unique_identifier_msgs.msg"""
+
+from coframe.messages.generated.unique_identifier_msgs.msg import (
+    UUID,
+)
+
+__all__ = [
+    "UUID",
+]

@@ -1,0 +1,1 @@
+"""ROS package visualization_msgs."""

@@ -1,0 +1,14 @@
+# Written by scripts/generate_messages.py from interfaces/visualization_msgs/srv; do not edit.
+"""visualization_msgs.srv"""
+
+from coframe.messages.generated.visualization_msgs.srv import (
+    GetInteractiveMarkers,
+    GetInteractiveMarkers_Request,
+    GetInteractiveMarkers_Response,
+)
+
+__all__ = [
+    "GetInteractiveMarkers",
+    "GetInteractiveMarkers_Request",
+    "GetInteractiveMarkers_Response",
+]
