@@ -13,6 +13,7 @@ namespace nb = nanobind;
 
 void define_transform(nb::module_& module);
 void define_buffer(nb::module_& module);
+void define_failure(nb::module_& module);
 void define_event(nb::module_& module);
 
 // Python's signal handlers run only in between: a wait that may be long is cut into slices of this length.
