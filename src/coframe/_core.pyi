@@ -6,7 +6,6 @@ from typing import Any
 from coframe.time import DurationLike, StampLike
 from coframe.transform import Transform as PublicTransform
 
-
 class Transform:
     """One pose with its frames and stamp, or a batch of them."""
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from coframe import _core, errors, time
 from coframe.errors import InvalidArgumentException, TimeoutException, TransformException
-from coframe.transform import Transform
 
 if TYPE_CHECKING:
     from coframe.time import DurationLike, StampLike
+    from coframe.transform import Transform
 
 __all__ = ["Buffer", "FrameInfo"]
 
@@ -106,9 +106,7 @@ class Buffer(_core.Buffer):
             )
         facts = (parent, child, when or 0, *transform.values)
         refusals = self.set_values(*facts, static, authority)
-        errors_found = [
-            text for level, text in _core.insert_texts(refusals, *facts, authority) if level == "error"
-        ]
+        errors_found = [text for level, text in _core.insert_texts(refusals, *facts, authority) if level == "error"]
         if errors_found:
             raise InvalidArgumentException(
                 "\n".join(errors_found), target=parent, source=child, edge=(parent, child), hint=_REFUSED_HINT
@@ -149,9 +147,7 @@ class Buffer(_core.Buffer):
         return f"Buffer(cache={cache}, frames={len(self.frame_names())})"
 
 
-_REFUSED_HINT = (
-    "Names must differ and not be empty, values must be numbers, and a quaternion must not be zero."
-)
+_REFUSED_HINT = "Names must differ and not be empty, values must be numbers, and a quaternion must not be zero."
 
 
 def _cache_ns(cache: DurationLike) -> int:

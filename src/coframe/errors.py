@@ -91,9 +91,7 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
         super().__init__(reason)
         # A failure is asked only when somebody reads it: most failed look-ups are caught and forgotten.
         self._facts: Failure | _Facts = (
-            _Facts(target, source, requested, earliest, latest, edge, hint)
-            if isinstance(reason, str)
-            else reason
+            _Facts(target, source, requested, earliest, latest, edge, hint) if isinstance(reason, str) else reason
         )
 
     @property
@@ -205,7 +203,7 @@ _FIXED_HINTS = {
     "empty_name": "Give the name of a frame; is a header's frame_id unset?",
     "loop": "Two broadcasters disagree about parents: let each frame have one parent only.",
     "only_other": "{parent} -> {child} has been heard once only: wait for more, or ask for the latest (stamp 0).",
-    "too_new": "{parent} -> {child} lags behind the request: wait for it (timeout=...) or ask for the latest (stamp 0).",
+    "too_new": "{parent} -> {child} lags behind the request: wait for it (timeout=...), or ask for the latest (0).",
     "too_old": "{parent} -> {child} has forgotten that time: use a longer cache, or ask for a newer time.",
     "no_data": "The buffer was cleared and {child} has not been heard of since.",
 }

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import TypeAlias
+
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+Array: TypeAlias = NDArray[np.float64]
 
 __all__ = ["from_matrix", "from_rpy", "inverse", "multiply", "rotate", "to_matrix", "to_rpy"]
 
@@ -30,7 +32,7 @@ def multiply(a: Array, b: Array) -> Array:
 
 def inverse(q: Array) -> Array:
     """The opposite rotation, which for a unit quaternion is its conjugate. Shape (..., 4)."""
-    return q * np.array([-1.0, -1.0, -1.0, 1.0])
+    return np.concatenate((-q[..., :3], q[..., 3:]), axis=-1)
 
 
 def rotate(q: Array, v: Array) -> Array:
@@ -69,7 +71,7 @@ def from_matrix(matrix: Array) -> Array:
     products[..., 3, 1] = products[..., 1, 3] = m[..., 0, 2] - m[..., 2, 0]
     products[..., 3, 2] = products[..., 2, 3] = m[..., 1, 0] - m[..., 0, 1]
     largest = np.diagonal(products, axis1=-2, axis2=-1).argmax(axis=-1)
-    q = np.take_along_axis(products, largest[..., None, None], axis=-2)[..., 0, :]
+    q: Array = np.take_along_axis(products, largest[..., None, None], axis=-2)[..., 0, :]
     q = q / np.linalg.norm(q, axis=-1, keepdims=True)
     return np.where(q[..., 3:] < 0.0, -q, q)
 

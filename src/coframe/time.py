@@ -43,9 +43,7 @@ class HasSecNanosec(Protocol):
 
 
 StampLike: TypeAlias = "SupportsIndex | np.datetime64 | datetime.datetime | HasNanoseconds | HasSecNanosec"
-DurationLike: TypeAlias = (
-    "SupportsIndex | str | datetime.timedelta | np.timedelta64 | HasNanoseconds | HasSecNanosec"
-)
+DurationLike: TypeAlias = "SupportsIndex | str | datetime.timedelta | np.timedelta64 | HasNanoseconds | HasSecNanosec"
 
 
 def stamp_ns(stamp: StampLike) -> int:
@@ -88,9 +86,7 @@ def duration_ns(duration: DurationLike) -> int:
         if np.isnat(duration):
             raise ValueError("NaT is not a duration")
         return int(duration.astype("timedelta64[ns]").astype(np.int64))
-    return _number_ns(
-        duration, "a duration", 'text such as "100ms", int nanoseconds, timedelta or a Duration'
-    )
+    return _number_ns(duration, "a duration", 'text such as "100ms", int nanoseconds, timedelta or a Duration')
 
 
 def _parse_duration(text: str) -> int:
@@ -108,14 +104,12 @@ def _timedelta_ns(delta: datetime.timedelta) -> int:
 
 def _number_ns(value: Any, what: str, wanted: str) -> int:
     try:
-        return operator.index(value)
+        return int(operator.index(value))
     except TypeError:
         pass
     if hasattr(value, "nanosec") and hasattr(value, "sec"):
         return int(value.sec) * NANOSECONDS_PER_SECOND + int(value.nanosec)
     if hasattr(value, "nanoseconds"):
         return int(value.nanoseconds)
-    reason = (
-        "; a float of seconds cannot hold today's time to the nanosecond" if isinstance(value, float) else ""
-    )
+    reason = "; a float of seconds cannot hold today's time to the nanosecond" if isinstance(value, float) else ""
     raise TypeError(f"{what} must be {wanted}, not {type(value).__name__}{reason}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
@@ -13,6 +12,8 @@ from coframe.errors import FrameMismatchException, InvalidArgumentException
 from coframe.time import stamp_ns
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from coframe.time import StampLike
 
 __all__ = ["Transform"]
@@ -61,8 +62,9 @@ class Transform(_core.Transform):
         t = _vectors(translation, 3, "a translation")
         q = _normalised(_vectors(quaternion, 4, "a quaternion"))
         if t.ndim == 1 and q.ndim == 1:
-            nanoseconds = None if stamp is None else stamp_ns(stamp)  # type: ignore[arg-type]
-            super().__init__(*t.tolist(), *q.tolist(), target, source, nanoseconds, None)
+            nanoseconds = None if stamp is None else stamp_ns(stamp)
+            (x, y, z), (qx, qy, qz, qw) = t.tolist(), q.tolist()
+            super().__init__(x, y, z, qx, qy, qz, qw, target, source, nanoseconds, None)
             return
         shape = np.broadcast_shapes(t.shape[:-1], q.shape[:-1])
         stamps = _stamps(stamp, shape)
@@ -103,9 +105,7 @@ class Transform(_core.Transform):
         rotation = m[..., :3, :3]
         error = np.abs(rotation @ np.swapaxes(rotation, -1, -2) - np.eye(3)).max(initial=0.0)
         if not error <= _MATRIX_TOLERANCE or (np.linalg.det(rotation) < 0).any():
-            raise ValueError(
-                f"the upper left 3x3 is not a rotation (R R^T differs from 1 by up to {error:.2g})"
-            )
+            raise ValueError(f"the upper left 3x3 is not a rotation (R R^T differs from 1 by up to {error:.2g})")
         if not (m[..., 3, :] == (0.0, 0.0, 0.0, 1.0)).all():
             raise ValueError("the last row of a rigid motion's matrix is 0 0 0 1")
         q = quaternion.from_matrix(rotation)
@@ -114,17 +114,17 @@ class Transform(_core.Transform):
     @property
     def translation(self) -> Array:
         """Metres, shape (3,), of a batch (..., 3)."""
-        return np.array(self.values[:3]) if self.batch is None else self.batch[0]  # type: ignore[no-any-return]
+        return np.array(self.values[:3]) if self.batch is None else self.batch[0]
 
     @property
     def quaternion(self) -> Array:
         """x, y, z, w, of unit length, shape (4,), of a batch (..., 4)."""
-        return np.array(self.values[3:]) if self.batch is None else self.batch[1]  # type: ignore[no-any-return]
+        return np.array(self.values[3:]) if self.batch is None else self.batch[1]
 
     @property
     def stamps(self) -> NDArray[np.int64] | None:
         """Nanoseconds of each pose of a batch, shape ``self.shape``; None where it has none, or no batch axes."""
-        return None if self.batch is None else self.batch[2]  # type: ignore[no-any-return]
+        return None if self.batch is None else self.batch[2]
 
     @property
     def rotation(self) -> Array:
@@ -148,7 +148,7 @@ class Transform(_core.Transform):
     @property
     def shape(self) -> tuple[int, ...]:
         """The batch axes; () for a single transform."""
-        return () if self.batch is None else self.batch[0].shape[:-1]  # type: ignore[no-any-return]
+        return () if self.batch is None else self.batch[0].shape[:-1]
 
     def inverse(self) -> Transform:
         """The same relation from the other end: target and source change places."""
@@ -246,9 +246,7 @@ class Transform(_core.Transform):
         return _rebuild, (self.translation, self.quaternion, self.target, self.source, self._any_stamp())
 
 
-def _rebuild(
-    translation: Array, quaternion: Array, target: str | None, source: str | None, stamp: Any
-) -> Transform:
+def _rebuild(translation: Array, quaternion: Array, target: str | None, source: str | None, stamp: Any) -> Transform:
     return Transform(translation, quaternion, target=target, source=source, stamp=stamp)
 
 
@@ -276,7 +274,7 @@ def _normalised(q: Array) -> Array:
         raise InvalidArgumentException(
             "a quaternion of length zero is no rotation", hint="Is w unset? It is 1 at rest."
         )
-    return q / length  # type: ignore[no-any-return]
+    return q / length
 
 
 def _stamps(stamp: Any, shape: tuple[int, ...]) -> NDArray[np.int64] | None:
