@@ -1,11 +1,12 @@
 """Writes the message classes from the definitions in ``interfaces/``.
 
-    python scripts/generate_messages.py            write src/coframe/messages/generated and the packages in src/ros
-    python scripts/generate_messages.py --check    exit 1 if what is committed differs
+python scripts/generate_messages.py            write src/coframe/messages/generated and the packages in src/ros
+python scripts/generate_messages.py --check    exit 1 if what is committed differs
 """
 
 from __future__ import annotations
 
+import re
 import sys
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -26,6 +27,7 @@ GENERATED = ROOT / "src/coframe/messages/generated"
 ROS = ROOT / "src/ros"
 
 NOTICE = "# Written by scripts/generate_messages.py from interfaces/{package}/{kind}; do not edit.\n"
+KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 PARTS = {"msg": 1, "srv": 2, "action": 3}
 
 GOAL_ID = Field("goal_id", NamespacedType(("unique_identifier_msgs", "msg"), "UUID"), None)
@@ -131,9 +133,7 @@ class Module:
         self._add_service(
             f"{name}_GetResult",
             _structure(GOAL_ID),
-            _structure(
-                Field("status", BasicType("int8"), None), Field("result", self._own(f"{name}_Result"), None)
-            ),
+            _structure(Field("status", BasicType("int8"), None), Field("result", self._own(f"{name}_Result"), None)),
         )
         self._add_message(
             f"{name}_FeedbackMessage", _structure(GOAL_ID, Field("feedback", self._own(f"{name}_Feedback"), None))
@@ -164,13 +164,17 @@ class Module:
         if (package, kind) != (self.package, self.kind):
             self.imports.setdefault(f"{package}.{kind}", set()).add(name)
 
+    def docstring(self) -> str:
+        """What the module says about itself."""
+        return f"{KINDS[self.kind]} of {self.package}."
+
     def text(self) -> str:
         """The generated module."""
         self.names["message"].add("Message")
         classes = ["\n".join(self._class(message)) for message in self._in_order()]
         classes += ["\n".join(lines) for lines in self.wholes.values()]
         header = NOTICE.format(package=self.package, kind=self.kind)
-        header += f'"""{self.package}.{self.kind}"""\n\nfrom __future__ import annotations\n\n'
+        header += f'"""{self.docstring()}"""\n\nfrom __future__ import annotations\n\n'
         if any("array(" in text for text in classes):
             header += "from array import array\n"
         header += "from typing import TYPE_CHECKING, Any, Final\n\n"
@@ -194,13 +198,13 @@ class Module:
 
     def public_text(self) -> str:
         """The ROS package's module that gives the classes their well-known place."""
-        names = sorted([*self.messages, *self.wholes])
+        names = sorted([*self.messages, *self.wholes], key=_natural)
         lines = [
             NOTICE.format(package=self.package, kind=self.kind).rstrip(),
-            f'"""{self.package}.{self.kind}"""',
+            f'"""{self.docstring()}"""',
             "",
             f"from coframe.messages.generated.{self.package}.{self.kind} import (",
-            *(f"    {name}," for name in names),
+            *(f"    {name}," for name in sorted(names, key=lambda name: _natural(name.lower()))),
             ")",
             "",
             "__all__ = [",
@@ -226,13 +230,13 @@ class Module:
 
     def _class(self, message: Message) -> list[str]:
         structure = message.structure
+        # Type checkers must not see __slots__: assignments to the attributes without underscore would be errors.
         slots = ", ".join(f'"_{field.name}"' for field in structure.fields)
         return [
             f"class {message.name}(Message):",
             f'    """{structure.comment or f"Message {message.ros_type}."}"""',
             "",
             f'    ROS_TYPE = "{message.ros_type}"',
-            f"    __slots__ = [{slots}]",
             *self._slot_types(structure.fields),
             *(f"    {constant.name}: Final = {constant.value!r}" for constant in structure.constants),
             *(
@@ -242,7 +246,10 @@ class Module:
             ),
             "",
             *self._hints(structure.fields),
-            *self._constructor(structure.fields),
+            "    else:",
+            f"        __slots__ = [{slots}]",
+            "",
+            *_constructor(structure.fields),
         ]
 
     def _slot_types(self, fields: list[Field]) -> list[str]:
@@ -255,7 +262,8 @@ class Module:
             inner = _value_type(field.type)
             self.names["definition"].add(type(inner).__name__)
             if isinstance(inner, NamespacedType):
-                self._import(*inner.namespaces, inner.name)
+                package, kind = inner.namespaces
+                self._import(package, kind, inner.name)
         return [*lines, "    )"]
 
     def _hints(self, fields: list[Field]) -> list[str]:
@@ -275,18 +283,19 @@ class Module:
         self.names["hints"].add("NumberSequence")
         return f"        {field.name} = NumberSequence[{_hint(_value_type(field.type))}]()"
 
-    def _constructor(self, fields: list[Field]) -> list[str]:
-        if not fields:
-            body = []
-        else:
-            body = [f"            self._{field.name} = {_default(field)}" for field in fields]
-        return [
-            "    else:",
-            "        def __init__(self, **fields: Any) -> None:",
-            *body,
-            "            if fields:",
-            "                self._assign(fields)",
-        ]
+
+def _constructor(fields: list[Field]) -> list[str]:
+    return [
+        "        def __init__(self, **fields: Any) -> None:",
+        *(f"            self._{field.name} = {_default(field)}" for field in fields),
+        "            if fields:",
+        "                super().__init__(**fields)",
+    ]
+
+
+def _natural(name: str) -> list[tuple[str, int]]:
+    """The key that sorts Int8 before Int16, as the linter wants it."""
+    return [(text, int(digits or -1)) for text, digits in re.findall(r"(\D+)(\d*)", name)]
 
 
 def _structure(*fields: Field) -> Structure:

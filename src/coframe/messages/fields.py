@@ -9,7 +9,8 @@ from __future__ import annotations
 import os
 from array import array
 from collections import UserList, UserString
-from collections.abc import Callable, Collection, Iterable, Sequence, Set
+from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Set as AbstractSet
 from math import isinf
 from operator import attrgetter
 from typing import Any, NamedTuple
@@ -101,23 +102,33 @@ def _number_sequence(number: Number, values: Iterable[Any]) -> array[Any]:
 
 
 def _check(name: str, type_: AbstractType) -> Check:
-    number = number_of(type_)
-    if number is not None and isinstance(type_, Array):
-        return _number_array_check(name, type_, number)
-    if number is not None and isinstance(type_, AbstractNestedType):
-        return _number_sequence_check(name, type_, number)
     if isinstance(type_, AbstractNestedType):
-        return _values_check(name, type_)
+        return _nested_check(name, type_)
     if isinstance(type_, NamespacedType):
         return _message_check(name, type_)
+    if isinstance(type_, BasicType):
+        return _basic_check(name, type_)
     if isinstance(type_, (BoundedString, BoundedWString)):
         return _bounded_text_check(name, type_.maximum_size)
-    if isinstance(type_, BasicType) and type_.typename == "octet":
+    return _instance_check(name, str)
+
+
+def _nested_check(name: str, type_: AbstractNestedType) -> Check:
+    number = number_of(type_)
+    if number is None:
+        return _values_check(name, type_)
+    if isinstance(type_, Array):
+        return _number_array_check(name, type_, number)
+    return _number_sequence_check(name, type_, number)
+
+
+def _basic_check(name: str, type_: BasicType) -> Check:
+    if type_.typename == "octet":
         return _octet_check(name)
-    if isinstance(type_, BasicType) and "int" in type_.typename:
-        return _integer_check(name, type_)
-    if isinstance(type_, BasicType) and type_.typename == "float":
+    if type_.typename == "float":
         return _float32_check(name)
+    if "int" in type_.typename:
+        return _integer_check(name, type_)
     return _instance_check(name, _python_type(type_))
 
 
@@ -142,9 +153,7 @@ def _message_check(name: str, type_: NamespacedType) -> Check:
     message_type = _python_type(type_)
 
     def check(value: Any) -> Any:
-        assert isinstance(value, message_type), (
-            f"The '{name}' field must be a sub message of type '{type_.name}'"
-        )
+        assert isinstance(value, message_type), f"The '{name}' field must be a sub message of type '{type_.name}'"
         return value
 
     return check
@@ -152,9 +161,8 @@ def _message_check(name: str, type_: NamespacedType) -> Check:
 
 def _bounded_text_check(name: str, maximum_size: int) -> Check:
     def check(value: Any) -> Any:
-        assert isinstance(value, (str, UserString)) and len(value) <= maximum_size, (  # noqa: PT018 - one text
-            f"The '{name}' field must be string value not longer than {maximum_size}"
-        )
+        fits = isinstance(value, (str, UserString)) and len(value) <= maximum_size
+        assert fits, f"The '{name}' field must be string value not longer than {maximum_size}"
         return value
 
     return check
@@ -162,9 +170,8 @@ def _bounded_text_check(name: str, maximum_size: int) -> Check:
 
 def _octet_check(name: str) -> Check:
     def check(value: Any) -> Any:
-        assert isinstance(value, (bytes, bytearray)) and len(value) == 1, (  # noqa: PT018 - one text
-            f"The '{name}' field must be of type 'bytes' or 'ByteString' with length 1"
-        )
+        fits = isinstance(value, (bytes, bytearray)) and len(value) == 1
+        assert fits, f"The '{name}' field must be of type 'bytes' or 'ByteString' with length 1"
         return value
 
     return check
@@ -194,9 +201,7 @@ def _fits_float32(value: float) -> bool:
 def _float32_check(name: str) -> Check:
     def check(value: Any) -> Any:
         assert isinstance(value, float), f"The '{name}' field must be of type 'float'"
-        assert _fits_float32(value), (
-            f"The '{name}' field must be a float in [{-_FLOAT32_BOUND}, {_FLOAT32_BOUND}]"
-        )
+        assert _fits_float32(value), f"The '{name}' field must be a float in [{-_FLOAT32_BOUND}, {_FLOAT32_BOUND}]"
         return value
 
     return check
@@ -247,13 +252,14 @@ def _values_check(name: str, type_: AbstractNestedType) -> Check:
     value_fits = _value_rule(value_type)
 
     def check(value: Any) -> Any:
-        assert (
-            isinstance(value, (Sequence, Set, UserList))
+        fits = (
+            isinstance(value, (Sequence, AbstractSet, UserList))
             and not isinstance(value, (str, UserString))
             and _size_fits(value, type_)
             and ({*map(type, value)} <= {python_type} or all(isinstance(item, python_type) for item in value))
             and value_fits(value)
-        ), _refusal(name, type_, python_type.__name__)
+        )
+        assert fits, _refusal(name, type_, python_type.__name__)
         return value
 
     return check
@@ -275,7 +281,7 @@ def _value_rule(type_: AbstractNestableType) -> Callable[[Collection[Any]], bool
         return lambda values: not values or (min(values) >= low and max(values) <= high)
     if isinstance(type_, BasicType) and type_.typename == "float":
         return _fit_float32
-    return lambda values: True
+    return lambda _values: True
 
 
 def _fit_float32(values: Collection[float]) -> bool:

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from operator import ne
-from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
+from typing import Any, ClassVar
 
 import numpy as np
 
 from coframe.messages.definition import AbstractSequence, AbstractType, describe
 from coframe.messages.fields import CHECKED, Check, attribute, constructor_conversion, number_of
 from coframe.messages.registry import classes
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 
 class MessageType(type):
@@ -27,11 +24,12 @@ class MessageType(type):
 class Message(metaclass=MessageType):
     """A message. Its class gives ROS_TYPE, ``__slots__`` and SLOT_TYPES; the attributes follow from them."""
 
-    __slots__: ClassVar[list[str]] = []  # type: ignore[misc]
+    # Slots take the names _field: what is private here must not look like one.
+    __slots__: ClassVar[list[str]] = []
     ROS_TYPE: ClassVar[str]
     SLOT_TYPES: ClassVar[tuple[AbstractType, ...]]
     _fields_and_field_types: ClassVar[dict[str, str]]
-    _conversions: ClassVar[dict[str, Check]]
+    __conversions: ClassVar[dict[str, Check]]
 
     def __init_subclass__(cls) -> None:
         if "SLOT_TYPES" not in cls.__dict__:
@@ -41,38 +39,35 @@ class Message(metaclass=MessageType):
             setattr(cls, name, attribute(name, type_, cls.__dict__[f"_{name}"]))
         cls._fields_and_field_types = {name: describe(type_) for name, type_ in fields.items()}
         conversions = {name: constructor_conversion(type_) for name, type_ in fields.items()}
-        cls._conversions = {name: convert for name, convert in conversions.items() if convert}
+        cls.__conversions = {name: convert for name, convert in conversions.items() if convert}
         _announce(cls)
+
+    def __init__(self, **fields: Any) -> None:
+        """Takes over what a constructor was given; the generated ones have set the defaults before."""
+        unknown = fields.keys() - self._fields_and_field_types.keys() if CHECKED else ()
+        assert not unknown, f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
+        for name in self._fields_and_field_types:
+            if name in fields:
+                convert = self.__conversions.get(name)
+                setattr(self, name, convert(fields[name]) if convert else fields[name])
 
     @classmethod
     def get_fields_and_field_types(cls) -> dict[str, str]:
         """The name and the type of each field, in order, as a new dict."""
         return dict(cls._fields_and_field_types)
 
-    def _assign(self, fields: Mapping[str, Any]) -> None:
-        """Takes a constructor's keyword arguments over."""
-        cls = type(self)
-        assert not CHECKED or fields.keys() <= cls._fields_and_field_types.keys(), (
-            "Invalid arguments passed to constructor: %s"  # noqa: UP031 - rosidl's text, as people search for it
-            % ", ".join(sorted(fields.keys() - cls._fields_and_field_types.keys()))
-        )
-        for name in cls._fields_and_field_types:
-            if name in fields:
-                convert = cls._conversions.get(name)
-                setattr(self, name, convert(fields[name]) if convert else fields[name])
-
-    def _values(self) -> list[Any]:
+    def __values(self) -> list[Any]:
         return [getattr(self, slot) for slot in self.__slots__]
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, type(self)):
             return False
-        return not any(map(_differ, self._values(), other._values()))
+        return not any(map(_differ, self.__values(), other.__values()))
 
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
-        fields = zip(self._fields_and_field_types, self._values(), self.SLOT_TYPES, strict=True)
+        fields = zip(self._fields_and_field_types, self.__values(), self.SLOT_TYPES, strict=True)
         content = ", ".join(f"{name}={_show(value, type_)}" for name, value, type_ in fields)
         return f"{type(self).__module__}.{type(self).__name__}({content})"
 
@@ -85,7 +80,7 @@ class Service:
     def __init_subclass__(cls) -> None:
         _announce(cls)
 
-    def __init__(self) -> NoReturn:
+    def __init__(self) -> None:
         raise NotImplementedError("Service classes can not be instantiated")
 
 
@@ -97,7 +92,7 @@ class Action:
     def __init_subclass__(cls) -> None:
         _announce(cls)
 
-    def __init__(self) -> NoReturn:
+    def __init__(self) -> None:
         raise NotImplementedError("Action classes can not be instantiated")
 
 

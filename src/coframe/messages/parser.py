@@ -82,9 +82,7 @@ def _parse_structure(text: str, package: str) -> Structure:
             raise ValueError(f"not a field or constant: {line!r}")
         value_type = _nestable(match["type"], package)
         if match["equals"]:
-            structure.constants.append(
-                Constant(match["name"], value_type, _literal(match["value"], value_type))
-            )
+            structure.constants.append(Constant(match["name"], value_type, _literal(match["value"], value_type)))
             continue
         field_type = _nested(value_type, match["many"]) if match["many"] else value_type
         default = _literal(match["value"], value_type) if match["value"] else None

@@ -26,9 +26,7 @@ def find(ros_type: str) -> Any:
         return classes[ros_type]
     match = _TYPE_NAME.fullmatch(ros_type)
     if match is None:
-        raise LookupError(
-            f"{ros_type!r} is not the full name of a ROS type; write it like 'geometry_msgs/msg/Pose'"
-        )
+        raise LookupError(f"{ros_type!r} is not the full name of a ROS type; write it like 'geometry_msgs/msg/Pose'")
     package, kind, name = match.groups()
     module = f"{__package__}.generated.{package}.{kind}"
     try:

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/action_msgs/msg; do not edit.
-"""action_msgs.msg"""
+"""Messages of action_msgs."""
 
 from coframe.messages.generated.action_msgs.msg import (
     GoalInfo,

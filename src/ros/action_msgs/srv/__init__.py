@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/action_msgs/srv; do not edit.
-"""action_msgs.srv"""
+"""Services of action_msgs."""
 
 from coframe.messages.generated.action_msgs.srv import (
     CancelGoal,

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/builtin_interfaces/msg; do not edit.
-"""builtin_interfaces.msg"""
+"""Messages of builtin_interfaces."""
 
 from coframe.messages.generated.builtin_interfaces.msg import (
     Duration,

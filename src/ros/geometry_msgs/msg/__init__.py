@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/geometry_msgs/msg; do not edit.
-"""geometry_msgs.msg"""
+"""Messages of geometry_msgs."""
 
 from coframe.messages.generated.geometry_msgs.msg import (
     Accel,

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/nav_msgs/msg; do not edit.
-"""nav_msgs.msg"""
+"""Messages of nav_msgs."""
 
 from coframe.messages.generated.nav_msgs.msg import (
     GridCells,

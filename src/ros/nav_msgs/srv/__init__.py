@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/nav_msgs/srv; do not edit.
-"""nav_msgs.srv"""
+"""Services of nav_msgs."""
 
 from coframe.messages.generated.nav_msgs.srv import (
     GetMap,

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/rcl_interfaces/msg; do not edit.
-"""rcl_interfaces.msg"""
+"""Messages of rcl_interfaces."""
 
 from coframe.messages.generated.rcl_interfaces.msg import (
     FloatingPointRange,

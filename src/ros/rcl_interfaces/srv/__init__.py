@@ -1,25 +1,25 @@
 # Written by scripts/generate_messages.py from interfaces/rcl_interfaces/srv; do not edit.
-"""rcl_interfaces.srv"""
+"""Services of rcl_interfaces."""
 
 from coframe.messages.generated.rcl_interfaces.srv import (
     DescribeParameters,
     DescribeParameters_Request,
     DescribeParameters_Response,
-    GetParameterTypes,
-    GetParameterTypes_Request,
-    GetParameterTypes_Response,
     GetParameters,
     GetParameters_Request,
     GetParameters_Response,
+    GetParameterTypes,
+    GetParameterTypes_Request,
+    GetParameterTypes_Response,
     ListParameters,
     ListParameters_Request,
     ListParameters_Response,
     SetParameters,
+    SetParameters_Request,
+    SetParameters_Response,
     SetParametersAtomically,
     SetParametersAtomically_Request,
     SetParametersAtomically_Response,
-    SetParameters_Request,
-    SetParameters_Response,
 )
 
 __all__ = [

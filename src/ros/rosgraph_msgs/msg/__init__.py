@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/rosgraph_msgs/msg; do not edit.
-"""rosgraph_msgs.msg"""
+"""Messages of rosgraph_msgs."""
 
 from coframe.messages.generated.rosgraph_msgs.msg import (
     Clock,

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/sensor_msgs/msg; do not edit.
-"""sensor_msgs.msg"""
+"""Messages of sensor_msgs."""
 
 from coframe.messages.generated.sensor_msgs.msg import (
     BatteryState,

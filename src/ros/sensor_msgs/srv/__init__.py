@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/sensor_msgs/srv; do not edit.
-"""sensor_msgs.srv"""
+"""Services of sensor_msgs."""
 
 from coframe.messages.generated.sensor_msgs.srv import (
     SetCameraInfo,

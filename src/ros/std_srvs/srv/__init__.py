@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/std_srvs/srv; do not edit.
-"""std_srvs.srv"""
+"""Services of std_srvs."""
 
 from coframe.messages.generated.std_srvs.srv import (
     Empty,

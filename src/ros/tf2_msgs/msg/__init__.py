@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/tf2_msgs/msg; do not edit.
-"""tf2_msgs.msg"""
+"""Messages of tf2_msgs."""
 
 from coframe.messages.generated.tf2_msgs.msg import (
     TF2Error,

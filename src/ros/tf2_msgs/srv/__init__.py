@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/tf2_msgs/srv; do not edit.
-"""tf2_msgs.srv"""
+"""Services of tf2_msgs."""
 
 from coframe.messages.generated.tf2_msgs.srv import (
     FrameGraph,

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/unique_identifier_msgs/msg; do not edit.
-"""unique_identifier_msgs.msg"""
+"""Messages of unique_identifier_msgs."""
 
 from coframe.messages.generated.unique_identifier_msgs.msg import (
     UUID,

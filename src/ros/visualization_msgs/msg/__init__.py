@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/visualization_msgs/msg; do not edit.
-"""visualization_msgs.msg"""
+"""Messages of visualization_msgs."""
 
 from coframe.messages.generated.visualization_msgs.msg import (
     ImageMarker,

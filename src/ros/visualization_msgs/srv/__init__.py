@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/visualization_msgs/srv; do not edit.
-"""visualization_msgs.srv"""
+"""Services of visualization_msgs."""
 
 from coframe.messages.generated.visualization_msgs.srv import (
     GetInteractiveMarkers,

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/action_msgs/msg; do not edit.
-"""action_msgs.msg"""
+"""Messages of action_msgs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,6 @@ class GoalInfo(Message):
     """Message action_msgs/msg/GoalInfo."""
 
     ROS_TYPE = "action_msgs/msg/GoalInfo"
-    __slots__ = ["_goal_id", "_stamp"]
     SLOT_TYPES = (
         NamespacedType(('unique_identifier_msgs', 'msg'), 'UUID'),
         NamespacedType(('builtin_interfaces', 'msg'), 'Time'),
@@ -26,18 +25,19 @@ class GoalInfo(Message):
         stamp: Time
         def __init__(self, *, goal_id: UUID = ..., stamp: Time = ...) -> None: ...
     else:
+        __slots__ = ["_goal_id", "_stamp"]
+
         def __init__(self, **fields: Any) -> None:
             self._goal_id = fields.get("goal_id") or UUID()
             self._stamp = fields.get("stamp") or Time()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class GoalStatus(Message):
     """Message action_msgs/msg/GoalStatus."""
 
     ROS_TYPE = "action_msgs/msg/GoalStatus"
-    __slots__ = ["_goal_info", "_status"]
     SLOT_TYPES = (
         NamespacedType(('action_msgs', 'msg'), 'GoalInfo'),
         BasicType('int8'),
@@ -55,18 +55,19 @@ class GoalStatus(Message):
         status: int
         def __init__(self, *, goal_info: GoalInfo = ..., status: int = ...) -> None: ...
     else:
+        __slots__ = ["_goal_info", "_status"]
+
         def __init__(self, **fields: Any) -> None:
             self._goal_info = fields.get("goal_info") or GoalInfo()
             self._status = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class GoalStatusArray(Message):
     """Message action_msgs/msg/GoalStatusArray."""
 
     ROS_TYPE = "action_msgs/msg/GoalStatusArray"
-    __slots__ = ["_status_list"]
     SLOT_TYPES = (
         UnboundedSequence(NamespacedType(('action_msgs', 'msg'), 'GoalStatus')),
     )
@@ -75,7 +76,9 @@ class GoalStatusArray(Message):
         status_list: list[GoalStatus]
         def __init__(self, *, status_list: list[GoalStatus] = ...) -> None: ...
     else:
+        __slots__ = ["_status_list"]
+
         def __init__(self, **fields: Any) -> None:
             self._status_list = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/action_msgs/srv; do not edit.
-"""action_msgs.srv"""
+"""Services of action_msgs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ class CancelGoal_Request(Message):
     """A zero goal id or a zero stamp widens the request: see the design of ROS 2's actions."""
 
     ROS_TYPE = "action_msgs/srv/CancelGoal_Request"
-    __slots__ = ["_goal_info"]
     SLOT_TYPES = (
         NamespacedType(('action_msgs', 'msg'), 'GoalInfo'),
     )
@@ -23,17 +22,18 @@ class CancelGoal_Request(Message):
         goal_info: GoalInfo
         def __init__(self, *, goal_info: GoalInfo = ...) -> None: ...
     else:
+        __slots__ = ["_goal_info"]
+
         def __init__(self, **fields: Any) -> None:
             self._goal_info = fields.get("goal_info") or GoalInfo()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class CancelGoal_Response(Message):
     """Message action_msgs/srv/CancelGoal_Response."""
 
     ROS_TYPE = "action_msgs/srv/CancelGoal_Response"
-    __slots__ = ["_return_code", "_goals_canceling"]
     SLOT_TYPES = (
         BasicType('int8'),
         UnboundedSequence(NamespacedType(('action_msgs', 'msg'), 'GoalInfo')),
@@ -48,11 +48,13 @@ class CancelGoal_Response(Message):
         goals_canceling: list[GoalInfo]
         def __init__(self, *, return_code: int = ..., goals_canceling: list[GoalInfo] = ...) -> None: ...
     else:
+        __slots__ = ["_return_code", "_goals_canceling"]
+
         def __init__(self, **fields: Any) -> None:
             self._return_code = 0
             self._goals_canceling = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class CancelGoal(Service):

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/builtin_interfaces/msg; do not edit.
-"""builtin_interfaces.msg"""
+"""Messages of builtin_interfaces."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ class Duration(Message):
     """A span of time; nanosec always counts forward, also for negative seconds."""
 
     ROS_TYPE = "builtin_interfaces/msg/Duration"
-    __slots__ = ["_sec", "_nanosec"]
     SLOT_TYPES = (
         BasicType('int32'),
         BasicType('uint32'),
@@ -24,18 +23,19 @@ class Duration(Message):
         nanosec: int
         def __init__(self, *, sec: int = ..., nanosec: int = ...) -> None: ...
     else:
+        __slots__ = ["_sec", "_nanosec"]
+
         def __init__(self, **fields: Any) -> None:
             self._sec = 0
             self._nanosec = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Time(Message):
     """A point in time: whole seconds and the nanoseconds after them."""
 
     ROS_TYPE = "builtin_interfaces/msg/Time"
-    __slots__ = ["_sec", "_nanosec"]
     SLOT_TYPES = (
         BasicType('int32'),
         BasicType('uint32'),
@@ -46,8 +46,10 @@ class Time(Message):
         nanosec: int
         def __init__(self, *, sec: int = ..., nanosec: int = ...) -> None: ...
     else:
+        __slots__ = ["_sec", "_nanosec"]
+
         def __init__(self, **fields: Any) -> None:
             self._sec = 0
             self._nanosec = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)

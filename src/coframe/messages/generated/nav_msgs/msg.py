@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/nav_msgs/msg; do not edit.
-"""nav_msgs.msg"""
+"""Messages of nav_msgs."""
 
 from __future__ import annotations
 
@@ -22,7 +22,6 @@ class GridCells(Message):
     """Message nav_msgs/msg/GridCells."""
 
     ROS_TYPE = "nav_msgs/msg/GridCells"
-    __slots__ = ["_header", "_cell_width", "_cell_height", "_cells"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         BasicType('float'),
@@ -37,20 +36,21 @@ class GridCells(Message):
         cells: list[Point]
         def __init__(self, *, header: Header = ..., cell_width: float = ..., cell_height: float = ..., cells: list[Point] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_cell_width", "_cell_height", "_cells"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._cell_width = 0.0
             self._cell_height = 0.0
             self._cells = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class MapMetaData(Message):
     """Message nav_msgs/msg/MapMetaData."""
 
     ROS_TYPE = "nav_msgs/msg/MapMetaData"
-    __slots__ = ["_map_load_time", "_resolution", "_width", "_height", "_origin"]
     SLOT_TYPES = (
         NamespacedType(('builtin_interfaces', 'msg'), 'Time'),
         BasicType('float'),
@@ -67,6 +67,8 @@ class MapMetaData(Message):
         origin: Pose
         def __init__(self, *, map_load_time: Time = ..., resolution: float = ..., width: int = ..., height: int = ..., origin: Pose = ...) -> None: ...
     else:
+        __slots__ = ["_map_load_time", "_resolution", "_width", "_height", "_origin"]
+
         def __init__(self, **fields: Any) -> None:
             self._map_load_time = fields.get("map_load_time") or Time()
             self._resolution = 0.0
@@ -74,14 +76,13 @@ class MapMetaData(Message):
             self._height = 0
             self._origin = fields.get("origin") or Pose()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class OccupancyGrid(Message):
     """Occupancy row by row from (0, 0): 0 free to 100 occupied, -1 unknown."""
 
     ROS_TYPE = "nav_msgs/msg/OccupancyGrid"
-    __slots__ = ["_header", "_info", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         NamespacedType(('nav_msgs', 'msg'), 'MapMetaData'),
@@ -94,19 +95,20 @@ class OccupancyGrid(Message):
         data = NumberSequence[int]()
         def __init__(self, *, header: Header = ..., info: MapMetaData = ..., data: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_info", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._info = fields.get("info") or MapMetaData()
             self._data = array("b")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Odometry(Message):
     """Pose in the frame of the header, twist in child_frame_id."""
 
     ROS_TYPE = "nav_msgs/msg/Odometry"
-    __slots__ = ["_header", "_child_frame_id", "_pose", "_twist"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         UnboundedString(),
@@ -121,20 +123,21 @@ class Odometry(Message):
         twist: TwistWithCovariance
         def __init__(self, *, header: Header = ..., child_frame_id: str = ..., pose: PoseWithCovariance = ..., twist: TwistWithCovariance = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_child_frame_id", "_pose", "_twist"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._child_frame_id = ""
             self._pose = fields.get("pose") or PoseWithCovariance()
             self._twist = fields.get("twist") or TwistWithCovariance()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Path(Message):
     """Poses for a robot to follow."""
 
     ROS_TYPE = "nav_msgs/msg/Path"
-    __slots__ = ["_header", "_poses"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         UnboundedSequence(NamespacedType(('geometry_msgs', 'msg'), 'PoseStamped')),
@@ -145,8 +148,10 @@ class Path(Message):
         poses: list[PoseStamped]
         def __init__(self, *, header: Header = ..., poses: list[PoseStamped] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_poses"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._poses = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)

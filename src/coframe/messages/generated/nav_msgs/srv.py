@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/nav_msgs/srv; do not edit.
-"""nav_msgs.srv"""
+"""Services of nav_msgs."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ class GetMap_Request(Message):
     """Message nav_msgs/srv/GetMap_Request."""
 
     ROS_TYPE = "nav_msgs/srv/GetMap_Request"
-    __slots__ = []
     SLOT_TYPES = ()
 
     if TYPE_CHECKING:
         def __init__(self) -> None: ...
     else:
+        __slots__ = []
+
         def __init__(self, **fields: Any) -> None:
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class GetMap_Response(Message):
     """Message nav_msgs/srv/GetMap_Response."""
 
     ROS_TYPE = "nav_msgs/srv/GetMap_Response"
-    __slots__ = ["_map"]
     SLOT_TYPES = (
         NamespacedType(('nav_msgs', 'msg'), 'OccupancyGrid'),
     )
@@ -39,17 +39,18 @@ class GetMap_Response(Message):
         map: OccupancyGrid
         def __init__(self, *, map: OccupancyGrid = ...) -> None: ...
     else:
+        __slots__ = ["_map"]
+
         def __init__(self, **fields: Any) -> None:
             self._map = fields.get("map") or OccupancyGrid()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class GetPlan_Request(Message):
     """Message nav_msgs/srv/GetPlan_Request."""
 
     ROS_TYPE = "nav_msgs/srv/GetPlan_Request"
-    __slots__ = ["_start", "_goal", "_tolerance"]
     SLOT_TYPES = (
         NamespacedType(('geometry_msgs', 'msg'), 'PoseStamped'),
         NamespacedType(('geometry_msgs', 'msg'), 'PoseStamped'),
@@ -62,19 +63,20 @@ class GetPlan_Request(Message):
         tolerance: float
         def __init__(self, *, start: PoseStamped = ..., goal: PoseStamped = ..., tolerance: float = ...) -> None: ...
     else:
+        __slots__ = ["_start", "_goal", "_tolerance"]
+
         def __init__(self, **fields: Any) -> None:
             self._start = fields.get("start") or PoseStamped()
             self._goal = fields.get("goal") or PoseStamped()
             self._tolerance = 0.0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class GetPlan_Response(Message):
     """Message nav_msgs/srv/GetPlan_Response."""
 
     ROS_TYPE = "nav_msgs/srv/GetPlan_Response"
-    __slots__ = ["_plan"]
     SLOT_TYPES = (
         NamespacedType(('nav_msgs', 'msg'), 'Path'),
     )
@@ -83,17 +85,18 @@ class GetPlan_Response(Message):
         plan: Path
         def __init__(self, *, plan: Path = ...) -> None: ...
     else:
+        __slots__ = ["_plan"]
+
         def __init__(self, **fields: Any) -> None:
             self._plan = fields.get("plan") or Path()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class LoadMap_Request(Message):
     """Message nav_msgs/srv/LoadMap_Request."""
 
     ROS_TYPE = "nav_msgs/srv/LoadMap_Request"
-    __slots__ = ["_map_url"]
     SLOT_TYPES = (
         UnboundedString(),
     )
@@ -102,17 +105,18 @@ class LoadMap_Request(Message):
         map_url: str
         def __init__(self, *, map_url: str = ...) -> None: ...
     else:
+        __slots__ = ["_map_url"]
+
         def __init__(self, **fields: Any) -> None:
             self._map_url = ""
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class LoadMap_Response(Message):
     """Message nav_msgs/srv/LoadMap_Response."""
 
     ROS_TYPE = "nav_msgs/srv/LoadMap_Response"
-    __slots__ = ["_map", "_result"]
     SLOT_TYPES = (
         NamespacedType(('nav_msgs', 'msg'), 'OccupancyGrid'),
         BasicType('uint8'),
@@ -128,18 +132,19 @@ class LoadMap_Response(Message):
         result: int
         def __init__(self, *, map: OccupancyGrid = ..., result: int = ...) -> None: ...
     else:
+        __slots__ = ["_map", "_result"]
+
         def __init__(self, **fields: Any) -> None:
             self._map = fields.get("map") or OccupancyGrid()
             self._result = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class SetMap_Request(Message):
     """Message nav_msgs/srv/SetMap_Request."""
 
     ROS_TYPE = "nav_msgs/srv/SetMap_Request"
-    __slots__ = ["_map", "_initial_pose"]
     SLOT_TYPES = (
         NamespacedType(('nav_msgs', 'msg'), 'OccupancyGrid'),
         NamespacedType(('geometry_msgs', 'msg'), 'PoseWithCovarianceStamped'),
@@ -150,18 +155,19 @@ class SetMap_Request(Message):
         initial_pose: PoseWithCovarianceStamped
         def __init__(self, *, map: OccupancyGrid = ..., initial_pose: PoseWithCovarianceStamped = ...) -> None: ...
     else:
+        __slots__ = ["_map", "_initial_pose"]
+
         def __init__(self, **fields: Any) -> None:
             self._map = fields.get("map") or OccupancyGrid()
             self._initial_pose = fields.get("initial_pose") or PoseWithCovarianceStamped()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class SetMap_Response(Message):
     """Message nav_msgs/srv/SetMap_Response."""
 
     ROS_TYPE = "nav_msgs/srv/SetMap_Response"
-    __slots__ = ["_success"]
     SLOT_TYPES = (
         BasicType('boolean'),
     )
@@ -170,10 +176,12 @@ class SetMap_Response(Message):
         success: bool
         def __init__(self, *, success: bool = ...) -> None: ...
     else:
+        __slots__ = ["_success"]
+
         def __init__(self, **fields: Any) -> None:
             self._success = False
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class GetMap(Service):

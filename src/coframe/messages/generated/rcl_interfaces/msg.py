@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/rcl_interfaces/msg; do not edit.
-"""rcl_interfaces.msg"""
+"""Messages of rcl_interfaces."""
 
 from __future__ import annotations
 
@@ -20,7 +20,6 @@ class FloatingPointRange(Message):
     """Message rcl_interfaces/msg/FloatingPointRange."""
 
     ROS_TYPE = "rcl_interfaces/msg/FloatingPointRange"
-    __slots__ = ["_from_value", "_to_value", "_step"]
     SLOT_TYPES = (
         BasicType('double'),
         BasicType('double'),
@@ -33,19 +32,20 @@ class FloatingPointRange(Message):
         step: float
         def __init__(self, *, from_value: float = ..., to_value: float = ..., step: float = ...) -> None: ...
     else:
+        __slots__ = ["_from_value", "_to_value", "_step"]
+
         def __init__(self, **fields: Any) -> None:
             self._from_value = 0.0
             self._to_value = 0.0
             self._step = 0.0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class IntegerRange(Message):
     """Message rcl_interfaces/msg/IntegerRange."""
 
     ROS_TYPE = "rcl_interfaces/msg/IntegerRange"
-    __slots__ = ["_from_value", "_to_value", "_step"]
     SLOT_TYPES = (
         BasicType('int64'),
         BasicType('int64'),
@@ -58,19 +58,20 @@ class IntegerRange(Message):
         step: int
         def __init__(self, *, from_value: int = ..., to_value: int = ..., step: int = ...) -> None: ...
     else:
+        __slots__ = ["_from_value", "_to_value", "_step"]
+
         def __init__(self, **fields: Any) -> None:
             self._from_value = 0
             self._to_value = 0
             self._step = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class ListParametersResult(Message):
     """Message rcl_interfaces/msg/ListParametersResult."""
 
     ROS_TYPE = "rcl_interfaces/msg/ListParametersResult"
-    __slots__ = ["_names", "_prefixes"]
     SLOT_TYPES = (
         UnboundedSequence(UnboundedString()),
         UnboundedSequence(UnboundedString()),
@@ -81,18 +82,19 @@ class ListParametersResult(Message):
         prefixes: list[str]
         def __init__(self, *, names: list[str] = ..., prefixes: list[str] = ...) -> None: ...
     else:
+        __slots__ = ["_names", "_prefixes"]
+
         def __init__(self, **fields: Any) -> None:
             self._names = []
             self._prefixes = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Log(Message):
     """Message rcl_interfaces/msg/Log."""
 
     ROS_TYPE = "rcl_interfaces/msg/Log"
-    __slots__ = ["_stamp", "_level", "_name", "_msg", "_file", "_function", "_line"]
     SLOT_TYPES = (
         NamespacedType(('builtin_interfaces', 'msg'), 'Time'),
         BasicType('uint8'),
@@ -118,6 +120,8 @@ class Log(Message):
         line: int
         def __init__(self, *, stamp: Time = ..., level: int = ..., name: str = ..., msg: str = ..., file: str = ..., function: str = ..., line: int = ...) -> None: ...
     else:
+        __slots__ = ["_stamp", "_level", "_name", "_msg", "_file", "_function", "_line"]
+
         def __init__(self, **fields: Any) -> None:
             self._stamp = fields.get("stamp") or Time()
             self._level = 0
@@ -127,14 +131,13 @@ class Log(Message):
             self._function = ""
             self._line = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class ParameterValue(Message):
     """The value of a parameter; type says which member holds."""
 
     ROS_TYPE = "rcl_interfaces/msg/ParameterValue"
-    __slots__ = ["_type", "_bool_value", "_integer_value", "_double_value", "_string_value", "_byte_array_value", "_bool_array_value", "_integer_array_value", "_double_array_value", "_string_array_value"]
     SLOT_TYPES = (
         BasicType('uint8'),
         BasicType('boolean'),
@@ -161,6 +164,8 @@ class ParameterValue(Message):
         string_array_value: list[str]
         def __init__(self, *, type: int = ..., bool_value: bool = ..., integer_value: int = ..., double_value: float = ..., string_value: str = ..., byte_array_value: list[bytes] = ..., bool_array_value: list[bool] = ..., integer_array_value: Iterable[int] = ..., double_array_value: Iterable[float] = ..., string_array_value: list[str] = ...) -> None: ...
     else:
+        __slots__ = ["_type", "_bool_value", "_integer_value", "_double_value", "_string_value", "_byte_array_value", "_bool_array_value", "_integer_array_value", "_double_array_value", "_string_array_value"]
+
         def __init__(self, **fields: Any) -> None:
             self._type = 0
             self._bool_value = False
@@ -173,14 +178,13 @@ class ParameterValue(Message):
             self._double_array_value = array("d")
             self._string_array_value = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Parameter(Message):
     """Message rcl_interfaces/msg/Parameter."""
 
     ROS_TYPE = "rcl_interfaces/msg/Parameter"
-    __slots__ = ["_name", "_value"]
     SLOT_TYPES = (
         UnboundedString(),
         NamespacedType(('rcl_interfaces', 'msg'), 'ParameterValue'),
@@ -191,18 +195,19 @@ class Parameter(Message):
         value: ParameterValue
         def __init__(self, *, name: str = ..., value: ParameterValue = ...) -> None: ...
     else:
+        __slots__ = ["_name", "_value"]
+
         def __init__(self, **fields: Any) -> None:
             self._name = ""
             self._value = fields.get("value") or ParameterValue()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class ParameterDescriptor(Message):
     """Message rcl_interfaces/msg/ParameterDescriptor."""
 
     ROS_TYPE = "rcl_interfaces/msg/ParameterDescriptor"
-    __slots__ = ["_name", "_type", "_description", "_additional_constraints", "_read_only", "_dynamic_typing", "_floating_point_range", "_integer_range"]
     SLOT_TYPES = (
         UnboundedString(),
         BasicType('uint8'),
@@ -227,6 +232,8 @@ class ParameterDescriptor(Message):
         integer_range: list[IntegerRange]
         def __init__(self, *, name: str = ..., type: int = ..., description: str = ..., additional_constraints: str = ..., read_only: bool = ..., dynamic_typing: bool = ..., floating_point_range: list[FloatingPointRange] = ..., integer_range: list[IntegerRange] = ...) -> None: ...
     else:
+        __slots__ = ["_name", "_type", "_description", "_additional_constraints", "_read_only", "_dynamic_typing", "_floating_point_range", "_integer_range"]
+
         def __init__(self, **fields: Any) -> None:
             self._name = ""
             self._type = 0
@@ -237,14 +244,13 @@ class ParameterDescriptor(Message):
             self._floating_point_range = []
             self._integer_range = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class ParameterEvent(Message):
     """Message rcl_interfaces/msg/ParameterEvent."""
 
     ROS_TYPE = "rcl_interfaces/msg/ParameterEvent"
-    __slots__ = ["_stamp", "_node", "_new_parameters", "_changed_parameters", "_deleted_parameters"]
     SLOT_TYPES = (
         NamespacedType(('builtin_interfaces', 'msg'), 'Time'),
         UnboundedString(),
@@ -261,6 +267,8 @@ class ParameterEvent(Message):
         deleted_parameters: list[Parameter]
         def __init__(self, *, stamp: Time = ..., node: str = ..., new_parameters: list[Parameter] = ..., changed_parameters: list[Parameter] = ..., deleted_parameters: list[Parameter] = ...) -> None: ...
     else:
+        __slots__ = ["_stamp", "_node", "_new_parameters", "_changed_parameters", "_deleted_parameters"]
+
         def __init__(self, **fields: Any) -> None:
             self._stamp = fields.get("stamp") or Time()
             self._node = ""
@@ -268,14 +276,13 @@ class ParameterEvent(Message):
             self._changed_parameters = []
             self._deleted_parameters = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class ParameterEventDescriptors(Message):
     """Message rcl_interfaces/msg/ParameterEventDescriptors."""
 
     ROS_TYPE = "rcl_interfaces/msg/ParameterEventDescriptors"
-    __slots__ = ["_new_parameters", "_changed_parameters", "_deleted_parameters"]
     SLOT_TYPES = (
         UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'ParameterDescriptor')),
         UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'ParameterDescriptor')),
@@ -288,19 +295,20 @@ class ParameterEventDescriptors(Message):
         deleted_parameters: list[ParameterDescriptor]
         def __init__(self, *, new_parameters: list[ParameterDescriptor] = ..., changed_parameters: list[ParameterDescriptor] = ..., deleted_parameters: list[ParameterDescriptor] = ...) -> None: ...
     else:
+        __slots__ = ["_new_parameters", "_changed_parameters", "_deleted_parameters"]
+
         def __init__(self, **fields: Any) -> None:
             self._new_parameters = []
             self._changed_parameters = []
             self._deleted_parameters = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class ParameterType(Message):
     """Message rcl_interfaces/msg/ParameterType."""
 
     ROS_TYPE = "rcl_interfaces/msg/ParameterType"
-    __slots__ = []
     SLOT_TYPES = ()
     PARAMETER_NOT_SET: Final = 0
     PARAMETER_BOOL: Final = 1
@@ -316,16 +324,17 @@ class ParameterType(Message):
     if TYPE_CHECKING:
         def __init__(self) -> None: ...
     else:
+        __slots__ = []
+
         def __init__(self, **fields: Any) -> None:
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class SetParametersResult(Message):
     """Message rcl_interfaces/msg/SetParametersResult."""
 
     ROS_TYPE = "rcl_interfaces/msg/SetParametersResult"
-    __slots__ = ["_successful", "_reason"]
     SLOT_TYPES = (
         BasicType('boolean'),
         UnboundedString(),
@@ -336,8 +345,10 @@ class SetParametersResult(Message):
         reason: str
         def __init__(self, *, successful: bool = ..., reason: str = ...) -> None: ...
     else:
+        __slots__ = ["_successful", "_reason"]
+
         def __init__(self, **fields: Any) -> None:
             self._successful = False
             self._reason = ""
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/rcl_interfaces/srv; do not edit.
-"""rcl_interfaces.srv"""
+"""Services of rcl_interfaces."""
 
 from __future__ import annotations
 
@@ -20,7 +20,6 @@ class DescribeParameters_Request(Message):
     """Message rcl_interfaces/srv/DescribeParameters_Request."""
 
     ROS_TYPE = "rcl_interfaces/srv/DescribeParameters_Request"
-    __slots__ = ["_names"]
     SLOT_TYPES = (
         UnboundedSequence(UnboundedString()),
     )
@@ -29,17 +28,18 @@ class DescribeParameters_Request(Message):
         names: list[str]
         def __init__(self, *, names: list[str] = ...) -> None: ...
     else:
+        __slots__ = ["_names"]
+
         def __init__(self, **fields: Any) -> None:
             self._names = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class DescribeParameters_Response(Message):
     """Message rcl_interfaces/srv/DescribeParameters_Response."""
 
     ROS_TYPE = "rcl_interfaces/srv/DescribeParameters_Response"
-    __slots__ = ["_descriptors"]
     SLOT_TYPES = (
         UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'ParameterDescriptor')),
     )
@@ -48,17 +48,18 @@ class DescribeParameters_Response(Message):
         descriptors: list[ParameterDescriptor]
         def __init__(self, *, descriptors: list[ParameterDescriptor] = ...) -> None: ...
     else:
+        __slots__ = ["_descriptors"]
+
         def __init__(self, **fields: Any) -> None:
             self._descriptors = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class GetParameterTypes_Request(Message):
     """Message rcl_interfaces/srv/GetParameterTypes_Request."""
 
     ROS_TYPE = "rcl_interfaces/srv/GetParameterTypes_Request"
-    __slots__ = ["_names"]
     SLOT_TYPES = (
         UnboundedSequence(UnboundedString()),
     )
@@ -67,17 +68,18 @@ class GetParameterTypes_Request(Message):
         names: list[str]
         def __init__(self, *, names: list[str] = ...) -> None: ...
     else:
+        __slots__ = ["_names"]
+
         def __init__(self, **fields: Any) -> None:
             self._names = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class GetParameterTypes_Response(Message):
     """Message rcl_interfaces/srv/GetParameterTypes_Response."""
 
     ROS_TYPE = "rcl_interfaces/srv/GetParameterTypes_Response"
-    __slots__ = ["_types"]
     SLOT_TYPES = (
         UnboundedSequence(BasicType('uint8')),
     )
@@ -86,17 +88,18 @@ class GetParameterTypes_Response(Message):
         types = NumberSequence[int]()
         def __init__(self, *, types: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_types"]
+
         def __init__(self, **fields: Any) -> None:
             self._types = array("B")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class GetParameters_Request(Message):
     """Message rcl_interfaces/srv/GetParameters_Request."""
 
     ROS_TYPE = "rcl_interfaces/srv/GetParameters_Request"
-    __slots__ = ["_names"]
     SLOT_TYPES = (
         UnboundedSequence(UnboundedString()),
     )
@@ -105,17 +108,18 @@ class GetParameters_Request(Message):
         names: list[str]
         def __init__(self, *, names: list[str] = ...) -> None: ...
     else:
+        __slots__ = ["_names"]
+
         def __init__(self, **fields: Any) -> None:
             self._names = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class GetParameters_Response(Message):
     """Message rcl_interfaces/srv/GetParameters_Response."""
 
     ROS_TYPE = "rcl_interfaces/srv/GetParameters_Response"
-    __slots__ = ["_values"]
     SLOT_TYPES = (
         UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'ParameterValue')),
     )
@@ -124,17 +128,18 @@ class GetParameters_Response(Message):
         values: list[ParameterValue]
         def __init__(self, *, values: list[ParameterValue] = ...) -> None: ...
     else:
+        __slots__ = ["_values"]
+
         def __init__(self, **fields: Any) -> None:
             self._values = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class ListParameters_Request(Message):
     """Message rcl_interfaces/srv/ListParameters_Request."""
 
     ROS_TYPE = "rcl_interfaces/srv/ListParameters_Request"
-    __slots__ = ["_prefixes", "_depth"]
     SLOT_TYPES = (
         UnboundedSequence(UnboundedString()),
         BasicType('uint64'),
@@ -146,18 +151,19 @@ class ListParameters_Request(Message):
         depth: int
         def __init__(self, *, prefixes: list[str] = ..., depth: int = ...) -> None: ...
     else:
+        __slots__ = ["_prefixes", "_depth"]
+
         def __init__(self, **fields: Any) -> None:
             self._prefixes = []
             self._depth = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class ListParameters_Response(Message):
     """Message rcl_interfaces/srv/ListParameters_Response."""
 
     ROS_TYPE = "rcl_interfaces/srv/ListParameters_Response"
-    __slots__ = ["_result"]
     SLOT_TYPES = (
         NamespacedType(('rcl_interfaces', 'msg'), 'ListParametersResult'),
     )
@@ -166,17 +172,18 @@ class ListParameters_Response(Message):
         result: ListParametersResult
         def __init__(self, *, result: ListParametersResult = ...) -> None: ...
     else:
+        __slots__ = ["_result"]
+
         def __init__(self, **fields: Any) -> None:
             self._result = fields.get("result") or ListParametersResult()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class SetParameters_Request(Message):
     """Message rcl_interfaces/srv/SetParameters_Request."""
 
     ROS_TYPE = "rcl_interfaces/srv/SetParameters_Request"
-    __slots__ = ["_parameters"]
     SLOT_TYPES = (
         UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'Parameter')),
     )
@@ -185,17 +192,18 @@ class SetParameters_Request(Message):
         parameters: list[Parameter]
         def __init__(self, *, parameters: list[Parameter] = ...) -> None: ...
     else:
+        __slots__ = ["_parameters"]
+
         def __init__(self, **fields: Any) -> None:
             self._parameters = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class SetParameters_Response(Message):
     """Message rcl_interfaces/srv/SetParameters_Response."""
 
     ROS_TYPE = "rcl_interfaces/srv/SetParameters_Response"
-    __slots__ = ["_results"]
     SLOT_TYPES = (
         UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'SetParametersResult')),
     )
@@ -204,17 +212,18 @@ class SetParameters_Response(Message):
         results: list[SetParametersResult]
         def __init__(self, *, results: list[SetParametersResult] = ...) -> None: ...
     else:
+        __slots__ = ["_results"]
+
         def __init__(self, **fields: Any) -> None:
             self._results = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class SetParametersAtomically_Request(Message):
     """Message rcl_interfaces/srv/SetParametersAtomically_Request."""
 
     ROS_TYPE = "rcl_interfaces/srv/SetParametersAtomically_Request"
-    __slots__ = ["_parameters"]
     SLOT_TYPES = (
         UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'Parameter')),
     )
@@ -223,17 +232,18 @@ class SetParametersAtomically_Request(Message):
         parameters: list[Parameter]
         def __init__(self, *, parameters: list[Parameter] = ...) -> None: ...
     else:
+        __slots__ = ["_parameters"]
+
         def __init__(self, **fields: Any) -> None:
             self._parameters = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class SetParametersAtomically_Response(Message):
     """Message rcl_interfaces/srv/SetParametersAtomically_Response."""
 
     ROS_TYPE = "rcl_interfaces/srv/SetParametersAtomically_Response"
-    __slots__ = ["_result"]
     SLOT_TYPES = (
         NamespacedType(('rcl_interfaces', 'msg'), 'SetParametersResult'),
     )
@@ -242,10 +252,12 @@ class SetParametersAtomically_Response(Message):
         result: SetParametersResult
         def __init__(self, *, result: SetParametersResult = ...) -> None: ...
     else:
+        __slots__ = ["_result"]
+
         def __init__(self, **fields: Any) -> None:
             self._result = fields.get("result") or SetParametersResult()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class DescribeParameters(Service):

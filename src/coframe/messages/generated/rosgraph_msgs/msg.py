@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/rosgraph_msgs/msg; do not edit.
-"""rosgraph_msgs.msg"""
+"""Messages of rosgraph_msgs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ class Clock(Message):
     """The time that nodes with use_sim_time take as now."""
 
     ROS_TYPE = "rosgraph_msgs/msg/Clock"
-    __slots__ = ["_clock"]
     SLOT_TYPES = (
         NamespacedType(('builtin_interfaces', 'msg'), 'Time'),
     )
@@ -23,7 +22,9 @@ class Clock(Message):
         clock: Time
         def __init__(self, *, clock: Time = ...) -> None: ...
     else:
+        __slots__ = ["_clock"]
+
         def __init__(self, **fields: Any) -> None:
             self._clock = fields.get("clock") or Time()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)

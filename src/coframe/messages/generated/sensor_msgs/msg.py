@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/sensor_msgs/msg; do not edit.
-"""sensor_msgs.msg"""
+"""Messages of sensor_msgs."""
 
 from __future__ import annotations
 
@@ -24,7 +24,6 @@ class BatteryState(Message):
     """Message sensor_msgs/msg/BatteryState."""
 
     ROS_TYPE = "sensor_msgs/msg/BatteryState"
-    __slots__ = ["_header", "_voltage", "_temperature", "_current", "_charge", "_capacity", "_design_capacity", "_percentage", "_power_supply_status", "_power_supply_health", "_power_supply_technology", "_present", "_cell_voltage", "_cell_temperature", "_location", "_serial_number"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         BasicType('float'),
@@ -84,6 +83,8 @@ class BatteryState(Message):
         serial_number: str
         def __init__(self, *, header: Header = ..., voltage: float = ..., temperature: float = ..., current: float = ..., charge: float = ..., capacity: float = ..., design_capacity: float = ..., percentage: float = ..., power_supply_status: int = ..., power_supply_health: int = ..., power_supply_technology: int = ..., present: bool = ..., cell_voltage: Iterable[float] = ..., cell_temperature: Iterable[float] = ..., location: str = ..., serial_number: str = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_voltage", "_temperature", "_current", "_charge", "_capacity", "_design_capacity", "_percentage", "_power_supply_status", "_power_supply_health", "_power_supply_technology", "_present", "_cell_voltage", "_cell_temperature", "_location", "_serial_number"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._voltage = 0.0
@@ -102,14 +103,13 @@ class BatteryState(Message):
             self._location = ""
             self._serial_number = ""
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class RegionOfInterest(Message):
     """Message sensor_msgs/msg/RegionOfInterest."""
 
     ROS_TYPE = "sensor_msgs/msg/RegionOfInterest"
-    __slots__ = ["_x_offset", "_y_offset", "_height", "_width", "_do_rectify"]
     SLOT_TYPES = (
         BasicType('uint32'),
         BasicType('uint32'),
@@ -126,6 +126,8 @@ class RegionOfInterest(Message):
         do_rectify: bool
         def __init__(self, *, x_offset: int = ..., y_offset: int = ..., height: int = ..., width: int = ..., do_rectify: bool = ...) -> None: ...
     else:
+        __slots__ = ["_x_offset", "_y_offset", "_height", "_width", "_do_rectify"]
+
         def __init__(self, **fields: Any) -> None:
             self._x_offset = 0
             self._y_offset = 0
@@ -133,14 +135,13 @@ class RegionOfInterest(Message):
             self._width = 0
             self._do_rectify = False
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class CameraInfo(Message):
     """Calibration of a camera: distortion d, intrinsics k, rectification r, projection p."""
 
     ROS_TYPE = "sensor_msgs/msg/CameraInfo"
-    __slots__ = ["_header", "_height", "_width", "_distortion_model", "_d", "_k", "_r", "_p", "_binning_x", "_binning_y", "_roi"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         BasicType('uint32'),
@@ -169,6 +170,8 @@ class CameraInfo(Message):
         roi: RegionOfInterest
         def __init__(self, *, header: Header = ..., height: int = ..., width: int = ..., distortion_model: str = ..., d: Iterable[float] = ..., k: Iterable[float] = ..., r: Iterable[float] = ..., p: Iterable[float] = ..., binning_x: int = ..., binning_y: int = ..., roi: RegionOfInterest = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_height", "_width", "_distortion_model", "_d", "_k", "_r", "_p", "_binning_x", "_binning_y", "_roi"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._height = 0
@@ -182,14 +185,13 @@ class CameraInfo(Message):
             self._binning_y = 0
             self._roi = fields.get("roi") or RegionOfInterest()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class ChannelFloat32(Message):
     """Message sensor_msgs/msg/ChannelFloat32."""
 
     ROS_TYPE = "sensor_msgs/msg/ChannelFloat32"
-    __slots__ = ["_name", "_values"]
     SLOT_TYPES = (
         UnboundedString(),
         UnboundedSequence(BasicType('float')),
@@ -200,18 +202,19 @@ class ChannelFloat32(Message):
         values = NumberSequence[float]()
         def __init__(self, *, name: str = ..., values: Iterable[float] = ...) -> None: ...
     else:
+        __slots__ = ["_name", "_values"]
+
         def __init__(self, **fields: Any) -> None:
             self._name = ""
             self._values = array("f")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class CompressedImage(Message):
     """An image as a file's bytes; format names the codec."""
 
     ROS_TYPE = "sensor_msgs/msg/CompressedImage"
-    __slots__ = ["_header", "_format", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         UnboundedString(),
@@ -224,19 +227,20 @@ class CompressedImage(Message):
         data = NumberSequence[int]()
         def __init__(self, *, header: Header = ..., format: str = ..., data: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_format", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._format = ""
             self._data = array("B")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class FluidPressure(Message):
     """Message sensor_msgs/msg/FluidPressure."""
 
     ROS_TYPE = "sensor_msgs/msg/FluidPressure"
-    __slots__ = ["_header", "_fluid_pressure", "_variance"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         BasicType('double'),
@@ -249,19 +253,20 @@ class FluidPressure(Message):
         variance: float
         def __init__(self, *, header: Header = ..., fluid_pressure: float = ..., variance: float = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_fluid_pressure", "_variance"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._fluid_pressure = 0.0
             self._variance = 0.0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Illuminance(Message):
     """Message sensor_msgs/msg/Illuminance."""
 
     ROS_TYPE = "sensor_msgs/msg/Illuminance"
-    __slots__ = ["_header", "_illuminance", "_variance"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         BasicType('double'),
@@ -274,19 +279,20 @@ class Illuminance(Message):
         variance: float
         def __init__(self, *, header: Header = ..., illuminance: float = ..., variance: float = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_illuminance", "_variance"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._illuminance = 0.0
             self._variance = 0.0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Image(Message):
     """An uncompressed image, row by row."""
 
     ROS_TYPE = "sensor_msgs/msg/Image"
-    __slots__ = ["_header", "_height", "_width", "_encoding", "_is_bigendian", "_step", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         BasicType('uint32'),
@@ -307,6 +313,8 @@ class Image(Message):
         data = NumberSequence[int]()
         def __init__(self, *, header: Header = ..., height: int = ..., width: int = ..., encoding: str = ..., is_bigendian: int = ..., step: int = ..., data: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_height", "_width", "_encoding", "_is_bigendian", "_step", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._height = 0
@@ -316,14 +324,13 @@ class Image(Message):
             self._step = 0
             self._data = array("B")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Imu(Message):
     """Orientation, angular velocity in rad/s, linear acceleration in m/s^2; covariance -1: not measured."""
 
     ROS_TYPE = "sensor_msgs/msg/Imu"
-    __slots__ = ["_header", "_orientation", "_orientation_covariance", "_angular_velocity", "_angular_velocity_covariance", "_linear_acceleration", "_linear_acceleration_covariance"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         NamespacedType(('geometry_msgs', 'msg'), 'Quaternion'),
@@ -344,6 +351,8 @@ class Imu(Message):
         linear_acceleration_covariance = NumberArray[np.float64]()
         def __init__(self, *, header: Header = ..., orientation: Quaternion = ..., orientation_covariance: Iterable[float] = ..., angular_velocity: Vector3 = ..., angular_velocity_covariance: Iterable[float] = ..., linear_acceleration: Vector3 = ..., linear_acceleration_covariance: Iterable[float] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_orientation", "_orientation_covariance", "_angular_velocity", "_angular_velocity_covariance", "_linear_acceleration", "_linear_acceleration_covariance"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._orientation = fields.get("orientation") or Quaternion()
@@ -353,14 +362,13 @@ class Imu(Message):
             self._linear_acceleration = fields.get("linear_acceleration") or Vector3()
             self._linear_acceleration_covariance = np.zeros(9, np.float64)
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class JointState(Message):
     """Positions (rad or m), velocities and efforts of named joints."""
 
     ROS_TYPE = "sensor_msgs/msg/JointState"
-    __slots__ = ["_header", "_name", "_position", "_velocity", "_effort"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         UnboundedSequence(UnboundedString()),
@@ -377,6 +385,8 @@ class JointState(Message):
         effort = NumberSequence[float]()
         def __init__(self, *, header: Header = ..., name: list[str] = ..., position: Iterable[float] = ..., velocity: Iterable[float] = ..., effort: Iterable[float] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_name", "_position", "_velocity", "_effort"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._name = []
@@ -384,14 +394,13 @@ class JointState(Message):
             self._velocity = array("d")
             self._effort = array("d")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Joy(Message):
     """Message sensor_msgs/msg/Joy."""
 
     ROS_TYPE = "sensor_msgs/msg/Joy"
-    __slots__ = ["_header", "_axes", "_buttons"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         UnboundedSequence(BasicType('float')),
@@ -404,19 +413,20 @@ class Joy(Message):
         buttons = NumberSequence[int]()
         def __init__(self, *, header: Header = ..., axes: Iterable[float] = ..., buttons: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_axes", "_buttons"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._axes = array("f")
             self._buttons = array("i")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class JoyFeedback(Message):
     """Message sensor_msgs/msg/JoyFeedback."""
 
     ROS_TYPE = "sensor_msgs/msg/JoyFeedback"
-    __slots__ = ["_type", "_id", "_intensity"]
     SLOT_TYPES = (
         BasicType('uint8'),
         BasicType('uint8'),
@@ -432,19 +442,20 @@ class JoyFeedback(Message):
         intensity: float
         def __init__(self, *, type: int = ..., id: int = ..., intensity: float = ...) -> None: ...
     else:
+        __slots__ = ["_type", "_id", "_intensity"]
+
         def __init__(self, **fields: Any) -> None:
             self._type = 0
             self._id = 0
             self._intensity = 0.0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class JoyFeedbackArray(Message):
     """Message sensor_msgs/msg/JoyFeedbackArray."""
 
     ROS_TYPE = "sensor_msgs/msg/JoyFeedbackArray"
-    __slots__ = ["_array"]
     SLOT_TYPES = (
         UnboundedSequence(NamespacedType(('sensor_msgs', 'msg'), 'JoyFeedback')),
     )
@@ -453,17 +464,18 @@ class JoyFeedbackArray(Message):
         array: list[JoyFeedback]
         def __init__(self, *, array: list[JoyFeedback] = ...) -> None: ...
     else:
+        __slots__ = ["_array"]
+
         def __init__(self, **fields: Any) -> None:
             self._array = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class LaserEcho(Message):
     """Message sensor_msgs/msg/LaserEcho."""
 
     ROS_TYPE = "sensor_msgs/msg/LaserEcho"
-    __slots__ = ["_echoes"]
     SLOT_TYPES = (
         UnboundedSequence(BasicType('float')),
     )
@@ -472,17 +484,18 @@ class LaserEcho(Message):
         echoes = NumberSequence[float]()
         def __init__(self, *, echoes: Iterable[float] = ...) -> None: ...
     else:
+        __slots__ = ["_echoes"]
+
         def __init__(self, **fields: Any) -> None:
             self._echoes = array("f")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class LaserScan(Message):
     """One sweep of a planar laser: angles in rad, times in s, ranges in m."""
 
     ROS_TYPE = "sensor_msgs/msg/LaserScan"
-    __slots__ = ["_header", "_angle_min", "_angle_max", "_angle_increment", "_time_increment", "_scan_time", "_range_min", "_range_max", "_ranges", "_intensities"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         BasicType('float'),
@@ -509,6 +522,8 @@ class LaserScan(Message):
         intensities = NumberSequence[float]()
         def __init__(self, *, header: Header = ..., angle_min: float = ..., angle_max: float = ..., angle_increment: float = ..., time_increment: float = ..., scan_time: float = ..., range_min: float = ..., range_max: float = ..., ranges: Iterable[float] = ..., intensities: Iterable[float] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_angle_min", "_angle_max", "_angle_increment", "_time_increment", "_scan_time", "_range_min", "_range_max", "_ranges", "_intensities"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._angle_min = 0.0
@@ -521,14 +536,13 @@ class LaserScan(Message):
             self._ranges = array("f")
             self._intensities = array("f")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class MagneticField(Message):
     """Message sensor_msgs/msg/MagneticField."""
 
     ROS_TYPE = "sensor_msgs/msg/MagneticField"
-    __slots__ = ["_header", "_magnetic_field", "_magnetic_field_covariance"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         NamespacedType(('geometry_msgs', 'msg'), 'Vector3'),
@@ -541,19 +555,20 @@ class MagneticField(Message):
         magnetic_field_covariance = NumberArray[np.float64]()
         def __init__(self, *, header: Header = ..., magnetic_field: Vector3 = ..., magnetic_field_covariance: Iterable[float] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_magnetic_field", "_magnetic_field_covariance"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._magnetic_field = fields.get("magnetic_field") or Vector3()
             self._magnetic_field_covariance = np.zeros(9, np.float64)
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class MultiDOFJointState(Message):
     """Message sensor_msgs/msg/MultiDOFJointState."""
 
     ROS_TYPE = "sensor_msgs/msg/MultiDOFJointState"
-    __slots__ = ["_header", "_joint_names", "_transforms", "_twist", "_wrench"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         UnboundedSequence(UnboundedString()),
@@ -570,6 +585,8 @@ class MultiDOFJointState(Message):
         wrench: list[Wrench]
         def __init__(self, *, header: Header = ..., joint_names: list[str] = ..., transforms: list[Transform] = ..., twist: list[Twist] = ..., wrench: list[Wrench] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_joint_names", "_transforms", "_twist", "_wrench"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._joint_names = []
@@ -577,14 +594,13 @@ class MultiDOFJointState(Message):
             self._twist = []
             self._wrench = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class MultiEchoLaserScan(Message):
     """Message sensor_msgs/msg/MultiEchoLaserScan."""
 
     ROS_TYPE = "sensor_msgs/msg/MultiEchoLaserScan"
-    __slots__ = ["_header", "_angle_min", "_angle_max", "_angle_increment", "_time_increment", "_scan_time", "_range_min", "_range_max", "_ranges", "_intensities"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         BasicType('float'),
@@ -611,6 +627,8 @@ class MultiEchoLaserScan(Message):
         intensities: list[LaserEcho]
         def __init__(self, *, header: Header = ..., angle_min: float = ..., angle_max: float = ..., angle_increment: float = ..., time_increment: float = ..., scan_time: float = ..., range_min: float = ..., range_max: float = ..., ranges: list[LaserEcho] = ..., intensities: list[LaserEcho] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_angle_min", "_angle_max", "_angle_increment", "_time_increment", "_scan_time", "_range_min", "_range_max", "_ranges", "_intensities"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._angle_min = 0.0
@@ -623,14 +641,13 @@ class MultiEchoLaserScan(Message):
             self._ranges = []
             self._intensities = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class NavSatStatus(Message):
     """Message sensor_msgs/msg/NavSatStatus."""
 
     ROS_TYPE = "sensor_msgs/msg/NavSatStatus"
-    __slots__ = ["_status", "_service"]
     SLOT_TYPES = (
         BasicType('int8'),
         BasicType('uint16'),
@@ -649,18 +666,19 @@ class NavSatStatus(Message):
         service: int
         def __init__(self, *, status: int = ..., service: int = ...) -> None: ...
     else:
+        __slots__ = ["_status", "_service"]
+
         def __init__(self, **fields: Any) -> None:
             self._status = 0
             self._service = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class NavSatFix(Message):
     """Message sensor_msgs/msg/NavSatFix."""
 
     ROS_TYPE = "sensor_msgs/msg/NavSatFix"
-    __slots__ = ["_header", "_status", "_latitude", "_longitude", "_altitude", "_position_covariance", "_position_covariance_type"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         NamespacedType(('sensor_msgs', 'msg'), 'NavSatStatus'),
@@ -685,6 +703,8 @@ class NavSatFix(Message):
         position_covariance_type: int
         def __init__(self, *, header: Header = ..., status: NavSatStatus = ..., latitude: float = ..., longitude: float = ..., altitude: float = ..., position_covariance: Iterable[float] = ..., position_covariance_type: int = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_status", "_latitude", "_longitude", "_altitude", "_position_covariance", "_position_covariance_type"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._status = fields.get("status") or NavSatStatus()
@@ -694,14 +714,13 @@ class NavSatFix(Message):
             self._position_covariance = np.zeros(9, np.float64)
             self._position_covariance_type = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class PointCloud(Message):
     """Message sensor_msgs/msg/PointCloud."""
 
     ROS_TYPE = "sensor_msgs/msg/PointCloud"
-    __slots__ = ["_header", "_points", "_channels"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         UnboundedSequence(NamespacedType(('geometry_msgs', 'msg'), 'Point32')),
@@ -714,19 +733,20 @@ class PointCloud(Message):
         channels: list[ChannelFloat32]
         def __init__(self, *, header: Header = ..., points: list[Point32] = ..., channels: list[ChannelFloat32] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_points", "_channels"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._points = []
             self._channels = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class PointField(Message):
     """One channel of a PointCloud2: name, offset in bytes, type and count."""
 
     ROS_TYPE = "sensor_msgs/msg/PointField"
-    __slots__ = ["_name", "_offset", "_datatype", "_count"]
     SLOT_TYPES = (
         UnboundedString(),
         BasicType('uint32'),
@@ -749,20 +769,21 @@ class PointField(Message):
         count: int
         def __init__(self, *, name: str = ..., offset: int = ..., datatype: int = ..., count: int = ...) -> None: ...
     else:
+        __slots__ = ["_name", "_offset", "_datatype", "_count"]
+
         def __init__(self, **fields: Any) -> None:
             self._name = ""
             self._offset = 0
             self._datatype = 0
             self._count = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class PointCloud2(Message):
     """Points as one binary blob that `fields` describes."""
 
     ROS_TYPE = "sensor_msgs/msg/PointCloud2"
-    __slots__ = ["_header", "_height", "_width", "_fields", "_is_bigendian", "_point_step", "_row_step", "_data", "_is_dense"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         BasicType('uint32'),
@@ -787,6 +808,8 @@ class PointCloud2(Message):
         is_dense: bool
         def __init__(self, *, header: Header = ..., height: int = ..., width: int = ..., fields: list[PointField] = ..., is_bigendian: bool = ..., point_step: int = ..., row_step: int = ..., data: Iterable[int] = ..., is_dense: bool = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_height", "_width", "_fields", "_is_bigendian", "_point_step", "_row_step", "_data", "_is_dense"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._height = 0
@@ -798,14 +821,13 @@ class PointCloud2(Message):
             self._data = array("B")
             self._is_dense = False
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Range(Message):
     """One reading of a range sensor in m, angles in rad."""
 
     ROS_TYPE = "sensor_msgs/msg/Range"
-    __slots__ = ["_header", "_radiation_type", "_field_of_view", "_min_range", "_max_range", "_range"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         BasicType('uint8'),
@@ -826,6 +848,8 @@ class Range(Message):
         range: float
         def __init__(self, *, header: Header = ..., radiation_type: int = ..., field_of_view: float = ..., min_range: float = ..., max_range: float = ..., range: float = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_radiation_type", "_field_of_view", "_min_range", "_max_range", "_range"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._radiation_type = 0
@@ -834,14 +858,13 @@ class Range(Message):
             self._max_range = 0.0
             self._range = 0.0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class RelativeHumidity(Message):
     """Message sensor_msgs/msg/RelativeHumidity."""
 
     ROS_TYPE = "sensor_msgs/msg/RelativeHumidity"
-    __slots__ = ["_header", "_relative_humidity", "_variance"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         BasicType('double'),
@@ -854,19 +877,20 @@ class RelativeHumidity(Message):
         variance: float
         def __init__(self, *, header: Header = ..., relative_humidity: float = ..., variance: float = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_relative_humidity", "_variance"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._relative_humidity = 0.0
             self._variance = 0.0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Temperature(Message):
     """Message sensor_msgs/msg/Temperature."""
 
     ROS_TYPE = "sensor_msgs/msg/Temperature"
-    __slots__ = ["_header", "_temperature", "_variance"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         BasicType('double'),
@@ -879,19 +903,20 @@ class Temperature(Message):
         variance: float
         def __init__(self, *, header: Header = ..., temperature: float = ..., variance: float = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_temperature", "_variance"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._temperature = 0.0
             self._variance = 0.0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class TimeReference(Message):
     """Message sensor_msgs/msg/TimeReference."""
 
     ROS_TYPE = "sensor_msgs/msg/TimeReference"
-    __slots__ = ["_header", "_time_ref", "_source"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         NamespacedType(('builtin_interfaces', 'msg'), 'Time'),
@@ -904,9 +929,11 @@ class TimeReference(Message):
         source: str
         def __init__(self, *, header: Header = ..., time_ref: Time = ..., source: str = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_time_ref", "_source"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._time_ref = fields.get("time_ref") or Time()
             self._source = ""
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/sensor_msgs/srv; do not edit.
-"""sensor_msgs.srv"""
+"""Services of sensor_msgs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ class SetCameraInfo_Request(Message):
     """Message sensor_msgs/srv/SetCameraInfo_Request."""
 
     ROS_TYPE = "sensor_msgs/srv/SetCameraInfo_Request"
-    __slots__ = ["_camera_info"]
     SLOT_TYPES = (
         NamespacedType(('sensor_msgs', 'msg'), 'CameraInfo'),
     )
@@ -23,17 +22,18 @@ class SetCameraInfo_Request(Message):
         camera_info: CameraInfo
         def __init__(self, *, camera_info: CameraInfo = ...) -> None: ...
     else:
+        __slots__ = ["_camera_info"]
+
         def __init__(self, **fields: Any) -> None:
             self._camera_info = fields.get("camera_info") or CameraInfo()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class SetCameraInfo_Response(Message):
     """Message sensor_msgs/srv/SetCameraInfo_Response."""
 
     ROS_TYPE = "sensor_msgs/srv/SetCameraInfo_Response"
-    __slots__ = ["_success", "_status_message"]
     SLOT_TYPES = (
         BasicType('boolean'),
         UnboundedString(),
@@ -44,11 +44,13 @@ class SetCameraInfo_Response(Message):
         status_message: str
         def __init__(self, *, success: bool = ..., status_message: str = ...) -> None: ...
     else:
+        __slots__ = ["_success", "_status_message"]
+
         def __init__(self, **fields: Any) -> None:
             self._success = False
             self._status_message = ""
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class SetCameraInfo(Service):

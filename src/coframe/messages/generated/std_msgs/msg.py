@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/std_msgs/msg; do not edit.
-"""std_msgs.msg"""
+"""Messages of std_msgs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,6 @@ class Bool(Message):
     """Message std_msgs/msg/Bool."""
 
     ROS_TYPE = "std_msgs/msg/Bool"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('boolean'),
     )
@@ -29,17 +28,18 @@ class Bool(Message):
         data: bool
         def __init__(self, *, data: bool = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = False
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Byte(Message):
     """Message std_msgs/msg/Byte."""
 
     ROS_TYPE = "std_msgs/msg/Byte"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('octet'),
     )
@@ -48,17 +48,18 @@ class Byte(Message):
         data: bytes
         def __init__(self, *, data: bytes = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = b"\x00"
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class MultiArrayDimension(Message):
     """Message std_msgs/msg/MultiArrayDimension."""
 
     ROS_TYPE = "std_msgs/msg/MultiArrayDimension"
-    __slots__ = ["_label", "_size", "_stride"]
     SLOT_TYPES = (
         UnboundedString(),
         BasicType('uint32'),
@@ -71,19 +72,20 @@ class MultiArrayDimension(Message):
         stride: int
         def __init__(self, *, label: str = ..., size: int = ..., stride: int = ...) -> None: ...
     else:
+        __slots__ = ["_label", "_size", "_stride"]
+
         def __init__(self, **fields: Any) -> None:
             self._label = ""
             self._size = 0
             self._stride = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class MultiArrayLayout(Message):
     """Message std_msgs/msg/MultiArrayLayout."""
 
     ROS_TYPE = "std_msgs/msg/MultiArrayLayout"
-    __slots__ = ["_dim", "_data_offset"]
     SLOT_TYPES = (
         UnboundedSequence(NamespacedType(('std_msgs', 'msg'), 'MultiArrayDimension')),
         BasicType('uint32'),
@@ -94,18 +96,19 @@ class MultiArrayLayout(Message):
         data_offset: int
         def __init__(self, *, dim: list[MultiArrayDimension] = ..., data_offset: int = ...) -> None: ...
     else:
+        __slots__ = ["_dim", "_data_offset"]
+
         def __init__(self, **fields: Any) -> None:
             self._dim = []
             self._data_offset = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class ByteMultiArray(Message):
     """Message std_msgs/msg/ByteMultiArray."""
 
     ROS_TYPE = "std_msgs/msg/ByteMultiArray"
-    __slots__ = ["_layout", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'MultiArrayLayout'),
         UnboundedSequence(BasicType('octet')),
@@ -116,18 +119,19 @@ class ByteMultiArray(Message):
         data: list[bytes]
         def __init__(self, *, layout: MultiArrayLayout = ..., data: list[bytes] = ...) -> None: ...
     else:
+        __slots__ = ["_layout", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Char(Message):
     """Message std_msgs/msg/Char."""
 
     ROS_TYPE = "std_msgs/msg/Char"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('uint8'),
     )
@@ -136,17 +140,18 @@ class Char(Message):
         data: int
         def __init__(self, *, data: int = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class ColorRGBA(Message):
     """Message std_msgs/msg/ColorRGBA."""
 
     ROS_TYPE = "std_msgs/msg/ColorRGBA"
-    __slots__ = ["_r", "_g", "_b", "_a"]
     SLOT_TYPES = (
         BasicType('float'),
         BasicType('float'),
@@ -161,35 +166,37 @@ class ColorRGBA(Message):
         a: float
         def __init__(self, *, r: float = ..., g: float = ..., b: float = ..., a: float = ...) -> None: ...
     else:
+        __slots__ = ["_r", "_g", "_b", "_a"]
+
         def __init__(self, **fields: Any) -> None:
             self._r = 0.0
             self._g = 0.0
             self._b = 0.0
             self._a = 0.0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Empty(Message):
     """Message std_msgs/msg/Empty."""
 
     ROS_TYPE = "std_msgs/msg/Empty"
-    __slots__ = []
     SLOT_TYPES = ()
 
     if TYPE_CHECKING:
         def __init__(self) -> None: ...
     else:
+        __slots__ = []
+
         def __init__(self, **fields: Any) -> None:
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Float32(Message):
     """Message std_msgs/msg/Float32."""
 
     ROS_TYPE = "std_msgs/msg/Float32"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('float'),
     )
@@ -198,17 +205,18 @@ class Float32(Message):
         data: float
         def __init__(self, *, data: float = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = 0.0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Float32MultiArray(Message):
     """Message std_msgs/msg/Float32MultiArray."""
 
     ROS_TYPE = "std_msgs/msg/Float32MultiArray"
-    __slots__ = ["_layout", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'MultiArrayLayout'),
         UnboundedSequence(BasicType('float')),
@@ -219,18 +227,19 @@ class Float32MultiArray(Message):
         data = NumberSequence[float]()
         def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[float] = ...) -> None: ...
     else:
+        __slots__ = ["_layout", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("f")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Float64(Message):
     """Message std_msgs/msg/Float64."""
 
     ROS_TYPE = "std_msgs/msg/Float64"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('double'),
     )
@@ -239,17 +248,18 @@ class Float64(Message):
         data: float
         def __init__(self, *, data: float = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = 0.0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Float64MultiArray(Message):
     """Message std_msgs/msg/Float64MultiArray."""
 
     ROS_TYPE = "std_msgs/msg/Float64MultiArray"
-    __slots__ = ["_layout", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'MultiArrayLayout'),
         UnboundedSequence(BasicType('double')),
@@ -260,18 +270,19 @@ class Float64MultiArray(Message):
         data = NumberSequence[float]()
         def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[float] = ...) -> None: ...
     else:
+        __slots__ = ["_layout", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("d")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Header(Message):
     """When and in which frame the data of a message holds."""
 
     ROS_TYPE = "std_msgs/msg/Header"
-    __slots__ = ["_stamp", "_frame_id"]
     SLOT_TYPES = (
         NamespacedType(('builtin_interfaces', 'msg'), 'Time'),
         UnboundedString(),
@@ -282,18 +293,19 @@ class Header(Message):
         frame_id: str
         def __init__(self, *, stamp: Time = ..., frame_id: str = ...) -> None: ...
     else:
+        __slots__ = ["_stamp", "_frame_id"]
+
         def __init__(self, **fields: Any) -> None:
             self._stamp = fields.get("stamp") or Time()
             self._frame_id = ""
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Int16(Message):
     """Message std_msgs/msg/Int16."""
 
     ROS_TYPE = "std_msgs/msg/Int16"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('int16'),
     )
@@ -302,17 +314,18 @@ class Int16(Message):
         data: int
         def __init__(self, *, data: int = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Int16MultiArray(Message):
     """Message std_msgs/msg/Int16MultiArray."""
 
     ROS_TYPE = "std_msgs/msg/Int16MultiArray"
-    __slots__ = ["_layout", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'MultiArrayLayout'),
         UnboundedSequence(BasicType('int16')),
@@ -323,18 +336,19 @@ class Int16MultiArray(Message):
         data = NumberSequence[int]()
         def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_layout", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("h")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Int32(Message):
     """Message std_msgs/msg/Int32."""
 
     ROS_TYPE = "std_msgs/msg/Int32"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('int32'),
     )
@@ -343,17 +357,18 @@ class Int32(Message):
         data: int
         def __init__(self, *, data: int = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Int32MultiArray(Message):
     """Message std_msgs/msg/Int32MultiArray."""
 
     ROS_TYPE = "std_msgs/msg/Int32MultiArray"
-    __slots__ = ["_layout", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'MultiArrayLayout'),
         UnboundedSequence(BasicType('int32')),
@@ -364,18 +379,19 @@ class Int32MultiArray(Message):
         data = NumberSequence[int]()
         def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_layout", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("i")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Int64(Message):
     """Message std_msgs/msg/Int64."""
 
     ROS_TYPE = "std_msgs/msg/Int64"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('int64'),
     )
@@ -384,17 +400,18 @@ class Int64(Message):
         data: int
         def __init__(self, *, data: int = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Int64MultiArray(Message):
     """Message std_msgs/msg/Int64MultiArray."""
 
     ROS_TYPE = "std_msgs/msg/Int64MultiArray"
-    __slots__ = ["_layout", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'MultiArrayLayout'),
         UnboundedSequence(BasicType('int64')),
@@ -405,18 +422,19 @@ class Int64MultiArray(Message):
         data = NumberSequence[int]()
         def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_layout", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("q")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Int8(Message):
     """Message std_msgs/msg/Int8."""
 
     ROS_TYPE = "std_msgs/msg/Int8"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('int8'),
     )
@@ -425,17 +443,18 @@ class Int8(Message):
         data: int
         def __init__(self, *, data: int = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Int8MultiArray(Message):
     """Message std_msgs/msg/Int8MultiArray."""
 
     ROS_TYPE = "std_msgs/msg/Int8MultiArray"
-    __slots__ = ["_layout", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'MultiArrayLayout'),
         UnboundedSequence(BasicType('int8')),
@@ -446,18 +465,19 @@ class Int8MultiArray(Message):
         data = NumberSequence[int]()
         def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_layout", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("b")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class String(Message):
     """Message std_msgs/msg/String."""
 
     ROS_TYPE = "std_msgs/msg/String"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         UnboundedString(),
     )
@@ -466,17 +486,18 @@ class String(Message):
         data: str
         def __init__(self, *, data: str = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = ""
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class UInt16(Message):
     """Message std_msgs/msg/UInt16."""
 
     ROS_TYPE = "std_msgs/msg/UInt16"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('uint16'),
     )
@@ -485,17 +506,18 @@ class UInt16(Message):
         data: int
         def __init__(self, *, data: int = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class UInt16MultiArray(Message):
     """Message std_msgs/msg/UInt16MultiArray."""
 
     ROS_TYPE = "std_msgs/msg/UInt16MultiArray"
-    __slots__ = ["_layout", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'MultiArrayLayout'),
         UnboundedSequence(BasicType('uint16')),
@@ -506,18 +528,19 @@ class UInt16MultiArray(Message):
         data = NumberSequence[int]()
         def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_layout", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("H")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class UInt32(Message):
     """Message std_msgs/msg/UInt32."""
 
     ROS_TYPE = "std_msgs/msg/UInt32"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('uint32'),
     )
@@ -526,17 +549,18 @@ class UInt32(Message):
         data: int
         def __init__(self, *, data: int = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class UInt32MultiArray(Message):
     """Message std_msgs/msg/UInt32MultiArray."""
 
     ROS_TYPE = "std_msgs/msg/UInt32MultiArray"
-    __slots__ = ["_layout", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'MultiArrayLayout'),
         UnboundedSequence(BasicType('uint32')),
@@ -547,18 +571,19 @@ class UInt32MultiArray(Message):
         data = NumberSequence[int]()
         def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_layout", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("I")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class UInt64(Message):
     """Message std_msgs/msg/UInt64."""
 
     ROS_TYPE = "std_msgs/msg/UInt64"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('uint64'),
     )
@@ -567,17 +592,18 @@ class UInt64(Message):
         data: int
         def __init__(self, *, data: int = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class UInt64MultiArray(Message):
     """Message std_msgs/msg/UInt64MultiArray."""
 
     ROS_TYPE = "std_msgs/msg/UInt64MultiArray"
-    __slots__ = ["_layout", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'MultiArrayLayout'),
         UnboundedSequence(BasicType('uint64')),
@@ -588,18 +614,19 @@ class UInt64MultiArray(Message):
         data = NumberSequence[int]()
         def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_layout", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("Q")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class UInt8(Message):
     """Message std_msgs/msg/UInt8."""
 
     ROS_TYPE = "std_msgs/msg/UInt8"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('uint8'),
     )
@@ -608,17 +635,18 @@ class UInt8(Message):
         data: int
         def __init__(self, *, data: int = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class UInt8MultiArray(Message):
     """Message std_msgs/msg/UInt8MultiArray."""
 
     ROS_TYPE = "std_msgs/msg/UInt8MultiArray"
-    __slots__ = ["_layout", "_data"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'MultiArrayLayout'),
         UnboundedSequence(BasicType('uint8')),
@@ -629,8 +657,10 @@ class UInt8MultiArray(Message):
         data = NumberSequence[int]()
         def __init__(self, *, layout: MultiArrayLayout = ..., data: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_layout", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._layout = fields.get("layout") or MultiArrayLayout()
             self._data = array("B")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/std_srvs/srv; do not edit.
-"""std_srvs.srv"""
+"""Services of std_srvs."""
 
 from __future__ import annotations
 
@@ -13,37 +13,38 @@ class Empty_Request(Message):
     """Message std_srvs/srv/Empty_Request."""
 
     ROS_TYPE = "std_srvs/srv/Empty_Request"
-    __slots__ = []
     SLOT_TYPES = ()
 
     if TYPE_CHECKING:
         def __init__(self) -> None: ...
     else:
+        __slots__ = []
+
         def __init__(self, **fields: Any) -> None:
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Empty_Response(Message):
     """Message std_srvs/srv/Empty_Response."""
 
     ROS_TYPE = "std_srvs/srv/Empty_Response"
-    __slots__ = []
     SLOT_TYPES = ()
 
     if TYPE_CHECKING:
         def __init__(self) -> None: ...
     else:
+        __slots__ = []
+
         def __init__(self, **fields: Any) -> None:
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class SetBool_Request(Message):
     """Message std_srvs/srv/SetBool_Request."""
 
     ROS_TYPE = "std_srvs/srv/SetBool_Request"
-    __slots__ = ["_data"]
     SLOT_TYPES = (
         BasicType('boolean'),
     )
@@ -52,17 +53,18 @@ class SetBool_Request(Message):
         data: bool
         def __init__(self, *, data: bool = ...) -> None: ...
     else:
+        __slots__ = ["_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._data = False
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class SetBool_Response(Message):
     """Message std_srvs/srv/SetBool_Response."""
 
     ROS_TYPE = "std_srvs/srv/SetBool_Response"
-    __slots__ = ["_success", "_message"]
     SLOT_TYPES = (
         BasicType('boolean'),
         UnboundedString(),
@@ -73,33 +75,35 @@ class SetBool_Response(Message):
         message: str
         def __init__(self, *, success: bool = ..., message: str = ...) -> None: ...
     else:
+        __slots__ = ["_success", "_message"]
+
         def __init__(self, **fields: Any) -> None:
             self._success = False
             self._message = ""
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Trigger_Request(Message):
     """Message std_srvs/srv/Trigger_Request."""
 
     ROS_TYPE = "std_srvs/srv/Trigger_Request"
-    __slots__ = []
     SLOT_TYPES = ()
 
     if TYPE_CHECKING:
         def __init__(self) -> None: ...
     else:
+        __slots__ = []
+
         def __init__(self, **fields: Any) -> None:
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Trigger_Response(Message):
     """Message std_srvs/srv/Trigger_Response."""
 
     ROS_TYPE = "std_srvs/srv/Trigger_Response"
-    __slots__ = ["_success", "_message"]
     SLOT_TYPES = (
         BasicType('boolean'),
         UnboundedString(),
@@ -110,11 +114,13 @@ class Trigger_Response(Message):
         message: str
         def __init__(self, *, success: bool = ..., message: str = ...) -> None: ...
     else:
+        __slots__ = ["_success", "_message"]
+
         def __init__(self, **fields: Any) -> None:
             self._success = False
             self._message = ""
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Empty(Service):

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/tf2_msgs/action; do not edit.
-"""tf2_msgs.action"""
+"""Actions of tf2_msgs."""
 
 from __future__ import annotations
 
@@ -19,7 +19,6 @@ class LookupTransform_Goal(Message):
     """Message tf2_msgs/action/LookupTransform_Goal."""
 
     ROS_TYPE = "tf2_msgs/action/LookupTransform_Goal"
-    __slots__ = ["_target_frame", "_source_frame", "_source_time", "_timeout", "_target_time", "_fixed_frame", "_advanced"]
     SLOT_TYPES = (
         UnboundedString(),
         UnboundedString(),
@@ -40,6 +39,8 @@ class LookupTransform_Goal(Message):
         advanced: bool
         def __init__(self, *, target_frame: str = ..., source_frame: str = ..., source_time: Time = ..., timeout: Duration = ..., target_time: Time = ..., fixed_frame: str = ..., advanced: bool = ...) -> None: ...
     else:
+        __slots__ = ["_target_frame", "_source_frame", "_source_time", "_timeout", "_target_time", "_fixed_frame", "_advanced"]
+
         def __init__(self, **fields: Any) -> None:
             self._target_frame = ""
             self._source_frame = ""
@@ -49,14 +50,13 @@ class LookupTransform_Goal(Message):
             self._fixed_frame = ""
             self._advanced = False
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class LookupTransform_Result(Message):
     """Message tf2_msgs/action/LookupTransform_Result."""
 
     ROS_TYPE = "tf2_msgs/action/LookupTransform_Result"
-    __slots__ = ["_transform", "_error"]
     SLOT_TYPES = (
         NamespacedType(('geometry_msgs', 'msg'), 'TransformStamped'),
         NamespacedType(('tf2_msgs', 'msg'), 'TF2Error'),
@@ -67,33 +67,35 @@ class LookupTransform_Result(Message):
         error: TF2Error
         def __init__(self, *, transform: TransformStamped = ..., error: TF2Error = ...) -> None: ...
     else:
+        __slots__ = ["_transform", "_error"]
+
         def __init__(self, **fields: Any) -> None:
             self._transform = fields.get("transform") or TransformStamped()
             self._error = fields.get("error") or TF2Error()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class LookupTransform_Feedback(Message):
     """Message tf2_msgs/action/LookupTransform_Feedback."""
 
     ROS_TYPE = "tf2_msgs/action/LookupTransform_Feedback"
-    __slots__ = []
     SLOT_TYPES = ()
 
     if TYPE_CHECKING:
         def __init__(self) -> None: ...
     else:
+        __slots__ = []
+
         def __init__(self, **fields: Any) -> None:
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class LookupTransform_SendGoal_Request(Message):
     """Message tf2_msgs/action/LookupTransform_SendGoal_Request."""
 
     ROS_TYPE = "tf2_msgs/action/LookupTransform_SendGoal_Request"
-    __slots__ = ["_goal_id", "_goal"]
     SLOT_TYPES = (
         NamespacedType(('unique_identifier_msgs', 'msg'), 'UUID'),
         NamespacedType(('tf2_msgs', 'action'), 'LookupTransform_Goal'),
@@ -104,18 +106,19 @@ class LookupTransform_SendGoal_Request(Message):
         goal: LookupTransform_Goal
         def __init__(self, *, goal_id: UUID = ..., goal: LookupTransform_Goal = ...) -> None: ...
     else:
+        __slots__ = ["_goal_id", "_goal"]
+
         def __init__(self, **fields: Any) -> None:
             self._goal_id = fields.get("goal_id") or UUID()
             self._goal = fields.get("goal") or LookupTransform_Goal()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class LookupTransform_SendGoal_Response(Message):
     """Message tf2_msgs/action/LookupTransform_SendGoal_Response."""
 
     ROS_TYPE = "tf2_msgs/action/LookupTransform_SendGoal_Response"
-    __slots__ = ["_accepted", "_stamp"]
     SLOT_TYPES = (
         BasicType('boolean'),
         NamespacedType(('builtin_interfaces', 'msg'), 'Time'),
@@ -126,18 +129,19 @@ class LookupTransform_SendGoal_Response(Message):
         stamp: Time
         def __init__(self, *, accepted: bool = ..., stamp: Time = ...) -> None: ...
     else:
+        __slots__ = ["_accepted", "_stamp"]
+
         def __init__(self, **fields: Any) -> None:
             self._accepted = False
             self._stamp = fields.get("stamp") or Time()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class LookupTransform_GetResult_Request(Message):
     """Message tf2_msgs/action/LookupTransform_GetResult_Request."""
 
     ROS_TYPE = "tf2_msgs/action/LookupTransform_GetResult_Request"
-    __slots__ = ["_goal_id"]
     SLOT_TYPES = (
         NamespacedType(('unique_identifier_msgs', 'msg'), 'UUID'),
     )
@@ -146,17 +150,18 @@ class LookupTransform_GetResult_Request(Message):
         goal_id: UUID
         def __init__(self, *, goal_id: UUID = ...) -> None: ...
     else:
+        __slots__ = ["_goal_id"]
+
         def __init__(self, **fields: Any) -> None:
             self._goal_id = fields.get("goal_id") or UUID()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class LookupTransform_GetResult_Response(Message):
     """Message tf2_msgs/action/LookupTransform_GetResult_Response."""
 
     ROS_TYPE = "tf2_msgs/action/LookupTransform_GetResult_Response"
-    __slots__ = ["_status", "_result"]
     SLOT_TYPES = (
         BasicType('int8'),
         NamespacedType(('tf2_msgs', 'action'), 'LookupTransform_Result'),
@@ -167,18 +172,19 @@ class LookupTransform_GetResult_Response(Message):
         result: LookupTransform_Result
         def __init__(self, *, status: int = ..., result: LookupTransform_Result = ...) -> None: ...
     else:
+        __slots__ = ["_status", "_result"]
+
         def __init__(self, **fields: Any) -> None:
             self._status = 0
             self._result = fields.get("result") or LookupTransform_Result()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class LookupTransform_FeedbackMessage(Message):
     """Message tf2_msgs/action/LookupTransform_FeedbackMessage."""
 
     ROS_TYPE = "tf2_msgs/action/LookupTransform_FeedbackMessage"
-    __slots__ = ["_goal_id", "_feedback"]
     SLOT_TYPES = (
         NamespacedType(('unique_identifier_msgs', 'msg'), 'UUID'),
         NamespacedType(('tf2_msgs', 'action'), 'LookupTransform_Feedback'),
@@ -189,11 +195,13 @@ class LookupTransform_FeedbackMessage(Message):
         feedback: LookupTransform_Feedback
         def __init__(self, *, goal_id: UUID = ..., feedback: LookupTransform_Feedback = ...) -> None: ...
     else:
+        __slots__ = ["_goal_id", "_feedback"]
+
         def __init__(self, **fields: Any) -> None:
             self._goal_id = fields.get("goal_id") or UUID()
             self._feedback = fields.get("feedback") or LookupTransform_Feedback()
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class LookupTransform_SendGoal(Service):

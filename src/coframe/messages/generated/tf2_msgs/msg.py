@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/tf2_msgs/msg; do not edit.
-"""tf2_msgs.msg"""
+"""Messages of tf2_msgs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ class TF2Error(Message):
     """Which of tf2's errors a look-up ended with."""
 
     ROS_TYPE = "tf2_msgs/msg/TF2Error"
-    __slots__ = ["_error", "_error_string"]
     SLOT_TYPES = (
         BasicType('uint8'),
         UnboundedString(),
@@ -32,18 +31,19 @@ class TF2Error(Message):
         error_string: str
         def __init__(self, *, error: int = ..., error_string: str = ...) -> None: ...
     else:
+        __slots__ = ["_error", "_error_string"]
+
         def __init__(self, **fields: Any) -> None:
             self._error = 0
             self._error_string = ""
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class TFMessage(Message):
     """Transforms as published on /tf and /tf_static."""
 
     ROS_TYPE = "tf2_msgs/msg/TFMessage"
-    __slots__ = ["_transforms"]
     SLOT_TYPES = (
         UnboundedSequence(NamespacedType(('geometry_msgs', 'msg'), 'TransformStamped')),
     )
@@ -52,7 +52,9 @@ class TFMessage(Message):
         transforms: list[TransformStamped]
         def __init__(self, *, transforms: list[TransformStamped] = ...) -> None: ...
     else:
+        __slots__ = ["_transforms"]
+
         def __init__(self, **fields: Any) -> None:
             self._transforms = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/tf2_msgs/srv; do not edit.
-"""tf2_msgs.srv"""
+"""Services of tf2_msgs."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ class FrameGraph_Request(Message):
     """Message tf2_msgs/srv/FrameGraph_Request."""
 
     ROS_TYPE = "tf2_msgs/srv/FrameGraph_Request"
-    __slots__ = []
     SLOT_TYPES = ()
 
     if TYPE_CHECKING:
         def __init__(self) -> None: ...
     else:
+        __slots__ = []
+
         def __init__(self, **fields: Any) -> None:
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class FrameGraph_Response(Message):
     """Message tf2_msgs/srv/FrameGraph_Response."""
 
     ROS_TYPE = "tf2_msgs/srv/FrameGraph_Response"
-    __slots__ = ["_frame_yaml"]
     SLOT_TYPES = (
         UnboundedString(),
     )
@@ -37,10 +37,12 @@ class FrameGraph_Response(Message):
         frame_yaml: str
         def __init__(self, *, frame_yaml: str = ...) -> None: ...
     else:
+        __slots__ = ["_frame_yaml"]
+
         def __init__(self, **fields: Any) -> None:
             self._frame_yaml = ""
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class FrameGraph(Service):

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/unique_identifier_msgs/msg; do not edit.
-"""unique_identifier_msgs.msg"""
+"""Messages of unique_identifier_msgs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,6 @@ class UUID(Message):
     """A universally unique id in 16 bytes."""
 
     ROS_TYPE = "unique_identifier_msgs/msg/UUID"
-    __slots__ = ["_uuid"]
     SLOT_TYPES = (
         Array(BasicType('uint8'), 16),
     )
@@ -29,7 +28,9 @@ class UUID(Message):
         uuid = NumberArray[np.uint8]()
         def __init__(self, *, uuid: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_uuid"]
+
         def __init__(self, **fields: Any) -> None:
             self._uuid = np.zeros(16, np.uint8)
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/visualization_msgs/msg; do not edit.
-"""visualization_msgs.msg"""
+"""Messages of visualization_msgs."""
 
 from __future__ import annotations
 
@@ -23,7 +23,6 @@ class ImageMarker(Message):
     """Message visualization_msgs/msg/ImageMarker."""
 
     ROS_TYPE = "visualization_msgs/msg/ImageMarker"
-    __slots__ = ["_header", "_ns", "_id", "_type", "_action", "_position", "_scale", "_outline_color", "_filled", "_fill_color", "_lifetime", "_points", "_outline_colors"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         UnboundedString(),
@@ -63,6 +62,8 @@ class ImageMarker(Message):
         outline_colors: list[ColorRGBA]
         def __init__(self, *, header: Header = ..., ns: str = ..., id: int = ..., type: int = ..., action: int = ..., position: Point = ..., scale: float = ..., outline_color: ColorRGBA = ..., filled: int = ..., fill_color: ColorRGBA = ..., lifetime: Duration = ..., points: list[Point] = ..., outline_colors: list[ColorRGBA] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_ns", "_id", "_type", "_action", "_position", "_scale", "_outline_color", "_filled", "_fill_color", "_lifetime", "_points", "_outline_colors"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._ns = ""
@@ -78,14 +79,13 @@ class ImageMarker(Message):
             self._points = []
             self._outline_colors = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class MenuEntry(Message):
     """Message visualization_msgs/msg/MenuEntry."""
 
     ROS_TYPE = "visualization_msgs/msg/MenuEntry"
-    __slots__ = ["_id", "_parent_id", "_title", "_command", "_command_type"]
     SLOT_TYPES = (
         BasicType('uint32'),
         BasicType('uint32'),
@@ -105,6 +105,8 @@ class MenuEntry(Message):
         command_type: int
         def __init__(self, *, id: int = ..., parent_id: int = ..., title: str = ..., command: str = ..., command_type: int = ...) -> None: ...
     else:
+        __slots__ = ["_id", "_parent_id", "_title", "_command", "_command_type"]
+
         def __init__(self, **fields: Any) -> None:
             self._id = 0
             self._parent_id = 0
@@ -112,14 +114,13 @@ class MenuEntry(Message):
             self._command = ""
             self._command_type = 0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class UVCoordinate(Message):
     """Message visualization_msgs/msg/UVCoordinate."""
 
     ROS_TYPE = "visualization_msgs/msg/UVCoordinate"
-    __slots__ = ["_u", "_v"]
     SLOT_TYPES = (
         BasicType('float'),
         BasicType('float'),
@@ -130,18 +131,19 @@ class UVCoordinate(Message):
         v: float
         def __init__(self, *, u: float = ..., v: float = ...) -> None: ...
     else:
+        __slots__ = ["_u", "_v"]
+
         def __init__(self, **fields: Any) -> None:
             self._u = 0.0
             self._v = 0.0
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class MeshFile(Message):
     """Message visualization_msgs/msg/MeshFile."""
 
     ROS_TYPE = "visualization_msgs/msg/MeshFile"
-    __slots__ = ["_filename", "_data"]
     SLOT_TYPES = (
         UnboundedString(),
         UnboundedSequence(BasicType('uint8')),
@@ -152,18 +154,19 @@ class MeshFile(Message):
         data = NumberSequence[int]()
         def __init__(self, *, filename: str = ..., data: Iterable[int] = ...) -> None: ...
     else:
+        __slots__ = ["_filename", "_data"]
+
         def __init__(self, **fields: Any) -> None:
             self._filename = ""
             self._data = array("B")
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class Marker(Message):
     """A shape to draw."""
 
     ROS_TYPE = "visualization_msgs/msg/Marker"
-    __slots__ = ["_header", "_ns", "_id", "_type", "_action", "_pose", "_scale", "_color", "_lifetime", "_frame_locked", "_points", "_colors", "_texture_resource", "_texture", "_uv_coordinates", "_text", "_mesh_resource", "_mesh_file", "_mesh_use_embedded_materials"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         UnboundedString(),
@@ -224,6 +227,8 @@ class Marker(Message):
         mesh_use_embedded_materials: bool
         def __init__(self, *, header: Header = ..., ns: str = ..., id: int = ..., type: int = ..., action: int = ..., pose: Pose = ..., scale: Vector3 = ..., color: ColorRGBA = ..., lifetime: Duration = ..., frame_locked: bool = ..., points: list[Point] = ..., colors: list[ColorRGBA] = ..., texture_resource: str = ..., texture: CompressedImage = ..., uv_coordinates: list[UVCoordinate] = ..., text: str = ..., mesh_resource: str = ..., mesh_file: MeshFile = ..., mesh_use_embedded_materials: bool = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_ns", "_id", "_type", "_action", "_pose", "_scale", "_color", "_lifetime", "_frame_locked", "_points", "_colors", "_texture_resource", "_texture", "_uv_coordinates", "_text", "_mesh_resource", "_mesh_file", "_mesh_use_embedded_materials"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._ns = ""
@@ -245,14 +250,13 @@ class Marker(Message):
             self._mesh_file = fields.get("mesh_file") or MeshFile()
             self._mesh_use_embedded_materials = False
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class InteractiveMarkerControl(Message):
     """Message visualization_msgs/msg/InteractiveMarkerControl."""
 
     ROS_TYPE = "visualization_msgs/msg/InteractiveMarkerControl"
-    __slots__ = ["_name", "_orientation", "_orientation_mode", "_interaction_mode", "_always_visible", "_markers", "_independent_marker_orientation", "_description"]
     SLOT_TYPES = (
         UnboundedString(),
         NamespacedType(('geometry_msgs', 'msg'), 'Quaternion'),
@@ -288,6 +292,8 @@ class InteractiveMarkerControl(Message):
         description: str
         def __init__(self, *, name: str = ..., orientation: Quaternion = ..., orientation_mode: int = ..., interaction_mode: int = ..., always_visible: bool = ..., markers: list[Marker] = ..., independent_marker_orientation: bool = ..., description: str = ...) -> None: ...
     else:
+        __slots__ = ["_name", "_orientation", "_orientation_mode", "_interaction_mode", "_always_visible", "_markers", "_independent_marker_orientation", "_description"]
+
         def __init__(self, **fields: Any) -> None:
             self._name = ""
             self._orientation = fields.get("orientation") or Quaternion()
@@ -298,14 +304,13 @@ class InteractiveMarkerControl(Message):
             self._independent_marker_orientation = False
             self._description = ""
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class InteractiveMarker(Message):
     """Message visualization_msgs/msg/InteractiveMarker."""
 
     ROS_TYPE = "visualization_msgs/msg/InteractiveMarker"
-    __slots__ = ["_header", "_pose", "_name", "_description", "_scale", "_menu_entries", "_controls"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         NamespacedType(('geometry_msgs', 'msg'), 'Pose'),
@@ -326,6 +331,8 @@ class InteractiveMarker(Message):
         controls: list[InteractiveMarkerControl]
         def __init__(self, *, header: Header = ..., pose: Pose = ..., name: str = ..., description: str = ..., scale: float = ..., menu_entries: list[MenuEntry] = ..., controls: list[InteractiveMarkerControl] = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_pose", "_name", "_description", "_scale", "_menu_entries", "_controls"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._pose = fields.get("pose") or Pose()
@@ -335,14 +342,13 @@ class InteractiveMarker(Message):
             self._menu_entries = []
             self._controls = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class InteractiveMarkerFeedback(Message):
     """Message visualization_msgs/msg/InteractiveMarkerFeedback."""
 
     ROS_TYPE = "visualization_msgs/msg/InteractiveMarkerFeedback"
-    __slots__ = ["_header", "_client_id", "_marker_name", "_control_name", "_event_type", "_pose", "_menu_entry_id", "_mouse_point", "_mouse_point_valid"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         UnboundedString(),
@@ -373,6 +379,8 @@ class InteractiveMarkerFeedback(Message):
         mouse_point_valid: bool
         def __init__(self, *, header: Header = ..., client_id: str = ..., marker_name: str = ..., control_name: str = ..., event_type: int = ..., pose: Pose = ..., menu_entry_id: int = ..., mouse_point: Point = ..., mouse_point_valid: bool = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_client_id", "_marker_name", "_control_name", "_event_type", "_pose", "_menu_entry_id", "_mouse_point", "_mouse_point_valid"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._client_id = ""
@@ -384,14 +392,13 @@ class InteractiveMarkerFeedback(Message):
             self._mouse_point = fields.get("mouse_point") or Point()
             self._mouse_point_valid = False
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class InteractiveMarkerInit(Message):
     """Message visualization_msgs/msg/InteractiveMarkerInit."""
 
     ROS_TYPE = "visualization_msgs/msg/InteractiveMarkerInit"
-    __slots__ = ["_server_id", "_seq_num", "_markers"]
     SLOT_TYPES = (
         UnboundedString(),
         BasicType('uint64'),
@@ -404,19 +411,20 @@ class InteractiveMarkerInit(Message):
         markers: list[InteractiveMarker]
         def __init__(self, *, server_id: str = ..., seq_num: int = ..., markers: list[InteractiveMarker] = ...) -> None: ...
     else:
+        __slots__ = ["_server_id", "_seq_num", "_markers"]
+
         def __init__(self, **fields: Any) -> None:
             self._server_id = ""
             self._seq_num = 0
             self._markers = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class InteractiveMarkerPose(Message):
     """Message visualization_msgs/msg/InteractiveMarkerPose."""
 
     ROS_TYPE = "visualization_msgs/msg/InteractiveMarkerPose"
-    __slots__ = ["_header", "_pose", "_name"]
     SLOT_TYPES = (
         NamespacedType(('std_msgs', 'msg'), 'Header'),
         NamespacedType(('geometry_msgs', 'msg'), 'Pose'),
@@ -429,19 +437,20 @@ class InteractiveMarkerPose(Message):
         name: str
         def __init__(self, *, header: Header = ..., pose: Pose = ..., name: str = ...) -> None: ...
     else:
+        __slots__ = ["_header", "_pose", "_name"]
+
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._pose = fields.get("pose") or Pose()
             self._name = ""
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class InteractiveMarkerUpdate(Message):
     """Message visualization_msgs/msg/InteractiveMarkerUpdate."""
 
     ROS_TYPE = "visualization_msgs/msg/InteractiveMarkerUpdate"
-    __slots__ = ["_server_id", "_seq_num", "_type", "_markers", "_poses", "_erases"]
     SLOT_TYPES = (
         UnboundedString(),
         BasicType('uint64'),
@@ -462,6 +471,8 @@ class InteractiveMarkerUpdate(Message):
         erases: list[str]
         def __init__(self, *, server_id: str = ..., seq_num: int = ..., type: int = ..., markers: list[InteractiveMarker] = ..., poses: list[InteractiveMarkerPose] = ..., erases: list[str] = ...) -> None: ...
     else:
+        __slots__ = ["_server_id", "_seq_num", "_type", "_markers", "_poses", "_erases"]
+
         def __init__(self, **fields: Any) -> None:
             self._server_id = ""
             self._seq_num = 0
@@ -470,14 +481,13 @@ class InteractiveMarkerUpdate(Message):
             self._poses = []
             self._erases = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class MarkerArray(Message):
     """Shapes to draw."""
 
     ROS_TYPE = "visualization_msgs/msg/MarkerArray"
-    __slots__ = ["_markers"]
     SLOT_TYPES = (
         UnboundedSequence(NamespacedType(('visualization_msgs', 'msg'), 'Marker')),
     )
@@ -486,7 +496,9 @@ class MarkerArray(Message):
         markers: list[Marker]
         def __init__(self, *, markers: list[Marker] = ...) -> None: ...
     else:
+        __slots__ = ["_markers"]
+
         def __init__(self, **fields: Any) -> None:
             self._markers = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)

@@ -1,5 +1,5 @@
 # Written by scripts/generate_messages.py from interfaces/visualization_msgs/srv; do not edit.
-"""visualization_msgs.srv"""
+"""Services of visualization_msgs."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ class GetInteractiveMarkers_Request(Message):
     """Message visualization_msgs/srv/GetInteractiveMarkers_Request."""
 
     ROS_TYPE = "visualization_msgs/srv/GetInteractiveMarkers_Request"
-    __slots__ = []
     SLOT_TYPES = ()
 
     if TYPE_CHECKING:
         def __init__(self) -> None: ...
     else:
+        __slots__ = []
+
         def __init__(self, **fields: Any) -> None:
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class GetInteractiveMarkers_Response(Message):
     """Message visualization_msgs/srv/GetInteractiveMarkers_Response."""
 
     ROS_TYPE = "visualization_msgs/srv/GetInteractiveMarkers_Response"
-    __slots__ = ["_sequence_number", "_markers"]
     SLOT_TYPES = (
         BasicType('uint64'),
         UnboundedSequence(NamespacedType(('visualization_msgs', 'msg'), 'InteractiveMarker')),
@@ -40,11 +40,13 @@ class GetInteractiveMarkers_Response(Message):
         markers: list[InteractiveMarker]
         def __init__(self, *, sequence_number: int = ..., markers: list[InteractiveMarker] = ...) -> None: ...
     else:
+        __slots__ = ["_sequence_number", "_markers"]
+
         def __init__(self, **fields: Any) -> None:
             self._sequence_number = 0
             self._markers = []
             if fields:
-                self._assign(fields)
+                super().__init__(**fields)
 
 
 class GetInteractiveMarkers(Service):

@@ -1,0 +1,98 @@
+"""Random messages of any type, and the same in rosbags' classes."""
+
+import random
+import struct
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from rosbags.typesys import Stores, get_typestore
+
+from coframe.messages import find
+from coframe.messages.definition import (
+    AbstractNestedType,
+    Array,
+    BasicType,
+    BoundedSequence,
+    NamespacedType,
+)
+
+INTERFACES = Path(__file__).resolve().parents[2] / "interfaces"
+TEXTS = ["", "a", "map", "base_link", "wörld", "机器人", "🤖" * 3, "x" * 70]
+MESSAGE_TYPES = sorted(f"{path.parts[-3]}/msg/{path.stem}" for path in INTERFACES.glob("*/msg/*.msg"))
+
+
+def random_value(type_: Any, rng: random.Random) -> Any:
+    if isinstance(type_, AbstractNestedType):
+        most = 3 if not isinstance(type_, BoundedSequence) else type_.maximum_size
+        count = type_.size if isinstance(type_, Array) else rng.randint(0, most)
+        return [random_value(type_.value_type, rng) for _ in range(count)]
+    if isinstance(type_, NamespacedType):
+        return build(find("/".join(type_.namespaced_name())), rng)
+    if not isinstance(type_, BasicType):
+        return rng.choice(TEXTS)
+    return random_basic(type_.typename, rng)
+
+
+def random_basic(typename: str, rng: random.Random) -> Any:
+    if typename == "boolean":
+        return rng.random() < 0.5
+    if typename == "octet":
+        return bytes([rng.randrange(256)])
+    if typename in {"float", "double"}:
+        value = rng.choice([0.0, -0.0, float("inf"), rng.uniform(-1e9, 1e9), rng.gauss(0.0, 1.0)])
+        return struct.unpack("<f", struct.pack("<f", value))[0] if typename == "float" else value
+    bits = int(typename.partition("int")[2])
+    low = 0 if typename.startswith("u") else -(2 ** (bits - 1))
+    return rng.choice([low, low + 2**bits - 1, rng.randrange(low, low + 2**bits)])
+
+
+def build(cls: Any, rng: random.Random) -> Any:
+    return cls(
+        **{slot[1:]: random_value(type_, rng) for slot, type_ in zip(cls.__slots__, cls.SLOT_TYPES, strict=True)}
+    )
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """A test that asks for `ros_type` runs for every message type."""
+    if "ros_type" in metafunc.fixturenames:
+        metafunc.parametrize("ros_type", MESSAGE_TYPES)
+
+
+@pytest.fixture(scope="session")
+def random_message() -> Callable[[Any, random.Random], Any]:
+    """Builds a message of a class with random values everywhere."""
+    return build
+
+
+@pytest.fixture(scope="session")
+def store() -> Any:
+    return get_typestore(Stores.ROS2_HUMBLE)
+
+
+@pytest.fixture
+def to_rosbags(store: Any) -> Callable[[Any], Any]:
+    def value(ours: Any, type_: Any) -> Any:
+        if isinstance(type_, NamespacedType):
+            return message(ours)
+        if isinstance(type_, BasicType):
+            return int.from_bytes(ours, "big", signed=True) if type_.typename == "octet" else ours
+        if not isinstance(type_, AbstractNestedType):
+            return ours
+        if isinstance(type_.value_type, BasicType):
+            dtypes = {"boolean": "bool", "octet": "uint8", "float": "float32", "double": "float64"}
+            dtype = dtypes.get(type_.value_type.typename, type_.value_type.typename)
+            octets = type_.value_type.typename == "octet"
+            return np.array([item[0] if octets else item for item in ours], dtype)
+        return [value(item, type_.value_type) for item in ours]
+
+    def message(ours: Any) -> Any:
+        fields = {
+            slot[1:]: value(getattr(ours, slot), type_)
+            for slot, type_ in zip(ours.__slots__, ours.SLOT_TYPES, strict=True)
+        }
+        return store.types[ours.ROS_TYPE](**fields or {"structure_needs_at_least_one_member": 0})
+
+    return message
