@@ -72,6 +72,8 @@ from rclpy.utilities import (  # noqa: E402
 if TYPE_CHECKING:
     from types import TracebackType
 
+    from typing_extensions import Self
+
     from rclpy.executors import Executor
     from rclpy.node import Node
 
@@ -140,7 +142,7 @@ class InitContextManager:
     def __init__(self, context: Context) -> None:
         self.context = context
 
-    def __enter__(self) -> InitContextManager:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(
@@ -207,7 +209,7 @@ def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | N
 
 
 def _shut_down(context: Context | None, *, uninstall_handlers: bool | None) -> None:
-    global _global_executor  # noqa: PLW0603 - one per process
+    global _global_executor
     is_default = context is None or context is get_default_context()
     utilities.shutdown(context=None if is_default else context)
     if is_default:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from rclpy import _yaml
-from rclpy.impl.logging_severity import LoggingSeverity
 from rclpy.exceptions import RCLInvalidROSArgsError, UnknownROSArgsError
+from rclpy.impl.logging_severity import LoggingSeverity
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 _START: Final = "--ros-args"
 _END: Final = "--"
@@ -73,9 +75,7 @@ def parse(args: list[str]) -> Arguments:
     unknown: list[str] = []
     for section in _sections(args):
         words = iter(section)
-        for word in words:
-            if not _parse_word(word, words, result):
-                unknown.append(word)
+        unknown.extend(word for word in words if not _parse_word(word, words, result))
     if unknown:
         raise UnknownROSArgsError(f"Found unknown ROS arguments: {unknown}")
     return result

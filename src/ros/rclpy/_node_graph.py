@@ -68,9 +68,7 @@ class NodeGraph:
         endpoints = self._wire.subscribers(self.resolve_topic_name(topic_name))
         return [_info(endpoint, TopicEndpointTypeEnum.SUBSCRIPTION) for endpoint in endpoints]
 
-    def get_publisher_names_and_types_by_node(
-        self, node_name: str, node_namespace: str
-    ) -> list[tuple[str, list[str]]]:
+    def get_publisher_names_and_types_by_node(self, node_name: str, node_namespace: str) -> list[tuple[str, list[str]]]:
         """Returns the topics a node publishes, with their types."""
         return _types_by_node(
             {topic: self._wire.publishers(topic) for topic in self._wire.topics()}, node_name, node_namespace
@@ -85,9 +83,7 @@ class NodeGraph:
         )
 
 
-def _types_by_node(
-    endpoints: dict[str, list[Endpoint]], name: str, namespace: str
-) -> list[tuple[str, list[str]]]:
+def _types_by_node(endpoints: dict[str, list[Endpoint]], name: str, namespace: str) -> list[tuple[str, list[str]]]:
     found: list[tuple[str, list[str]]] = []
     for topic in sorted(endpoints):
         types = {end.ros_type for end in endpoints[topic] if (end.node, end.namespace) == (name, namespace)}

@@ -6,8 +6,7 @@ import threading
 from collections.abc import Callable, Sequence
 from typing import Any, Final
 
-from rcl_interfaces.msg import ParameterDescriptor, ParameterType, SetParametersResult
-
+from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
@@ -16,7 +15,7 @@ from rclpy.exceptions import (
     ParameterNotDeclaredException,
     ParameterUninitializedException,
 )
-from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
+from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter, parameter_value_to_python
 from rclpy.validate_parameter_name import validate_parameter_name
 
 SetCallback = Callable[[list["Parameter[Any]"]], SetParametersResult]
@@ -112,7 +111,8 @@ class NodeParameters:
             if not 1 <= len(item) <= 3 or not isinstance(item[0], str):
                 raise TypeError(f"Invalid parameter tuple {item}: (name), (name, value) or (name, value, descriptor)")
             name = f"{namespace}{PARAMETER_SEPARATOR_STRING}{item[0]}" if namespace else item[0]
-            declared.append(self.declare_parameter(name, *item[1:], ignore_override=ignore_override))
+            value, descriptor = (*item[1:], None, None)[:2]
+            declared.append(self.declare_parameter(name, value, descriptor, ignore_override))
         return declared
 
     def undeclare_parameter(self, name: str) -> None:
@@ -236,9 +236,7 @@ class NodeParameters:
         """Returns the descriptors of several parameters; see `describe_parameter`."""
         return [self.describe_parameter(name) for name in names]
 
-    def set_descriptor(
-        self, name: str, descriptor: ParameterDescriptor, alternative_value: Any = None
-    ) -> Any:
+    def set_descriptor(self, name: str, descriptor: ParameterDescriptor, alternative_value: Any = None) -> Any:
         """Gives a parameter a new descriptor.
 
         Args:
@@ -263,8 +261,6 @@ class NodeParameters:
             descriptor.name, descriptor.type = name, before.type
             parameter = self.__parameters[name]
             if alternative_value is not None and _range_fault(parameter, descriptor):
-                from rclpy.parameter import parameter_value_to_python  # noqa: PLC0415
-
                 parameter = Parameter(name, value=parameter_value_to_python(alternative_value))
             if fault := _range_fault(parameter, descriptor):
                 raise InvalidParameterValueException(name, parameter.value, fault)
@@ -272,9 +268,7 @@ class NodeParameters:
             self.__parameters[name] = parameter
             return parameter.get_parameter_value()
 
-    def __initial(
-        self, name: str, value: Any, *, ignore_override: bool
-    ) -> tuple[Parameter[Any], Parameter.Type]:
+    def __initial(self, name: str, value: Any, *, ignore_override: bool) -> tuple[Parameter[Any], Parameter.Type]:
         """The parameter with its first value, and the type that was declared."""
         if isinstance(value, Parameter.Type):
             default, expected = Parameter[Any](name), value
@@ -340,10 +334,11 @@ def _change_fault(parameter: Parameter[Any], descriptor: ParameterDescriptor) ->
 
 def _range_fault(parameter: Parameter[Any], descriptor: ParameterDescriptor) -> str:
     """Why a value is out of the descriptor's range; empty if it is not."""
-    if parameter.type_ == ParameterType.PARAMETER_INTEGER:
-        ranges, tolerance = descriptor.integer_range, 0.0
-    elif parameter.type_ == ParameterType.PARAMETER_DOUBLE:
-        ranges, tolerance = descriptor.floating_point_range, _DEFAULT_STEP_TOLERANCE
+    ranges: list[Any]
+    if parameter.type_ is Parameter.Type.INTEGER:
+        ranges, tolerance = list(descriptor.integer_range), 0.0
+    elif parameter.type_ is Parameter.Type.DOUBLE:
+        ranges, tolerance = list(descriptor.floating_point_range), _DEFAULT_STEP_TOLERANCE
     else:
         return ""
     value = parameter.value

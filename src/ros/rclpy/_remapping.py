@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from rclpy._arguments import Remap
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
 from rclpy.expand_topic_name import expand_topic_name
 from rclpy.validate_full_topic_name import validate_full_topic_name
+
+if TYPE_CHECKING:
+    from rclpy._arguments import Remap
 
 
 def remap_node(name: str, namespace: str, rules: list[Remap]) -> tuple[str, str]:

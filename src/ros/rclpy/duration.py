@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Final
 
 import builtin_interfaces.msg
-
 from rclpy.constants import S_TO_NS
 
 INT64_LIMIT: Final = 2**63

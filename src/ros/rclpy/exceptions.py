@@ -1,34 +1,35 @@
 """What rclpy raises.
 
-    Exception
-    ├── NotInitializedException            a context is used before rclpy.init() or after its shutdown
-    ├── NoTypeSupportImportedException     something that is no ROS message type was given as one
-    ├── RCLError                           the ROS client library could not do what was asked (a RuntimeError)
-    │   └── RCLInvalidROSArgsError         arguments after --ros-args are malformed
-    │       └── UnknownROSArgsError        ... or not known
-    ├── InvalidHandle                      a destroyed node, publisher, ... is used
-    ├── NameValidationException            a name breaks the rules; shows where
-    │   ├── InvalidNamespaceException
-    │   ├── InvalidNodeNameException
-    │   ├── InvalidTopicNameException
-    │   └── InvalidServiceNameException
-    ├── ParameterException
-    │   ├── ParameterNotDeclaredException
-    │   ├── ParameterAlreadyDeclaredException
-    │   ├── InvalidParameterException
-    │   ├── InvalidParameterValueException
-    │   │   └── InvalidParameterTypeException
-    │   ├── ParameterImmutableException
-    │   └── ParameterUninitializedException
-    └── ROSInterruptException              a sleep was cut short by the shutdown
+Exception
+├── NotInitializedException            a context is used before rclpy.init() or after its shutdown
+├── NoTypeSupportImportedException     something that is no ROS message type was given as one
+├── RCLError                           the ROS client library could not do what was asked (a RuntimeError)
+│   └── RCLInvalidROSArgsError         arguments after --ros-args are malformed
+│       └── UnknownROSArgsError        ... or not known
+├── InvalidHandle                      a destroyed node, publisher, ... is used
+├── NameValidationException            a name breaks the rules; shows where
+│   ├── InvalidNamespaceException
+│   ├── InvalidNodeNameException
+│   ├── InvalidTopicNameException
+│   └── InvalidServiceNameException
+├── ParameterException
+│   ├── ParameterNotDeclaredException
+│   ├── ParameterAlreadyDeclaredException
+│   ├── InvalidParameterException
+│   ├── InvalidParameterValueException
+│   │   └── InvalidParameterTypeException
+│   ├── ParameterImmutableException
+│   └── ParameterUninitializedException
+└── ROSInterruptException              a sleep was cut short by the shutdown
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from rclpy.parameter import Parameter
 
 

@@ -1,5 +1,8 @@
 """Executors: they wait until timers, messages, ... are due and run their callbacks."""
 
+# The modules of rclpy share what its users do not see.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
 import inspect
@@ -8,21 +11,21 @@ import threading
 import time
 from abc import ABC, abstractmethod
 from collections import deque
-from collections.abc import Callable, Coroutine, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
-from rclpy.callback_groups import CallbackGroup
 from rclpy.constants import S_TO_NS
-from rclpy.context import Context
 from rclpy.task import Future, Task
 from rclpy.utilities import get_default_context
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine, Iterable
     from types import TracebackType
 
     from typing_extensions import Self
 
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.context import Context
     from rclpy.node import Node
 
 T = TypeVar("T")

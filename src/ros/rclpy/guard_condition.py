@@ -1,13 +1,19 @@
 """Waking an executor by hand."""
 
+# The modules of rclpy share what its users do not see.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rclpy.callback_groups import CallbackGroup
-from rclpy.context import Context
 from rclpy.utilities import get_default_context
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.context import Context
 
 
 class GuardCondition:

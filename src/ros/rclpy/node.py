@@ -1,10 +1,12 @@
 """Nodes."""
 
+# The modules of rclpy share what its users do not see.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
 import threading
 import weakref
-from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from rclpy import _arguments
@@ -17,10 +19,8 @@ from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from rclpy.client import Client
 from rclpy.clock import Clock, ROSClock
 from rclpy.constants import S_TO_NS
-from rclpy.context import Context
 from rclpy.exceptions import InvalidHandle, NotInitializedException
 from rclpy.guard_condition import GuardCondition
-from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.logging import get_logger
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
@@ -36,7 +36,13 @@ from rclpy.validate_namespace import validate_namespace
 from rclpy.validate_node_name import validate_node_name
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from typing_extensions import Self
+
+    from rclpy.context import Context
     from rclpy.executors import Executable, Executor
+    from rclpy.impl.rcutils_logger import RcutilsLogger
 
 EntityT = TypeVar("EntityT")
 
@@ -292,15 +298,11 @@ class Node(NodeParameters, NodeGraph):
         self.__check_alive()
         name, qos, graph_node = self.resolve_service_name(srv_name), qos_profile._to_wire(), self._graph_node
         wakeup = self.context._wakeup.event
-        replies = self._wire.subscription(
-            graph_node, name, srv_type.Response, qos, on_data=wakeup, kind="reply"
-        )
+        replies = self._wire.subscription(graph_node, name, srv_type.Response, qos, on_data=wakeup, kind="reply")
         requests = self._wire.publisher(graph_node, name, srv_type.Request, qos, kind="request")
         group = self.__group(callback_group)
         return self.__add(
-            Client(
-                self.context, self._wire, requests, replies, self.__get_executor, srv_type, name, qos_profile, group
-            )
+            Client(self.context, self._wire, requests, replies, self.__get_executor, srv_type, name, qos_profile, group)
         )
 
     def create_service(
@@ -331,9 +333,7 @@ class Node(NodeParameters, NodeGraph):
         wakeup = self.context._wakeup.event
         # The replies first: clients that see where requests go must be able to get an answer.
         replies = self._wire.publisher(graph_node, name, srv_type.Response, qos, kind="reply")
-        requests = self._wire.subscription(
-            graph_node, name, srv_type.Request, qos, on_data=wakeup, kind="request"
-        )
+        requests = self._wire.subscription(graph_node, name, srv_type.Request, qos, on_data=wakeup, kind="request")
         group = self.__group(callback_group)
         return self.__add(Service(requests, replies, srv_type, name, callback, group, qos_profile))
 
@@ -431,7 +431,7 @@ class Node(NodeParameters, NodeGraph):
         self._graph_node.close()
         self._wire.close()
 
-    def __enter__(self) -> Node:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:

@@ -8,7 +8,6 @@ from typing import Any, Final, Generic, TypeVar
 
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterType, ParameterValue
-
 from rclpy import _yaml
 
 T = TypeVar("T")
@@ -46,7 +45,7 @@ class Parameter(Generic[T]):
 
         @classmethod
         def from_parameter_value(cls, parameter_value: Any) -> Parameter.Type:
-            """Returns the type of a Python value; an empty list is one of strings... or of bytes, as upstream says.
+            """Returns the type of a Python value; an empty list counts as one of bytes, as upstream has it.
 
             Raises:
                 TypeError: No parameter can have such a value.

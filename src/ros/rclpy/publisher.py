@@ -5,14 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from coframe.messages import codec
-
 from rclpy.exceptions import InvalidHandle, RCLError
-from rclpy.qos import QoSProfile
 
 if TYPE_CHECKING:
     from coframe.wire import Publisher as WirePublisher
-
     from rclpy.context import Context
+    from rclpy.qos import QoSProfile
 
 
 class Publisher:

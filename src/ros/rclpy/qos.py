@@ -6,11 +6,11 @@ from enum import Enum, IntEnum
 from typing import TYPE_CHECKING, Any, Final
 
 from rclpy.duration import Duration
-from rclpy.exceptions import RCLError
 
 if TYPE_CHECKING:
-    from coframe.wire import QoS as WireQoS
     from typing_extensions import Self
+
+    from coframe.wire import QoS as WireQoS
 
 
 class InvalidQoSProfileException(Exception):
@@ -231,7 +231,7 @@ def qos_from(qos: QoSProfile | int) -> QoSProfile:
     """
     if isinstance(qos, QoSProfile):
         return qos
-    if not isinstance(qos, int) or isinstance(qos, bool):
+    if type(qos) is bool or not isinstance(qos, int):
         raise TypeError(f"Expected QoSProfile or int, but received {type(qos)!r}")
     if qos < 0:
         raise ValueError("history depth must be greater than or equal to zero")
@@ -301,20 +301,13 @@ class QoSCompatibility(IntEnum):
     ERROR = 2
 
 
-def qos_check_compatible(
-    publisher_qos: QoSProfile, subscription_qos: QoSProfile
-) -> tuple[QoSCompatibility, str]:
+def qos_check_compatible(publisher_qos: QoSProfile, subscription_qos: QoSProfile) -> tuple[QoSCompatibility, str]:
     """Returns whether messages can flow, and if not, why.
 
     Args:
         publisher_qos: What the publisher offers.
         subscription_qos: What the subscription requests.
-
-    Raises:
-        RCLError: An argument is no QoSProfile.
     """
-    if not isinstance(publisher_qos, QoSProfile) or not isinstance(subscription_qos, QoSProfile):
-        raise RCLError("qos_check_compatible() needs two QoSProfiles")
     reasons = []
     if (
         publisher_qos.reliability is ReliabilityPolicy.BEST_EFFORT

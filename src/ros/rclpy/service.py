@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import inspect
 import time
-from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from coframe.messages import codec
-
 from rclpy import _request_header
-from rclpy._request_header import RequestHeader
-from rclpy.callback_groups import CallbackGroup
-from rclpy.qos import QoSProfile
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from coframe.wire import Publisher as WirePublisher
     from coframe.wire import Subscription as WireSubscription
+    from rclpy._request_header import RequestHeader
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.qos import QoSProfile
 
 # A client may know us before we know it: what is sent before DDS has matched both ways is lost.
 _MATCH_TIMEOUT_S: Final = 0.1

@@ -5,14 +5,16 @@ from __future__ import annotations
 import signal
 import sys
 import threading
-from collections.abc import Callable
 from enum import IntFlag
-from types import FrameType, TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rclpy.context import _end_by_signal
 from rclpy.exceptions import ROSInterruptException
 from rclpy.executors import ExternalShutdownException
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import FrameType, TracebackType
 
 
 class SignalHandlerOptions(IntFlag):

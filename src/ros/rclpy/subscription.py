@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import inspect
 import time
-from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from coframe.messages import codec
 
-from rclpy.callback_groups import CallbackGroup
-from rclpy.qos import QoSProfile
-
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from coframe.wire import Sample
     from coframe.wire import Subscription as WireSubscription
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.qos import QoSProfile
 
 
 class Subscription:
@@ -71,9 +71,7 @@ class Subscription:
         message = sample.data if self.raw else codec.deserialize(sample.data, self.msg_type)
         if not self._wants_info:
             return self.callback(message)
-        return self.callback(
-            message, {"source_timestamp": sample.source_timestamp, "received_timestamp": received}
-        )
+        return self.callback(message, {"source_timestamp": sample.source_timestamp, "received_timestamp": received})
 
 
 def _takes_info(callback: Callable[..., Any]) -> bool:

@@ -1,5 +1,8 @@
 """Results to come, and the work that brings them."""
 
+# The modules of rclpy share what its users do not see.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
 import inspect
@@ -7,10 +10,11 @@ import sys
 import threading
 import traceback
 import weakref
-from collections.abc import Callable, Coroutine, Generator
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Coroutine, Generator
+
     from rclpy.executors import Executor
 
 T = TypeVar("T")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, overload
 
 import builtin_interfaces.msg
-
 from rclpy._clock_type import ClockType
 from rclpy.constants import S_TO_NS
 from rclpy.duration import INT64_LIMIT, Duration

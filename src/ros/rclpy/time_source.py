@@ -1,11 +1,13 @@
 """Simulated time: from the topic /clock to the clocks of a node."""
 
+# The modules of rclpy share what its users do not see.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
 import rosgraph_msgs.msg
-
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.clock import ROSClock
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -62,7 +64,7 @@ class TimeSource:
             ValueError: It is no ROS clock.
         """
         if not isinstance(clock, ROSClock):
-            raise ValueError("Only clocks with type ROS_TIME can be attached.")
+            raise ValueError("Only clocks with type ROS_TIME can be attached.")  # noqa: TRY004 - as upstream
         clock.set_ros_time_override(self._last_time)
         clock._set_ros_time_is_active(self.ros_time_is_active)
         self._clocks.append(clock)

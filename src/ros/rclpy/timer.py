@@ -1,17 +1,23 @@
 """Timers and rates."""
 
+# The modules of rclpy share what its users do not see.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rclpy.callback_groups import CallbackGroup
-from rclpy.clock import Clock
-from rclpy.context import Context
 from rclpy.exceptions import ROSInterruptException
 from rclpy.time import Time
 from rclpy.utilities import get_default_context
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.clock import Clock
+    from rclpy.context import Context
 
 
 class Timer:
@@ -129,7 +135,9 @@ class Timer:
         self._next_ns += self._period_ns
         if self._next_ns < now:
             late = now - self._next_ns
-            self._next_ns = now if self._period_ns == 0 else self._next_ns + (late // self._period_ns + 1) * self._period_ns
+            self._next_ns = (
+                now if self._period_ns == 0 else self._next_ns + (late // self._period_ns + 1) * self._period_ns
+            )
 
 
 class Rate:

@@ -1,5 +1,8 @@
 """Waiting for one message."""
 
+# The modules of rclpy share what its users do not see.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
 import time
@@ -7,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 from coframe._core import Event
 from coframe.messages import codec
-
 from rclpy.constants import S_TO_NS
 from rclpy.qos import QoSProfile, qos_from
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from types import CodeType
-from typing import Final, TextIO
+from typing import TYPE_CHECKING, Final, TextIO
 
 from rclpy.impl.logging_severity import LoggingSeverity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from types import CodeType
 
 _DEFAULT_FORMAT: Final = "[{severity}] [{time}] [{name}]: {message}"
 _RESET: Final = "\033[0m"

@@ -1,17 +1,21 @@
 """Loggers, with the filters `once`, `throttle_duration_sec` and `skip_first` for each place in the code."""
 
+# The modules of rclpy share what its users do not see.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
 import sys
 import time
 from dataclasses import dataclass, field
-from types import FrameType
 from typing import TYPE_CHECKING, Any, Final
 
 from rclpy.impl.console import Record, console
 from rclpy.impl.logging_severity import LoggingSeverity
 
 if TYPE_CHECKING:
+    from types import FrameType
+
     from rclpy.clock import Clock
 
 _OPTIONS: Final = ("once", "throttle_duration_sec", "throttle_time_source_type", "skip_first")
