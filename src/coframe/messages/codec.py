@@ -3,22 +3,24 @@
 from __future__ import annotations
 
 import struct
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from coframe.errors import DecodeError
+from coframe.messages.decoding import decoding
+from coframe.messages.encoding import encoding
+from coframe.messages.layout import HEADER_SIZE, Order
 from coframe.messages.message import Message
-from coframe.messages.plan import HEADER_SIZE, Decoder, Order, encoder
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from coframe.messages.compiler import Plan
 
 M = TypeVar("M", bound=Message)
 
 _LITTLE_ENDIAN_HEADER = b"\x00\x01\x00\x00"
 _ORDERS: dict[bytes, Order] = {b"\x00\x00": ">", b"\x00\x01": "<"}
 
-_encoders: dict[type, Callable[[bytearray, Any], None]] = {}
-_decoders: dict[tuple[type, bytes], Decoder] = {}
+_encodings: dict[type, Plan] = {}
+_decodings: dict[tuple[type, bytes], Plan] = {}
 
 
 def serialize(message: Message) -> bytes:
@@ -29,14 +31,13 @@ def serialize(message: Message) -> bytes:
         ValueError: a field holds a value the type cannot carry: too large, too long, a NUL inside a text.
     """
     cls = type(message)
+    plan = _encodings.get(cls) or _new_encoding(cls)
     out = bytearray(_LITTLE_ENDIAN_HEADER)
     try:
-        encode = _encoders.get(cls) or _new_encoder(cls)
-        encode(out, message)
-    except (AttributeError, TypeError) as error:
-        raise TypeError(f"cannot serialize {_name(cls)}: {error}") from error
-    except (struct.error, ValueError, OverflowError) as error:
-        raise ValueError(f"cannot serialize {_name(cls)}: {error}") from error
+        plan.run(out, message)
+    except (struct.error, AttributeError, TypeError, ValueError, OverflowError) as error:
+        kind = TypeError if isinstance(error, (AttributeError, TypeError)) else ValueError
+        raise kind(f"cannot serialize {cls.ROS_TYPE}, field {plan.where(error)[0]}: {error}") from error
     return bytes(out)
 
 
@@ -48,32 +49,35 @@ def deserialize(data: bytes, cls: type[M]) -> M:
     """
     data = bytes(data)
     if len(data) < HEADER_SIZE:
-        raise _header_error(cls, data)
-    decoder = _decoders.get((cls, data[:2])) or _new_decoder(cls, data)
+        raise _header_error(_message_class(cls), data)
+    plan = _decodings.get((cls, data[:2])) or _new_decoding(cls, data)
     try:
-        message: M = decoder.run(data)
+        message: M = plan.run(data)
     except (struct.error, ValueError) as error:
-        raise _decode_error(error, decoder, data, cls) from None
+        raise _decode_error(error, plan, data, cls) from None
     return message
 
 
-def _name(cls: type) -> str:
-    return getattr(cls, "ROS_TYPE", None) or f"an object of type {cls.__name__}"
+def _new_encoding(cls: type) -> Plan:
+    _encodings[cls] = encoding(_message_class(cls))
+    return _encodings[cls]
 
 
-def _new_encoder(cls: type) -> Callable[[bytearray, Any], None]:
-    if not issubclass(cls, Message):
-        raise TypeError("it is not a message")
-    _encoders[cls] = encoder(cls)
-    return _encoders[cls]
-
-
-def _new_decoder(cls: type[Message], data: bytes) -> Decoder:
+def _new_decoding(cls: type, data: bytes) -> Plan:
     order = _ORDERS.get(data[:2])
     if order is None:
-        raise _header_error(cls, data)
-    _decoders[cls, data[:2]] = Decoder(cls, order)
-    return _decoders[cls, data[:2]]
+        raise _header_error(_message_class(cls), data)
+    _decodings[cls, data[:2]] = decoding(_message_class(cls), order)
+    return _decodings[cls, data[:2]]
+
+
+def _message_class(cls: type) -> type[Message]:
+    if not issubclass(cls, Message):
+        raise TypeError(
+            f"{cls.__module__}.{cls.__qualname__} is not a message class; "
+            "services and actions travel as their parts, for example SetBool.Request"
+        )
+    return cls
 
 
 def _header_error(cls: type[Message], data: bytes) -> DecodeError:
@@ -84,9 +88,9 @@ def _header_error(cls: type[Message], data: bytes) -> DecodeError:
     )
 
 
-def _decode_error(error: Exception, decoder: Decoder, data: bytes, cls: type[Message]) -> DecodeError:
-    offset, fields = decoder.where(error)
-    expected = str(error)
+def _decode_error(error: Exception, plan: Plan, data: bytes, cls: type[Message]) -> DecodeError:
+    fields, variables = plan.where(error)
+    offset, expected = variables["pos"], str(error)
     if isinstance(error, struct.error):
         expected = f"more than the {max(len(data) - offset, 0)} bytes that are left"
     if isinstance(error, UnicodeDecodeError):

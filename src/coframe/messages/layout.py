@@ -1,0 +1,90 @@
+"""Where numbers lie in CDR.
+
+CDR (XCDR1) aligns every number to its own size, counted from the end of the 4-byte encapsulation header. Texts make
+the offsets after them unknown, but never wholly: after a 4-byte length, an offset is a multiple of four again.
+"""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+from coframe.messages.definition import AbstractType, Array, BasicType, NamespacedType
+from coframe.messages.fields import NUMBERS
+from coframe.messages.registry import find
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+Order = Literal["<", ">"]  # little or big endian, as struct and numpy write it
+
+HEADER_SIZE = 4
+CODES = {"boolean": "?", "octet": "c", **{name: number.code for name, number in NUMBERS.items()}}
+WITHOUT_MEMBERS = "B"  # C has no empty structures: rosidl puts one byte into them
+_SIZES = {code: struct.calcsize(f"<{code}") for code in "?cbBhHiIqQfd"}
+
+
+class Offset(NamedTuple):
+    """What is known about an offset: its remainder when divided by modulus (1, 2, 4 or 8)."""
+
+    modulus: int
+    remainder: int
+
+    def __add__(self, size: int) -> Offset:  # type: ignore[override]
+        return Offset(self.modulus, (self.remainder + size) % self.modulus)
+
+    def __or__(self, other: Offset) -> Offset:
+        modulus = min(self.modulus, other.modulus)
+        while self.remainder % modulus != other.remainder % modulus:
+            modulus //= 2
+        return Offset(modulus, self.remainder % modulus)
+
+    def starts(self, alignment: int) -> list[int]:
+        """The remainders modulo `alignment` that the offset can have."""
+        step = min(self.modulus, alignment)
+        return list(range(self.remainder % step, alignment, step))
+
+
+class Run(NamedTuple):
+    """Neighbouring numbers, after the NUL of a text where there is one: their layout for each possible start."""
+
+    layouts: dict[int, struct.Struct]
+    alignment: int
+    end: Offset
+
+    def by_offset(self, entry: Callable[[struct.Struct], Any]) -> tuple[Any, ...]:
+        """The entries of the layouts by the offset from the message's first byte, modulo the alignment."""
+        starts = ((index - HEADER_SIZE) % self.alignment for index in range(self.alignment))
+        return tuple(entry(self.layouts[start]) if start in self.layouts else None for start in starts)
+
+
+def plan_run(codes: str, start: Offset, order: str, *, after_text: bool) -> Run:
+    """Lays neighbouring numbers out for every offset they can start at."""
+    alignment = max((_SIZES[code] for code in codes), default=1)
+    layouts: dict[int, struct.Struct] = {}
+    end: Offset | None = None
+    for first in start.starts(alignment):
+        position, text = first, order
+        if after_text:
+            position, text = position + 1, text + "x"
+        for code in codes:
+            padding = -position % _SIZES[code]
+            position += padding + _SIZES[code]
+            text += "x" * padding + code
+        layouts[first] = struct.Struct(text)
+        reached = Offset(max(start.modulus, alignment), 0) + position
+        if start.modulus > alignment:
+            reached = start + (position - first)
+        end = reached if end is None else end | reached
+    assert end is not None
+    return Run(layouts, alignment, end)
+
+
+def smallest_size(type_: AbstractType) -> int:
+    """The least number of bytes a value can take; never 0, so that a length can be held against what is there."""
+    if isinstance(type_, NamespacedType):
+        cls = find("/".join(type_.namespaced_name()))
+        return max(1, sum(map(smallest_size, cls.SLOT_TYPES)))
+    if isinstance(type_, Array):
+        return type_.size * smallest_size(type_.value_type)
+    return _SIZES[CODES[type_.typename]] if isinstance(type_, BasicType) else 4
