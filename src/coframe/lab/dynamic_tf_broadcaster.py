@@ -82,33 +82,35 @@ class DynamicFramePublisher(Node):
 
     def joint_callback(self, msg: JointState) -> None:
         """Handle real joint state messages."""
-        positions = self.arm_positions(msg)
-        if positions is None:
+        try:
+            q1, q2 = self.arm_positions(msg)
+        except ValueError as e:
+            self.get_logger().warning(f"Joint state ignored: {e}", throttle_duration_sec=5.0)
             return
         now = self.get_clock().now()
         if self.last_joint_state is None:
             self.get_logger().info("Joint states arrive: the arm follows them instead of the simulation")
         self.last_joint_state = now
         stamp = Time.from_msg(msg.header.stamp)
-        self.broadcast_arm_transforms(*positions, stamp if stamp.nanoseconds else now)
+        self.broadcast_arm_transforms(q1, q2, stamp if stamp.nanoseconds else now)
 
-    def arm_positions(self, msg: JointState) -> tuple[float, float] | None:
-        """The angles of the two joints; None, with a warning, if the message does not tell them."""
+    def arm_positions(self, msg: JointState) -> tuple[float, float]:
+        """The angles of the two joints: by name if the message has them, else the first two.
+
+        Raises:
+            ValueError: The message does not tell them.
+        """
         names = list(msg.name)
         ours = [name for name in self.joint_names if name in names]
         if len(ours) == 1:
-            return self.ignore(f"it has {ours[0]!r} but not both of {self.joint_names}")
-        indices = [names.index(name) for name in ours] or [0, 1]
-        if len(msg.position) <= max(indices):
-            return self.ignore(f"it has {len(msg.position)} positions for {len(names)} names")
-        q1, q2 = (msg.position[index] for index in indices)
+            raise ValueError(f"it has {ours[0]!r} but not both of {self.joint_names}")
+        first, second = (names.index(name) for name in ours) if ours else (0, 1)
+        if len(msg.position) <= max(first, second):
+            raise ValueError(f"it has {len(msg.position)} positions and {len(names)} names")
+        q1, q2 = msg.position[first], msg.position[second]
         if not (math.isfinite(q1) and math.isfinite(q2)):
-            return self.ignore(f"its positions are {q1} and {q2}")
+            raise ValueError(f"its positions are {q1} and {q2}")
         return q1, q2
-
-    def ignore(self, reason: str) -> None:
-        """Say why a joint state is ignored, but not with every message."""
-        self.get_logger().warning(f"Joint state ignored: {reason}", throttle_duration_sec=5.0)
 
     def broadcast_arm_transforms(self, q1: float, q2: float, time: Time) -> None:
         """Broadcast the transforms of the 2-link arm, all in one message: nobody sees half an arm."""

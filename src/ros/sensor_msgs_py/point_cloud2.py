@@ -75,10 +75,10 @@ def read_points_numpy(
 
     The arguments are those of `read_points`.
     """
-    assert all(cloud.fields[0].datatype == field.datatype for field in cloud.fields[1:]), (
-        "All fields need to have the same datatype. Use `read_points()` otherwise."
-    )
-    return structured_to_unstructured(read_points(cloud, field_names, skip_nans, uvs, reshape_organized_cloud))
+    points = read_points(cloud, field_names, skip_nans, uvs, reshape_organized_cloud)
+    types = {points.dtype[name] for name in points.dtype.names or ()}
+    assert len(types) <= 1, "All fields need to have the same datatype. Use `read_points()` otherwise."
+    return np.asarray(structured_to_unstructured(points))
 
 
 def read_points_list(
@@ -114,10 +114,11 @@ def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = Non
             names.append(element_name)
             formats.append(datatype)
             offsets.append(field.offset + element * datatype.itemsize)
-    description: dict[str, Any] = {"names": names, "formats": formats, "offsets": offsets}
+    description: Any = {"names": names, "formats": formats, "offsets": offsets}
     if point_step is not None:
         description["itemsize"] = point_step
-    return np.dtype(description)  # type: ignore[call-overload, no-any-return]
+    dtype: np.dtype[Any] = np.dtype(description)
+    return dtype
 
 
 def create_cloud(
@@ -169,8 +170,9 @@ def as_structured(cloud: PointCloud2) -> NDArray[Any]:
     """The cloud's bytes as a structured array, shape (height, width), in the cloud's byte order; not a copy."""
     dtype = dtype_from_fields(cloud.fields, cloud.point_step).newbyteorder(">" if cloud.is_bigendian else "<")
     row_step = cloud.row_step or cloud.point_step * cloud.width
-    shape = (cloud.height, cloud.width)
-    return np.ndarray(shape, dtype, buffer=cloud.data, strides=(row_step, cloud.point_step))
+    strides = (row_step, cloud.point_step)
+    points: NDArray[Any] = np.ndarray((cloud.height, cloud.width), dtype, buffer=cloud.data, strides=strides)
+    return points
 
 
 def _has_nan(points: NDArray[Any]) -> NDArray[np.bool_]:
@@ -188,7 +190,8 @@ def _structured(fields: list[PointField], points: Any, point_step: int | None) -
         assert all(fields[0].datatype == field.datatype for field in fields[1:]), (
             "All fields need to have the same datatype. Pass a structured NumPy array with multiple dtypes otherwise."
         )
-        return np.asarray(unstructured_to_structured(points, dtype=dtype))
+        structured: NDArray[Any] = unstructured_to_structured(points, dtype=dtype)
+        return structured
     assert points.dtype == dtype, (
         "PointFields and structured NumPy array dtype do not match for all fields! "
         "Check their field order, names and types."

@@ -143,7 +143,7 @@ class BufferCore:
             interval=_convert.nanoseconds(averaging_interval, "duration"),
         )
 
-    def lookupVelocityFullCore(  # noqa: PLR0917 - tf2's signature
+    def lookupVelocityFullCore(
         self,
         tracking_frame: str,
         observation_frame: str,

@@ -1,0 +1,131 @@
+"""tf2 for nodes: buffers, listeners and broadcasters of transforms.
+
+Upstream's package has no `__all__`; programs import what its modules happen to import, so those names are here as well.
+"""
+
+import threading
+import warnings
+from collections.abc import Callable
+from copy import deepcopy
+from threading import Thread
+from time import sleep
+from typing import Any, Dict, List, NoReturn, Optional, Tuple, Type, TypeVar, Union  # noqa: UP035 - leaked upstream
+
+import builtin_interfaces
+import rclpy
+import tf2_py as tf2
+from geometry_msgs.msg import (
+    PointStamped,
+    PoseStamped,
+    PoseWithCovarianceStamped,
+    TransformStamped,
+    Vector3Stamped,
+)
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.clock import Clock, JumpThreshold, TimeJump
+from rclpy.duration import Duration
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+from rclpy.task import Future
+from rclpy.time import Time
+from sensor_msgs.msg import PointCloud2
+from std_msgs.msg import Header
+from tf2_msgs.action import LookupTransform
+from tf2_msgs.msg import TFMessage
+from tf2_msgs.srv import FrameGraph
+from tf2_py import (
+    BufferCore,
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
+from tf2_ros.buffer import Buffer
+from tf2_ros.buffer_interface import (
+    BufferInterface,
+    ConvertRegistration,
+    MsgStamped,
+    NotImplementedException,
+    PyKDLType,
+    Stamped,
+    TransformableObject,
+    TransformableObjectType,
+    TransformRegistration,
+    TypeException,
+    convert,
+)
+from tf2_ros.static_transform_broadcaster import DEFAULT_STATIC_TF_TOPIC, StaticTransformBroadcaster
+from tf2_ros.static_transform_listener import StaticTransformListener
+from tf2_ros.transform_broadcaster import DEFAULT_TF_TOPIC, TransformBroadcaster
+from tf2_ros.transform_listener import TransformListener
+
+__all__ = [
+    "DEFAULT_STATIC_TF_TOPIC",
+    "DEFAULT_TF_TOPIC",
+    "Any",
+    "Buffer",
+    "BufferCore",
+    "BufferInterface",
+    "Callable",
+    "Clock",
+    "ConnectivityException",
+    "ConvertRegistration",
+    "Dict",
+    "DurabilityPolicy",
+    "Duration",
+    "ExtrapolationException",
+    "FrameGraph",
+    "Future",
+    "Header",
+    "HistoryPolicy",
+    "InvalidArgumentException",
+    "JumpThreshold",
+    "List",
+    "LookupException",
+    "LookupTransform",
+    "MsgStamped",
+    "NoReturn",
+    "Node",
+    "NotImplementedException",
+    "Optional",
+    "PointCloud2",
+    "PointStamped",
+    "PoseStamped",
+    "PoseWithCovarianceStamped",
+    "PyKDLType",
+    "QoSProfile",
+    "ReentrantCallbackGroup",
+    "SingleThreadedExecutor",
+    "Stamped",
+    "StaticTransformBroadcaster",
+    "StaticTransformListener",
+    "TFMessage",
+    "Thread",
+    "Time",
+    "TimeJump",
+    "TimeoutException",
+    "TransformBroadcaster",
+    "TransformException",
+    "TransformListener",
+    "TransformRegistration",
+    "TransformStamped",
+    "TransformableObject",
+    "TransformableObjectType",
+    "Tuple",
+    "Type",
+    "TypeException",
+    "TypeVar",
+    "Union",
+    "Vector3Stamped",
+    "builtin_interfaces",
+    "convert",
+    "deepcopy",
+    "rclpy",
+    "sleep",
+    "tf2",
+    "threading",
+    "warnings",
+]

@@ -1,0 +1,30 @@
+"""A listener for static transforms only."""
+
+import tf2_py as tf2
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from tf2_ros.static_transform_broadcaster import DEFAULT_STATIC_TF_TOPIC
+from tf2_ros.transform_listener import TransformListener
+
+
+class StaticTransformListener(TransformListener):
+    """Fills a buffer from `/tf_static` and leaves `/tf` alone: sensor mounts cost nothing at run time."""
+
+    def __init__(
+        self,
+        buffer: tf2.BufferCore,
+        node: Node | None = None,
+        *,
+        spin_thread: bool = False,
+        static_qos: QoSProfile | int | None = None,
+        tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
+    ) -> None:
+        """Start listening; the arguments are those of `TransformListener`."""
+        super().__init__(
+            buffer,
+            node,
+            spin_thread=spin_thread,
+            static_qos=static_qos,
+            tf_static_topic=tf_static_topic,
+            static_only=True,
+        )

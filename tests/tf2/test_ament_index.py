@@ -1,0 +1,51 @@
+"""Finding packages."""
+
+import pytest
+
+from ament_index_python import PackageNotFoundError
+from ament_index_python.packages import (
+    get_package_prefix,
+    get_package_share_directory,
+    get_package_share_path,
+    get_packages_with_prefixes,
+)
+
+
+@pytest.fixture
+def places(tmp_path, monkeypatch):
+    """An installed package `arm` and, in a source tree, `rover`; both have a `shared` one."""
+    prefix, sources = tmp_path / "install", tmp_path / "src"
+    index = prefix / "share" / "ament_index" / "resource_index" / "packages"
+    index.mkdir(parents=True)
+    for name in ("arm", "shared"):
+        (index / name).touch()
+        (prefix / "share" / name).mkdir()
+    for name in ("rover", "shared"):
+        (sources / name).mkdir(parents=True)
+        (sources / name / "package.xml").touch()
+    monkeypatch.setenv("AMENT_PREFIX_PATH", f"/nowhere:{prefix}")
+    monkeypatch.setenv("COFRAME_PACKAGE_PATH", str(sources))
+    return prefix, sources
+
+
+def test_installed_packages_and_source_trees(places):
+    prefix, sources = places
+    assert get_package_share_directory("arm") == str(prefix / "share" / "arm")
+    assert get_package_prefix("arm") == str(prefix)
+    assert get_package_share_path("rover") == sources / "rover"
+    assert get_package_prefix("shared") == str(prefix)
+    assert get_packages_with_prefixes() == {"arm": str(prefix), "shared": str(prefix), "rover": str(sources)}
+
+
+def test_a_missing_package_says_where_it_was_looked_for(places):
+    with pytest.raises(PackageNotFoundError) as caught:
+        get_package_share_directory("gripper")
+    assert str(caught.value).startswith(f"package 'gripper' not found, searching: ['{places[0]}', '{places[1]}']")
+    assert isinstance(caught.value, KeyError)
+
+
+@pytest.mark.parametrize("name", ["", "../etc", "a/b", "1st"])
+@pytest.mark.usefixtures("places")
+def test_names_that_are_no_package_names(name):
+    with pytest.raises(ValueError, match="is not a valid package name"):
+        get_package_share_directory(name)

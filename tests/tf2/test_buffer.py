@@ -1,0 +1,240 @@
+"""tf2_ros.Buffer without a graph: waiting, futures, transform()."""
+
+import gc
+import threading
+import time
+import warnings
+
+import pytest
+
+import tf2_geometry_msgs  # noqa: F401 - registers the geometry messages
+import tf2_ros
+from coframe import _core
+from geometry_msgs.msg import PointStamped, Pose, PoseStamped
+from rclpy.duration import Duration
+from rclpy.time import Time
+
+
+def insert_later(buffer, message, started):
+    """A thread that inserts once the main thread is about to wait."""
+
+    def insert():
+        started.wait()
+        buffer.set_transform(message, "later")
+
+    thread = threading.Thread(target=insert)
+    thread.start()
+    return thread
+
+
+@pytest.fixture
+def buffer():
+    return tf2_ros.Buffer()
+
+
+def test_lookup_and_can_transform(buffer, stamped):
+    buffer.set_transform(stamped("a", "b", 1.0, (1.0, 2.0, 3.0)), "me")
+    assert buffer.lookup_transform("a", "b", Time()).transform.translation.z == 3.0
+    assert buffer.can_transform("a", "b", Time()) == 1
+    assert type(buffer.can_transform("a", "b", Time())) is int
+    assert buffer.can_transform("a", "b", Time(), return_debug_tuple=True) == (1, "")
+    assert buffer.can_transform_full("a", Time(), "b", Time(), "a") == 1
+    assert buffer.lookup_transform_full("a", Time(), "b", Time(), "a").child_frame_id == "b"
+    assert isinstance(buffer, tf2_ros.BufferCore)
+    assert isinstance(buffer, tf2_ros.BufferInterface)
+
+
+def test_the_cache_time_may_be_named(stamped):
+    buffer = tf2_ros.Buffer(cache_time=Duration(seconds=1))
+    for seconds in (10.0, 12.0, 14.0):
+        buffer.set_transform(stamped("a", "b", seconds), "me")
+    assert not buffer.can_transform("a", "b", Time(seconds=10))
+
+
+def test_a_lookup_waits_until_the_transform_is_there(buffer, stamped):
+    started = threading.Event()
+    thread = insert_later(buffer, stamped("a", "b", 1.0), started)
+    begin = time.monotonic()
+    started.set()
+    assert buffer.lookup_transform("a", "b", Time(seconds=1), timeout=Duration(seconds=30)).child_frame_id == "b"
+    assert time.monotonic() - begin < 10.0
+    thread.join()
+
+
+def test_can_transform_waits_as_well(buffer, stamped):
+    started = threading.Event()
+    thread = insert_later(buffer, stamped("a", "b", 1.0), started)
+    started.set()
+    assert buffer.can_transform("a", "b", Time(seconds=1), Duration(seconds=30)) == 1
+    thread.join()
+
+
+def test_when_the_time_is_over_the_lookup_says_what_is_missing(buffer):
+    begin = time.monotonic()
+    with pytest.raises(tf2_ros.LookupException, match='"a" passed to lookupTransform argument target_frame'):
+        buffer.lookup_transform("a", "b", Time(), timeout=Duration(seconds=0.05))
+    assert time.monotonic() - begin >= 0.05
+    answer = buffer.can_transform_full("a", Time(), "b", Time(), "c", Duration(seconds=0.01), return_debug_tuple=True)
+    assert answer[0] == 0
+    assert "frame does not exist" in answer[1]
+
+
+def test_a_float_is_no_timeout(buffer):
+    with pytest.raises(TypeError):
+        buffer.lookup_transform("a", "b", Time(), timeout=0.1)
+
+
+def test_a_coroutine_goes_on_after_set_transform(buffer, stamped):
+    coroutine = buffer.lookup_transform_async("a", "b", Time(seconds=1))
+    coroutine.send(None)
+    buffer.set_transform(stamped("a", "b", 1.0, (7.0, 0.0, 0.0)), "me")
+    with pytest.raises(StopIteration) as stop:
+        coroutine.send(None)
+    assert stop.value.value.transform.translation.x == 7.0
+
+
+def test_a_full_coroutine_goes_on_after_set_transform_static(buffer, stamped):
+    coroutine = buffer.lookup_transform_full_async("a", Time(), "b", Time(), "a")
+    coroutine.send(None)
+    buffer.set_transform_static(stamped("a", "b"), "me")
+    with pytest.raises(StopIteration) as stop:
+        coroutine.send(None)
+    assert stop.value.value.header.frame_id == "a"
+
+
+def test_a_future_completes_in_the_thread_that_inserts(buffer, stamped):
+    future = buffer.wait_for_transform_async("a", "b", Time(seconds=1))
+    threads = []
+    future.add_done_callback(lambda _: threads.append(threading.current_thread()))
+    buffer.set_transform(stamped("a", "c", 1.0), "me")
+    assert not future.done()
+    buffer.set_transform(stamped("a", "b", 1.0), "me")
+    assert future.done()
+    assert threads == [threading.current_thread()]
+    assert future.result().child_frame_id == "b"
+
+
+def test_a_future_of_a_known_transform_is_done_at_once(buffer, stamped):
+    buffer.set_transform(stamped("a", "b", 1.0), "me")
+    assert buffer.wait_for_transform_async("a", "b", Time()).result().child_frame_id == "b"
+    assert buffer.wait_for_transform_full_async("a", Time(), "b", Time(), "a").done()
+
+
+def test_a_future_completes_when_data_come_in_natively(buffer):
+    future = buffer.wait_for_transform_async("a", "b", Time(seconds=1))
+    done = _core.Event()
+    future.add_done_callback(lambda _: done.set())
+    # Past everything of Python's, as a reader on the wire does.
+    buffer._buffer.set_values("a", "b", 1_000_000_000, *(0.0,) * 6, 1.0, False, "wire")
+    assert done.wait(10_000_000_000)
+    assert future.result().header.frame_id == "a"
+
+
+def test_an_async_timeout_raises_what_the_lookup_raises(buffer):
+    future = buffer.wait_for_transform_async("a", "b", Time(), timeout=Duration(seconds=0.02))
+    done = _core.Event()
+    future.add_done_callback(lambda _: done.set())
+    assert done.wait(10_000_000_000)
+    with pytest.raises(tf2_ros.LookupException):
+        future.result()
+
+
+def test_cancelled_futures_are_forgotten(buffer, stamped):
+    future = buffer.wait_for_transform_async("a", "b", Time())
+    future.cancel()
+    buffer.set_transform(stamped("a", "b", 1.0), "me")
+    assert not future.done()
+    assert buffer._waits._pending == []
+
+
+def test_the_waiting_thread_ends_with_the_waits(buffer, stamped):
+    assert buffer._waits._watcher is None
+    buffer.wait_for_transform_async("a", "b", Time())
+    watcher = buffer._waits._watcher
+    assert watcher.daemon
+    buffer.set_transform(stamped("a", "b", 1.0), "me")
+    watcher.join(10.0)
+    assert not watcher.is_alive()
+
+
+def test_a_dropped_buffer_takes_its_thread_along():
+    buffer = tf2_ros.Buffer()
+    buffer.wait_for_transform_async("a", "b", Time())
+    watcher = buffer._waits._watcher
+    del buffer
+    deadline = time.monotonic() + 10.0
+    while watcher.is_alive() and time.monotonic() < deadline:
+        gc.collect()
+        watcher.join(0.01)
+    assert not watcher.is_alive()
+
+
+def test_a_jump_back_in_time_clears(buffer, stamped):
+    buffer.set_transform(stamped("a", "b", 1.0), "me")
+    buffer.time_jump_callback(None)
+    assert not buffer.can_transform("a", "b", Time())
+
+
+def test_transform_expresses_data_in_another_frame(buffer, stamped):
+    buffer.set_transform(stamped("a", "b", 1.0, (1.0, 0.0, 0.0)), "me")
+    buffer.set_transform(stamped("a", "b", 2.0, (2.0, 0.0, 0.0)), "me")
+    point = PointStamped()
+    point.header.frame_id = "b"
+    point.header.stamp.sec = 1
+    point.point.y = 5.0
+    moved = buffer.transform(point, "a")
+    assert (moved.point.x, moved.point.y) == (1.0, 5.0)
+    assert moved.header.frame_id == "a"
+    travelled = buffer.transform_full(point, "b", Time(seconds=2), "a")
+    assert travelled.point.x == -1.0
+    assert buffer.transform(point, "a", new_type=PointStamped) == moved
+
+
+def test_a_type_nobody_registered(buffer):
+    with pytest.raises(tf2_ros.TypeException) as caught:
+        buffer.transform(Pose(), "a")
+    assert caught.value.errstr == f"Type {Pose} is not loaded or supported"
+
+
+def test_convert():
+    pose = PoseStamped()
+    copy = tf2_ros.convert(pose, PoseStamped)
+    assert copy == pose
+    assert copy is not pose
+
+    class Mine:
+        pass
+
+    with pytest.raises(tf2_ros.TypeException):
+        tf2_ros.convert(pose, Mine)
+    tf2_ros.ConvertRegistration().add_from_msg(Mine, lambda _: Mine())
+    assert isinstance(tf2_ros.convert(pose, Mine), Mine)
+    tf2_ros.ConvertRegistration().add_convert((Mine, int), lambda _: 3)
+    assert tf2_ros.convert(Mine(), int) == 3
+
+
+def test_an_interface_without_a_buffer_answers_nothing():
+    with pytest.raises(tf2_ros.NotImplementedException):
+        tf2_ros.BufferInterface().lookup_transform("a", "b", Time())
+
+
+def test_stamped():
+    point = PointStamped()
+    assert tf2_ros.Stamped(point, Time(seconds=3).to_msg(), "a") is point
+    assert (point.header.frame_id, point.header.stamp.sec) == ("a", 3)
+
+
+def test_names_that_upstream_leaks():
+    leaked = """
+        TransformStamped PointStamped PoseStamped PoseWithCovarianceStamped Vector3Stamped PointCloud2 Header TFMessage
+        Time Duration Node Future QoSProfile DurabilityPolicy HistoryPolicy ReentrantCallbackGroup Clock FrameGraph
+        SingleThreadedExecutor LookupTransform Thread sleep deepcopy threading warnings builtin_interfaces rclpy tf2
+        MsgStamped PyKDLType TransformableObject TransformableObjectType JumpThreshold TimeJump DEFAULT_TF_TOPIC
+        DEFAULT_STATIC_TF_TOPIC TransformException StaticTransformListener
+    """
+    assert [name for name in leaked.split() if not hasattr(tf2_ros, name)] == []
+    assert tf2_ros.warnings is warnings
+    namespace = {}
+    exec("from tf2_ros import *", namespace)
+    assert namespace["Buffer"] is tf2_ros.Buffer
+    assert namespace["TransformStamped"] is tf2_ros.TransformStamped
