@@ -2,6 +2,9 @@
 
 import itertools
 import os
+import shutil
+import subprocess
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -25,3 +28,40 @@ def shared() -> Path:
     if not folder.is_dir():
         pytest.skip("no folder `shared` beside the project: recordings and wire samples are not there")
     return folder
+
+
+class Network:
+    """A network namespace with nothing but a loopback interface: foreign RTPS programs use every interface they see."""
+
+    def __init__(self) -> None:
+        self._rights = [] if os.geteuid() == 0 else ["--user", "--map-root-user"]
+        self._holder = subprocess.Popen(
+            ["unshare", *self._rights, "--net", "sh", "-c", _UP], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+        )
+        if self._holder.stdout.readline() != "up\n":
+            self.close()
+            pytest.skip("no network namespace can be made here (unshare --net)")
+
+    def command(self, *command: object) -> list[str]:
+        """The command, to be run inside."""
+        user = ["--user", "--preserve-credentials"] if self._rights else []
+        return ["nsenter", "--target", str(self._holder.pid), *user, "--net", *map(str, command)]
+
+    def close(self) -> None:
+        """The namespace goes with its last process."""
+        self._holder.stdin.close()
+        self._holder.wait(10)
+        self._holder.stdout.close()
+
+
+_UP = "ip link set lo up && ip link set lo multicast on && echo up && exec cat"
+
+
+@pytest.fixture
+def network() -> Iterator[Network]:
+    """A network of this test's own."""
+    if not (shutil.which("unshare") and shutil.which("nsenter") and shutil.which("ip")):
+        pytest.skip("network namespaces need unshare, nsenter and ip")
+    network = Network()
+    yield network
+    network.close()

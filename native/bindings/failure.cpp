@@ -88,10 +88,10 @@ std::string text_of(const FailureObject& object) {
   });
 }
 
-void raise_failure(FailureObject failure) {
+nb::object raise_failure(FailureObject failure) {
   nb::object cls = errors_module.attr(exception_name(failure));
   PyErr_SetObject(cls.ptr(), nb::cast(std::move(failure)).ptr());
-  throw nb::python_error();
+  return nb::object();
 }
 
 void raise_decode_error(const DecodeFailure& failure) {

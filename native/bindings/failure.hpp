@@ -24,8 +24,9 @@ struct FailureObject {
 
 std::string text_of(const FailureObject& failure);
 
-// Raises the registered exception that belongs to the failure's code.
-[[noreturn]] void raise_failure(FailureObject failure);
+// Sets the registered exception that belongs to the failure's code, for the caller to return at once: a C++ throw
+// would cost more than the look-up.
+nb::object raise_failure(FailureObject failure);
 [[noreturn]] void raise_decode_error(const DecodeFailure& failure);
 
 }  // namespace coframe::bindings

@@ -100,7 +100,7 @@ class Buffer(_core.Buffer):
         _check_frames(parent, child, transform)
         when = transform.stamp if stamp is None else time.stamp_ns(stamp)
         if when is None and not static:
-            raise InvalidArgumentException(
+            raise InvalidArgumentException.telling(
                 f"a dynamic transform from {parent!r} to {child!r} needs a stamp",
                 hint="Give stamp=..., or static=True if it never changes.",
             )
@@ -108,7 +108,7 @@ class Buffer(_core.Buffer):
         refusals = self.set_values(*facts, static, authority)
         errors_found = [text for level, text in _core.insert_texts(refusals, *facts, authority) if level == "error"]
         if errors_found:
-            raise InvalidArgumentException(
+            raise InvalidArgumentException.telling(
                 "\n".join(errors_found), target=parent, source=child, edge=(parent, child), hint=_REFUSED_HINT
             )
         return refusals == 0
@@ -124,7 +124,7 @@ class Buffer(_core.Buffer):
         try:
             return self.lookup(target, source, stamp, timeout=sys.maxsize if timeout is None else timeout)
         except TransformException as error:
-            raise TimeoutException(
+            raise TimeoutException.telling(
                 f"waited {timeout} in vain for the transform from {source!r} to {target!r}: {error}",
                 target=error.target,
                 source=error.source,
@@ -160,7 +160,7 @@ def _cache_ns(cache: DurationLike) -> int:
 def _check_frames(parent: str, child: str, transform: Transform) -> None:
     told = (transform.target or parent, transform.source or child)
     if told != (parent, child):
-        raise InvalidArgumentException(
+        raise InvalidArgumentException.telling(
             f"the transform is {told[0]} <- {told[1]}, but is set as {parent} <- {child}",
             target=parent,
             source=child,

@@ -18,7 +18,14 @@ behind its text, where they apply, and ``hint``: what to do next.
 from __future__ import annotations
 
 import difflib
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe import _core
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
+    from coframe._core import Failure
 
 __all__ = [
     "ConnectivityException",
@@ -33,41 +40,17 @@ __all__ = [
 ]
 
 
-class Failure(Protocol):
-    """The facts of a failed look-up, as the native core gives them; ``str(failure)`` is tf2's text."""
-
-    @property
-    def code(self) -> str:
-        """One of the core's error codes, such as ``"too_new"``."""
-
-    @property
-    def target(self) -> str: ...
-    @property
-    def source(self) -> str: ...
-    @property
-    def requested(self) -> int | None: ...
-    @property
-    def earliest(self) -> int | None: ...
-    @property
-    def latest(self) -> int | None: ...
-    @property
-    def edge(self) -> tuple[str, str] | None: ...
-    @property
-    def roots(self) -> tuple[str, str] | None: ...
-    @property
-    def name(self) -> str: ...
-    @property
-    def parents(self) -> dict[str, str]: ...
-
-
 class _Facts(NamedTuple):
-    target: str | None
-    source: str | None
-    requested: int | None
-    earliest: int | None
-    latest: int | None
-    edge: tuple[str, str] | None
-    hint: str
+    target: str | None = None
+    source: str | None = None
+    requested: int | None = None
+    earliest: int | None = None
+    latest: int | None = None
+    edge: tuple[str, str] | None = None
+    hint: str = ""
+
+
+_NO_FACTS = _Facts()
 
 
 class TransformException(Exception):  # noqa: N818 - tf2's name
@@ -76,9 +59,14 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
     ``str(error)`` is the text; the properties are the facts behind it, None where they do not apply.
     """
 
-    def __init__(
-        self,
-        reason: str | Failure = "",
+    # An exception of the core holds its Failure in `args` and has no __init__ to run: most failed look-ups are caught
+    # and forgotten, and neither their text nor their facts are ever asked for.
+    _told: _Facts = _NO_FACTS
+
+    @classmethod
+    def telling(
+        cls,
+        reason: str,
         *,
         target: str | None = None,
         source: str | None = None,
@@ -87,12 +75,19 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
         latest: int | None = None,
         edge: tuple[str, str] | None = None,
         hint: str = "",
-    ) -> None:
-        super().__init__(reason)
-        # A failure is asked only when somebody reads it: most failed look-ups are caught and forgotten.
-        self._facts: Failure | _Facts = (
-            _Facts(target, source, requested, earliest, latest, edge, hint) if isinstance(reason, str) else reason
-        )
+    ) -> Self:
+        """An exception with the text ``reason`` and with these facts."""
+        error = cls(reason)
+        error._told = _Facts(target, source, requested, earliest, latest, edge, hint)
+        return error
+
+    @property
+    def _failure(self) -> Failure | None:
+        return self.args[0] if self.args and isinstance(self.args[0], _core.Failure) else None
+
+    @property
+    def _facts(self) -> Failure | _Facts:
+        return self._failure or self._told
 
     @property
     def target(self) -> str | None:
@@ -127,7 +122,8 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
     @property
     def hint(self) -> str:
         """What to do next, in a sentence; may be empty."""
-        return self._facts.hint if isinstance(self._facts, _Facts) else _hint(self._facts)
+        failure = self._failure
+        return self._told.hint if failure is None else _hint(failure)
 
     def __reduce__(self) -> tuple[object, ...]:
         facts = {name: getattr(self, name) for name in _Facts._fields}
@@ -183,7 +179,7 @@ class DecodeError(ValueError):
 
 
 def _restore(kind: type[TransformException], text: str, facts: dict[str, object]) -> TransformException:
-    return kind(text, **facts)  # type: ignore[arg-type]
+    return kind.telling(text, **facts)  # type: ignore[arg-type]
 
 
 def _hint(failure: Failure) -> str:

@@ -181,7 +181,7 @@ class Transform(_core.Transform):
 
     def _compose(self, other: Transform) -> Transform:
         if self.source is not None and other.target is not None and self.source != other.target:
-            raise FrameMismatchException(
+            raise FrameMismatchException.telling(
                 f"cannot compose {_arrow(self)} with {_arrow(other)}: {self.source!r} is not {other.target!r}",
                 target=self.target,
                 source=other.source,
@@ -264,7 +264,7 @@ def _vectors(values: ArrayLike, size: int, what: str) -> Array:
     if array.ndim == 0 or array.shape[-1] != size:
         raise ValueError(f"{what} must have the shape (..., {size}), not {array.shape}")
     if not np.isfinite(array).all():
-        raise InvalidArgumentException(
+        raise InvalidArgumentException.telling(
             f"{what} must be finite", hint="Look for NaN or inf where the numbers come from."
         )
     return array
@@ -280,7 +280,7 @@ def _points(values: ArrayLike) -> Array:
 def _normalised(q: Array) -> Array:
     length = np.linalg.norm(q, axis=-1, keepdims=True)
     if not (length > 0.0).all():
-        raise InvalidArgumentException(
+        raise InvalidArgumentException.telling(
             "a quaternion of length zero is no rotation", hint="Is w unset? It is 1 at rest."
         )
     unit: Array = q / length

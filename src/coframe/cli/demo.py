@@ -1,0 +1,88 @@
+"""``coframe demo``: the lab's whole tree, moving, spoken over DDS, live in the terminal."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import Annotated
+
+import typer
+from rich.console import Console, Group
+from rich.live import Live
+from rich.text import Text
+
+import coframe
+from coframe.cli.live import tree_table
+from coframe.cli.session import DomainOption, fail, session
+from coframe.lab.launcher import Launcher
+from coframe.messages.generated.sensor_msgs.msg import PointCloud2
+
+__all__ = ["demo"]
+
+REFRESH = 0.1  # seconds
+# The frames that are there once every node has spoken.
+COMPLETE = ("world", "end_effector", "camera_link", "lidar_link")
+START_TIMEOUT = 20.0
+
+
+class _Clouds:
+    """Counts the clouds of the sensor node."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.points = 0
+        self.since = 0.0
+
+    def take(self, cloud: PointCloud2) -> None:
+        if self.count == 0:
+            self.since = time.monotonic()
+        self.count += 1
+        self.points = cloud.width
+
+    def __str__(self) -> str:
+        if self.count < 2:
+            return "waiting for the first clouds on /scan_base_frame"
+        rate = (self.count - 1) / max(time.monotonic() - self.since, 1e-9)
+        return f"/scan_base_frame: {rate:.1f} Hz, {self.points} points in base_link"
+
+
+def demo(
+    duration: Annotated[float | None, typer.Option(min=0.0, help="Leave after so many seconds.")] = None,
+    no_browser: Annotated[bool, typer.Option("--no-browser", help="Stay in the terminal.")] = False,  # noqa: ARG001
+    domain: DomainOption = None,
+) -> None:
+    """Start the lab's nodes, each in a process of its own, and watch their transform tree live.
+
+    The complete tree, the arm, a simulated lidar and the node that turns its scans into clouds in base_link; all of
+    it on this machine only, unless ROS_AUTOMATIC_DISCOVERY_RANGE says otherwise.
+
+    Example: coframe demo --duration 10
+    """
+    console = Console()
+    with session(), coframe.connect("coframe_demo", domain=domain) as ros, Launcher(domain=domain) as nodes:
+        clouds = _Clouds()
+        ros.subscribe("/scan_base_frame", PointCloud2, clouds.take)
+        start = time.monotonic()
+
+        def picture() -> Group:
+            running = time.monotonic() - start
+            state = f"{', '.join(nodes.names)} - {running:.0f} s - Ctrl-C to leave"
+            return Group(tree_table(ros.buffer, "base_link"), Text(str(clouds)), Text(state, style="dim"))
+
+        with Live(get_renderable=picture, console=console, refresh_per_second=1 / REFRESH, transient=False):
+            _watch(ros.buffer, nodes, start, duration)
+
+
+def _watch(buffer: coframe.Buffer, nodes: Launcher, start: float, duration: float | None) -> None:
+    pause = threading.Event()
+    while duration is None or time.monotonic() - start < duration:
+        failed = nodes.failed()
+        if failed:
+            fail(f"the node {failed.name} ended with exit code {failed.exit_code}:\n{failed.last_lines}")
+        if time.monotonic() - start > START_TIMEOUT and not all(frame in buffer for frame in COMPLETE):
+            missing = ", ".join(frame for frame in COMPLETE if frame not in buffer)
+            fail(
+                f"after {START_TIMEOUT:.0f} s these frames have still not arrived: {missing}",
+                "Can DDS use the loopback interface here? `ip link show lo` should say UP.",
+            )
+        pause.wait(REFRESH)

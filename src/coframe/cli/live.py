@@ -1,0 +1,77 @@
+"""The tree as a table that moves: frame, parent, rate, age, pose."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from rich.table import Table
+from rich.text import Text
+
+from coframe.errors import TransformException
+
+if TYPE_CHECKING:
+    from coframe import Buffer, FrameInfo
+
+__all__ = ["tree_table"]
+
+# A dynamic frame that was not heard of for so long, in seconds, is shown as stale.
+STALE_AFTER = 1.0
+
+
+def tree_table(buffer: Buffer, reference: str) -> Table:
+    """Every frame below its parent; poses are seen from ``reference``, in metres and degrees."""
+    table = Table(title=f"transform tree, poses in {reference}", title_justify="left", expand=False)
+    for column in ("frame", "parent"):
+        table.add_column(column, no_wrap=True)
+    for column in ("rate Hz", "age ms", "x", "y", "z", "roll", "pitch", "yaw"):
+        table.add_column(column, justify="right", no_wrap=True)
+    now = time.time_ns()
+    for depth, frame in _in_tree_order(buffer.frames()):
+        age = (now - frame.newest) * 1e-9
+        stale = bool(frame.parent) and not frame.static and age > STALE_AFTER
+        table.add_row(
+            Text("  " * depth + frame.name, style="dim" if stale else "bold"),
+            frame.parent,
+            _rate(frame),
+            Text(_age(frame, age), style="red" if stale else ""),
+            *_pose(buffer, reference, frame.name),
+        )
+    return table
+
+
+def _in_tree_order(frames: list[FrameInfo]) -> list[tuple[int, FrameInfo]]:
+    """Each frame with its depth: roots by name, children below their parent, by name."""
+    children: dict[str, list[FrameInfo]] = {}
+    for frame in sorted(frames):
+        children.setdefault(frame.parent, []).append(frame)
+    ordered: list[tuple[int, FrameInfo]] = []
+    waiting = [(0, root) for root in reversed(children.pop("", []))]
+    while waiting:
+        depth, frame = waiting.pop()
+        ordered.append((depth, frame))
+        waiting += [(depth + 1, child) for child in reversed(children.pop(frame.name, []))]
+    ordered += [(0, frame) for loop in children.values() for frame in loop]
+    return ordered
+
+
+def _rate(frame: FrameInfo) -> str:
+    if not frame.parent:
+        return "root"
+    if frame.static:
+        return "static"
+    return f"{frame.rate:.1f}" if frame.samples > 1 else "-"
+
+
+def _age(frame: FrameInfo, age: float) -> str:
+    return "" if frame.static or not frame.parent else f"{age * 1e3:.0f}"
+
+
+def _pose(buffer: Buffer, reference: str, frame: str) -> list[str]:
+    try:
+        transform = buffer.lookup(reference, frame)
+    except TransformException:
+        return ["", "", "", "", "", ""]
+    x, y, z = transform.translation.tolist()
+    roll, pitch, yaw = (transform.rpy * (180.0 / 3.141592653589793)).tolist()
+    return [f"{x:.3f}", f"{y:.3f}", f"{z:.3f}", f"{roll:.1f}", f"{pitch:.1f}", f"{yaw:.1f}"]

@@ -1,0 +1,141 @@
+"""The arguments of static_transform_publisher: flags by name, or the old order of numbers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from coframe import Transform
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["ArgumentError", "StaticArguments", "parse"]
+
+TRANSLATION = ("--x", "--y", "--z")
+QUATERNION = ("--qx", "--qy", "--qz", "--qw")
+EULER = ("--roll", "--pitch", "--yaw")
+NUMBERS = (*TRANSLATION, *QUATERNION, *EULER)
+NAMES = ("--frame-id", "--child-frame-id", "--domain", "--tf-static-topic")
+
+
+class ArgumentError(ValueError):
+    """The arguments make no transform; the text is static_transform_publisher's."""
+
+
+@dataclass
+class StaticArguments:
+    """A static transform, as asked for on the command line."""
+
+    frame_id: str
+    child_frame_id: str
+    transform: Transform
+    old_style: bool = False
+    domain: int | None = None
+    tf_static_topic: str = "/tf_static"
+
+
+@dataclass
+class _Flags:
+    numbers: dict[str, float] = field(default_factory=dict)
+    names: dict[str, str] = field(default_factory=dict)
+    positional: list[str] = field(default_factory=list)
+
+
+def parse(arguments: Sequence[str]) -> StaticArguments:
+    """Reads ``--x 1 --frame-id a ...``, or ``x y z yaw pitch roll frame child``, or ``x y z qx qy qz qw frame child``.
+
+    Raises:
+        ArgumentError: They are incomplete, contradict each other, or are no numbers.
+    """
+    flags = _flags(arguments)
+    topic = flags.names.get("--tf-static-topic", "/tf_static")
+    domain = _domain(flags.names.get("--domain"))
+    if not flags.positional:
+        return _new_style(flags, domain, topic)
+    if flags.numbers or {"--frame-id", "--child-frame-id"} & set(flags.names):
+        raise ArgumentError("Cannot specify both new-style (flags) and old-style (arguments)")
+    return _old_style(flags.positional, domain, topic)
+
+
+def _flags(arguments: Sequence[str]) -> _Flags:
+    flags = _Flags()
+    rest = iter(arguments)
+    for argument in rest:
+        if argument in NUMBERS:
+            flags.numbers[argument] = _number(_value(argument, rest), argument)
+        elif argument in NAMES:
+            flags.names[argument] = _value(argument, rest)
+        elif argument.startswith("--"):
+            raise ArgumentError("Extra unparsed arguments on command-line")
+        else:
+            flags.positional.append(argument)
+    return flags
+
+
+def _value(flag: str, rest: Sequence[str] | object) -> str:
+    value = next(rest, None)  # type: ignore[call-overload]
+    if value is None:
+        raise ArgumentError(f"Not enough arguments for {flag}")
+    return str(value)
+
+
+def _number(text: str, flag: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise ArgumentError(f"Failed to parse {flag} argument as float")
+    return number
+
+
+def _domain(text: str | None) -> int | None:
+    if text is None:
+        return None
+    if not text.isdecimal() or int(text) > 232:
+        raise ArgumentError(f"--domain must be a whole number from 0 to 232, not {text!r}")
+    return int(text)
+
+
+def _new_style(flags: _Flags, domain: int | None, topic: str) -> StaticArguments:
+    numbers = flags.numbers
+    if any(flag in numbers for flag in QUATERNION) and any(flag in numbers for flag in EULER):
+        raise ArgumentError("Cannot specify both quaternion and Euler rotations")
+    translation = [numbers.get(flag, 0.0) for flag in TRANSLATION]
+    if any(flag in numbers for flag in QUATERNION):
+        quaternion = [numbers.get(flag, 1.0 if flag == "--qw" else 0.0) for flag in QUATERNION]
+        transform = _from_quaternion(translation, quaternion)
+    else:
+        transform = Transform.from_rpy(translation, [numbers.get(flag, 0.0) for flag in EULER])
+    frame_id, child_frame_id = flags.names.get("--frame-id", ""), flags.names.get("--child-frame-id", "")
+    _check_names(frame_id, child_frame_id)
+    return StaticArguments(frame_id, child_frame_id, transform, domain=domain, tf_static_topic=topic)
+
+
+def _old_style(positional: list[str], domain: int | None, topic: str) -> StaticArguments:
+    if len(positional) not in {8, 9}:
+        raise ArgumentError("Extra unparsed arguments on command-line")
+    *texts, frame_id, child_frame_id = positional
+    labels = ("x", "y", "z", "yaw", "pitch", "roll") if len(texts) == 6 else ("x", "y", "z", "qx", "qy", "qz", "qw")
+    numbers = [_number(text, label) for text, label in zip(texts, labels, strict=True)]
+    if len(numbers) == 6:
+        transform = Transform.from_rpy(numbers[:3], numbers[:2:-1])  # the old order is yaw, pitch, roll
+    else:
+        transform = _from_quaternion(numbers[:3], numbers[3:])
+    _check_names(frame_id, child_frame_id)
+    return StaticArguments(frame_id, child_frame_id, transform, True, domain, topic)
+
+
+def _from_quaternion(translation: list[float], quaternion: list[float]) -> Transform:
+    if not any(quaternion):
+        raise ArgumentError("The quaternion must not be zero")
+    return Transform(translation, quaternion)
+
+
+def _check_names(frame_id: str, child_frame_id: str) -> None:
+    if not frame_id:
+        raise ArgumentError("Frame id must not be empty")
+    if not child_frame_id:
+        raise ArgumentError("Child frame id must not be empty")

@@ -1,0 +1,73 @@
+"""Real processes on a network of their own, and an independent program that listens to them."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("cyclonedds", reason="the processes speak DDS")
+pytest.importorskip("rosless", reason="the independent RTPS program")
+
+OBSERVER = Path(__file__).with_name("observer.py")
+
+
+class Processes:
+    """Starts processes in the test's network and domain."""
+
+    def __init__(self, network, domain_id, folder):
+        self.network = network
+        self.domain_id = domain_id
+        self._folder = folder
+        self._running = {}
+
+    def start(self, name, *command):
+        """Starts a command, `python` standing for this Python; what it writes goes to a file."""
+        command = [sys.executable if part == "python" else part for part in command]
+        log = self._folder / f"{name}.log"
+        with log.open("wb") as output:
+            self._running[name] = subprocess.Popen(
+                self.network.command(*command),
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                env={**os.environ, "PYTHONUNBUFFERED": "1"},
+            )
+
+    def text(self, name):
+        """What a process has written so far."""
+        return (self._folder / f"{name}.log").read_text()
+
+    def running(self, name):
+        return self._running[name].poll() is None
+
+    def end(self, name, how=signal.SIGINT):
+        """Sends a signal and waits for the end: the exit code and what was written."""
+        process = self._running[name]
+        process.send_signal(how)
+        code = process.wait(20)
+        return code, self.text(name)
+
+    def close(self):
+        for process in self._running.values():
+            if process.poll() is None:
+                process.kill()
+                process.wait()
+
+    def observe(self, seconds, *topics):
+        """What the independent program hears on TOPIC:TYPE:DURABILITY ... within some seconds."""
+        command = self.network.command(sys.executable, OBSERVER, self.domain_id, seconds, *topics)
+        result = subprocess.run(command, capture_output=True, text=True, timeout=90, check=False)
+        assert result.returncode == 0, result.stderr
+        return json.loads(result.stdout)
+
+
+@pytest.fixture
+def processes(network, domain_id, tmp_path) -> Iterator[Processes]:
+    started = Processes(network, domain_id, tmp_path)
+    yield started
+    started.close()

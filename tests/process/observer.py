@@ -1,0 +1,48 @@
+"""An independent RTPS program (rosless, in Rust): writes down what it hears.
+
+    python observer.py DOMAIN SECONDS TOPIC:TYPE:DURABILITY ...
+
+Listens from the first message of every topic on for SECONDS. Prints one JSON object: for each topic a list of
+[arrival in seconds, message as a dictionary].
+"""
+
+import json
+import sys
+import threading
+import time
+
+import rosless
+
+START_TIMEOUT = 30.0
+
+
+def listen(node, topic, type_name, durability, seconds, heard):
+    subscription = node.subscribe(
+        topic, type_name, reliability="reliable", durability=durability, history="keep_last", depth=1000
+    )
+    message = subscription.read(START_TIMEOUT)
+    end = time.monotonic() + seconds
+    while message is not None:
+        heard.append([time.monotonic(), message.to_dict()])
+        message = subscription.read(max(0.001, end - time.monotonic())) if time.monotonic() < end else None
+
+
+def main():
+    domain, seconds, *topics = sys.argv[1:]
+    node = rosless.Node(int(domain))
+    heard = {}
+    threads = []
+    for spec in topics:
+        topic, type_name, durability = spec.split(":")
+        heard[topic] = []
+        threads.append(
+            threading.Thread(target=listen, args=(node, topic, type_name, durability, float(seconds), heard[topic]))
+        )
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    json.dump(heard, sys.stdout, default=list)
+
+
+main()
