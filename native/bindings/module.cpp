@@ -7,4 +7,5 @@ NB_MODULE(_core, module) {
   define_transform(module);
   define_buffer(module);
   define_event(module);
+  define_wire(module);
 }
