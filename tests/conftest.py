@@ -2,7 +2,6 @@
 
 import itertools
 import os
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -11,12 +10,12 @@ _domain_ids = itertools.count(os.getpid() % 97)
 
 
 @pytest.fixture
-def domain_id(monkeypatch: pytest.MonkeyPatch) -> Iterator[int]:
+def domain_id(monkeypatch: pytest.MonkeyPatch) -> int:
     """A DDS domain of this test's own, also set as ROS_DOMAIN_ID for this process and its children."""
     number = 1 + next(_domain_ids) % 200
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-    yield number
+    return number
 
 
 @pytest.fixture(scope="session")

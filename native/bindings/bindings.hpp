@@ -13,6 +13,7 @@ namespace nb = nanobind;
 
 void define_transform(nb::module_& module);
 void define_buffer(nb::module_& module);
+void define_failure(nb::module_& module);
 void define_event(nb::module_& module);
 void define_wire(nb::module_& module);
 

@@ -5,6 +5,7 @@ NB_MODULE(_core, module) {
   using namespace coframe::bindings;
   module.doc() = "The native core of coframe. Private: use `import coframe`.";
   define_transform(module);
+  define_failure(module);
   define_buffer(module);
   define_event(module);
   define_wire(module);

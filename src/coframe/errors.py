@@ -18,7 +18,7 @@ behind its text, where they apply, and ``hint``: what to do next.
 from __future__ import annotations
 
 import difflib
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 __all__ = [
     "ConnectivityException",
@@ -60,17 +60,20 @@ class Failure(Protocol):
     def frame_names(self) -> list[str]: ...
 
 
+class _Facts(NamedTuple):
+    target: str | None
+    source: str | None
+    requested: int | None
+    earliest: int | None
+    latest: int | None
+    edge: tuple[str, str] | None
+    hint: str
+
+
 class TransformException(Exception):  # noqa: N818 - tf2's name
     """A transform could not be given or taken.
 
-    Attributes:
-        target: The frame the answer was wanted in, or None.
-        source: The frame that was asked about, or None.
-        requested: The time asked for, in nanoseconds; 0 is the latest; None where time plays no part.
-        earliest: The oldest stamp of the link that has no sample at ``requested``, in nanoseconds, or None.
-        latest: The newest stamp of that link, in nanoseconds, or None.
-        edge: That link as (parent, child), or None.
-        hint: What to do next, in a sentence; may be empty.
+    ``str(error)`` is the text; the properties are the facts behind it, None where they do not apply.
     """
 
     def __init__(
@@ -85,24 +88,49 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
         edge: tuple[str, str] | None = None,
         hint: str = "",
     ) -> None:
-        super().__init__(reason)  # its text is made when somebody reads it
-        self._failure = None if isinstance(reason, str) else reason
-        self._hint = hint
-        failure = self._failure
-        self.target = failure.target if failure else target
-        self.source = failure.source if failure else source
-        self.requested = failure.requested if failure else requested
-        self.earliest = failure.earliest if failure else earliest
-        self.latest = failure.latest if failure else latest
-        self.edge = failure.edge if failure else edge
+        super().__init__(reason)
+        # A failure is asked only when somebody reads it: most failed look-ups are caught and forgotten.
+        self._facts: Failure | _Facts = (
+            _Facts(target, source, requested, earliest, latest, edge, hint) if isinstance(reason, str) else reason
+        )
+
+    @property
+    def target(self) -> str | None:
+        """The frame the answer was wanted in, or None."""
+        return self._facts.target
+
+    @property
+    def source(self) -> str | None:
+        """The frame that was asked about, or None."""
+        return self._facts.source
+
+    @property
+    def requested(self) -> int | None:
+        """The time asked for, in nanoseconds; None where time plays no part."""
+        return self._facts.requested
+
+    @property
+    def earliest(self) -> int | None:
+        """The oldest stamp of the link without a sample at ``requested``, in nanoseconds, or None."""
+        return self._facts.earliest
+
+    @property
+    def latest(self) -> int | None:
+        """The newest stamp of that link, in nanoseconds, or None."""
+        return self._facts.latest
+
+    @property
+    def edge(self) -> tuple[str, str] | None:
+        """That link as (parent, child), or None."""
+        return self._facts.edge
 
     @property
     def hint(self) -> str:
         """What to do next, in a sentence; may be empty."""
-        return _hint(self._failure) if self._failure else self._hint
+        return self._facts.hint if isinstance(self._facts, _Facts) else _hint(self._facts)
 
     def __reduce__(self) -> tuple[object, ...]:
-        facts = {name: getattr(self, name) for name in _FACTS}
+        facts = {name: getattr(self, name) for name in _Facts._fields}
         return _restore, (type(self), str(self), facts)
 
 
@@ -154,9 +182,6 @@ class DecodeError(ValueError):
         self.hint = hint
 
 
-_FACTS = ("target", "source", "requested", "earliest", "latest", "edge", "hint")
-
-
 def _restore(kind: type[TransformException], text: str, facts: dict[str, object]) -> TransformException:
     return kind(text, **facts)  # type: ignore[arg-type]
 
@@ -178,7 +203,7 @@ _FIXED_HINTS = {
     "empty_name": "Give the name of a frame; is a header's frame_id unset?",
     "loop": "Two broadcasters disagree about parents: let each frame have one parent only.",
     "only_other": "{parent} -> {child} has been heard once only: wait for more, or ask for the latest (stamp 0).",
-    "too_new": "{parent} -> {child} lags behind the request: wait for it (timeout=...) or ask for the latest (stamp 0).",
+    "too_new": "{parent} -> {child} lags behind the request: wait for it (timeout=...), or ask for the latest (0).",
     "too_old": "{parent} -> {child} has forgotten that time: use a longer cache, or ask for a newer time.",
     "no_data": "The buffer was cleared and {child} has not been heard of since.",
 }

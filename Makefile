@@ -1,0 +1,52 @@
+# Everything here runs in the project's own virtual environment, which `setup` makes.
+VENV ?= .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.ready
+NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp') CMakeLists.txt
+
+.DEFAULT_GOAL := help
+.PHONY: help setup build demo test test-slow lint typecheck format bench generate clean
+
+help: ## what there is
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+$(STAMP): pyproject.toml scripts/make_venv.sh $(NATIVE)
+	@VENV=$(VENV) sh scripts/make_venv.sh
+	@touch $@
+
+setup: $(STAMP) ## the virtual environment with everything in it, and the native core built
+
+build: ## the native core again
+	$(BIN)/python -m pip install --quiet --no-build-isolation --no-deps --editable .
+	@touch $(STAMP)
+
+demo: $(STAMP) ## the lab's moving transform tree, live in the terminal, spoken over DDS
+	@$(BIN)/coframe demo $(ARGS)
+
+test: $(STAMP) ## the test suite (under 6 minutes)
+	$(BIN)/python -m pytest $(ARGS)
+
+test-slow: $(STAMP) ## the tests that take minutes
+	$(BIN)/python -m pytest -m slow $(ARGS)
+
+lint: $(STAMP) ## style: ruff, and the generated messages are up to date
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/python scripts/generate_messages.py --check
+
+typecheck: $(STAMP) ## mypy --strict, and the stub against the native module
+	$(BIN)/mypy
+	$(BIN)/python -m mypy.stubtest coframe._core --allowlist scripts/stubtest_allow.txt --mypy-config-file pyproject.toml
+
+format: $(STAMP) ## mend what can be mended
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: $(STAMP) ## the benchmarks, in one table
+	$(BIN)/python benchmarks/run.py $(ARGS)
+
+generate: $(STAMP) ## message classes from interfaces/
+	$(BIN)/python scripts/generate_messages.py
+
+clean: ## what was built, and the virtual environment
+	rm -rf build dist $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -1,0 +1,30 @@
+// A failed look-up as Python sees it: facts, and tf2's text when somebody asks for it.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <memory>
+
+#include "core/buffer.hpp"
+#include "core/error.hpp"
+
+namespace coframe::bindings {
+
+namespace nb = nanobind;
+
+// Whose words the text uses.
+enum class Speaker { lookup, can_transform, latest_common_time };
+
+struct FailureObject {
+  Failure failure;
+  std::shared_ptr<Buffer> buffer;
+  Speaker speaker = Speaker::lookup;
+};
+
+std::string text_of(const FailureObject& failure);
+
+// Raises the registered exception that belongs to the failure's code.
+[[noreturn]] void raise_failure(FailureObject failure);
+[[noreturn]] void raise_decode_error(const DecodeFailure& failure);
+
+}  // namespace coframe::bindings

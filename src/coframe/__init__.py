@@ -1,0 +1,33 @@
+"""ROS 2's transform system (tf2) for Python: any frame, any time, on any machine."""
+
+from coframe.buffer import Buffer, FrameInfo
+from coframe.errors import (
+    ConnectivityException,
+    DecodeError,
+    ExtrapolationException,
+    FrameMismatchException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+    WireError,
+)
+from coframe.transform import Transform
+
+__version__ = "0.1.0"
+
+__all__ = [
+    "Buffer",
+    "ConnectivityException",
+    "DecodeError",
+    "ExtrapolationException",
+    "FrameInfo",
+    "FrameMismatchException",
+    "InvalidArgumentException",
+    "LookupException",
+    "TimeoutException",
+    "Transform",
+    "TransformException",
+    "WireError",
+    "__version__",
+]

@@ -1,0 +1,242 @@
+"""The native core. Private: use `import coframe`."""
+
+from types import ModuleType
+from typing import Any
+
+from coframe.time import DurationLike, StampLike
+from coframe.transform import Transform as PublicTransform
+
+class Transform:
+    """One pose with its frames and stamp, or a batch of them."""
+
+    def __init__(
+        self,
+        x: float,
+        y: float,
+        z: float,
+        qx: float,
+        qy: float,
+        qz: float,
+        qw: float,
+        target: str | None,
+        source: str | None,
+        stamp: int | None,
+        batch: Any,
+    ) -> None: ...
+    @property
+    def values(self) -> tuple[float, float, float, float, float, float, float]:
+        """(x, y, z, qx, qy, qz, qw) as floats; of a batch: the identity."""
+
+    @property
+    def stamp(self) -> int | None:
+        """Nanoseconds, or None."""
+
+    @property
+    def target(self) -> str | None:
+        """The frame that the values are told in, or None."""
+
+    @property
+    def source(self) -> str | None:
+        """The frame that the values are of, or None."""
+
+    @property
+    def batch(self) -> Any:
+        """None, or (translations, quaternions, stamps) as arrays."""
+
+class Failure:
+    """The facts of a failed look-up; str() gives tf2's text."""
+
+    @property
+    def code(self) -> str: ...
+    @property
+    def target(self) -> str: ...
+    @property
+    def source(self) -> str: ...
+    @property
+    def requested(self) -> int | None: ...
+    @property
+    def earliest(self) -> int | None: ...
+    @property
+    def latest(self) -> int | None: ...
+    @property
+    def edge(self) -> tuple[str, str] | None: ...
+    @property
+    def roots(self) -> tuple[str, str] | None: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def frame_names(self) -> list[str]: ...
+
+class Buffer:
+    """The native buffer; coframe.Buffer is the public class on top of it."""
+
+    def __init__(self, cache_ns: int) -> None: ...
+    @property
+    def cache_ns(self) -> int:
+        """How far back dynamic transforms are kept, in nanoseconds; negative: everything."""
+
+    def lookup(
+        self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
+    ) -> PublicTransform:
+        """The transform that takes coordinates in `source` to coordinates in `target` at `stamp`.
+
+        Args:
+            target: The frame the answer is in.
+            source: The frame that is asked about.
+            stamp: Nanoseconds or a Time; 0 or None is the latest time at which all links have data.
+            timeout: How long to wait for it, without the GIL; None and 0 do not wait.
+
+        Raises:
+            LookupException: A frame that nobody has mentioned.
+            ConnectivityException: The frames are in different trees.
+            ExtrapolationException: A link has no sample at that time.
+            InvalidArgumentException: An empty name, or one with a leading slash.
+        """
+
+    def lookup_full(
+        self,
+        target: str,
+        target_stamp: StampLike | None,
+        source: str,
+        source_stamp: StampLike | None,
+        fixed: str,
+        *,
+        timeout: DurationLike | None = None,
+    ) -> PublicTransform:
+        """Time travel: `source` as it was at `source_stamp`, seen from `target` at `target_stamp`.
+
+        `fixed` is the frame that is taken not to move between the two times. Raises as lookup().
+        """
+
+    def can_transform(
+        self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
+    ) -> bool:
+        """Whether lookup() would succeed, or does within `timeout`."""
+
+    def can_transform_full(
+        self,
+        target: str,
+        target_stamp: StampLike | None,
+        source: str,
+        source_stamp: StampLike | None,
+        fixed: str,
+        *,
+        timeout: DurationLike | None = None,
+    ) -> bool:
+        """Whether lookup_full() would succeed, or does within `timeout`."""
+
+    def why_not(self, target: str, source: str, stamp: StampLike | None = None) -> str:
+        """Why can_transform() is False, in tf2's words; "" when it is True."""
+
+    def why_not_full(
+        self, target: str, target_stamp: StampLike | None, source: str, source_stamp: StampLike | None, fixed: str
+    ) -> str:
+        """Why can_transform_full() is False, in tf2's words; "" when it is True."""
+
+    def latest_common_time(self, target: str, source: str) -> int:
+        """The newest time at which every link between both frames has data, in nanoseconds; 0 if all are static.
+
+        Raises:
+            LookupException: A frame that nobody has mentioned.
+            TransformException: The frames are in different trees (tf2's choice of exception).
+        """
+
+    def chain(
+        self, target: str, target_stamp: StampLike | None, source: str, source_stamp: StampLike | None, fixed: str
+    ) -> list[str]:
+        """The frames that lookup_full() walks through."""
+
+    def set_values(
+        self,
+        parent: str,
+        child: str,
+        stamp: int,
+        x: float,
+        y: float,
+        z: float,
+        qx: float,
+        qy: float,
+        qz: float,
+        qw: float,
+        static: bool,
+        authority: str,
+    ) -> int:
+        """Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts)."""
+
+    def ingest(self, cdr: Any, *, static: bool = False, authority: str = "no recorded authority") -> int:
+        """Takes in a tf2_msgs/msg/TFMessage as CDR bytes, whole or not at all; returns how many transforms it stored.
+
+        Raises:
+            DecodeError: The bytes are no TFMessage; it is counted in `statistics`.
+        """
+
+    def encode(self, *, static: bool) -> bytes:
+        """The newest sample of every static, or every dynamic, frame as the CDR of one TFMessage."""
+
+    def clear(self) -> None:
+        """Forgets all dynamic samples; frames stay known, and static transforms stay, as in tf2."""
+
+    def frame_tuples(self) -> list[tuple[str, str, bool, int, int, int, float, str]]: ...
+    def frame_names(self) -> list[str]:
+        """All frames in the order in which they were first mentioned (a child before its parent)."""
+
+    def frame_exists(self, name: str) -> bool:
+        """Whether the frame was ever mentioned."""
+
+    def all_frames_as_string(self) -> str:
+        """tf2's text of the tree, a line a frame."""
+
+    def all_frames_as_yaml(self) -> str:
+        """tf2's YAML of the tree, which is valid YAML here for every frame name."""
+
+    def all_frames_as_dot(self, now: int = 0) -> str:
+        """tf2's graphviz text of the tree; with `now` in nanoseconds also ages and a legend."""
+
+    @property
+    def statistics(self) -> dict[str, int]:
+        """Counts: messages and malformed (taken in as bytes); stored, refused, old (transforms)."""
+
+    @property
+    def changes(self) -> int:
+        """A counter that rises with every insertion."""
+
+    def wait_for_change(self, seen: int, timeout_ns: int) -> int:
+        """Waits, without the GIL, until `changes` differs from `seen` or time is over (negative: never); returns it."""
+
+class Event:
+    """A flag that DDS threads and Python set, and one thread waits for without the GIL."""
+
+    def __init__(self) -> None: ...
+    def set(self) -> None:
+        """Sets the flag and wakes the waiting thread."""
+
+    def clear(self) -> None:
+        """Takes the flag back."""
+
+    def wait(self, timeout_ns: int | None) -> bool:
+        """Waits until set (True, and cleared) or for timeout_ns nanoseconds (False); None waits for ever."""
+
+def insert_texts(
+    refusals: int,
+    parent: str,
+    child: str,
+    stamp: int,
+    x: float,
+    y: float,
+    z: float,
+    qx: float,
+    qy: float,
+    qz: float,
+    qw: float,
+    authority: str,
+) -> list[tuple[str, str]]:
+    """tf2's log lines for a transform that set_values refused: (level, text)."""
+
+def register_transform_class(cls: type[Transform]) -> None:
+    """Look-ups return instances of `cls`, a subclass of Transform."""
+
+def register_errors(errors: ModuleType) -> None:
+    """Failures are raised as the exceptions of this module."""
+
+def register_time(time: ModuleType) -> None:
+    """Stamps and durations that are not int are converted by this module."""

@@ -1,0 +1,100 @@
+"""Unit quaternions (x, y, z, w) as arrays of shape (..., 4), with any batch axes in front."""
+
+from __future__ import annotations
+
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array: TypeAlias = NDArray[np.float64]
+
+__all__ = ["from_matrix", "from_rpy", "inverse", "multiply", "rotate", "to_matrix", "to_rpy"]
+
+# |sin(pitch)| from here on is straight up or down, where roll and yaw turn about the same axis.
+_GIMBAL_LOCK = 1.0 - 1e-12
+
+
+def multiply(a: Array, b: Array) -> Array:
+    """The Hamilton product: the rotation b, then a. Shapes (..., 4), broadcast."""
+    ax, ay, az, aw = np.moveaxis(a, -1, 0)
+    bx, by, bz, bw = np.moveaxis(b, -1, 0)
+    return np.stack(
+        (
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw,
+            aw * bw - ax * bx - ay * by - az * bz,
+        ),
+        axis=-1,
+    )
+
+
+def inverse(q: Array) -> Array:
+    """The opposite rotation, which for a unit quaternion is its conjugate. Shape (..., 4)."""
+    return np.concatenate((-q[..., :3], q[..., 3:]), axis=-1)
+
+
+def rotate(q: Array, v: Array) -> Array:
+    """Vectors (..., 3) turned by q (..., 4), broadcast: v + 2 w (u x v) + 2 u x (u x v)."""
+    u, w = q[..., :3], q[..., 3:]
+    t = 2.0 * np.cross(u, v)
+    return v + w * t + np.cross(u, t)
+
+
+def to_matrix(q: Array) -> Array:
+    """Rotation matrices (..., 3, 3)."""
+    x, y, z, w = np.moveaxis(q, -1, 0)
+    rows = (
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    )
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def from_matrix(matrix: Array) -> Array:
+    """Unit quaternions (..., 4) of rotation matrices (..., 3, 3), with w >= 0.
+
+    The column of 4 q q^T with the largest diagonal, so that nothing is divided by a small number (Shepperd, 1978).
+    """
+    m = np.asarray(matrix, dtype=np.float64)
+    d = np.diagonal(m, axis1=-2, axis2=-1)
+    trace = d.sum(axis=-1)
+    products = np.empty((*m.shape[:-2], 4, 4))
+    for i in range(3):
+        products[..., i, i] = 1.0 + 2.0 * d[..., i] - trace
+        for j in range(i):
+            products[..., i, j] = products[..., j, i] = m[..., i, j] + m[..., j, i]
+    products[..., 3, 3] = 1.0 + trace
+    products[..., 3, 0] = products[..., 0, 3] = m[..., 2, 1] - m[..., 1, 2]
+    products[..., 3, 1] = products[..., 1, 3] = m[..., 0, 2] - m[..., 2, 0]
+    products[..., 3, 2] = products[..., 2, 3] = m[..., 1, 0] - m[..., 0, 1]
+    largest = np.diagonal(products, axis1=-2, axis2=-1).argmax(axis=-1)
+    q: Array = np.take_along_axis(products, largest[..., None, None], axis=-2)[..., 0, :]
+    q = q / np.linalg.norm(q, axis=-1, keepdims=True)
+    return np.where(q[..., 3:] < 0.0, -q, q)
+
+
+def from_rpy(rpy: Array) -> Array:
+    """Quaternions of roll, pitch, yaw (..., 3) in radians: turns about the fixed axes x, then y, then z (REP 103)."""
+    (sr, sp, sy), (cr, cp, cy) = np.moveaxis(np.sin(rpy / 2), -1, 0), np.moveaxis(np.cos(rpy / 2), -1, 0)
+    return np.stack(
+        (
+            sr * cp * cy - cr * sp * sy,
+            cr * sp * cy + sr * cp * sy,
+            cr * cp * sy - sr * sp * cy,
+            cr * cp * cy + sr * sp * sy,
+        ),
+        axis=-1,
+    )
+
+
+def to_rpy(q: Array) -> Array:
+    """Roll, pitch, yaw (..., 3) in radians; pitch in [-pi/2, pi/2]. At gimbal lock yaw is 0, as in tf2."""
+    m = to_matrix(q)
+    locked = np.abs(m[..., 2, 0]) >= _GIMBAL_LOCK
+    pitch = np.arcsin(np.clip(-m[..., 2, 0], -1.0, 1.0))
+    roll = np.where(locked, np.arctan2(-m[..., 1, 2], m[..., 1, 1]), np.arctan2(m[..., 2, 1], m[..., 2, 2]))
+    yaw = np.where(locked, 0.0, np.arctan2(m[..., 1, 0], m[..., 0, 0]))
+    return np.stack((roll, pitch, yaw), axis=-1) + 0.0  # no -0

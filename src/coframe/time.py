@@ -1,0 +1,115 @@
+"""Times and durations as int64 nanoseconds, from what people write.
+
+A float of seconds is never accepted: today's time in seconds does not fit a float64 to the nanosecond.
+"""
+
+from __future__ import annotations
+
+import datetime
+import operator
+import re
+from typing import Any, Protocol, SupportsIndex, TypeAlias
+
+import numpy as np
+
+__all__ = ["DurationLike", "StampLike", "duration_ns", "stamp_ns"]
+
+NANOSECONDS_PER_SECOND = 1_000_000_000
+_UNITS = {
+    "ns": 1,
+    "us": 1_000,
+    "ms": 1_000_000,
+    "s": NANOSECONDS_PER_SECOND,
+    "min": 60 * NANOSECONDS_PER_SECOND,
+    "h": 3600 * NANOSECONDS_PER_SECOND,
+}
+_DURATION = re.compile(r"\s*(\d+)(?:\.(\d+))?\s*([a-z]+)\s*", re.ASCII)
+
+
+class HasNanoseconds(Protocol):
+    """rclpy's Time and Duration."""
+
+    @property
+    def nanoseconds(self) -> int: ...
+
+
+class HasSecNanosec(Protocol):
+    """builtin_interfaces' Time and Duration."""
+
+    @property
+    def sec(self) -> int: ...
+    @property
+    def nanosec(self) -> int: ...
+
+
+StampLike: TypeAlias = "SupportsIndex | np.datetime64 | datetime.datetime | HasNanoseconds | HasSecNanosec"
+DurationLike: TypeAlias = "SupportsIndex | str | datetime.timedelta | np.timedelta64 | HasNanoseconds | HasSecNanosec"
+
+
+def stamp_ns(stamp: StampLike) -> int:
+    """A point in time as nanoseconds since the epoch.
+
+    Args:
+        stamp: int nanoseconds, numpy.datetime64, an aware datetime, rclpy's Time or a Time message.
+
+    Raises:
+        TypeError: It is something else; a float of seconds above all.
+        ValueError: It is a datetime without a time zone, or NaT.
+    """
+    if isinstance(stamp, np.datetime64):
+        if np.isnat(stamp):
+            raise ValueError("NaT is not a point in time")
+        return int(stamp.astype("datetime64[ns]").astype(np.int64))
+    if isinstance(stamp, datetime.datetime):
+        if stamp.tzinfo is None:
+            raise ValueError("a datetime without a time zone is ambiguous: give it one, such as timezone.utc")
+        return _timedelta_ns(stamp - datetime.datetime.fromtimestamp(0, datetime.timezone.utc))
+    return _number_ns(stamp, "a stamp", "int nanoseconds, numpy.datetime64, datetime or a Time")
+
+
+def duration_ns(duration: DurationLike) -> int:
+    """A duration as nanoseconds.
+
+    Args:
+        duration: Text such as ``"100ms"`` or ``"1.5s"`` (units ns, us, ms, s, min, h), int nanoseconds,
+            ``timedelta``, numpy.timedelta64, rclpy's Duration or a Duration message.
+
+    Raises:
+        TypeError: It is something else; a float of seconds above all.
+        ValueError: The text is not a number and a unit, or it is NaT.
+    """
+    if isinstance(duration, str):
+        return _parse_duration(duration)
+    if isinstance(duration, datetime.timedelta):
+        return _timedelta_ns(duration)
+    if isinstance(duration, np.timedelta64):
+        if np.isnat(duration):
+            raise ValueError("NaT is not a duration")
+        return int(duration.astype("timedelta64[ns]").astype(np.int64))
+    return _number_ns(duration, "a duration", 'text such as "100ms", int nanoseconds, timedelta or a Duration')
+
+
+def _parse_duration(text: str) -> int:
+    match = _DURATION.fullmatch(text)
+    if match is None or match[3] not in _UNITS:
+        units = ", ".join(_UNITS)
+        raise ValueError(f'{text!r} is not a duration: write a number and a unit ({units}), such as "100ms"')
+    whole, fraction, unit = match[1], match[2] or "", _UNITS[match[3]]
+    return int(whole) * unit + int(fraction or "0") * unit // 10 ** len(fraction)
+
+
+def _timedelta_ns(delta: datetime.timedelta) -> int:
+    return (delta.days * 86_400 + delta.seconds) * NANOSECONDS_PER_SECOND + delta.microseconds * 1_000
+
+
+def _number_ns(value: Any, what: str, wanted: str) -> int:
+    try:
+        return int(operator.index(value))
+    except TypeError:
+        pass
+    if hasattr(value, "nanosec") and hasattr(value, "sec"):
+        return int(value.sec) * NANOSECONDS_PER_SECOND + int(value.nanosec)
+    if hasattr(value, "nanoseconds"):
+        return int(value.nanoseconds)
+    reason = "; a float of seconds cannot hold today's time to the nanosecond" if isinstance(value, float) else ""
+    raise TypeError(f"{what} must be {wanted}, not {type(value).__name__}{reason}")
