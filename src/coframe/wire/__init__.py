@@ -1,10 +1,10 @@
 """Joining the ROS 2 graph over DDS. Needs the package cyclonedds, but only when somebody joins.
 
-    participant = Participant.get()
-    node = participant.add_node("/", "my_node")
-    participant.tf_reader(node, "/tf", buffer, static=False)
-    ...
-    participant.close()
+Example:
+    >>> participant = Participant.get()                                      # doctest: +SKIP
+    >>> node = participant.add_node("/", "my_node")                          # doctest: +SKIP
+    >>> participant.tf_reader(node, "/tf", buffer, static=False)             # doctest: +SKIP
+    >>> participant.close()                                                  # doctest: +SKIP
 """
 
 from coframe.wire.connection import Connection, connect

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping
+from typing import TYPE_CHECKING
 from xml.sax.saxutils import quoteattr
 
 from coframe.errors import WireError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 MAX_DOMAIN_ID = 232
 MAX_PARTICIPANT_INDEX = 99

@@ -5,20 +5,26 @@ from __future__ import annotations
 import logging
 import threading
 import time
-from collections.abc import Callable, Iterator
-from datetime import timedelta
-from types import TracebackType
-from typing import Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+from typing_extensions import Self
 
 from coframe.buffer import Buffer
 from coframe.wire import _native
-from coframe.wire.endpoints import Publisher, Subscription
 from coframe.wire.participant import Participant
 from coframe.wire.qos import DEFAULT, QoS
 
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from datetime import timedelta
+    from types import TracebackType
+
+    from coframe.messages.message import Message
+    from coframe.wire.endpoints import Publisher, Subscription
+
 _logger = logging.getLogger("coframe.wire")
 
-M = TypeVar("M")
+M = TypeVar("M", bound="Message")
 
 _NS = 1_000_000_000
 
@@ -42,7 +48,7 @@ class MessagePublisher(Generic[M]):
         """
         from coframe.messages.codec import serialize  # noqa: PLC0415 - `import coframe` stays cheap
 
-        self._publisher.write(serialize(message))  # type: ignore[arg-type]
+        self._publisher.write(serialize(message))
 
     def close(self) -> None:
         """Leaves the topic."""
@@ -89,7 +95,7 @@ class MessageSubscription(Generic[M]):
         while True:
             # One by one: what cannot be decoded must not take others along.
             for sample in self._subscription.take(1):
-                return deserialize(sample.data, self._message_type)  # type: ignore[type-var]
+                return deserialize(sample.data, self._message_type)
             left = None if deadline is None else deadline - time.monotonic_ns()
             if self._subscription.closed or (left is not None and left <= 0):
                 return None
@@ -108,12 +114,15 @@ class MessageSubscription(Generic[M]):
 
     def _call(self) -> None:
         while not self._subscription.closed:
-            try:
-                message = self.receive()
-                if message is not None and self._callback:
-                    self._callback(message)
-            except Exception:
-                _logger.exception("a callback or message on %s failed", self._subscription.topic)
+            self._call_once()
+
+    def _call_once(self) -> None:
+        try:
+            message = self.receive()
+            if message is not None and self._callback:
+                self._callback(message)
+        except Exception:
+            _logger.exception("a message or the callback on %s failed", self._subscription.topic)
 
 
 class Connection:
@@ -128,6 +137,7 @@ class Connection:
     def __init__(
         self,
         node_name: str,
+        *,
         namespace: str,
         domain: int | None,
         tf_topic: str,
@@ -179,7 +189,7 @@ class Connection:
         self.node.close()
         self.participant.close()
 
-    def __enter__(self) -> Connection:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(
@@ -220,4 +230,11 @@ def connect(
         >>> with coframe.connect() as ros:                                    # doctest: +SKIP
         ...     ros.buffer.lookup("base_link", "end_effector", timeout="2s")
     """
-    return Connection(node_name, namespace, domain, tf_topic, tf_static_topic, cache)
+    return Connection(
+        node_name,
+        namespace=namespace,
+        domain=domain,
+        tf_topic=tf_topic,
+        tf_static_topic=tf_static_topic,
+        cache=cache,
+    )

@@ -27,7 +27,8 @@ def load() -> None:
         _native.load(DDS._dll_handle._name)  # noqa: SLF001 - the only place that knows the library's path
     except RuntimeError as error:
         raise WireError(
-            f"This cyclonedds does not fit: {error}.", hint="Install the version coframe asks for: pip install 'coframe[dds]'."
+            f"This cyclonedds does not fit: {error}.",
+            hint="Install the version coframe asks for: pip install 'coframe[dds]'.",
         ) from error
 
 

@@ -7,8 +7,10 @@ namespace, its name, and the identifiers of its readers and of its writers.
 from __future__ import annotations
 
 import struct
-from collections.abc import Mapping
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 TOPIC = "ros_discovery_info"
 MAX_NAME = 256  # bytes of a namespace or a name
@@ -60,16 +62,19 @@ def decode_info(message: bytes) -> tuple[bytes, list[NodeInfo]] | None:
     if len(message) < 4 or message[0] != 0 or message[1] not in (0, 1):
         return None
     order = "<" if message[1] else ">"
-    for size in _GID_SIZES:
-        try:
-            return _Cursor(message[4:], order, size).info()
-        except (ValueError, struct.error):
-            continue
-    return None
+    forms = (_decode(message[4:], order, size) for size in _GID_SIZES)
+    return next((info for info in forms if info is not None), None)
+
+
+def _decode(body: bytes, order: str, size: int) -> tuple[bytes, list[NodeInfo]] | None:
+    try:
+        return _Cursor(body, order, size).info()
+    except ValueError:
+        return None
 
 
 class _Cursor:
-    """Reads CDR from the front; ValueError or struct.error where the bytes cannot be what is read."""
+    """Reads CDR from the front; ValueError where the bytes cannot be what is read."""
 
     def __init__(self, body: bytes, order: str, gid_size: int) -> None:
         self._body = body

@@ -9,10 +9,10 @@ from coframe.errors import WireError
 from coframe.wire import _native, names
 from coframe.wire.discovery_info import NodeInfo
 from coframe.wire.graph import DdsEndpoint, Graph
-from coframe.wire.qos import QoS
 
 if TYPE_CHECKING:
     from coframe.wire.participant import Participant
+    from coframe.wire.qos import QoS
 
 _NO_AUTHORITY = "<no authority available>"
 
@@ -143,7 +143,8 @@ class Publisher(WireEndpoint):
         """Sends a message: 4 bytes of encapsulation, then CDR. Other threads go on meanwhile.
 
         Raises:
-            WireError: the publisher is closed, or a reliable subscription has not kept up for a second.
+            WireError: the publisher is closed, the bytes are not of the topic's type, or a reliable subscription
+                has not kept up for a second.
         """
         try:
             self._writer.write(cdr)
@@ -154,9 +155,14 @@ class Publisher(WireEndpoint):
         topic = names.any_ros_name(self.topic)
         if self._closed:
             return WireError(f"The publisher on {topic} is closed.", hint="Publish before closing the node.")
+        if error.args[0].endswith("Timeout"):
+            return WireError(
+                f"Publishing on {topic} failed: a reliable subscription has not kept up for a second.",
+                hint="Publish less, or best-effort (qos_profile_sensor_data), or find out which subscriber hangs.",
+            )
         return WireError(
             f"Publishing on {topic} failed: {error}.",
-            hint="A reliable subscription may not keep up: publish less, or best-effort (qos_profile_sensor_data).",
+            hint=f"The bytes must be the CDR of a {names.ros_type(self.description.type)}.",
         )
 
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import threading
 from collections import OrderedDict
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.wire import _native, names
 from coframe.wire.discovery_info import TOPIC, NodeInfo, decode_info
-from coframe.wire.names import Kind
 from coframe.wire.qos import QoS
+
+if TYPE_CHECKING:
+    from coframe.wire.names import Kind
 
 UNKNOWN_NODE = "_NODE_NAME_UNKNOWN_"
 UNKNOWN_NAMESPACE = "_NODE_NAMESPACE_UNKNOWN_"

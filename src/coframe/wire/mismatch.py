@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterable, Iterator
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
 from coframe.wire import names
-from coframe.wire.endpoints import WireEndpoint
-from coframe.wire.graph import DdsEndpoint, Graph
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from coframe.wire.endpoints import WireEndpoint
+    from coframe.wire.graph import DdsEndpoint, Graph
 
 Reason = Literal["type", "reliability", "durability"]
 

@@ -6,7 +6,6 @@ import atexit
 import logging
 import os
 import threading
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from coframe.errors import WireError
@@ -15,12 +14,14 @@ from coframe.wire.discovery_info import MAX_NAME, TOPIC, encode_info, gid_size
 from coframe.wire.endpoints import GraphNode, Publisher, Subscription, TfReader, WireEndpoint, initial_authority
 from coframe.wire.graph import DdsEndpoint, Endpoint, Graph
 from coframe.wire.mismatch import MismatchWatch
-from coframe.wire.names import Kind
 from coframe.wire.qos import GRAPH_WRITER, TF, TF_STATIC_READER, QoS
 from coframe.wire.statics import StaticTopic, StaticWriter
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from coframe import Buffer
+    from coframe.wire.names import Kind
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -73,12 +74,12 @@ class Participant:
             participant = cls._instances.get(domain)
             if participant is None:
                 participant = cls._instances[domain] = cls(domain)
-            elif participant._process != os.getpid():  # noqa: SLF001 - our own class
+            elif participant._process != os.getpid():
                 raise WireError(
                     "This process was forked from one that had joined the ROS graph, and DDS does not survive that.",
                     hint="Start it by 'spawn': multiprocessing.set_start_method('spawn').",
                 )
-            participant._references += 1  # noqa: SLF001 - our own class
+            participant._references += 1
             return participant
 
     def close(self) -> None:

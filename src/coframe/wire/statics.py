@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import copy
 import threading
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from coframe.wire.qos import TF_STATIC_WRITER
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from coframe.wire.endpoints import GraphNode, Publisher
     from coframe.wire.participant import Participant
 
