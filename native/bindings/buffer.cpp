@@ -148,7 +148,7 @@ nb::object py_lookup(BufferObject& self, nb::handle target, nb::handle source, n
     found = asked;
     return lookup(leg, found, pose, failure);
   });
-  if (!ok) raise_failure({std::move(failure), self.core});
+  if (!ok) raise_failure({std::move(failure), self.core, nb::borrow(target), nb::borrow(source)});
   return make_transform(pose, found, target, source);
 }
 
@@ -163,7 +163,7 @@ nb::object py_lookup_full(BufferObject& self, nb::handle target, nb::handle targ
     found = target_time;
     return lookup_full(query, found, source_time, pose, failure);
   });
-  if (!ok) raise_failure({std::move(failure), self.core});
+  if (!ok) raise_failure({std::move(failure), self.core, nb::borrow(target), nb::borrow(source)});
   return make_transform(pose, found, target, source);
 }
 
@@ -189,14 +189,14 @@ bool can_transform_full(BufferObject& self, nb::handle target, nb::handle target
 std::string why_not(BufferObject& self, nb::handle target, nb::handle source, nb::handle stamp) {
   Failure failure;
   if (can_transform(self, target, source, stamp, nb::none(), failure)) return "";
-  return text_of({std::move(failure), self.core, Speaker::can_transform});
+  return text_of({std::move(failure), self.core, {}, {}, Speaker::can_transform});
 }
 
 std::string why_not_full(BufferObject& self, nb::handle target, nb::handle target_stamp, nb::handle source,
                          nb::handle source_stamp, nb::handle fixed) {
   Failure failure;
   if (can_transform_full(self, target, target_stamp, source, source_stamp, fixed, nb::none(), failure)) return "";
-  return text_of({std::move(failure), self.core, Speaker::can_transform});
+  return text_of({std::move(failure), self.core, {}, {}, Speaker::can_transform});
 }
 
 Stamp py_latest_common_time(BufferObject& self, nb::handle target, nb::handle source) {
@@ -207,7 +207,7 @@ Stamp py_latest_common_time(BufferObject& self, nb::handle target, nb::handle so
   const bool ok = resolve(buffer, leg.target_name, Argument::target_frame, leg.target_id, failure) &&
                   resolve(buffer, leg.source_name, Argument::source_frame, leg.source_id, failure) &&
                   buffer.latest_common_time(leg.target_id, leg.source_id, stamp, failure);
-  if (!ok) raise_failure({std::move(failure), self.core, Speaker::latest_common_time});
+  if (!ok) raise_failure({std::move(failure), self.core, nb::borrow(target), nb::borrow(source), Speaker::latest_common_time});
   return stamp;
 }
 
@@ -225,7 +225,7 @@ std::vector<std::string> py_chain(BufferObject& self, nb::handle target, nb::han
     if (!frames.empty() && !rest.empty() && frames.back() == rest.front()) frames.pop_back();
     frames.insert(frames.end(), rest.begin(), rest.end());
   }
-  if (!ok) raise_failure({std::move(failure), self.core});
+  if (!ok) raise_failure({std::move(failure), self.core, nb::borrow(target), nb::borrow(source)});
   std::vector<std::string> names;
   for (const FrameId frame : frames) names.push_back(buffer.name(frame));
   return names;

@@ -1,7 +1,6 @@
 #include "bindings/failure.hpp"
 
 #include <nanobind/stl/string.h>
-#include <nanobind/stl/vector.h>
 
 #include "bindings/bindings.hpp"
 
@@ -48,12 +47,10 @@ bool has_edge(ErrorCode code) { return has_window(code) || code == ErrorCode::no
 
 nb::object stamp_or_none(bool applies, Stamp stamp) { return applies ? nb::object(nb::int_(stamp)) : nb::none(); }
 
-// The frames of the failed leg; a name that is no frame stands for itself.
-nb::str frame_name(const FailureObject& object, FrameId frame, Argument argument) {
-  const Failure& failure = object.failure;
-  const std::string name =
-      frame == 0 && failure.argument == argument && failure.code != ErrorCode::loop ? failure.name
-                                                                                   : object.buffer->name(frame);
+// A frame of the failed leg, which in a look-up over a fixed frame need not be one of those asked for.
+nb::object frame_name(const FailureObject& object, FrameId frame, const nb::object& asked) {
+  if (frame == 0) return asked;
+  const std::string name = object.buffer->name(frame);
   return nb::str(name.data(), name.size());
 }
 
@@ -70,6 +67,13 @@ nb::object roots(const FailureObject& object) {
   const Failure& failure = object.failure;
   if (failure.code != ErrorCode::not_connected) return nb::none();
   return nb::make_tuple(object.buffer->name(failure.target_root), object.buffer->name(failure.source_root));
+}
+
+// Of all frames, as of now; "" for those that have none.
+nb::dict parents(const FailureObject& object) {
+  nb::dict all;
+  for (const FrameSummary& frame : object.buffer->frames()) all[frame.name.c_str()] = frame.parent;
+  return all;
 }
 
 }  // namespace
@@ -101,14 +105,12 @@ void define_failure(nb::module_& module) {
   nb::class_<FailureObject>(module, "Failure", "The facts of a failed look-up; str() gives tf2's text.")
       .def("__str__", &text_of)
       .def_prop_ro("code", [](const FailureObject& self) { return code_name(self.failure.code); })
-      .def_prop_ro("target",
-                   [](const FailureObject& self) {
-                     return frame_name(self, self.failure.target, Argument::target_frame);
-                   })
-      .def_prop_ro("source",
-                   [](const FailureObject& self) {
-                     return frame_name(self, self.failure.source, Argument::source_frame);
-                   })
+      .def_prop_ro(
+          "target", [](const FailureObject& self) { return frame_name(self, self.failure.target, self.target); },
+          nb::sig("def target(self) -> str"))
+      .def_prop_ro(
+          "source", [](const FailureObject& self) { return frame_name(self, self.failure.source, self.source); },
+          nb::sig("def source(self) -> str"))
       .def_prop_ro(
           "requested",
           [](const FailureObject& self) { return stamp_or_none(has_edge(self.failure.code), self.failure.requested); },
@@ -124,7 +126,7 @@ void define_failure(nb::module_& module) {
       .def_prop_ro("edge", &edge, nb::sig("def edge(self) -> tuple[str, str] | None"))
       .def_prop_ro("roots", &roots, nb::sig("def roots(self) -> tuple[str, str] | None"))
       .def_prop_ro("name", [](const FailureObject& self) { return self.failure.name; })
-      .def_prop_ro("frame_names", [](const FailureObject& self) { return self.buffer->frame_names(); });
+      .def_prop_ro("parents", &parents, nb::sig("def parents(self) -> dict[str, str]"));
   module.def(
       "register_errors", [](nb::object errors) { errors_module = errors.release(); }, nb::arg("errors"),
       "Failures are raised as the exceptions of this module.");

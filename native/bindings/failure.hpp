@@ -18,6 +18,7 @@ enum class Speaker { lookup, can_transform, latest_common_time };
 struct FailureObject {
   Failure failure;
   std::shared_ptr<Buffer> buffer;
+  nb::object target, source;  // the names as they were asked for
   Speaker speaker = Speaker::lookup;
 };
 

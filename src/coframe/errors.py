@@ -57,7 +57,7 @@ class Failure(Protocol):
     @property
     def name(self) -> str: ...
     @property
-    def frame_names(self) -> list[str]: ...
+    def parents(self) -> dict[str, str]: ...
 
 
 class _Facts(NamedTuple):
@@ -188,7 +188,7 @@ def _restore(kind: type[TransformException], text: str, facts: dict[str, object]
 
 def _hint(failure: Failure) -> str:
     if failure.code == "unknown_frame":
-        return _unknown_frame_hint(failure.name, failure.frame_names)
+        return _unknown_frame_hint(failure.name, list(failure.parents))
     if failure.code == "not_connected":
         return _not_connected_hint(failure)
     if failure.code == "leading_slash":
@@ -219,8 +219,22 @@ def _unknown_frame_hint(name: str, known: list[str]) -> str:
 
 def _not_connected_hint(failure: Failure) -> str:
     target_root, source_root = failure.roots or ("", "")
+    trees = [_tree_text(root, failure.parents) for root in (target_root, source_root)]
     return (
-        f"{failure.target!r} is in the tree of {target_root!r}, {failure.source!r} in the tree of {source_root!r}. "
-        f"Missing is a transform that says where {source_root!r} is (a link with the child {source_root!r}), "
-        f"or where {target_root!r} is."
+        f"There are different trees: {' and '.join(trees)}. Nothing says where {source_root!r} is seen from the first, "
+        f"or {target_root!r} from the second: the missing link is a transform with the child {source_root!r} "
+        f"(or {target_root!r})."
     )
+
+
+def _tree_text(root: str, parents: dict[str, str]) -> str:
+    members = sorted(frame for frame in parents if frame != root and _root_of(frame, parents) == root)
+    return f"{root!r} with {', '.join(members)}" if members else f"{root!r} alone"
+
+
+def _root_of(frame: str, parents: dict[str, str]) -> str:
+    seen = set()
+    while parents.get(frame) and frame not in seen:
+        seen.add(frame)
+        frame = parents[frame]
+    return frame

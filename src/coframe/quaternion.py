@@ -73,7 +73,8 @@ def from_matrix(matrix: Array) -> Array:
     largest = np.diagonal(products, axis1=-2, axis2=-1).argmax(axis=-1)
     q: Array = np.take_along_axis(products, largest[..., None, None], axis=-2)[..., 0, :]
     q = q / np.linalg.norm(q, axis=-1, keepdims=True)
-    return np.where(q[..., 3:] < 0.0, -q, q)
+    canonical: Array = np.where(q[..., 3:] < 0.0, -q, q)
+    return canonical
 
 
 def from_rpy(rpy: Array) -> Array:

@@ -95,7 +95,8 @@ def _parse_duration(text: str) -> int:
         units = ", ".join(_UNITS)
         raise ValueError(f'{text!r} is not a duration: write a number and a unit ({units}), such as "100ms"')
     whole, fraction, unit = match[1], match[2] or "", _UNITS[match[3]]
-    return int(whole) * unit + int(fraction or "0") * unit // 10 ** len(fraction)
+    scale: int = 10 ** len(fraction)
+    return int(whole) * unit + int(fraction or "0") * unit // scale
 
 
 def _timedelta_ns(delta: datetime.timedelta) -> int:

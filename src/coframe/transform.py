@@ -243,11 +243,20 @@ class Transform(_core.Transform):
         return f"Transform({frames}translation={_numbers(self.translation)}, rpy={_numbers(self.rpy)}{stamp})"
 
     def __reduce__(self) -> tuple[object, ...]:
-        return _rebuild, (self.translation, self.quaternion, self.target, self.source, self._any_stamp())
+        return _rebuild, (self.values, self.target, self.source, self.stamp, self.batch)
 
 
-def _rebuild(translation: Array, quaternion: Array, target: str | None, source: str | None, stamp: Any) -> Transform:
-    return Transform(translation, quaternion, target=target, source=source, stamp=stamp)
+def _rebuild(
+    values: tuple[float, float, float, float, float, float, float],
+    target: str | None,
+    source: str | None,
+    stamp: int | None,
+    batch: Any,
+) -> Transform:
+    """Bit for bit what it was: unlike the constructor, this does not normalise again."""
+    transform = Transform.__new__(Transform)
+    _core.Transform.__init__(transform, *values, target, source, stamp, batch)
+    return transform
 
 
 def _vectors(values: ArrayLike, size: int, what: str) -> Array:
@@ -274,7 +283,8 @@ def _normalised(q: Array) -> Array:
         raise InvalidArgumentException(
             "a quaternion of length zero is no rotation", hint="Is w unset? It is 1 at rest."
         )
-    return q / length
+    unit: Array = q / length
+    return unit
 
 
 def _stamps(stamp: Any, shape: tuple[int, ...]) -> NDArray[np.int64] | None:

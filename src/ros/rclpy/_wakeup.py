@@ -55,3 +55,8 @@ class Wakeup:
                 self._is_led = False
                 self._count += was_set
                 self._condition.notify_all()
+
+    def wait_until_idle(self) -> None:
+        """Waits until nobody is in native code any more, where the end of the interpreter would be fatal."""
+        with self._condition:
+            self._condition.wait_for(lambda: not self._is_led, timeout=1.0)

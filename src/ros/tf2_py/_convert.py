@@ -4,7 +4,7 @@ import warnings
 from operator import index
 from typing import Any
 
-from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
+from geometry_msgs.msg import Quaternion, Vector3
 
 NANOSECONDS_PER_SECOND = 1_000_000_000
 
@@ -39,7 +39,7 @@ def frame_id(value: Any, field: str) -> str:
     return value
 
 
-def values(transform: Any, *, static: bool) -> tuple[Any, ...]:
+def values(transform: Any, *, static: bool) -> tuple[Any, Any, Any, Any, Any, Any, Any]:
     """x, y, z, qx, qy, qz, qw of a `geometry_msgs/Transform`, as they are: the core checks that they are numbers."""
     translation, rotation = transform.translation, transform.rotation
     if not isinstance(translation, Vector3):
@@ -62,13 +62,14 @@ def values(transform: Any, *, static: bool) -> tuple[Any, ...]:
     )
 
 
-def message(target: str, source: str, stamp: int, pose: tuple[float, ...]) -> TransformStamped:
-    """The `TransformStamped` that takes data from `source` to `target`."""
-    result = TransformStamped()
-    result.header.stamp.sec, result.header.stamp.nanosec = divmod(stamp, NANOSECONDS_PER_SECOND)
-    result.header.frame_id = target
-    result.child_frame_id = source
-    translation, rotation = result.transform.translation, result.transform.rotation
-    translation.x, translation.y, translation.z = pose[:3]
-    rotation.x, rotation.y, rotation.z, rotation.w = pose[3:]
-    return result
+def full_query(
+    target_frame: Any, target_time: Any, source_frame: Any, source_time: Any, fixed_frame: Any
+) -> tuple[str, int, str, int, str]:
+    """The five arguments of a look-up between two times, as the core takes them."""
+    return (
+        text(target_frame, 1),
+        nanoseconds(target_time, "time"),
+        text(source_frame, 3),
+        nanoseconds(source_time, "time"),
+        text(fixed_frame, 5),
+    )

@@ -3,10 +3,6 @@
 import sys
 from typing import Any, ClassVar
 
-from geometry_msgs.msg import TransformStamped
-from rclpy.duration import Duration
-from rclpy.time import Time
-
 import coframe
 from coframe import _core
 from coframe.errors import (
@@ -17,8 +13,12 @@ from coframe.errors import (
     TimeoutException,
     TransformException,
 )
+from geometry_msgs.msg import TransformStamped
+from rclpy.duration import Duration
+from rclpy.time import Time
 from tf2_py import _convert
-from tf2_py._velocity import Vector, lookup_velocity
+from tf2_py._message import transform_stamped
+from tf2_py._velocity import Tracked, Vector, lookup_velocity
 
 __all__ = [
     "BufferCore",
@@ -30,7 +30,8 @@ __all__ = [
     "TransformException",
 ]
 
-_NOW = Time()
+_TEN_SECONDS = Duration(seconds=10)
+_NO_TIME = Time()
 
 
 class BufferCore:
@@ -43,7 +44,7 @@ class BufferCore:
     # console_bridge's prefixes, as Humble writes them to stderr.
     _LOG_PREFIX: ClassVar[dict[str, str]] = {"error": "Error:   ", "warning": "Warning: "}
 
-    def __init__(self, cache_time: Any = Duration(seconds=10), /, **_ignored: Any) -> None:
+    def __init__(self, cache_time: Any = _TEN_SECONDS, /, **_ignored: Any) -> None:
         """Create an empty buffer.
 
         Args:
@@ -91,7 +92,7 @@ class BufferCore:
     ) -> tuple[int, str]:
         """The same for `lookup_transform_full_core`."""
         reason = self._buffer.why_not_full(
-            *_full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
+            *_convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         )
         return int(not reason), reason
 
@@ -107,7 +108,7 @@ class BufferCore:
 
     def _lookup(self, target: str, source: str, stamp: int, wait: int | None = None) -> TransformStamped:
         found = self._buffer.lookup(target, source, stamp, timeout=wait)
-        return _convert.message(target, source, found.stamp or 0, found.values)
+        return transform_stamped(target, source, found.stamp or 0, found.values)
 
     def lookup_transform_full_core(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
@@ -117,21 +118,15 @@ class BufferCore:
         Raises:
             TransformException: One of its children, with tf2's text.
         """
-        return self._lookup_full(
-            _full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
-        )
+        return self._lookup_full(_convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame))
 
-    def _lookup_full(
-        self, query: tuple[str, int, str, int, str], wait: int | None = None
-    ) -> TransformStamped:
+    def _lookup_full(self, query: tuple[str, int, str, int, str], wait: int | None = None) -> TransformStamped:
         found = self._buffer.lookup_full(*query, timeout=wait)
-        return _convert.message(query[0], query[2], found.stamp or 0, found.values)
+        return transform_stamped(query[0], query[2], found.stamp or 0, found.values)
 
     def get_latest_common_time(self, target_frame: str, source_frame: str, /) -> Time:
         """The newest time at which every moving link between the frames is known; 0 if none moves."""
-        latest = self._buffer.latest_common_time(
-            _convert.text(target_frame, 1), _convert.text(source_frame, 2)
-        )
+        latest = self._buffer.latest_common_time(_convert.text(target_frame, 1), _convert.text(source_frame, 2))
         return Time(nanoseconds=latest)
 
     def lookupVelocityCore(
@@ -139,11 +134,16 @@ class BufferCore:
     ) -> tuple[Vector, Vector]:
         """Linear (m/s) and angular (rad/s) velocity of the tracking frame's origin in the observation frame."""
         tracking, observation = _convert.text(tracking_frame, 1), _convert.text(observation_frame, 2)
-        return self._velocity(
-            tracking, observation, observation, (0.0, 0.0, 0.0), tracking, time, averaging_interval
+        return lookup_velocity(
+            self._buffer,
+            Tracked(tracking, (0.0, 0.0, 0.0), tracking),
+            observation,
+            observation,
+            stamp=_convert.nanoseconds(time, "time"),
+            interval=_convert.nanoseconds(averaging_interval, "duration"),
         )
 
-    def lookupVelocityFullCore(
+    def lookupVelocityFullCore(  # noqa: PLR0917 - tf2's signature
         self,
         tracking_frame: str,
         observation_frame: str,
@@ -156,35 +156,14 @@ class BufferCore:
     ) -> tuple[Vector, Vector]:
         """The same for a point fixed to the tracking frame, expressed in the reference frame."""
         x, y, z = reference_point
-        return self._velocity(
-            _convert.text(tracking_frame, 1),
-            _convert.text(observation_frame, 2),
-            _convert.text(reference_frame, 3),
-            (x, y, z),
-            _convert.text(reference_point_frame, 7),
-            time,
-            averaging_interval,
-        )
-
-    def _velocity(
-        self,
-        tracking: str,
-        observation: str,
-        reference: str,
-        point: tuple[float, float, float],
-        point_frame: str,
-        time: Any,
-        interval: Any,
-    ) -> tuple[Vector, Vector]:
+        point = (float(x), float(y), float(z))
         return lookup_velocity(
             self._buffer,
-            tracking,
-            observation,
-            reference,
-            point,
-            point_frame,
-            _convert.nanoseconds(time, "time"),
-            _convert.nanoseconds(interval, "duration"),
+            Tracked(_convert.text(tracking_frame, 1), point, _convert.text(reference_point_frame, 7)),
+            _convert.text(observation_frame, 2),
+            _convert.text(reference_frame, 3),
+            stamp=_convert.nanoseconds(time, "time"),
+            interval=_convert.nanoseconds(averaging_interval, "duration"),
         )
 
     def all_frames_as_yaml(self, *_ignored: Any) -> str:
@@ -195,14 +174,14 @@ class BufferCore:
         """One sentence per frame that has a parent."""
         return self._buffer.all_frames_as_string()
 
-    def _allFramesAsDot(self, time: Any = _NOW) -> str:
+    def _allFramesAsDot(self, time: Any = _NO_TIME) -> str:
         return self._buffer.all_frames_as_dot(_convert.nanoseconds(time, "time"))
 
     def _chain(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> list[str]:
         return self._buffer.chain(
-            *_full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
+            *_convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         )
 
     def _frameExists(self, frame: str, /) -> bool:
@@ -215,15 +194,3 @@ class BufferCore:
     def clear(self) -> None:
         """Forget every moving transform; frames and static transforms stay."""
         self._buffer.clear()
-
-
-def _full_query(
-    target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
-) -> tuple[str, int, str, int, str]:
-    return (
-        _convert.text(target_frame, 1),
-        _convert.nanoseconds(target_time, "time"),
-        _convert.text(source_frame, 3),
-        _convert.nanoseconds(source_time, "time"),
-        _convert.text(fixed_frame, 5),
-    )

@@ -1,7 +1,7 @@
 """How fast one frame moves in another: tf2's finite difference of two look-ups."""
 
 import math
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,39 +14,39 @@ Vector = tuple[float, float, float]
 _EARLIEST_START = 10_000
 
 
-def lookup_velocity(
-    core: coframe.Buffer,
-    tracking: str,
-    observation: str,
-    reference: str,
-    reference_point: tuple[Any, Any, Any],
-    reference_point_frame: str,
-    stamp: int,
-    interval: int,
-) -> tuple[Vector, Vector]:
-    """Linear (m/s) and angular (rad/s) velocity of `tracking` seen from `observation`.
+class Tracked(NamedTuple):
+    """What moves: a frame, and the point of it whose velocity is wanted, given in a frame of its own."""
 
-    Both are expressed in `reference`; the linear one is that of the given point. `stamp` and `interval` are
-    nanoseconds; the window ends at the newest common time if that is earlier than `stamp + interval / 2`.
+    frame: str
+    point: Vector
+    point_frame: str
+
+
+def lookup_velocity(
+    core: coframe.Buffer, tracked: Tracked, observation: str, reference: str, *, stamp: int, interval: int
+) -> tuple[Vector, Vector]:
+    """Linear (m/s) and angular (rad/s) velocity of what is tracked, seen from `observation`.
+
+    Both are expressed in `reference`. `stamp` and `interval` are nanoseconds; the window ends at the newest common
+    time if that is earlier than `stamp + interval / 2`.
     """
-    end = min(stamp + interval // 2, _latest_common_time(core, observation, tracking))
+    end = min(stamp + interval // 2, _latest_common_time(core, observation, tracked.frame))
     start = max(_EARLIEST_START + interval, end) - interval
     seconds = (end - start) / 1e9 or math.nan
-    first = core.lookup(observation, tracking, start)
-    last = core.lookup(observation, tracking, end)
+    first = core.lookup(observation, tracked.frame, start)
+    last = core.lookup(observation, tracked.frame, end)
     velocity = (last.translation - first.translation) / seconds
     rate = first.matrix[:3, :3] @ _rotation_vector((first.inverse() @ last).quaternion) / seconds
 
-    into_reference = core.lookup(reference, tracking, stamp)
+    into_reference = core.lookup(reference, tracked.frame, stamp)
     rotation = into_reference.matrix[:3, :3]
     angular = rotation @ rate
     linear = rotation @ velocity + np.cross(into_reference.translation, angular)
 
-    point = np.array([float(value) for value in reference_point])
-    point_in_reference = core.lookup(reference, reference_point_frame, stamp) @ point
+    point = core.lookup(reference, tracked.point_frame, stamp) @ np.array(tracked.point)
     # The lever arm belongs in a cross product. tf has multiplied element by element since ROS 1, and an answer
     # that differs from every other tf2 helps nobody who compares.
-    linear = linear + angular * (point_in_reference - into_reference.translation)
+    linear = linear + angular * (point - into_reference.translation)
     return _vector(linear), _vector(angular)
 
 

@@ -1,0 +1,170 @@
+#!/usr/bin/env python3
+"""Publishes the complete transform tree of the robot system: world, map, odom, base, arm and sensors.
+
+Try it:
+    complete_tf_tree --ros-args -p publish_arm:=false      # the arm comes from dynamic_tf_broadcaster
+
+Parameters:
+    rate: broadcasts of the moving transforms per second
+    publish_base: whether map, odom and base_link move from here (false: a real or simulated robot tells)
+    publish_arm: whether the arm moves from here (false: dynamic_tf_broadcaster or a robot tells)
+    publish_mounts: whether the sensor mounts come from here (false: static_tf_broadcaster tells)
+    link_lengths, base_height: of the arm, metres
+    imu_translation, lidar_translation, camera_translation, gripper_translation: the mounts, metres
+"""
+
+import math
+from collections.abc import Sequence
+
+from rclpy.node import Node
+
+import rclpy
+from builtin_interfaces.msg import Time
+from geometry_msgs.msg import TransformStamped
+from rclpy.executors import ExternalShutdownException
+from rclpy.time import Time as ClockTime
+from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
+
+NO_MOVE = [0.0, 0.0, 0.0]
+NO_ROTATION = [0.0, 0.0, 0.0, 1.0]
+# A quarter turn about y: the camera's z axis looks along the gripper.
+LOOK_FORWARD = [0.0, math.sqrt(0.5), 0.0, math.sqrt(0.5)]
+
+
+class CompleteTFTree(Node):
+    """Manage complete transform tree."""
+
+    def __init__(self) -> None:
+        super().__init__("complete_tf_tree")
+        rate = self.declare_parameter("rate", 50.0).value
+        if not rate > 0.0:
+            raise ValueError(f"parameter 'rate' must be more than 0 per second, but is {rate}")
+        self.period = 1.0 / rate
+        self.publish_base = self.declare_parameter("publish_base", True).value
+        self.publish_arm = self.declare_parameter("publish_arm", True).value
+        self.publish_mounts = self.declare_parameter("publish_mounts", True).value
+        self.link_lengths = self.lengths("link_lengths", [0.4, 0.3])
+        self.base_height = self.declare_parameter("base_height", 0.2).value
+
+        self.static_broadcaster = StaticTransformBroadcaster(self)
+        self.dynamic_broadcaster = TransformBroadcaster(self)
+        self.publish_static_transforms()
+
+        self.timer = self.create_timer(self.period, self.publish_dynamic_transforms)
+        self.sim_time = 0.0
+        self.last_tick: ClockTime | None = None
+        self.get_logger().info("Complete TF tree manager started")
+
+    def lengths(self, name: str, default: list[float]) -> list[float]:
+        """Declare a parameter of as many lengths as its default has."""
+        values = [float(value) for value in self.declare_parameter(name, default).value]
+        if len(values) != len(default) or not all(math.isfinite(value) for value in values):
+            raise ValueError(f"parameter '{name}' needs {len(default)} finite numbers, but is {values}")
+        return values
+
+    def publish_static_transforms(self) -> None:
+        """Publish all static transforms."""
+        imu = self.lengths("imu_translation", [0.0, 0.0, 0.1])
+        lidar = self.lengths("lidar_translation", [0.1, 0.0, 0.3])
+        camera = self.lengths("camera_translation", [0.05, 0.0, 0.02])
+        gripper = self.lengths("gripper_translation", [0.1, 0.0, 0.0])
+
+        # World to map (identity for simulation)
+        static_tfs = [self.make_transform("world", "map", NO_MOVE, NO_ROTATION)]
+        if self.publish_mounts:
+            static_tfs += [
+                self.make_transform("base_link", "imu_link", imu, NO_ROTATION),
+                self.make_transform("base_link", "lidar_link", lidar, NO_ROTATION),
+                self.make_transform("end_effector", "camera_link", camera, LOOK_FORWARD),
+            ]
+        static_tfs.append(self.make_transform("end_effector", "gripper_link", gripper, NO_ROTATION))
+
+        self.static_broadcaster.sendTransform(static_tfs)
+        self.get_logger().info(f"Published {len(static_tfs)} static transforms")
+
+    def publish_dynamic_transforms(self) -> None:
+        """Publish all dynamic transforms, in one message: nobody sees half a robot."""
+        now = self.get_clock().now()
+        self.advance(now)
+        stamp = now.to_msg()
+        dynamic_tfs = []
+        if self.publish_base:
+            dynamic_tfs += self.base_transforms(stamp)
+        if self.publish_arm:
+            dynamic_tfs += self.arm_transforms(stamp)
+        if dynamic_tfs:
+            self.dynamic_broadcaster.sendTransform(dynamic_tfs)
+
+    def advance(self, now: ClockTime) -> None:
+        """Let the simulated time follow the stamps; a clock that was set back must not set the robot back."""
+        elapsed = self.period if self.last_tick is None else (now - self.last_tick).nanoseconds * 1e-9
+        self.last_tick = now
+        self.sim_time += self.period if elapsed < 0.0 else elapsed
+
+    def base_transforms(self, stamp: Time) -> list[TransformStamped]:
+        """The robot drives forward with a slight sway, and the localization drifts."""
+        drift = 0.001 * self.sim_time
+        x = 0.1 * self.sim_time
+        y = 0.05 * math.sin(0.5 * self.sim_time)
+        yaw = 0.1 * math.sin(0.2 * self.sim_time)
+        return [
+            self.make_transform("map", "odom", [drift, drift / 2, 0.0], NO_ROTATION, stamp),
+            self.make_transform("odom", "base_link", [x, y, 0.0], self.yaw_to_quat(yaw), stamp),
+        ]
+
+    def arm_transforms(self, stamp: Time) -> list[TransformStamped]:
+        """The two joints of the arm swing."""
+        q1 = 0.5 * math.sin(0.3 * self.sim_time)
+        q2 = 0.3 * math.sin(0.4 * self.sim_time + 0.5)
+        first, second = self.link_lengths
+        return [
+            self.make_transform("base_link", "link1", [0.0, 0.0, self.base_height], self.yaw_to_quat(q1), stamp),
+            self.make_transform("link1", "link2", [first, 0.0, 0.0], self.yaw_to_quat(q2), stamp),
+            self.make_transform("link2", "end_effector", [second, 0.0, 0.0], NO_ROTATION, stamp),
+        ]
+
+    def make_transform(
+        self,
+        parent: str,
+        child: str,
+        translation: Sequence[float],
+        rotation: Sequence[float],
+        stamp: Time | None = None,
+    ) -> TransformStamped:
+        """Create TransformStamped message; stamped now unless told otherwise."""
+        t = TransformStamped()
+        t.header.stamp = stamp if stamp is not None else self.get_clock().now().to_msg()
+        t.header.frame_id = parent
+        t.child_frame_id = child
+        t.transform.translation.x = float(translation[0])
+        t.transform.translation.y = float(translation[1])
+        t.transform.translation.z = float(translation[2])
+        t.transform.rotation.x = float(rotation[0])
+        t.transform.rotation.y = float(rotation[1])
+        t.transform.rotation.z = float(rotation[2])
+        t.transform.rotation.w = float(rotation[3])
+        return t
+
+    @staticmethod
+    def yaw_to_quat(yaw: float) -> list[float]:
+        """Convert yaw angle to quaternion [x, y, z, w]."""
+        return [0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)]
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the node until it is stopped."""
+    rclpy.init(args=args)
+    node = None
+    try:
+        node = CompleteTFTree()
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+"""Broadcasts the transforms of a two-link arm: from joint states, or simulated while there are none.
+
+Try it:
+    dynamic_tf_broadcaster --ros-args -p rate:=100.0
+
+Parameters:
+    rate: broadcasts of the simulated arm per second
+    joint_timeout: seconds without joint states after which the simulation goes on
+    joint_names: the arm's joints in the joint states
+    joint_states_topic: where joint states come from
+    link_lengths, base_height: of the arm, metres
+    base_frame, link1_frame, link2_frame, end_effector_frame: names of the frames
+"""
+
+import math
+
+from rclpy.node import Node
+
+import rclpy
+from geometry_msgs.msg import TransformStamped
+from rclpy.executors import ExternalShutdownException
+from rclpy.time import Time
+from sensor_msgs.msg import JointState
+from tf2_ros import TransformBroadcaster
+
+
+class DynamicFramePublisher(Node):
+    """Publish dynamic transforms from joint states."""
+
+    def __init__(self) -> None:
+        super().__init__("dynamic_tf_broadcaster")
+        rate = self.declare_parameter("rate", 50.0).value
+        if not rate > 0.0:
+            raise ValueError(f"parameter 'rate' must be more than 0 per second, but is {rate}")
+        self.period = 1.0 / rate
+        self.joint_timeout = self.declare_parameter("joint_timeout", 1.0).value
+        self.joint_names = list(self.declare_parameter("joint_names", ["joint1", "joint2"]).value)
+        self.link_lengths = list(self.declare_parameter("link_lengths", [0.5, 0.4]).value)
+        self.base_height = self.declare_parameter("base_height", 0.1).value
+        self.base_frame = self.declare_parameter("base_frame", "base_link").value
+        self.link1_frame = self.declare_parameter("link1_frame", "link1").value
+        self.link2_frame = self.declare_parameter("link2_frame", "link2").value
+        self.end_effector_frame = self.declare_parameter("end_effector_frame", "end_effector").value
+        if len(self.joint_names) != 2 or len(self.link_lengths) != 2:
+            raise ValueError(
+                "parameters 'joint_names' and 'link_lengths' need two entries each: the arm has two joints"
+            )
+
+        self.tf_broadcaster = TransformBroadcaster(self)
+        topic = self.declare_parameter("joint_states_topic", "/joint_states").value
+        self.joint_sub = self.create_subscription(JointState, topic, self.joint_callback, 10)
+        self.timer = self.create_timer(self.period, self.simulate_and_broadcast)
+
+        self.sim_time = 0.0
+        self.last_tick: Time | None = None
+        self.last_joint_state: Time | None = None
+        self.get_logger().info("Dynamic TF broadcaster started")
+
+    def simulate_and_broadcast(self) -> None:
+        """Simulate joint motion and broadcast transforms, unless a robot tells its joint states."""
+        now = self.get_clock().now()
+        elapsed = self.seconds_between(self.last_tick, now)
+        self.last_tick = now
+        if self.robot_is_there(now):
+            return
+        # The motion follows the stamps; a clock that was set back must not set the arm back.
+        self.sim_time += self.period if elapsed is None or elapsed < 0.0 else elapsed
+        q1 = 0.5 * math.sin(2 * math.pi * 0.2 * self.sim_time)
+        q2 = 0.3 * math.sin(2 * math.pi * 0.3 * self.sim_time + math.pi / 4)
+        self.broadcast_arm_transforms(q1, q2, now)
+
+    def robot_is_there(self, now: Time) -> bool:
+        """Whether joint states arrived lately; two sources at once would make the arm flicker."""
+        silence = self.seconds_between(self.last_joint_state, now)
+        if silence is not None and 0.0 <= silence < self.joint_timeout:
+            return True
+        if self.last_joint_state is not None:
+            self.last_joint_state = None
+            self.get_logger().info("No joint states any more: simulating the arm again")
+        return False
+
+    def joint_callback(self, msg: JointState) -> None:
+        """Handle real joint state messages."""
+        positions = self.arm_positions(msg)
+        if positions is None:
+            return
+        now = self.get_clock().now()
+        if self.last_joint_state is None:
+            self.get_logger().info("Joint states arrive: the arm follows them instead of the simulation")
+        self.last_joint_state = now
+        stamp = Time.from_msg(msg.header.stamp)
+        self.broadcast_arm_transforms(*positions, stamp if stamp.nanoseconds else now)
+
+    def arm_positions(self, msg: JointState) -> tuple[float, float] | None:
+        """The angles of the two joints; None, with a warning, if the message does not tell them."""
+        names = list(msg.name)
+        ours = [name for name in self.joint_names if name in names]
+        if len(ours) == 1:
+            return self.ignore(f"it has {ours[0]!r} but not both of {self.joint_names}")
+        indices = [names.index(name) for name in ours] or [0, 1]
+        if len(msg.position) <= max(indices):
+            return self.ignore(f"it has {len(msg.position)} positions for {len(names)} names")
+        q1, q2 = (msg.position[index] for index in indices)
+        if not (math.isfinite(q1) and math.isfinite(q2)):
+            return self.ignore(f"its positions are {q1} and {q2}")
+        return q1, q2
+
+    def ignore(self, reason: str) -> None:
+        """Say why a joint state is ignored, but not with every message."""
+        self.get_logger().warning(f"Joint state ignored: {reason}", throttle_duration_sec=5.0)
+
+    def broadcast_arm_transforms(self, q1: float, q2: float, time: Time) -> None:
+        """Broadcast the transforms of the 2-link arm, all in one message: nobody sees half an arm."""
+        stamp = time.to_msg()
+
+        # Base to link1 (rotation about Z, at the height of the first joint)
+        t1 = TransformStamped()
+        t1.header.stamp = stamp
+        t1.header.frame_id = self.base_frame
+        t1.child_frame_id = self.link1_frame
+        t1.transform.translation.z = self.base_height
+        t1.transform.rotation.z = math.sin(q1 / 2)
+        t1.transform.rotation.w = math.cos(q1 / 2)
+
+        # Link1 to link2 (rotation about Z, at the end of link1)
+        t2 = TransformStamped()
+        t2.header.stamp = stamp
+        t2.header.frame_id = self.link1_frame
+        t2.child_frame_id = self.link2_frame
+        t2.transform.translation.x = self.link_lengths[0]
+        t2.transform.rotation.z = math.sin(q2 / 2)
+        t2.transform.rotation.w = math.cos(q2 / 2)
+
+        # Link2 to end effector
+        t3 = TransformStamped()
+        t3.header.stamp = stamp
+        t3.header.frame_id = self.link2_frame
+        t3.child_frame_id = self.end_effector_frame
+        t3.transform.translation.x = self.link_lengths[1]
+        t3.transform.rotation.w = 1.0
+
+        self.tf_broadcaster.sendTransform([t1, t2, t3])
+
+    @staticmethod
+    def seconds_between(earlier: Time | None, later: Time) -> float | None:
+        """Seconds between two times; None if there was no earlier one."""
+        return None if earlier is None else (later - earlier).nanoseconds * 1e-9
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the node until it is stopped."""
+    rclpy.init(args=args)
+    node = None
+    try:
+        node = DynamicFramePublisher()
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

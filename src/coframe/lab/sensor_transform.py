@@ -1,0 +1,197 @@
+#!/usr/bin/env python3
+"""Transforms laser scans into the base frame and publishes them as point clouds.
+
+A scan usually arrives before the transforms of its moment do. So scans wait, each for its own transform and no longer
+than a deadline; what arrives later does not wait behind them.
+
+Try it:
+    sensor_transform --ros-args -p target_frame:=odom
+
+Parameters:
+    target_frame: frame of the clouds
+    wait: seconds a scan waits for its transform at most
+    queue_size: scans that may wait at the same time
+    scan_topic, cloud_topic: where scans come from and clouds go to
+"""
+
+from array import array
+from collections import deque
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from rclpy.node import Node
+
+import rclpy
+from geometry_msgs.msg import TransformStamped
+from rclpy.duration import Duration
+from rclpy.executors import ExternalShutdownException
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.time import Time
+from sensor_msgs.msg import LaserScan, PointCloud2, PointField
+from std_msgs.msg import Header
+from tf2_ros import Buffer, TransformException, TransformListener
+
+Array = NDArray[np.float64]
+
+# How often waiting scans are tried again: well below the time between two transforms.
+RETRY_PERIOD = 0.005
+
+
+class WaitingScan(NamedTuple):
+    """A scan whose transform is not there yet."""
+
+    scan: LaserScan
+    deadline: Time
+
+
+class SensorTransformNode(Node):
+    """Transform sensor data to base frame."""
+
+    def __init__(self) -> None:
+        super().__init__("sensor_transform")
+        self.target_frame = self.declare_parameter("target_frame", "base_link").value
+        self.wait = Duration(seconds=self.declare_parameter("wait", 0.2).value)
+        self.queue_size = max(1, self.declare_parameter("queue_size", 50).value)
+
+        self.tf_buffer = Buffer()
+        self.tf_listener = TransformListener(self.tf_buffer, self)
+
+        self.waiting: deque[WaitingScan] = deque()
+        self.received = 0
+        self.dropped = 0
+        # Runs only while scans wait.
+        self.retry_timer = self.create_timer(RETRY_PERIOD, self.process_waiting)
+        self.retry_timer.cancel()
+
+        # Many lidar drivers publish best-effort; a reliable subscription would hear nothing of them.
+        qos = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+        scan_topic = self.declare_parameter("scan_topic", "/scan").value
+        self.scan_sub = self.create_subscription(LaserScan, scan_topic, self.scan_callback, qos)
+        cloud_topic = self.declare_parameter("cloud_topic", "/scan_base_frame").value
+        self.points_pub = self.create_publisher(PointCloud2, cloud_topic, 10)
+        self.get_logger().info("Sensor transform node started")
+
+    def scan_callback(self, msg: LaserScan) -> None:
+        """Put a scan in the queue, and see what can go."""
+        self.received += 1
+        if len(self.waiting) == self.queue_size:
+            self.drop(f"more than {self.queue_size} scans wait for their transform")
+            self.waiting.popleft()
+        self.waiting.append(WaitingScan(msg, self.get_clock().now() + self.wait))
+        self.process_waiting()
+
+    def process_waiting(self) -> None:
+        """Publish the scans whose transform is there by now; drop those that waited too long."""
+        now = self.get_clock().now()
+        still_waiting: deque[WaitingScan] = deque()
+        for waiting in self.waiting:
+            header = waiting.scan.header
+            try:
+                transform = self.tf_buffer.lookup_transform(
+                    self.target_frame, header.frame_id, Time.from_msg(header.stamp)
+                )
+            except TransformException as e:
+                if now < waiting.deadline:
+                    still_waiting.append(waiting)
+                else:
+                    self.drop(str(e))
+                continue
+            self.points_pub.publish(self.make_cloud(waiting.scan, transform))
+        self.waiting = still_waiting
+        if still_waiting:
+            self.retry_timer.reset()
+        else:
+            self.retry_timer.cancel()
+
+    def drop(self, reason: str) -> None:
+        """Count a scan that is not published, and say why, but not every time."""
+        self.dropped += 1
+        self.get_logger().warning(
+            f"Scan transform failed: {reason} (dropped {self.dropped} of {self.received} scans so far)",
+            throttle_duration_sec=2.0,
+        )
+
+    def make_cloud(self, scan: LaserScan, transform: TransformStamped) -> PointCloud2:
+        """Convert a scan to a point cloud in the target frame, at the scan's own time."""
+        ranges = np.asarray(scan.ranges, dtype=np.float64)
+        # Comparing drops NaN as well; a beam without an echo is infinite or out of range.
+        valid = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
+        angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
+        points_sensor = np.zeros((np.count_nonzero(valid), 3))
+        points_sensor[:, 0] = ranges[valid] * np.cos(angles[valid])
+        points_sensor[:, 1] = ranges[valid] * np.sin(angles[valid])
+
+        names = ["x", "y", "z"]
+        columns = [self.transform_points(points_sensor, transform)]
+        if len(scan.intensities) == len(ranges):
+            names.append("intensity")
+            columns.append(np.asarray(scan.intensities, dtype=np.float64)[valid, np.newaxis])
+        header = Header(stamp=scan.header.stamp, frame_id=self.target_frame)
+        return self.float32_cloud(header, names, np.hstack(columns))
+
+    @staticmethod
+    def float32_cloud(header: Header, names: list[str], values: NDArray[Any]) -> PointCloud2:
+        """Create a cloud of float32 fields from an array with one column per field."""
+        cloud = PointCloud2()
+        cloud.header = header
+        cloud.height = 1
+        cloud.width = len(values)
+        cloud.fields = [
+            PointField(name=name, offset=4 * number, datatype=PointField.FLOAT32, count=1)
+            for number, name in enumerate(names)
+        ]
+        cloud.is_bigendian = False
+        cloud.point_step = 4 * len(names)
+        cloud.row_step = cloud.point_step * cloud.width
+        cloud.is_dense = True
+        cloud.data = array("B", values.astype("<f4").tobytes())
+        return cloud
+
+    def transform_points(self, points: Array, transform: TransformStamped) -> Array:
+        """Transform array of points using transform.
+
+        Args:
+            points: Nx3 array of points.
+            transform: geometry_msgs/TransformStamped.
+
+        Returns:
+            Nx3 array of transformed points.
+        """
+        translation = transform.transform.translation
+        q = transform.transform.rotation
+        t = np.array([translation.x, translation.y, translation.z])
+        rotation = self.quaternion_to_matrix(np.array([q.w, q.x, q.y, q.z]))
+        # p' = R @ p + t, with the points as rows
+        return np.asarray(points @ rotation.T + t)
+
+    @staticmethod
+    def quaternion_to_matrix(q: Array) -> Array:
+        """Convert quaternion [w, x, y, z] to rotation matrix."""
+        w, x, y, z = q / np.linalg.norm(q)
+        return np.array(
+            [
+                [1 - 2 * y**2 - 2 * z**2, 2 * x * y - 2 * w * z, 2 * x * z + 2 * w * y],
+                [2 * x * y + 2 * w * z, 1 - 2 * x**2 - 2 * z**2, 2 * y * z - 2 * w * x],
+                [2 * x * z - 2 * w * y, 2 * y * z + 2 * w * x, 1 - 2 * x**2 - 2 * y**2],
+            ]
+        )
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the node until it is stopped."""
+    rclpy.init(args=args)
+    node = None
+    try:
+        node = SensorTransformNode()
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

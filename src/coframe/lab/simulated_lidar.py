@@ -1,0 +1,175 @@
+#!/usr/bin/env python3
+"""Publishes the scans of a lidar in a long hall with pillars, seen from where the robot is.
+
+The hall goes on for ever along x, because the lab's robot does. Far down the hall there is no echo (infinity, as
+REP 117 has it), a pane of glass gives none either (0, below the smallest range), and a mirror one from too far away.
+
+Try it:
+    simulated_lidar --ros-args -p rate:=5.0
+
+Parameters:
+    rate: scans per second
+    beams: beams of a scan
+    range_min, range_max: metres
+    frame: frame of the lidar
+    fixed_frame: frame the hall stands in; the lidar is at its origin until tf knows better
+    scan_topic: where the scans are published
+"""
+
+import math
+from array import array
+
+import numpy as np
+from numpy.typing import NDArray
+from rclpy.node import Node
+
+import rclpy
+from rclpy.executors import ExternalShutdownException
+from rclpy.time import Time
+from sensor_msgs.msg import LaserScan
+from tf2_ros import Buffer, TransformException, TransformListener
+
+Array = NDArray[np.float64]
+
+HALL_START = -4.0  # the wall behind the robot, along x
+HALL_HALF_WIDTH = 3.0  # the side walls, along y
+PILLAR_SPACING = 4.0
+PILLAR_OFFSET = 1.8  # pillars stand left and right in turn
+PILLAR_RADIUS = 0.25
+WALL_INTENSITY = 100.0
+PILLAR_INTENSITY = 200.0
+# A stretch of the side walls, as a fraction of the pillar spacing: glass on the right, a mirror on the left.
+ODD_STRETCH = 0.1
+
+
+class SimulatedLidar(Node):
+    """Publish laser scans of a simulated hall."""
+
+    def __init__(self) -> None:
+        super().__init__("simulated_lidar")
+        rate = self.declare_parameter("rate", 10.0).value
+        if not rate > 0.0:
+            raise ValueError(f"parameter 'rate' must be more than 0 per second, but is {rate}")
+        self.period = 1.0 / rate
+        self.beams = self.declare_parameter("beams", 360).value
+        if self.beams < 1:
+            raise ValueError(f"parameter 'beams' must be at least 1, but is {self.beams}")
+        self.range_min = self.declare_parameter("range_min", 0.1).value
+        self.range_max = self.declare_parameter("range_max", 10.0).value
+        self.frame = self.declare_parameter("frame", "lidar_link").value
+        self.fixed_frame = self.declare_parameter("fixed_frame", "odom").value
+
+        self.tf_buffer = Buffer()
+        self.tf_listener = TransformListener(self.tf_buffer, self)
+        topic = self.declare_parameter("scan_topic", "/scan").value
+        self.scan_pub = self.create_publisher(LaserScan, topic, 10)
+        self.timer = self.create_timer(self.period, self.publish_scan)
+        self.get_logger().info("Simulated lidar started")
+
+    def publish_scan(self) -> None:
+        """Publish what the lidar sees now."""
+        increment = 2.0 * math.pi / self.beams
+        angles = -math.pi + increment * np.arange(self.beams)
+        x, y, yaw = self.lidar_pose()
+        ranges, intensities = measure(x, y, angles + yaw, self.range_max)
+
+        scan = LaserScan()
+        scan.header.stamp = self.get_clock().now().to_msg()
+        scan.header.frame_id = self.frame
+        scan.angle_min = -math.pi
+        scan.angle_max = float(angles[-1])
+        scan.angle_increment = increment
+        scan.time_increment = 0.0  # all beams at once
+        scan.scan_time = self.period
+        scan.range_min = self.range_min
+        scan.range_max = self.range_max
+        scan.ranges = array("f", ranges.astype(np.float32).tobytes())
+        scan.intensities = array("f", intensities.astype(np.float32).tobytes())
+        self.scan_pub.publish(scan)
+
+    def lidar_pose(self) -> tuple[float, float, float]:
+        """Where the lidar is in the hall, as far as is known: x, y and yaw."""
+        try:
+            transform = self.tf_buffer.lookup_transform(self.fixed_frame, self.frame, Time()).transform
+        except TransformException as e:
+            self.get_logger().info(f"The lidar stays at the origin: {e}", throttle_duration_sec=10.0)
+            return 0.0, 0.0, 0.0
+        q = transform.rotation
+        yaw = math.atan2(2.0 * (q.w * q.z + q.x * q.y), 1.0 - 2.0 * (q.y * q.y + q.z * q.z))
+        return transform.translation.x, transform.translation.y, yaw
+
+
+def measure(x: float, y: float, headings: Array, range_max: float) -> tuple[Array, Array]:
+    """What a lidar measures in the hall.
+
+    Args:
+        x: Where it is along the hall, metres.
+        y: Where it is across the hall.
+        headings: Directions of the beams in the hall, radians, shape (N,).
+        range_max: How far the lidar sees.
+
+    Returns:
+        Ranges and intensities, both of shape (N,).
+    """
+    dx, dy = np.cos(headings), np.sin(headings)
+    left = distance_to_wall(HALL_HALF_WIDTH - y, dy)
+    right = distance_to_wall(-HALL_HALF_WIDTH - y, dy)
+    walls = np.minimum(np.minimum(left, right), distance_to_wall(HALL_START - x, dx))
+    pillars = distance_to_pillars(x, y, dx, dy, range_max)
+
+    ranges = np.minimum(walls, pillars)
+    intensities = np.where(pillars < walls, PILLAR_INTENSITY, WALL_INTENSITY)
+    lost = ranges > range_max
+    ranges[lost] = np.inf
+
+    hit_x = x + np.where(lost, 0.0, ranges) * dx
+    is_odd = ~lost & (np.mod(hit_x / PILLAR_SPACING, 1.0) < ODD_STRETCH)
+    mirror, glass = is_odd & (ranges == left), is_odd & (ranges == right)
+    ranges[mirror] = range_max + 1.0
+    ranges[glass] = 0.0
+    intensities[lost | glass] = 0.0
+    return ranges, intensities
+
+
+def distance_to_wall(offset: float, direction: Array) -> Array:
+    """Along beams, to a wall at an offset; `direction` is the beams' component towards positive offsets."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        distance = offset / direction
+    return np.where(distance > 0.0, distance, np.inf)
+
+
+def distance_to_pillars(x: float, y: float, dx: Array, dy: Array, range_max: float) -> Array:
+    """Along beams, to the nearest pillar within range."""
+    nearest = np.full(len(dx), np.inf)
+    first = math.ceil((x - range_max) / PILLAR_SPACING)
+    last = math.floor((x + range_max) / PILLAR_SPACING)
+    for number in range(first, last + 1):
+        pillar_x = number * PILLAR_SPACING
+        if pillar_x < HALL_START:
+            continue
+        to_x = pillar_x - x
+        to_y = (PILLAR_OFFSET if number % 2 == 0 else -PILLAR_OFFSET) - y
+        along = to_x * dx + to_y * dy
+        half_chord_squared = PILLAR_RADIUS**2 - (to_x**2 + to_y**2 - along**2)
+        entry = along - np.sqrt(np.maximum(half_chord_squared, 0.0))
+        nearest = np.where((half_chord_squared >= 0.0) & (entry > 0.0), np.minimum(nearest, entry), nearest)
+    return nearest
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the node until it is stopped."""
+    rclpy.init(args=args)
+    node = None
+    try:
+        node = SimulatedLidar()
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

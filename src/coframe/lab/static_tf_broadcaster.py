@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""Broadcasts the static transforms of the sensor mounts: camera, IMU and lidar.
+
+Try it:
+    static_tf_broadcaster --ros-args -p lidar_translation:="[0.0, 0.0, 0.6]"
+
+Parameters (lengths in metres, quaternions x, y, z, w):
+    base_frame, end_effector_frame: what the sensors are mounted on
+    camera_frame, camera_translation, camera_rotation: the camera, on the end effector
+    imu_frame, imu_translation, imu_rotation: the IMU, on the base
+    lidar_frame, lidar_translation, lidar_rotation: the lidar, on the base
+"""
+
+import math
+
+from rclpy.node import Node
+
+import rclpy
+from geometry_msgs.msg import TransformStamped
+from rclpy.executors import ExternalShutdownException
+from tf2_ros import StaticTransformBroadcaster
+
+NO_ROTATION = [0.0, 0.0, 0.0, 1.0]
+# A quarter turn about y: the camera's z axis looks along the gripper.
+LOOK_FORWARD = [0.0, math.sqrt(0.5), 0.0, math.sqrt(0.5)]
+
+
+class StaticFramePublisher(Node):
+    """Publish static transforms for robot sensors."""
+
+    def __init__(self) -> None:
+        super().__init__("static_tf_broadcaster")
+        base = self.declare_parameter("base_frame", "base_link").value
+        end_effector = self.declare_parameter("end_effector_frame", "end_effector").value
+
+        # One call with all of them: Humble's broadcaster keeps only its last call for nodes that start later.
+        self.tf_broadcaster = StaticTransformBroadcaster(self)
+        transforms = [
+            self.make_mount("camera", end_effector, [0.05, 0.0, 0.02], LOOK_FORWARD),
+            self.make_mount("imu", base, [0.0, 0.0, 0.1], NO_ROTATION),
+            self.make_mount("lidar", base, [0.0, 0.0, 0.5], NO_ROTATION),
+        ]
+        self.tf_broadcaster.sendTransform(transforms)
+        self.get_logger().info(f"Published {len(transforms)} static transforms")
+
+    def make_mount(self, sensor: str, parent: str, translation: list[float], rotation: list[float]) -> TransformStamped:
+        """Create the transform of a sensor; its parameters win over the arguments."""
+        translation = self.numbers(f"{sensor}_translation", translation)
+        rotation = self.numbers(f"{sensor}_rotation", rotation)
+        length = math.hypot(*rotation)
+        if length == 0.0:
+            raise ValueError(f"parameter '{sensor}_rotation' is not a rotation: all four numbers are 0")
+
+        t = TransformStamped()
+        t.header.stamp = self.get_clock().now().to_msg()
+        t.header.frame_id = parent
+        t.child_frame_id = self.declare_parameter(f"{sensor}_frame", f"{sensor}_link").value
+        t.transform.translation.x, t.transform.translation.y, t.transform.translation.z = translation
+        t.transform.rotation.x = rotation[0] / length
+        t.transform.rotation.y = rotation[1] / length
+        t.transform.rotation.z = rotation[2] / length
+        t.transform.rotation.w = rotation[3] / length
+        return t
+
+    def numbers(self, name: str, default: list[float]) -> list[float]:
+        """Declare a parameter of as many finite numbers as its default has."""
+        values = [float(value) for value in self.declare_parameter(name, default).value]
+        if len(values) != len(default) or not all(math.isfinite(value) for value in values):
+            raise ValueError(f"parameter '{name}' needs {len(default)} finite numbers, but is {values}")
+        return values
+
+
+def main(args: list[str] | None = None) -> None:
+    """Run the node until it is stopped."""
+    rclpy.init(args=args)
+    node = None
+    try:
+        node = StaticFramePublisher()
+        rclpy.spin(node)
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
+
+
+if __name__ == "__main__":
+    main()

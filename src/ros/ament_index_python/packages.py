@@ -1,0 +1,100 @@
+"""Finding packages in the installation prefixes of ROS (`AMENT_PREFIX_PATH`) and in plain folders.
+
+`COFRAME_PACKAGE_PATH` lists folders with packages as they lie in a source tree: `<folder>/<package>/...`; nothing has
+to be built or installed.
+"""
+
+import os
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+__all__ = [
+    "PackageNotFoundError",
+    "get_package_prefix",
+    "get_package_share_directory",
+    "get_package_share_path",
+    "get_packages_with_prefixes",
+]
+
+AMENT_PREFIX_PATH = "AMENT_PREFIX_PATH"
+COFRAME_PACKAGE_PATH = "COFRAME_PACKAGE_PATH"
+
+_INDEX = Path("share", "ament_index", "resource_index", "packages")
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_\-]*")
+
+
+class PackageNotFoundError(KeyError):
+    """No package of that name in any of the places searched."""
+
+    def __str__(self) -> str:
+        return str(self.args[0]) if self.args else ""
+
+
+def get_package_prefix(package_name: str) -> str:
+    """The installation prefix of a package; for one in a plain folder, that folder.
+
+    Raises:
+        PackageNotFoundError: There is no such package.
+        ValueError: That cannot be the name of a package.
+    """
+    return str(_find(package_name)[0])
+
+
+def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
+    """The folder with a package's data files: launch files, robot descriptions, meshes.
+
+    Args:
+        package_name: Name of the package.
+        print_warning: Upstream warns of a folder that is missing; here that is always an error.
+
+    Raises:
+        PackageNotFoundError: There is no such package.
+        ValueError: That cannot be the name of a package.
+    """
+    del print_warning
+    return str(_find(package_name)[1])
+
+
+def get_package_share_path(package_name: str, print_warning: bool = True) -> Path:
+    """`get_package_share_directory` as a path."""
+    return Path(get_package_share_directory(package_name, print_warning))
+
+
+def get_packages_with_prefixes() -> dict[str, str]:
+    """The names of all packages with their prefixes; the first place a package is found in counts."""
+    found: dict[str, str] = {}
+    for prefix in _folders(AMENT_PREFIX_PATH):
+        index = prefix / _INDEX
+        for marker in sorted(index.iterdir()) if index.is_dir() else ():
+            if marker.is_file() and not marker.name.startswith("."):
+                found.setdefault(marker.name, str(prefix))
+    for folder in _folders(COFRAME_PACKAGE_PATH):
+        for manifest in sorted(folder.glob("*/package.xml")):
+            found.setdefault(manifest.parent.name, str(folder))
+    return found
+
+
+def _find(package_name: str) -> tuple[Path, Path]:
+    """Prefix and share folder of a package."""
+    if not _NAME.fullmatch(package_name):
+        raise ValueError(f"'{package_name}' is not a valid package name")
+    for prefix in _folders(AMENT_PREFIX_PATH):
+        share = prefix / "share" / package_name
+        if (prefix / _INDEX / package_name).is_file() and share.is_dir():
+            return prefix, share
+    for folder in _folders(COFRAME_PACKAGE_PATH):
+        if (folder / package_name).is_dir():
+            return folder, folder / package_name
+    searched = [str(folder) for name in (AMENT_PREFIX_PATH, COFRAME_PACKAGE_PATH) for folder in _folders(name)]
+    raise PackageNotFoundError(
+        f"package '{package_name}' not found, searching: {searched}; "
+        f"set {COFRAME_PACKAGE_PATH} to the folder that holds the package"
+    )
+
+
+def _folders(variable: str) -> Iterator[Path]:
+    """The existing folders an environment variable lists."""
+    for entry in os.environ.get(variable, "").split(os.pathsep):
+        if entry and Path(entry).is_dir():
+            yield Path(entry)

@@ -1,0 +1,318 @@
+"""ROS 2's client library for Python (the API of Humble) without a ROS installation.
+
+    import rclpy
+
+    rclpy.init()
+    node = rclpy.create_node("my_node")
+    rclpy.spin(node)
+
+It is found where no ROS is sourced; a real ROS on the path wins over it as a whole.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from coframe import ros_side
+
+ros_side.check()
+
+# Users reach the modules as attributes: rclpy.time.Time after `import rclpy`.
+from rclpy import (  # noqa: E402 - the check comes first
+    callback_groups,
+    client,
+    clock,
+    constants,
+    context,
+    duration,
+    exceptions,
+    executors,
+    expand_topic_name,
+    guard_condition,
+    handle,
+    logging,
+    node,
+    parameter,
+    parameter_service,
+    publisher,
+    qos,
+    serialization,
+    service,
+    signals,
+    subscription,
+    task,
+    time,
+    time_source,
+    timer,
+    topic_endpoint_info,
+    type_support,
+    utilities,
+    validate_full_topic_name,
+    validate_namespace,
+    validate_node_name,
+    validate_parameter_name,
+    validate_topic_name,
+    wait_for_message,
+)
+from rclpy.context import Context  # noqa: E402
+from rclpy.executors import SingleThreadedExecutor  # noqa: E402
+from rclpy.parameter import Parameter  # noqa: E402
+from rclpy.signals import (  # noqa: E402
+    SignalHandlerOptions,
+    install_signal_handlers,
+    uninstall_signal_handlers,
+)
+from rclpy.task import Future  # noqa: E402
+from rclpy.utilities import (  # noqa: E402
+    get_default_context,
+    get_rmw_implementation_identifier,
+    ok,
+)
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    from rclpy.executors import Executor
+    from rclpy.node import Node
+
+__all__ = [
+    "Context",
+    "Future",
+    "InitContextManager",
+    "Parameter",
+    "SignalHandlerOptions",
+    "SingleThreadedExecutor",
+    "callback_groups",
+    "client",
+    "clock",
+    "constants",
+    "context",
+    "create_node",
+    "duration",
+    "exceptions",
+    "executors",
+    "expand_topic_name",
+    "get_default_context",
+    "get_global_executor",
+    "get_rmw_implementation_identifier",
+    "guard_condition",
+    "handle",
+    "init",
+    "install_signal_handlers",
+    "logging",
+    "node",
+    "ok",
+    "parameter",
+    "parameter_service",
+    "publisher",
+    "qos",
+    "serialization",
+    "service",
+    "shutdown",
+    "signals",
+    "spin",
+    "spin_once",
+    "spin_until_future_complete",
+    "subscription",
+    "task",
+    "time",
+    "time_source",
+    "timer",
+    "topic_endpoint_info",
+    "try_shutdown",
+    "type_support",
+    "uninstall_signal_handlers",
+    "utilities",
+    "validate_full_topic_name",
+    "validate_namespace",
+    "validate_node_name",
+    "validate_parameter_name",
+    "validate_topic_name",
+    "wait_for_message",
+]
+
+_global_executor: Executor | None = None
+
+
+class InitContextManager:
+    """What `init()` returns: `with rclpy.init(): ...` shuts down at the end of the block."""
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+
+    def __enter__(self) -> InitContextManager:
+        return self
+
+    def __exit__(
+        self,
+        exc_type: type[BaseException] | None,
+        exc_value: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if self.context.ok():
+            _shut_down(self.context, uninstall_handlers=None)
+
+
+def init(
+    *,
+    args: list[str] | None = None,
+    context: Context | None = None,
+    domain_id: int | None = None,
+    signal_handler_options: SignalHandlerOptions | None = None,
+) -> InitContextManager:
+    """Starts ROS communication; call it once before anything else.
+
+    Args:
+        args: Command line with `--ros-args`; None: `sys.argv`.
+        context: What to start; None: the default context.
+        domain_id: DDS domain; None: ROS_DOMAIN_ID or 0.
+        signal_handler_options: Signals that shut everything down; None: SIGINT and SIGTERM for the default context,
+            none for others.
+
+    Returns:
+        A context manager that calls `shutdown()`; ignore it, or write `with rclpy.init():`.
+
+    Raises:
+        RuntimeError: It was called before.
+        RCLInvalidROSArgsError: The arguments are malformed.
+    """
+    if signal_handler_options is None:
+        signal_handler_options = SignalHandlerOptions.ALL if context is None else SignalHandlerOptions.NO
+    context = context or get_default_context()
+    context.init(args, domain_id=domain_id)
+    install_signal_handlers(signal_handler_options)
+    return InitContextManager(context)
+
+
+def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """Ends ROS communication; what spins or sleeps returns.
+
+    After a signal has done so already, it is quiet.
+
+    Args:
+        context: What to end; None: the default context.
+        uninstall_handlers: Whether signals are Python's again; None: for the default context.
+
+    Raises:
+        RuntimeError: It was not started, or was ended before.
+    """
+    _shut_down(context, uninstall_handlers=uninstall_handlers)
+
+
+def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """Ends ROS communication unless that happened before; see `shutdown`."""
+    chosen = get_default_context() if context is None else context
+    if chosen.ok():
+        _shut_down(context, uninstall_handlers=uninstall_handlers)
+
+
+def _shut_down(context: Context | None, *, uninstall_handlers: bool | None) -> None:
+    global _global_executor  # noqa: PLW0603 - one per process
+    is_default = context is None or context is get_default_context()
+    utilities.shutdown(context=None if is_default else context)
+    if is_default:
+        executor, _global_executor = _global_executor, None
+        if executor is not None:
+            executor.shutdown(timeout_sec=0)
+    if uninstall_handlers or (uninstall_handlers is None and is_default):
+        uninstall_signal_handlers()
+
+
+def create_node(
+    node_name: str,
+    *,
+    context: Context | None = None,
+    cli_args: list[str] | None = None,
+    namespace: str | None = None,
+    use_global_arguments: bool = True,
+    enable_rosout: bool = True,
+    start_parameter_services: bool = True,
+    parameter_overrides: list[Parameter[Any]] | None = None,
+    allow_undeclared_parameters: bool = False,
+    automatically_declare_parameters_from_overrides: bool = False,
+) -> Node:
+    """Makes a node; the arguments are those of `rclpy.node.Node`."""
+    return node.Node(
+        node_name,
+        context=context,
+        cli_args=cli_args,
+        namespace=namespace,
+        use_global_arguments=use_global_arguments,
+        enable_rosout=enable_rosout,
+        start_parameter_services=start_parameter_services,
+        parameter_overrides=parameter_overrides,
+        allow_undeclared_parameters=allow_undeclared_parameters,
+        automatically_declare_parameters_from_overrides=automatically_declare_parameters_from_overrides,
+    )
+
+
+def get_global_executor() -> Executor:
+    """Returns the executor that `spin` and the like use where none is given."""
+    global _global_executor  # noqa: PLW0603
+    if _global_executor is None or _global_executor.context is not get_default_context():
+        _global_executor = SingleThreadedExecutor()
+    return _global_executor
+
+
+def spin(node: Node, executor: Executor | None = None) -> None:
+    """Runs the callbacks of a node until the shutdown.
+
+    Args:
+        node: The node.
+        executor: None: the global one.
+    """
+    executor, is_new = _add(node, executor)
+    try:
+        executor.spin()
+    finally:
+        if is_new:
+            executor.remove_node(node)
+
+
+def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
+    """Waits for one callback of a node and runs it.
+
+    Args:
+        node: The node.
+        executor: None: the global one.
+        timeout_sec: Longest wait in seconds; None or negative: as long as it takes.
+
+    Raises:
+        ExternalShutdownException: The context was shut down.
+    """
+    executor, is_new = _add(node, executor)
+    try:
+        executor.spin_once(timeout_sec=timeout_sec)
+    finally:
+        if is_new:
+            executor.remove_node(node)
+
+
+def spin_until_future_complete(
+    node: Node,
+    future: Future[Any],
+    executor: Executor | None = None,
+    timeout_sec: float | None = None,
+) -> None:
+    """Runs the callbacks of a node until a future is over.
+
+    Args:
+        node: The node.
+        future: What to wait for.
+        executor: None: the global one.
+        timeout_sec: Longest wait in seconds; None or negative: as long as it takes.
+
+    Raises:
+        ExternalShutdownException: The context was shut down.
+    """
+    executor, is_new = _add(node, executor)
+    try:
+        executor.spin_until_future_complete(future, timeout_sec)
+    finally:
+        if is_new:
+            executor.remove_node(node)
+
+
+def _add(node: Node, executor: Executor | None) -> tuple[Executor, bool]:
+    executor = executor or get_global_executor()
+    return executor, executor.add_node(node)

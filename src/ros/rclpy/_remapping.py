@@ -1,0 +1,62 @@
+"""The remapping rules that apply to one node."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rclpy._arguments import Remap
+from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
+from rclpy.expand_topic_name import expand_topic_name
+from rclpy.validate_full_topic_name import validate_full_topic_name
+
+
+def remap_node(name: str, namespace: str, rules: list[Remap]) -> tuple[str, str]:
+    """Returns a node's name and namespace after `__node:=` and `__ns:=`; the first rule that fits wins."""
+    new_name = _first(rules, "name", name) or name
+    new_namespace = _first(rules, "namespace", new_name) or namespace
+    return new_name, new_namespace
+
+
+def _first(rules: list[Remap], kind: str, node_name: str) -> str | None:
+    for rule in rules:
+        if rule.kind == kind and rule.node in {None, node_name}:
+            return rule.replacement
+    return None
+
+
+@dataclass(frozen=True)
+class NameResolver:
+    """Expands and remaps the topic and service names of one node."""
+
+    node_name: str
+    namespace: str
+    rules: list[Remap]
+
+    def resolve(self, name: str, *, is_service: bool = False, only_expand: bool = False) -> str:
+        """Returns the fully qualified name after the first rule that fits.
+
+        Raises:
+            InvalidTopicNameException: It breaks a rule of topic names.
+            InvalidServiceNameException: It breaks a rule and `is_service` is set.
+        """
+        full = self._expand(name, is_service=is_service)
+        if not only_expand:
+            full = self._remap(full, is_service=is_service)
+        validate_full_topic_name(full, is_service=is_service)
+        return full
+
+    def _expand(self, name: str, *, is_service: bool) -> str:
+        try:
+            return expand_topic_name(name, self.node_name, self.namespace)
+        except InvalidTopicNameException as error:
+            if is_service:
+                raise InvalidServiceNameException(error.name, error.error_msg, error.invalid_index) from None
+            raise
+
+    def _remap(self, full: str, *, is_service: bool) -> str:
+        kinds = {"any", "service" if is_service else "topic"}
+        for rule in self.rules:
+            is_ours = rule.kind in kinds and rule.node in {None, self.node_name}
+            if is_ours and self._expand(rule.match, is_service=is_service) == full:
+                return self._expand(rule.replacement, is_service=is_service)
+        return full

@@ -1,0 +1,109 @@
+"""Values on the command line and in parameter files, typed as ROS types them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
+
+from rclpy.exceptions import RCLInvalidROSArgsError
+
+_TRUE: Final = {"y", "yes", "true", "on"}
+_FALSE: Final = {"n", "no", "false", "off"}
+_SPECIAL_FLOATS: Final = {".nan": "nan", ".inf": "inf", "+.inf": "inf", "-.inf": "-inf"}
+_ITEM: Final = re.compile(r"""\s*("(?:[^"\\]|\\.)*"|'(?:[^']|'')*'|[^,\]]*?)\s*(,|$)""")
+
+
+def parse_scalar(text: str) -> bool | int | float | str:
+    """Types one plain (unquoted) word."""
+    lower = text.lower()
+    if lower in _TRUE | _FALSE:
+        return lower in _TRUE
+    if lower in _SPECIAL_FLOATS:
+        return float(_SPECIAL_FLOATS[lower])
+    if re.fullmatch(r"[-+]?(0[xX][0-9a-fA-F]+|\d+)", text):
+        return int(text, 16 if "x" in lower else 10)
+    if re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", text):
+        return float(text)
+    return text
+
+
+def parse_value(text: str) -> Any:
+    """Types what stands after `name:=`: a word, a quoted text, or a list in square brackets."""
+    text = text.strip()
+    if text.startswith("[") and text.endswith("]"):
+        return list(_parse_items(text[1:-1]))
+    return _parse_word(text)
+
+
+def _parse_items(text: str) -> Iterator[Any]:
+    position = 0
+    while position < len(text):
+        item = _ITEM.match(text, position)
+        if item is None or item.end() == position:
+            raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: [{text}] is not a list of values")
+        if item[1]:
+            yield _parse_word(item[1])
+        position = item.end()
+
+
+def _parse_word(text: str) -> bool | int | float | str:
+    if len(text) >= 2 and text[0] == text[-1] == "'":
+        return text[1:-1].replace("''", "'")
+    if len(text) >= 2 and text[0] == text[-1] == '"':
+        return re.sub(r"\\(.)", r"\1", text[1:-1])
+    return parse_scalar(text)
+
+
+def load_parameters(path: str) -> Iterator[tuple[str, str, Any]]:
+    """Reads a parameter file.
+
+    Yields:
+        Pattern of node names, name of the parameter, value.
+
+    Raises:
+        RCLInvalidROSArgsError: There is no such file, it is no such YAML, or PyYAML is not installed.
+    """
+    try:
+        import yaml  # noqa: PLC0415 - needed for this option only
+    except ImportError:
+        raise RCLInvalidROSArgsError("--params-file needs PyYAML: pip install pyyaml") from None
+    try:
+        root = yaml.compose(Path(path).read_text(encoding="utf-8"), yaml.SafeLoader)
+        yield from _nodes(_python_of(root), "", path)
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: --params-file {path}: {error}") from error
+
+
+def _python_of(node: Any) -> Any:
+    """A YAML node as Python values; PyYAML's own typing is not ROS's (1e5, .5, ...)."""
+    if node is None:
+        return {}
+    if node.id == "mapping":
+        return {key.value: _python_of(value) for key, value in node.value}
+    if node.id == "sequence":
+        return [_python_of(value) for value in node.value]
+    return node.value if node.style else parse_scalar(node.value)
+
+
+def _nodes(tree: Any, prefix: str, path: str) -> Iterator[tuple[str, str, Any]]:
+    if not isinstance(tree, dict):
+        raise RCLInvalidROSArgsError(
+            f"Failed to parse ROS arguments: --params-file {path}: expected node names with `ros__parameters:` "
+            f"below them, found {tree!r}"
+        )
+    for key, value in tree.items():
+        if key == "ros__parameters":
+            for name, parameter in _flatten(value, ""):
+                yield prefix or "/**", name, parameter
+        else:
+            yield from _nodes(value, f"{prefix}/{key.strip('/')}", path)
+
+
+def _flatten(tree: Any, prefix: str) -> Iterator[tuple[str, Any]]:
+    for key, value in (tree or {}).items():
+        if isinstance(value, dict):
+            yield from _flatten(value, f"{prefix}{key}.")
+        else:
+            yield f"{prefix}{key}", value

@@ -1,0 +1,184 @@
+"""Clients: requests to services."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any, Final
+
+from coframe._core import Event
+from coframe.messages import codec
+
+from rclpy import _request_header
+from rclpy._request_header import RequestHeader
+from rclpy.callback_groups import CallbackGroup
+from rclpy.constants import S_TO_NS
+from rclpy.exceptions import InvalidHandle
+from rclpy.qos import QoSProfile
+from rclpy.task import Future
+
+if TYPE_CHECKING:
+    from coframe.wire import Participant
+    from coframe.wire import Publisher as WirePublisher
+    from coframe.wire import Subscription as WireSubscription
+
+    from rclpy.context import Context
+    from rclpy.executors import Executor
+
+# The graph tells of endpoints a moment before they match.
+_MATCH_SLICE_NS: Final = 20_000_000
+
+
+class Client:
+    """Sends requests and brings the responses; made by `Node.create_client`."""
+
+    def __init__(
+        self,
+        context: Context,
+        participant: Participant,
+        requests: WirePublisher,
+        replies: WireSubscription,
+        executor: Callable[[], Executor | None],
+        srv_type: Any,
+        srv_name: str,
+        qos_profile: QoSProfile,
+        callback_group: CallbackGroup,
+    ) -> None:
+        self.context = context
+        self.srv_type = srv_type
+        self.srv_name = srv_name
+        self.qos_profile = qos_profile
+        self.callback_group = callback_group
+        self._participant = participant
+        self._requests = requests
+        self._replies: WireSubscription | None = replies
+        self._executor = executor
+        self._identity = int.from_bytes(os.urandom(8), "little")
+        self._lock = threading.Lock()
+        self._sequence = 0
+        self._pending: dict[int, Future[Any]] = {}
+
+    def call(self, request: Any, timeout_sec: float | None = None) -> Any:
+        """Sends a request and waits for the response.
+
+        Somebody else must spin the node meanwhile: called from a callback, another thread of a MultiThreadedExecutor
+        and another callback group.
+
+        Args:
+            request: The request.
+            timeout_sec: Longest wait in seconds; None: until the response or the context's shutdown.
+
+        Returns:
+            The response; None when there was none in time.
+
+        Raises:
+            TypeError: It is no request of the service's type.
+        """
+        event = Event()
+        future = self.call_async(request)
+        future._add_waiter(event.set)
+        with self.context._setting_at_shutdown(event):
+            event.wait(None if timeout_sec is None else int(timeout_sec * S_TO_NS))
+        if not future.done():
+            self.remove_pending_request(future)
+            return None
+        return future.result()
+
+    def call_async(self, request: Any) -> Future[Any]:
+        """Sends a request.
+
+        Args:
+            request: The request.
+
+        Returns:
+            The future of the response.
+
+        Raises:
+            TypeError: It is no request of the service's type.
+        """
+        if not isinstance(request, self.srv_type.Request):
+            raise TypeError(f"Expected {self.srv_type.Request}, got {type(request)}")
+        self._alive()
+        future: Future[Any] = Future()
+        with self._lock:
+            self._sequence += 1
+            header = RequestHeader(self._identity, self._sequence)
+            self._pending[header.sequence] = future
+        self._requests.write(_request_header.join(header, codec.serialize(request)))
+        return future
+
+    def remove_pending_request(self, future: Future[Any]) -> None:
+        """Forgets a request; its response will be dropped."""
+        with self._lock:
+            for sequence, pending in list(self._pending.items()):
+                if pending is future:
+                    del self._pending[sequence]
+
+    def service_is_ready(self) -> bool:
+        """Whether somebody serves it."""
+        replies = self._alive()
+        return self._requests.matched > 0 and replies.matched > 0
+
+    def wait_for_service(self, timeout_sec: float | None = None) -> bool:
+        """Waits until somebody serves it.
+
+        Args:
+            timeout_sec: Longest wait in seconds; None: as long as it takes.
+
+        Returns:
+            Whether somebody does; False also when the context was shut down.
+        """
+        deadline = None if timeout_sec is None else time.monotonic_ns() + int(timeout_sec * S_TO_NS)
+        event = Event()
+        self._participant.watch_graph(event)
+        try:
+            with self.context._setting_at_shutdown(event):
+                while self.context.ok() and not self.service_is_ready():
+                    remaining = _MATCH_SLICE_NS if deadline is None else deadline - time.monotonic_ns()
+                    if remaining <= 0:
+                        return False
+                    event.wait(min(remaining, _MATCH_SLICE_NS))
+        finally:
+            self._participant.unwatch_graph(event)
+        return self.context.ok()
+
+    def destroy(self) -> None:
+        """Ends it; better use `Node.destroy_client`."""
+        if self._replies is not None:
+            self._replies.close()
+            self._requests.close()
+            self._replies = None
+
+    def _alive(self) -> WireSubscription:
+        if self._replies is None:
+            raise InvalidHandle(f"cannot use Client of '{self.srv_name}' because destruction was requested")
+        return self._replies
+
+    def _remaining_ns(self) -> int | None:
+        replies = self._replies
+        return 0 if replies is not None and replies.pending() else None
+
+    def _take(self) -> Callable[[], Any] | None:
+        """Takes one reply; everybody's replies come by, most of them are other clients'."""
+        replies = self._replies
+        for sample in [] if replies is None else replies.take(limit=1):
+            parts = _request_header.split(sample.data)
+            if parts is None or parts[0].client != self._identity:
+                continue
+            with self._lock:
+                future = self._pending.pop(parts[0].sequence, None)
+            if future is not None:
+                return partial(self._deliver, future, parts[1])
+        return None
+
+    def _deliver(self, future: Future[Any], cdr: bytes) -> None:
+        future._set_executor(self._executor())
+        try:
+            response = codec.deserialize(cdr, self.srv_type.Response)
+        except ValueError as error:
+            future.set_exception(error)
+        else:
+            future.set_result(response)

@@ -1,0 +1,307 @@
+"""Clocks: the system's, the steady one, and ROS time, which a simulator may drive."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from enum import IntEnum
+from typing import TYPE_CHECKING
+
+from coframe._core import Event
+
+from rclpy._clock_type import ClockType
+from rclpy.context import Context
+from rclpy.duration import Duration
+from rclpy.exceptions import NotInitializedException
+from rclpy.time import Time
+from rclpy.utilities import get_default_context
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    from typing_extensions import Self
+
+__all__ = ["Clock", "ClockChange", "ClockType", "JumpHandle", "JumpThreshold", "ROSClock", "TimeJump"]
+
+
+class ClockChange(IntEnum):
+    """What happened to the source of ROS time at a jump."""
+
+    ROS_TIME_NO_CHANGE = 1
+    ROS_TIME_ACTIVATED = 2
+    ROS_TIME_DEACTIVATED = 3
+    SYSTEM_TIME_NO_CHANGE = 4
+
+
+class JumpThreshold:
+    """Which jumps in time a callback wants to hear of.
+
+    Args:
+        min_forward: Smallest jump ahead, positive; None: none.
+        min_backward: Smallest jump back, negative; None: none.
+        on_clock_change: Also when ROS time changes between the system's and the simulator's.
+
+    Raises:
+        ValueError: A sign is wrong, or no jump at all is asked for.
+    """
+
+    def __init__(
+        self, *, min_forward: Duration | None, min_backward: Duration | None, on_clock_change: bool = True
+    ) -> None:
+        if min_forward is not None and min_forward.nanoseconds <= 0:
+            raise ValueError("min_forward must be a positive non-zero duration")
+        if min_backward is not None and min_backward.nanoseconds >= 0:
+            raise ValueError("min_backward must be a negative non-zero duration")
+        if min_forward is None and min_backward is None and not on_clock_change:
+            raise ValueError("At least one jump threshold must be enabled")
+        self.min_forward = min_forward
+        self.min_backward = min_backward
+        self.on_clock_change = on_clock_change
+
+    def _is_met_by(self, jump: TimeJump) -> bool:
+        if jump.clock_change in {ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED}:
+            return self.on_clock_change
+        if self.min_forward is not None and jump.delta.nanoseconds > 0:
+            return jump.delta >= self.min_forward
+        if self.min_backward is not None and jump.delta.nanoseconds < 0:
+            return jump.delta <= self.min_backward
+        return False
+
+
+class TimeJump:
+    """A jump in time: what changed, and by how much.
+
+    Args:
+        clock_change: Whether the source of time changed.
+        delta: New time minus old time.
+    """
+
+    def __init__(self, clock_change: ClockChange, delta: Duration) -> None:
+        self._clock_change = clock_change
+        self._delta = delta
+
+    @property
+    def clock_change(self) -> ClockChange:
+        """Whether the source of time changed."""
+        return self._clock_change
+
+    @property
+    def delta(self) -> Duration:
+        """New time minus old time."""
+        return self._delta
+
+
+class JumpHandle:
+    """Callbacks around jumps of a clock, until `unregister()`; also a context manager."""
+
+    def __init__(
+        self,
+        *,
+        clock: Clock,
+        threshold: JumpThreshold,
+        pre_callback: Callable[[], object] | None,
+        post_callback: Callable[[TimeJump], object] | None,
+    ) -> None:
+        if not callable(pre_callback) and not callable(post_callback):
+            raise ValueError("One of pre_callback or post_callback must be callable")
+        self._clock: Clock | None = clock
+        self._threshold = threshold
+        self._pre_callback = pre_callback
+        self._post_callback = post_callback
+        clock._jump_handles.append(self)
+
+    def unregister(self) -> None:
+        """Ends the callbacks."""
+        if self._clock is not None:
+            self._clock._jump_handles.remove(self)
+            self._clock = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, t: type[BaseException] | None, e: BaseException | None, tb: TracebackType | None
+    ) -> None:
+        self.unregister()
+
+
+class Clock:
+    """A clock of one kind.
+
+    Args:
+        clock_type: The kind; ROS_TIME gives a `ROSClock`.
+
+    Raises:
+        TypeError: `clock_type` is no ClockType.
+    """
+
+    _clock_type: ClockType
+    _jump_handles: list[JumpHandle]
+
+    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Clock:
+        if not isinstance(clock_type, ClockType):
+            raise TypeError("Clock type must be a ClockType enum")
+        self = super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
+        self._clock_type = clock_type
+        self._jump_handles = []
+        return self
+
+    @property
+    def clock_type(self) -> ClockType:
+        """The kind of this clock."""
+        return self._clock_type
+
+    def __repr__(self) -> str:
+        return f"Clock(clock_type={self.clock_type.name})"
+
+    def now(self) -> Time:
+        """Returns the time of this clock."""
+        return Time(nanoseconds=self._now_ns(), clock_type=self.clock_type)
+
+    def create_jump_callback(
+        self,
+        threshold: JumpThreshold,
+        *,
+        pre_callback: Callable[[], object] | None = None,
+        post_callback: Callable[[TimeJump], object] | None = None,
+    ) -> JumpHandle:
+        """Calls back before and after jumps in time.
+
+        Args:
+            threshold: Which jumps.
+            pre_callback: Called without arguments before the jump.
+            post_callback: Called with a TimeJump after it.
+
+        Raises:
+            ValueError: Neither callback is callable.
+        """
+        return JumpHandle(
+            clock=self, threshold=threshold, pre_callback=pre_callback, post_callback=post_callback
+        )
+
+    def sleep_until(self, until: Time, context: Context | None = None) -> bool:
+        """Sleeps until a time of this clock.
+
+        Args:
+            until: When to wake up.
+            context: Its shutdown ends the sleep; None: the default context.
+
+        Returns:
+            True when the time has come; False when the context shut down or the source of time changed.
+
+        Raises:
+            ValueError: `until` is a time of another kind of clock.
+            NotInitializedException: The context is not initialised.
+        """
+        if until.clock_type != self.clock_type:
+            raise ValueError("until's clock type does not match this clock's type")
+        context = context or get_default_context()
+        if not context.ok():
+            raise NotInitializedException
+        return self._sleep(until, context)
+
+    def sleep_for(self, rel_time: Duration, context: Context | None = None) -> bool:
+        """Sleeps for a length of time on this clock; otherwise as `sleep_until`."""
+        return self.sleep_until(self.now() + rel_time, context)
+
+    def _sleep(self, until: Time, context: Context) -> bool:
+        event = Event()
+        source_changes: list[TimeJump] = []
+
+        def on_jump(jump: TimeJump) -> None:
+            if jump.clock_change in {ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED}:
+                source_changes.append(jump)
+            event.set()
+
+        any_progress = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)
+        with context._setting_at_shutdown(event), self.create_jump_callback(any_progress, post_callback=on_jump):
+            while context.ok() and not source_changes:
+                remaining = until.nanoseconds - self._now_ns()
+                if remaining <= 0:
+                    return True
+                event.wait(None if self._is_simulated else remaining)
+        return False
+
+    @property
+    def _is_simulated(self) -> bool:
+        """Whether time stands still between messages of a simulator."""
+        return False
+
+    def _now_ns(self) -> int:
+        return time.monotonic_ns() if self._clock_type is ClockType.STEADY_TIME else time.time_ns()
+
+
+class ROSClock(Clock):
+    """ROS time: the system's time until a simulator drives it."""
+
+    _is_active: bool
+    _override_ns: int
+    _lock: threading.RLock
+
+    def __new__(cls) -> ROSClock:
+        self = super().__new__(cls, clock_type=ClockType.ROS_TIME)
+        assert isinstance(self, ROSClock)
+        return self
+
+    def __init__(self, *, clock_type: ClockType = ClockType.ROS_TIME) -> None:
+        del clock_type  # Clock(clock_type=ROS_TIME) passes it on
+        self._is_active = False
+        self._override_ns = 0
+        self._lock = threading.RLock()
+
+    @property
+    def ros_time_is_active(self) -> bool:
+        """Whether a simulator drives this clock."""
+        return self._is_active
+
+    def _set_ros_time_is_active(self, enabled: bool) -> None:
+        with self._lock:
+            if enabled == self._is_active:
+                return
+            offset = self._override_ns - time.time_ns()
+            if enabled:
+                jump = TimeJump(ClockChange.ROS_TIME_ACTIVATED, Duration(nanoseconds=offset))
+            else:
+                jump = TimeJump(ClockChange.ROS_TIME_DEACTIVATED, Duration(nanoseconds=-offset))
+
+            def activate() -> None:
+                self._is_active = enabled
+
+            self._jump(jump, activate)
+
+    def set_ros_time_override(self, time: Time) -> None:
+        """Sets the simulated time; it counts while ROS time is active.
+
+        Raises:
+            TypeError: `time` is no Time.
+        """
+        if not isinstance(time, Time):
+            raise TypeError("Time must be specified as rclpy.time.Time. Received type: ", type(time))
+
+        def override() -> None:
+            self._override_ns = time.nanoseconds
+
+        with self._lock:
+            if not self._is_active:
+                override()
+                return
+            delta = Duration(nanoseconds=time.nanoseconds - self._override_ns)
+            self._jump(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta), override)
+
+    def _jump(self, jump: TimeJump, make_it: Callable[[], None]) -> None:
+        handles = [handle for handle in self._jump_handles if handle._threshold._is_met_by(jump)]
+        for handle in handles:
+            if handle._pre_callback is not None:
+                handle._pre_callback()
+        make_it()
+        for handle in handles:
+            if handle._post_callback is not None:
+                handle._post_callback(jump)
+
+    @property
+    def _is_simulated(self) -> bool:
+        return self._is_active
+
+    def _now_ns(self) -> int:
+        return self._override_ns if self._is_active else time.time_ns()

@@ -1,0 +1,36 @@
+"""From a name as users write it to the fully qualified one."""
+
+from __future__ import annotations
+
+from rclpy.exceptions import InvalidTopicNameException
+from rclpy.validate_namespace import validate_namespace
+from rclpy.validate_node_name import validate_node_name
+from rclpy.validate_topic_name import validate_topic_name
+
+
+def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> str:
+    """Expands `~`, relative names and `{node}`, `{ns}`, `{namespace}`.
+
+    Args:
+        topic_name: The name, for example `~/state`.
+        node_name: Name of the node, for example `arm`.
+        node_namespace: Its namespace, for example `/robot1`.
+
+    Returns:
+        The name with everything filled in, for example `/robot1/arm/state`.
+
+    Raises:
+        InvalidTopicNameException: The name breaks a rule or has an unknown substitution.
+    """
+    validate_topic_name(topic_name)
+    validate_node_name(node_name)
+    validate_namespace(node_namespace)
+    prefix = node_namespace.rstrip("/")
+    name = topic_name
+    if name.startswith("~"):
+        name = f"{prefix}/{node_name}{name[1:]}"
+    for key, value in (("node", node_name), ("ns", prefix), ("namespace", prefix)):
+        name = name.replace("{" + key + "}", value)
+    if "{" in name:
+        raise InvalidTopicNameException(topic_name, "unknown substitution", topic_name.index("{"))
+    return name if name.startswith("/") else f"{prefix}/{name}"

@@ -1,0 +1,1 @@
+"""The parts of rclpy that are imported by name only for type hints."""

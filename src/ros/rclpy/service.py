@@ -1,0 +1,89 @@
+"""Services: answers to requests."""
+
+from __future__ import annotations
+
+import inspect
+import time
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any, Final
+
+from coframe.messages import codec
+
+from rclpy import _request_header
+from rclpy._request_header import RequestHeader
+from rclpy.callback_groups import CallbackGroup
+from rclpy.qos import QoSProfile
+
+if TYPE_CHECKING:
+    from coframe.wire import Publisher as WirePublisher
+    from coframe.wire import Subscription as WireSubscription
+
+# A client may know us before we know it: what is sent before DDS has matched both ways is lost.
+_MATCH_TIMEOUT_S: Final = 0.1
+
+
+class Service:
+    """Calls back with each request and sends the response; made by `Node.create_service`."""
+
+    def __init__(
+        self,
+        requests: WireSubscription,
+        replies: WirePublisher,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        callback_group: CallbackGroup,
+        qos_profile: QoSProfile,
+    ) -> None:
+        self._requests: WireSubscription | None = requests
+        self._replies = replies
+        self.srv_type = srv_type
+        self.srv_name = srv_name
+        self.callback = callback
+        self.callback_group = callback_group
+        self.qos_profile = qos_profile
+
+    def send_response(self, response: Any, header: RequestHeader) -> None:
+        """Answers a request.
+
+        Args:
+            response: The response.
+            header: The header of the request.
+
+        Raises:
+            TypeError: It is no response of the service's type.
+        """
+        if not isinstance(response, self.srv_type.Response):
+            raise TypeError(f"Expected {self.srv_type.Response}, got {type(response)}")
+        if self._requests is None:
+            return
+        deadline = time.monotonic() + _MATCH_TIMEOUT_S
+        while not self._replies.matched and time.monotonic() < deadline:
+            time.sleep(0.001)
+        self._replies.write(_request_header.join(header, codec.serialize(response)))
+
+    def destroy(self) -> None:
+        """Ends it; better use `Node.destroy_service`."""
+        if self._requests is not None:
+            self._requests.close()
+            self._replies.close()
+            self._requests = None
+
+    def _remaining_ns(self) -> int | None:
+        requests = self._requests
+        return 0 if requests is not None and requests.pending() else None
+
+    def _take(self) -> Callable[[], Any] | None:
+        requests = self._requests
+        for sample in [] if requests is None else requests.take(limit=1):
+            if (parts := _request_header.split(sample.data)) is not None:
+                return partial(self._answer, *parts)
+        return None
+
+    async def _answer(self, header: RequestHeader, cdr: bytes) -> None:
+        request = codec.deserialize(cdr, self.srv_type.Request)
+        response = self.callback(request, self.srv_type.Response())
+        if inspect.iscoroutine(response):
+            response = await response
+        self.send_response(response, header)

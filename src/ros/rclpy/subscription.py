@@ -1,0 +1,94 @@
+"""Subscriptions."""
+
+from __future__ import annotations
+
+import inspect
+import time
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from coframe.messages import codec
+
+from rclpy.callback_groups import CallbackGroup
+from rclpy.qos import QoSProfile
+
+if TYPE_CHECKING:
+    from coframe.wire import Sample
+    from coframe.wire import Subscription as WireSubscription
+
+
+class Subscription:
+    """Receives the messages of a topic; made by `Node.create_subscription`.
+
+    Messages wait in DDS, as many as the QoS keeps, until an executor takes them.
+    """
+
+    def __init__(
+        self,
+        wire: WireSubscription,
+        msg_type: type[Any],
+        topic: str,
+        callback: Callable[..., Any],
+        callback_group: CallbackGroup,
+        qos_profile: QoSProfile,
+        raw: bool,
+    ) -> None:
+        self._wire: WireSubscription | None = wire
+        self._wants_info = _takes_info(callback)
+        self.msg_type = msg_type
+        self.topic = topic
+        self.callback = callback
+        self.callback_group = callback_group
+        self.qos_profile = qos_profile
+        self.raw = raw
+
+    @property
+    def topic_name(self) -> str:
+        """The fully qualified name of the topic."""
+        return self.topic
+
+    def get_publisher_count(self) -> int:
+        """Returns the number of publishers it receives from."""
+        return 0 if self._wire is None else self._wire.matched
+
+    def destroy(self) -> None:
+        """Ends it; better use `Node.destroy_subscription`."""
+        if self._wire is not None:
+            self._wire.close()
+            self._wire = None
+
+    def _remaining_ns(self) -> int | None:
+        wire = self._wire
+        return 0 if wire is not None and wire.pending() else None
+
+    def _take(self) -> Callable[[], Any] | None:
+        wire = self._wire
+        samples = [] if wire is None else wire.take(limit=1)
+        return partial(self._deliver, samples[0], time.time_ns()) if samples else None
+
+    def _deliver(self, sample: Sample, received: int) -> Any:
+        message = sample.data if self.raw else codec.deserialize(sample.data, self.msg_type)
+        if not self._wants_info:
+            return self.callback(message)
+        return self.callback(
+            message, {"source_timestamp": sample.source_timestamp, "received_timestamp": received}
+        )
+
+
+def _takes_info(callback: Callable[..., Any]) -> bool:
+    """Whether a callback takes (message, info) rather than (message)."""
+    try:
+        signature = inspect.signature(callback)
+    except ValueError:  # some built-in functions have none
+        return False
+    for count in (1, 2):
+        try:
+            signature.bind(*[None] * count)
+        except TypeError:
+            continue
+        return count == 2
+    raise RuntimeError(
+        "Subscription.__init__(): callback should be either be callable with one argument (to get only the message) "
+        "or two (to get message and message info)"
+    )

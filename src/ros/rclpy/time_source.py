@@ -1,0 +1,74 @@
+"""Simulated time: from the topic /clock to the clocks of a node."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import rosgraph_msgs.msg
+
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.clock import ROSClock
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.time import Time
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+    from rclpy.subscription import Subscription
+
+CLOCK_TOPIC = "/clock"
+USE_SIM_TIME_NAME = "use_sim_time"
+
+
+class TimeSource:
+    """Drives ROS clocks by /clock while it is switched on.
+
+    Args:
+        node: The node that subscribes.
+    """
+
+    def __init__(self, *, node: Node) -> None:
+        self._node = node
+        self._clocks: list[ROSClock] = []
+        self._subscription: Subscription | None = None
+        self._last_time = Time()
+        # A busy callback of the node's must not stop the time for its other threads.
+        self._group = MutuallyExclusiveCallbackGroup()
+
+    @property
+    def ros_time_is_active(self) -> bool:
+        """Whether the clocks follow /clock."""
+        return self._subscription is not None
+
+    @ros_time_is_active.setter
+    def ros_time_is_active(self, enabled: bool) -> None:
+        if enabled == self.ros_time_is_active:
+            return
+        if enabled:
+            qos = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+            self._subscription = self._node.create_subscription(
+                rosgraph_msgs.msg.Clock, CLOCK_TOPIC, self.clock_callback, qos, callback_group=self._group
+            )
+        elif self._subscription is not None:
+            self._node.destroy_subscription(self._subscription)
+            self._subscription = None
+        for clock in self._clocks:
+            clock._set_ros_time_is_active(enabled)
+        self._node.context._wakeup.set()
+
+    def attach_clock(self, clock: Any) -> None:
+        """Drives this clock, too.
+
+        Raises:
+            ValueError: It is no ROS clock.
+        """
+        if not isinstance(clock, ROSClock):
+            raise ValueError("Only clocks with type ROS_TIME can be attached.")
+        clock.set_ros_time_override(self._last_time)
+        clock._set_ros_time_is_active(self.ros_time_is_active)
+        self._clocks.append(clock)
+
+    def clock_callback(self, msg: rosgraph_msgs.msg.Clock) -> None:
+        """Sets the clocks."""
+        self._last_time = Time.from_msg(msg.clock)
+        for clock in self._clocks:
+            clock.set_ros_time_override(self._last_time)

@@ -1,0 +1,27 @@
+"""Rules for namespaces."""
+
+import re
+
+from rclpy.exceptions import InvalidNamespaceException
+
+
+def validate_namespace(namespace: str) -> bool:
+    """Returns True for a valid, fully qualified namespace.
+
+    Raises:
+        InvalidNamespaceException: It breaks a rule.
+    """
+    if not namespace.startswith("/"):
+        raise InvalidNamespaceException(namespace, "namespace must be absolute, it must lead with a '/'", 0)
+    if namespace != "/" and namespace.endswith("/"):
+        text = "namespace must not end with a '/', unless only a '/'"
+        raise InvalidNamespaceException(namespace, text, len(namespace) - 1)
+    if bad := re.search(r"[^A-Za-z0-9_/]", namespace):
+        text = "namespace must not contain characters other than alphanumerics, '_', or '/'"
+        raise InvalidNamespaceException(namespace, text, bad.start())
+    if bad := re.search(r"/(?=/)", namespace):
+        raise InvalidNamespaceException(namespace, "namespace must not contain repeated '/'", bad.start() + 1)
+    if bad := re.search(r"/(?=\d)", namespace):
+        text = "namespace must not have a token that starts with a number"
+        raise InvalidNamespaceException(namespace, text, bad.start() + 1)
+    return True

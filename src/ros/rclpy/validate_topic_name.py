@@ -1,0 +1,53 @@
+"""Rules for topic and service names as users write them: relative, with `~` and `{node}`."""
+
+from __future__ import annotations
+
+import re
+
+from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException, NameValidationException
+
+TOPIC_SEPARATOR_STRING = "/"
+
+
+def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
+    """Returns True for a valid topic (or service) name.
+
+    Raises:
+        InvalidTopicNameException: It breaks a rule.
+        InvalidServiceNameException: It breaks a rule and `is_service` is set.
+    """
+    if fault := _fault(name):
+        text, index = fault
+        kind: type[InvalidServiceNameException | InvalidTopicNameException]
+        kind = InvalidServiceNameException if is_service else InvalidTopicNameException
+        raise kind(name, text, index)
+    return True
+
+
+def _fault(name: str) -> tuple[str, int] | None:
+    if not name:
+        return "topic name must not be empty string", 0
+    if name.endswith("/"):
+        return "topic name must not end with a forward slash", len(name) - 1
+    rules = (
+        (
+            r"[^A-Za-z0-9_~/{}]",
+            "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'",
+        ),
+        (r"(?<=.)~", "topic name must not have tilde (~) unless it is the first character"),
+        (r"(?<=^~)[^/]", "topic name must not have a tilde (~) that is not followed by a forward slash (/)"),
+        (r"(?<=/)/", "topic name must not contain repeated '/'"),
+        (r"((?<=^)|(?<=/))\d", "topic name token must not start with a number"),
+        (r"(?<={)\d", "substitution name must not start with a number"),
+        (r"{(?!\w+})|(?<!\w)}", "topic name must not have unmatched curly braces"),
+    )
+    for pattern, text in rules:
+        if bad := re.search(pattern, name):
+            return text, bad.start()
+    outside = re.sub(r"{\w+}", "", name)
+    if "{" in outside or "}" in outside:
+        return "topic name must not have unmatched curly braces", max(name.rfind("{"), name.rfind("}"))
+    return None
+
+
+__all__ = ["TOPIC_SEPARATOR_STRING", "NameValidationException", "validate_topic_name"]

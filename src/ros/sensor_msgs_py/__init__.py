@@ -1,0 +1,1 @@
+"""Reading and making `sensor_msgs/PointCloud2` with numpy, as the ROS 2 package `sensor_msgs_py` does."""

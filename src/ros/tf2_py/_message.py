@@ -1,0 +1,27 @@
+"""The core's answers as messages.
+
+The numbers go straight into the messages' slots: they need no checking, and a stamp that is too late for a message's
+32-bit seconds is still an answer.
+"""
+
+# ruff: noqa: SLF001
+
+from typing import Any
+
+from geometry_msgs.msg import TransformStamped
+from tf2_py._convert import NANOSECONDS_PER_SECOND
+
+Pose = tuple[float, float, float, float, float, float, float]
+
+
+def transform_stamped(target: str, source: str, stamp: int, pose: Pose) -> TransformStamped:
+    """The `TransformStamped` that takes data from `source` to `target`."""
+    result = TransformStamped()
+    slots: Any = result
+    header, transform = slots._header, slots._transform
+    time, translation, rotation = header._stamp, transform._translation, transform._rotation
+    time._sec, time._nanosec = divmod(stamp, NANOSECONDS_PER_SECOND)
+    header._frame_id = target
+    slots._child_frame_id = source
+    translation._x, translation._y, translation._z, rotation._x, rotation._y, rotation._z, rotation._w = pose
+    return result

@@ -1,0 +1,38 @@
+"""Lengths and directions."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+
+def vector_norm(data: ArrayLike, axis: int | None = None, out: Array | None = None) -> Any:
+    """Euclidean length, along an axis if one is given."""
+    length = np.linalg.norm(np.asarray(data, dtype=np.float64), axis=axis)
+    if out is not None:
+        out[...] = length
+        return None
+    return float(length) if np.ndim(length) == 0 else length
+
+
+def unit_vector(data: ArrayLike, axis: int | None = None, out: Array | None = None) -> Array | None:
+    """The vector of length 1 in the same direction; normalized along an axis if one is given."""
+    vector = np.asarray(data, dtype=np.float64)
+    unit = vector / np.linalg.norm(vector, axis=axis, keepdims=axis is not None)
+    if out is not None:
+        out[...] = unit
+        return None
+    return np.asarray(unit)
+
+
+def unit_direction(data: ArrayLike) -> Array:
+    """The first three numbers as a vector of length 1."""
+    vector = np.asarray(data, dtype=np.float64)[:3]
+    return np.asarray(vector / np.linalg.norm(vector))
+
+
+def random_vector(size: int | tuple[int, ...]) -> Array:
+    """Random numbers, evenly spread over [0, 1)."""
+    return np.random.default_rng().random(size)

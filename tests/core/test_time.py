@@ -1,0 +1,43 @@
+import datetime
+
+import numpy as np
+import pytest
+
+from coframe.time import duration_ns, stamp_ns
+
+
+@pytest.mark.parametrize(
+    ("written", "nanoseconds"),
+    [
+        ("100ms", 100_000_000),
+        ("1.5 s", 1_500_000_000),
+        ("3us", 3_000),
+        ("2min", 120_000_000_000),
+        (7, 7),
+        (np.int64(7), 7),
+        (datetime.timedelta(milliseconds=2), 2_000_000),
+        (np.timedelta64(5, "ms"), 5_000_000),
+    ],
+)
+def test_durations(written, nanoseconds):
+    assert duration_ns(written) == nanoseconds
+
+
+@pytest.mark.parametrize("written", ["100", "ms", "1 fortnight", "", "-1s"])
+def test_text_that_is_no_duration(written):
+    with pytest.raises(ValueError, match="is not a duration: write a number and a unit"):
+        duration_ns(written)
+
+
+def test_float_seconds_are_refused():
+    with pytest.raises(TypeError, match="float of seconds"):
+        duration_ns(0.1)
+
+
+def test_stamps():
+    moment = datetime.datetime(2026, 1, 2, 3, 4, 5, 678901, tzinfo=datetime.timezone.utc)
+    nanoseconds = 1_767_323_045_678_901_000
+    assert stamp_ns(moment) == nanoseconds
+    assert stamp_ns(np.datetime64("2026-01-02T03:04:05.678901")) == nanoseconds
+    with pytest.raises(ValueError, match="time zone"):
+        stamp_ns(moment.replace(tzinfo=None))

@@ -1,0 +1,119 @@
+"""Transform as a group and as numbers, over batch shapes, with scipy as the independent answer."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import coframe
+from coframe import Transform
+
+SHAPES = [(), (1,), (7,), (2, 3)]
+
+
+def random_transform(rng, shape=(), **names):
+    return Transform(rng.normal(size=(*shape, 3)) * 10, rng.normal(size=(*shape, 4)), **names)
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(5)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_group_axioms(rng, shape):
+    a, b, c = (random_transform(rng, shape) for _ in range(3))
+    assert ((a @ b) @ c).is_close(a @ (b @ c), translation=1e-12, rotation=1e-12)
+    assert (a @ a.inverse()).is_close(Transform(), translation=1e-12, rotation=1e-12)
+    assert (a @ Transform()).is_close(a, translation=0, rotation=1e-15)
+    assert (a @ b).shape == shape
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_matrix_and_back(rng, shape):
+    a, b = random_transform(rng, shape), random_transform(rng, shape)
+    np.testing.assert_allclose((a @ b).matrix, a.matrix @ b.matrix, atol=1e-12)
+    assert Transform.from_matrix(a.matrix).is_close(a, translation=0, rotation=1e-12)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_rotation_and_rpy_are_scipys(rng, shape):
+    a = random_transform(rng, shape)
+    theirs = Rotation.from_quat(a.quaternion.reshape(-1, 4))
+    np.testing.assert_allclose(a.rotation.reshape(-1, 3, 3), theirs.as_matrix(), atol=1e-12)
+    np.testing.assert_allclose(a.rpy.reshape(-1, 3), theirs.as_euler("xyz"), atol=1e-9)
+    assert Transform.from_rpy(a.translation, a.rpy).is_close(a, translation=0, rotation=1e-9)
+
+
+def test_near_half_turns_survive_the_matrix(rng):
+    axes = rng.normal(size=(100, 3))
+    half_turns = Rotation.from_rotvec(axes / np.linalg.norm(axes, axis=1)[:, None] * (np.pi - 1e-9))
+    a = Transform(quaternion=half_turns.as_quat())
+    assert Transform.from_matrix(a.matrix).is_close(a, rotation=1e-9)
+
+
+@pytest.mark.parametrize("pitch", [np.pi / 2, -np.pi / 2])
+def test_gimbal_lock_keeps_the_rotation(pitch):
+    a = Transform.from_rpy(rpy=[0.3, pitch, 0.4])
+    roll, found, yaw = a.rpy
+    assert yaw == 0
+    assert found == pytest.approx(pitch)
+    assert Transform.from_rpy(rpy=[roll, found, yaw]).is_close(a, rotation=1e-7)
+
+
+def test_points(rng):
+    a = random_transform(rng)
+    points = rng.normal(size=(50, 3))
+    expected = (a.matrix @ np.c_[points, np.ones(50)].T).T[:, :3]
+    np.testing.assert_allclose(a @ points, expected, atol=1e-12)
+    np.testing.assert_allclose(a @ points[0], expected[0], atol=1e-12)
+    batch = random_transform(rng, (50,))
+    np.testing.assert_allclose((batch @ points)[7], batch[7] @ points[7], atol=1e-12)
+    with pytest.raises(ValueError, match=r"points must have the shape \(..., 3\)"):
+        _ = a @ np.zeros((3, 4))
+
+
+def test_names_are_checked_and_carried(rng):
+    map_odom = random_transform(rng, target="map", source="odom", stamp=5)
+    odom_base = random_transform(rng, target="odom", source="base", stamp=5)
+    both = map_odom @ odom_base
+    assert (both.target, both.source, both.stamp) == ("map", "base", 5)
+    assert (both.inverse().target, both.inverse().source) == ("base", "map")
+    with pytest.raises(coframe.FrameMismatchException, match=r"map <- odom with base <- odom: 'odom' is not 'base'"):
+        _ = map_odom @ odom_base.inverse()
+
+
+def test_what_is_no_transform_is_refused():
+    with pytest.raises(coframe.InvalidArgumentException, match="finite"):
+        Transform([float("nan"), 0, 0])
+    with pytest.raises(coframe.InvalidArgumentException, match="length zero"):
+        Transform(quaternion=[0, 0, 0, 0])
+    with pytest.raises(ValueError, match=r"shape \(..., 3\), not \(2,\)"):
+        Transform([1, 2])
+    with pytest.raises(ValueError, match="not a rotation"):
+        Transform.from_matrix(np.diag([2.0, 1, 1, 1]))
+    with pytest.raises(ValueError, match="not a rotation"):
+        Transform.from_matrix(np.diag([-1.0, 1, 1, 1]))
+    with pytest.raises(TypeError, match="float of seconds"):
+        Transform(stamp=1.5)
+
+
+def test_batches_are_sequences(rng):
+    batch = random_transform(rng, (4,), target="a", source="b", stamp=None)
+    assert len(batch) == 4
+    assert [one.shape for one in batch] == [()] * 4
+    assert batch[1:3].shape == (2,)
+    stamped = Transform(np.zeros((2, 3)), stamp=np.array([10, 20]))
+    assert [one.stamp for one in stamped] == [10, 20]
+    with pytest.raises(TypeError, match="no length"):
+        len(batch[0])
+
+
+def test_values_survive_pickle_and_copy(rng):
+    for a in (random_transform(rng, target="a", source="b", stamp=7), random_transform(rng, (3,))):
+        assert pickle.loads(pickle.dumps(a)) == a
+        assert copy.deepcopy(a) == a
+    error = pickle.loads(pickle.dumps(coframe.LookupException("text", target="a", hint="do")))
+    assert (str(error), error.target, error.hint) == ("text", "a", "do")
