@@ -5,8 +5,7 @@ from __future__ import annotations
 import socket
 
 from coframe.errors import WireError
-from coframe.wire import _native
-from coframe.wire.config import MAX_PARTICIPANT_INDEX
+from coframe.wire import _native, config
 
 
 def load() -> None:
@@ -32,18 +31,18 @@ def load() -> None:
         ) from error
 
 
-def join(domain: int, config: str, user_data: str) -> _native.DomainParticipant:
-    """A participant in `domain`.
+def join(domain: int, xml: str, user_data: str) -> _native.DomainParticipant:
+    """A participant in `domain`, which is opened with Cyclone's configuration `xml`.
 
     Raises:
         WireError: DDS does not let us in.
     """
     try:
-        return _native.DomainParticipant(domain, config, user_data)
+        return _native.DomainParticipant(domain, xml, user_data)
     except _native.DdsError as error:
         if not _free_participant_index(domain):
             raise WireError(
-                f"Domain {domain} on this machine is full: {MAX_PARTICIPANT_INDEX + 1} programs are in it already.",
+                f"Domain {domain} is full on this machine: all {config.MAX_PARTICIPANT_INDEX + 1} places are taken.",
                 hint="End some of them, or use another domain: ROS_DOMAIN_ID=1.",
             ) from error
         raise WireError(
@@ -56,7 +55,7 @@ def join(domain: int, config: str, user_data: str) -> _native.DomainParticipant:
 def _free_participant_index(domain: int) -> bool:
     """Whether one of the UDP ports that RTPS gives to participants of `domain` is free."""
     first = 7400 + 250 * domain + 10
-    for port in range(first, min(first + 2 * MAX_PARTICIPANT_INDEX, 65535) + 1, 2):
+    for port in range(first, min(first + 2 * config.MAX_PARTICIPANT_INDEX, 65535) + 1, 2):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             try:
                 probe.bind(("127.0.0.1", port))

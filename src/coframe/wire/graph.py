@@ -63,7 +63,7 @@ class Graph:
         self._owners: dict[bytes, NodeInfo] = {}
         self._writers: dict[int, DdsEndpoint] = {}
         self._readers: dict[int, DdsEndpoint] = {}
-        self._gone_writers: OrderedDict[int, str] = OrderedDict()
+        self._writer_nodes: OrderedDict[int, str] = OrderedDict()  # of gone writers too
         self._version = 0
 
     def close(self) -> None:
@@ -86,6 +86,7 @@ class Graph:
                     for node in nodes
                     for guid in (*node.readers, *node.writers)
                 }
+                self._remember_writers()
                 self._version += 1
             return self._version
 
@@ -138,8 +139,7 @@ class Graph:
         """The full name of the node whose writer has this handle, also for a while after the writer has gone."""
         self.refresh()
         with self._lock:
-            writer = self._writers.get(handle)
-            return self.owner(writer.guid) if writer else self._gone_writers.get(handle)
+            return self._writer_nodes.get(handle)
 
     def _take_info(self) -> bool:
         changed = False
@@ -156,15 +156,17 @@ class Graph:
         for handle, alive, guid, participant, topic, type_name, (depth, *policies) in changes:
             if alive:
                 known[handle] = DdsEndpoint(guid, participant, topic, type_name, QoS(max(depth, 1), *policies))
-            elif gone := known.pop(handle, None):
-                self._remember(handle, self.owner(gone.guid))
+            else:
+                known.pop(handle, None)
         return bool(changes)
 
-    def _remember(self, handle: int, node: str | None) -> None:
-        if node is not None:
-            self._gone_writers[handle] = node
-            if len(self._gone_writers) > _GONE_WRITERS:
-                self._gone_writers.popitem(last=False)
+    def _remember_writers(self) -> None:
+        """A sample may be asked about when its writer has left already."""
+        for handle, writer in self._writers.items():
+            if (node := self.owner(writer.guid)) is not None:
+                self._writer_nodes[handle] = node
+        while len(self._writer_nodes) > len(self._writers) + _GONE_WRITERS:
+            self._writer_nodes.popitem(last=False)
 
     def _forget_departed(self) -> None:
         present = {writer.participant for writer in self._writers.values() if writer.topic == TOPIC}
