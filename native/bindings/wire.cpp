@@ -37,8 +37,11 @@ using PyTfReader = Closing<TfReader>;
 
 nb::bytes to_bytes(const dds::Guid& guid) { return nb::bytes(guid.bytes, sizeof guid.bytes); }
 
-nb::tuple to_tuple(const dds::IncompatibleQosStatus& status) {
-  return nb::make_tuple(status.total_count, status.last_policy_id);
+template <class Endpoint>
+nb::list matched_handles(const Endpoint& endpoint) {
+  nb::list list;
+  for (const dds::Handle handle : endpoint.matched_handles()) list.append(handle);
+  return list;
 }
 
 nb::tuple to_tuple(const QosProfile& qos) {
@@ -101,9 +104,10 @@ void define_writer(nb::module_& wire) {
           nb::arg("message"), "Sends one serialised message, without the GIL.")
       .def_prop_ro("guid", [](const PyWriter& self) { return to_bytes(self.guid()); })
       .def_prop_ro("matched", &PyWriter::matched, "How many readers the writer has found.", ReleaseGil())
-      .def(
-          "incompatible", [](const PyWriter& self) { return to_tuple(self.incompatible()); },
-          "(count, last policy's number) of readers that asked for more than is offered.")
+      .def("matched_handles", &matched_handles<PyWriter>, "The handles of those readers.")
+      .def_prop_ro(
+          "refused_policy", [](const PyWriter& self) { return self.incompatible().last_policy_id; },
+          "DDS's number of the policy by which the last reader was refused; 0: none was.")
       .def("close", &PyWriter::close, ReleaseGil());
 }
 
@@ -115,8 +119,11 @@ void define_reader_properties(Class& cls) {
           "matched", [](const Reader& self) { return self.reader().matched(); },
           "How many writers the reader has found.", ReleaseGil())
       .def(
-          "incompatible", [](const Reader& self) { return to_tuple(self.reader().incompatible()); },
-          "(count, last policy's number) of writers that offer less than is asked for.")
+          "matched_handles", [](const Reader& self) { return matched_handles(self.reader()); },
+          "The handles of those writers.")
+      .def_prop_ro(
+          "refused_policy", [](const Reader& self) { return self.reader().incompatible().last_policy_id; },
+          "DDS's number of the policy by which the last writer was refused; 0: none was.")
       .def("close", &Reader::close, ReleaseGil(), "Ends the reader; no callback runs afterwards.");
 }
 

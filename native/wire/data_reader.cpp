@@ -36,6 +36,10 @@ std::uint32_t DataReader::matched() const {
   return status.current_count;
 }
 
+std::vector<dds::Handle> DataReader::matched_handles() const {
+  return dds::matched_handles(dds::functions().dds_get_matched_publications, entity_);
+}
+
 dds::IncompatibleQosStatus DataReader::incompatible() const {
   dds::IncompatibleQosStatus status{};
   dds::check(dds::functions().dds_get_requested_incompatible_qos_status(entity_, &status), "read the QoS status");

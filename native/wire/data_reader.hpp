@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <vector>
 
 #include "wire/dds.hpp"
 
@@ -22,6 +23,7 @@ class DataReader {
   dds::Entity entity() const { return entity_; }  // 0 after close
   dds::Guid guid() const;
   std::uint32_t matched() const;
+  std::vector<dds::Handle> matched_handles() const;
   dds::IncompatibleQosStatus incompatible() const;
 
  private:

@@ -60,6 +60,16 @@ Code check(Code code, const char* what) {
   return code;
 }
 
+std::vector<Handle> matched_handles(Code (*get)(Entity, Handle*, std::size_t), Entity entity) {
+  std::vector<Handle> handles;
+  for (;;) {
+    const Code count = check(get(entity, handles.data(), handles.size()), "list the matched endpoints");
+    const bool all = static_cast<std::size_t>(count) <= handles.size();
+    handles.resize(static_cast<std::size_t>(count));
+    if (all) return handles;
+  }
+}
+
 Sample::Sample(Serdata* data, const SampleInfo& info) noexcept : data_(data), info_(info) {
   view_ = loaded.ddsi_serdata_to_ser_ref(data, 0, loaded.ddsi_serdata_size(data), &bytes_);
 }

@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace coframe::dds {
 
@@ -107,6 +108,8 @@ inline constexpr Code kPreconditionNotMet = -4;
   X(Code, dds_get_guid, (Entity, Guid*))                                                                     \
   X(Code, dds_get_publication_matched_status, (Entity writer, MatchedStatus*))                               \
   X(Code, dds_get_subscription_matched_status, (Entity reader, MatchedStatus*))                              \
+  X(Code, dds_get_matched_subscriptions, (Entity writer, Handle*, std::size_t size))                         \
+  X(Code, dds_get_matched_publications, (Entity reader, Handle*, std::size_t size))                          \
   X(Code, dds_get_offered_incompatible_qos_status, (Entity writer, IncompatibleQosStatus*))                  \
   X(Code, dds_get_requested_incompatible_qos_status, (Entity reader, IncompatibleQosStatus*))                \
   X(Listener*, dds_create_listener, (void* argument))                                                        \
@@ -158,6 +161,9 @@ const Functions& functions();
 
 // `code` itself, or throws Error "could not <what>: <DDS's word>" where it is negative.
 Code check(Code code, const char* what);
+
+// The handles that `get`, dds_get_matched_*, gives for `entity`.
+std::vector<Handle> matched_handles(Code (*get)(Entity, Handle*, std::size_t), Entity entity);
 
 // One taken sample, given back to DDS when it goes out of scope.
 class Sample {

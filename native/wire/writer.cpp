@@ -32,6 +32,10 @@ std::uint32_t Writer::matched() const {
   return status.current_count;
 }
 
+std::vector<dds::Handle> Writer::matched_handles() const {
+  return dds::matched_handles(dds::functions().dds_get_matched_subscriptions, entity_);
+}
+
 dds::IncompatibleQosStatus Writer::incompatible() const {
   dds::IncompatibleQosStatus status{};
   dds::check(dds::functions().dds_get_offered_incompatible_qos_status(entity_, &status), "read the QoS status");

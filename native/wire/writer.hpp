@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <string>
+#include <vector>
 
 #include "wire/dds.hpp"
 #include "wire/qos.hpp"
@@ -22,6 +23,7 @@ class Writer {
 
   dds::Guid guid() const;
   std::uint32_t matched() const;
+  std::vector<dds::Handle> matched_handles() const;
   dds::IncompatibleQosStatus incompatible() const;
 
  private:

@@ -80,7 +80,7 @@ def child(domain_id: int) -> Iterator[Callable[..., Child]]:
     children: list[Child] = []
 
     def start(code: str, **environment: str) -> Child:
-        children.append(Child(code, environment))
+        children.append(Child(code, {"ROS_DOMAIN_ID": str(domain_id), **environment}))
         return children[-1]
 
     yield start

@@ -3,6 +3,7 @@ import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import pytest
 
@@ -31,7 +32,8 @@ def wire_threads() -> set[str]:
 
 
 def native_threads() -> int:
-    return len(os.listdir("/proc/self/task")) if sys.platform == "linux" else threading.active_count()
+    tasks = Path("/proc/self/task")
+    return len(list(tasks.iterdir())) if tasks.is_dir() else threading.active_count()
 
 
 def test_one_participant_for_a_process_and_domain(domain_id):
@@ -101,6 +103,7 @@ def test_nodes_of_other_processes_are_seen_whatever_their_distribution(distro, c
     eventually(lambda: not participant.publishers("/chatter"))
 
 
+@pytest.mark.slow  # DDS gives the silent ten seconds
 def test_nodes_of_a_killed_process_vanish_at_the_latest_with_its_lease(participant, child, eventually):
     other = child(NODE_IN_A_CHILD.format(name="talker"))
     eventually(lambda: ("/robot", "talker") in participant.nodes())

@@ -99,9 +99,14 @@ class WireEndpoint:
         """How many endpoints on the other side have been found; 0 once closed."""
         return 0 if self._closed else self._endpoint.matched
 
-    def incompatible(self) -> tuple[int, int]:
-        """How many endpoints DDS has refused so far, and the number of the last one's policy."""
-        return (0, 0) if self._closed else self._endpoint.incompatible()
+    def matched_handles(self) -> set[int]:
+        """The handles of the endpoints on the other side that have been found."""
+        return set() if self._closed else set(self._endpoint.matched_handles())
+
+    @property
+    def refused_policy(self) -> int:
+        """DDS's number of the policy by which the last endpoint was refused; 0: none was."""
+        return 0 if self._closed else self._endpoint.refused_policy
 
     @property
     def closed(self) -> bool:

@@ -119,6 +119,14 @@ class Graph:
         with self._lock:
             return {handle: reader for handle, reader in self._readers.items() if reader.topic == topic}
 
+    def by_topic(self, *, writers: bool) -> dict[str, dict[int, DdsEndpoint]]:
+        """All writers, or all readers, by DDS topic and handle, as of the last refresh."""
+        grouped: dict[str, dict[int, DdsEndpoint]] = {}
+        with self._lock:
+            for handle, endpoint in (self._writers if writers else self._readers).items():
+                grouped.setdefault(endpoint.topic, {})[handle] = endpoint
+        return grouped
+
     def describe(self, endpoint: DdsEndpoint) -> Endpoint:
         """The endpoint with its node."""
         node = self._owners.get(endpoint.guid)

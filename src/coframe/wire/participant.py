@@ -299,9 +299,10 @@ class Participant:
             try:
                 version = self._graph.refresh()
                 if version != seen:
-                    seen = version
                     self._graph_changed()
-                self._mismatches.check(self._endpoints())
+                if version != seen or self._mismatches.waiting:
+                    self._mismatches.check(self._endpoints())
+                seen = version
             except Exception:
                 # A callback of the user's, or an endpoint that was closed meanwhile.
                 if not self._ending:

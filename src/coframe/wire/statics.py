@@ -6,6 +6,7 @@ import copy
 import threading
 from typing import TYPE_CHECKING, Any
 
+from coframe.errors import WireError
 from coframe.wire.qos import TF_STATIC_WRITER
 
 if TYPE_CHECKING:
@@ -51,11 +52,15 @@ class StaticTopic:
         from coframe.messages.registry import find  # noqa: PLC0415
 
         with self._lock:
+            if self._publisher is None or self._publisher.closed:
+                raise WireError(
+                    f"The writer of static transforms on {self._topic} is closed.",
+                    hint="Send before closing the node.",
+                )
             for transform in transforms:
                 self._transforms[transform.child_frame_id] = copy.deepcopy(transform)
-            if self._publisher is not None:
-                message = find("tf2_msgs/msg/TFMessage")(transforms=list(self._transforms.values()))
-                self._publisher.write(serialize(message))
+            message = find("tf2_msgs/msg/TFMessage")(transforms=list(self._transforms.values()))
+            self._publisher.write(serialize(message))
 
     def leave(self, member: StaticWriter) -> None:
         """A member less; with the last node the DDS writer goes."""
@@ -77,6 +82,9 @@ class StaticWriter:
         """Sends TransformStamped messages, along with all that this process has sent on the topic before.
 
         A later transform for the same child replaces the earlier. The messages may be changed afterwards.
+
+        Raises:
+            WireError: the last share has been given back.
         """
         self._shared.send(transforms)
 
