@@ -15,6 +15,7 @@ void define_transform(nb::module_& module);
 void define_buffer(nb::module_& module);
 void define_failure(nb::module_& module);
 void define_event(nb::module_& module);
+void define_wire(nb::module_& module);
 
 // Python's signal handlers run only in between: a wait that may be long is cut into slices of this length.
 inline constexpr std::int64_t kSignalSliceNs = 50'000'000;

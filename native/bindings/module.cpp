@@ -8,4 +8,5 @@ NB_MODULE(_core, module) {
   define_failure(module);
   define_buffer(module);
   define_event(module);
+  define_wire(module);
 }

@@ -13,11 +13,13 @@ from coframe.errors import (
     WireError,
 )
 from coframe.transform import Transform
+from coframe.wire.connection import Connection, connect
 
 __version__ = "0.1.0"
 
 __all__ = [
     "Buffer",
+    "Connection",
     "ConnectivityException",
     "DecodeError",
     "ExtrapolationException",
@@ -30,4 +32,5 @@ __all__ = [
     "TransformException",
     "WireError",
     "__version__",
+    "connect",
 ]

@@ -1,0 +1,182 @@
+// The submodule coframe._core.wire: what coframe.wire stands on. Private.
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+
+#include <memory>
+#include <vector>
+
+#include "bindings/bindings.hpp"
+#include "bindings/buffer.hpp"
+#include "wire/endpoint_reader.hpp"
+#include "wire/participant.hpp"
+#include "wire/reader.hpp"
+#include "wire/tf_reader.hpp"
+#include "wire/writer.hpp"
+
+namespace coframe::bindings {
+namespace {
+
+using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
+
+// Closing waits for DDS threads, and DDS frees Python types on its way: never with the GIL held.
+template <class Native>
+class Closing : public Native {
+ public:
+  using Native::Native;
+  ~Closing() {
+    nb::gil_scoped_release release;
+    Native::close();
+  }
+};
+
+using PyParticipant = Closing<DomainParticipant>;
+using PyWriter = Closing<Writer>;
+using PyReader = Closing<Reader>;
+using PyEndpointReader = Closing<EndpointReader>;
+using PyTfReader = Closing<TfReader>;
+
+nb::bytes to_bytes(const dds::Guid& guid) { return nb::bytes(guid.bytes, sizeof guid.bytes); }
+
+template <class Endpoint>
+nb::list matched_handles(const Endpoint& endpoint) {
+  nb::list list;
+  for (const dds::Handle handle : endpoint.matched_handles()) list.append(handle);
+  return list;
+}
+
+nb::tuple to_tuple(const QosProfile& qos) {
+  return nb::make_tuple(qos.depth, qos.reliable, qos.transient_local, qos.keep_all);
+}
+
+nb::list take(PyReader& reader, std::uint32_t limit) {
+  std::vector<dds::Sample> samples;
+  {
+    nb::gil_scoped_release release;
+    samples = reader.take(limit);
+  }
+  nb::list messages;
+  for (const dds::Sample& sample : samples) {
+    const auto bytes = sample.bytes();
+    messages.append(nb::make_tuple(nb::bytes(bytes.data(), bytes.size()), sample.info().source_timestamp,
+                                   sample.info().publication_handle));
+  }
+  return messages;
+}
+
+nb::list take_endpoints(PyEndpointReader& reader) {
+  std::vector<EndpointChange> changes;
+  {
+    nb::gil_scoped_release release;
+    changes = reader.take();
+  }
+  nb::list list;
+  for (const EndpointChange& change : changes) {
+    // Names come from the network: not every byte of them need be UTF-8.
+    const auto text = [](const std::string& name) {
+      return nb::steal<nb::str>(
+          PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace"));
+    };
+    list.append(nb::make_tuple(change.handle, change.alive, to_bytes(change.guid), to_bytes(change.participant),
+                               text(change.topic), text(change.type), to_tuple(change.qos)));
+  }
+  return list;
+}
+
+void define_participant(nb::module_& wire) {
+  nb::class_<PyParticipant>(wire, "DomainParticipant", "A DDS domain of this process and a participant in it.")
+      .def(nb::init<std::uint32_t, const std::string&, const std::string&>(), nb::arg("domain"), nb::arg("config"),
+           nb::arg("user_data"), ReleaseGil())
+      .def_prop_ro("entity", &PyParticipant::entity, "DDS's number for the participant; 0 after close.")
+      .def_prop_ro("guid", [](const PyParticipant& self) { return to_bytes(self.guid()); })
+      .def("close", &PyParticipant::close, ReleaseGil(), "Ends the participant and DDS's threads.");
+}
+
+void define_writer(nb::module_& wire) {
+  nb::class_<PyWriter>(wire, "Writer", "A DDS writer of serialised messages.")
+      .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&>(), nb::arg("participant"),
+           nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), ReleaseGil())
+      .def(
+          "write",
+          [](const PyWriter& self, nb::bytes message) {
+            nb::gil_scoped_release release;
+            self.write(message.c_str(), message.size());
+          },
+          nb::arg("message"), "Sends one serialised message, without the GIL.")
+      .def_prop_ro("guid", [](const PyWriter& self) { return to_bytes(self.guid()); })
+      .def_prop_ro("matched", &PyWriter::matched, "How many readers the writer has found.", ReleaseGil())
+      .def("matched_handles", &matched_handles<PyWriter>, "The handles of those readers.")
+      .def_prop_ro(
+          "refused_policy", [](const PyWriter& self) { return self.incompatible().last_policy_id; },
+          "DDS's number of the policy by which the last reader was refused; 0: none was.")
+      .def("close", &PyWriter::close, ReleaseGil());
+}
+
+// The properties that every reader with a `reader()` has.
+template <class Reader, class Class>
+void define_reader_properties(Class& cls) {
+  cls.def_prop_ro("guid", [](const Reader& self) { return to_bytes(self.reader().guid()); })
+      .def_prop_ro(
+          "matched", [](const Reader& self) { return self.reader().matched(); },
+          "How many writers the reader has found.", ReleaseGil())
+      .def(
+          "matched_handles", [](const Reader& self) { return matched_handles(self.reader()); },
+          "The handles of those writers.")
+      .def_prop_ro(
+          "refused_policy", [](const Reader& self) { return self.reader().incompatible().last_policy_id; },
+          "DDS's number of the policy by which the last writer was refused; 0: none was.")
+      .def("close", &Reader::close, ReleaseGil(), "Ends the reader; no callback runs afterwards.");
+}
+
+void define_readers(nb::module_& wire) {
+  auto reader = nb::class_<PyReader>(wire, "Reader", "A DDS reader of serialised messages.");
+  reader
+      .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, std::shared_ptr<Event>>(),
+           nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("on_data").none(), ReleaseGil())
+      .def("take", &take, nb::arg("limit"), "Up to `limit` tuples (bytes, source timestamp in ns, writer's handle).")
+      .def_prop_ro("pending", &PyReader::pending, "Whether messages may be waiting.");
+  define_reader_properties<PyReader>(reader);
+
+  auto tf_reader = nb::class_<PyTfReader>(wire, "TfReader", "Stores the transforms of a topic in a buffer.");
+  tf_reader
+      .def(
+          "__init__",
+          [](PyTfReader* self, dds::Entity participant, dds::Entity topic, const QosProfile& qos,
+             const std::string& user_data, const BufferObject& buffer, bool is_static, const std::string& authority) {
+            new (self) PyTfReader(participant, topic, qos, user_data, buffer.core, is_static, authority);
+          },
+          nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("buffer"),
+          nb::arg("is_static"), nb::arg("authority"), ReleaseGil())
+      .def("name_writer", &PyTfReader::name_writer, nb::arg("writer"), nb::arg("authority"), ReleaseGil(),
+           "The buffer notes `authority` for what the writer with this handle sends from now on.");
+  define_reader_properties<PyTfReader>(tf_reader);
+
+  nb::class_<PyEndpointReader>(wire, "EndpointReader", "What DDS discovery tells about writers or readers.")
+      .def(nb::init<dds::Entity, dds::Entity, std::shared_ptr<Event>>(), nb::arg("participant"), nb::arg("topic"),
+           nb::arg("on_change"), ReleaseGil())
+      .def("take", &take_endpoints,
+           "The changes: tuples (handle, alive, guid, participant's guid, topic, type, "
+           "(depth, reliable, transient_local, keep_all)).")
+      .def("close", &PyEndpointReader::close, ReleaseGil());
+  wire.attr("PUBLICATIONS") = dds::kPublicationTopic;
+  wire.attr("SUBSCRIPTIONS") = dds::kSubscriptionTopic;
+}
+
+}  // namespace
+
+void define_wire(nb::module_& module) {
+  nb::module_ wire = module.def_submodule("wire", "DDS without the GIL. Private: use `coframe.wire`.");
+  nb::exception<dds::Error>(wire, "DdsError", PyExc_RuntimeError);
+  wire.def("load", &dds::load, nb::arg("path"), "Loads the DDS library; RuntimeError where it does not fit.");
+  nb::class_<QosProfile>(wire, "QosProfile", "The four policies ROS programs set.")
+      .def(
+          "__init__",
+          [](QosProfile* self, std::int32_t depth, bool reliable, bool transient_local, bool keep_all) {
+            new (self) QosProfile{depth, reliable, transient_local, keep_all};
+          },
+          nb::arg("depth"), nb::arg("reliable"), nb::arg("transient_local"), nb::arg("keep_all"));
+  define_participant(wire);
+  define_writer(wire);
+  define_readers(wire);
+}
+
+}  // namespace coframe::bindings

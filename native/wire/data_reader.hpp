@@ -1,0 +1,33 @@
+// A DDS reader with a data listener: the part that all our readers share.
+#pragma once
+
+#include <atomic>
+#include <vector>
+
+#include "wire/dds.hpp"
+
+namespace coframe {
+
+// Calls `on_data(entity, argument)` on DDS threads, one call at a time, from before the constructor returns until
+// `close` returns. Samples may be waiting already when the listener is attached: the owner looks once by itself.
+class DataReader {
+ public:
+  DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data, void* argument);
+  ~DataReader() { close(); }
+  DataReader(const DataReader&) = delete;
+  DataReader& operator=(const DataReader&) = delete;
+
+  // Waits for a running callback; none runs afterwards. Not to be called from the callback.
+  void close() noexcept;
+
+  dds::Entity entity() const { return entity_; }  // 0 after close
+  dds::Guid guid() const;
+  std::uint32_t matched() const;
+  std::vector<dds::Handle> matched_handles() const;
+  dds::IncompatibleQosStatus incompatible() const;
+
+ private:
+  std::atomic<dds::Entity> entity_ = 0;
+};
+
+}  // namespace coframe

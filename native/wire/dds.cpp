@@ -1,0 +1,92 @@
+#include "wire/dds.hpp"
+
+#include <utility>
+
+#ifdef _WIN32
+#include <windows.h>
+#else
+#include <dlfcn.h>
+#endif
+
+namespace coframe::dds {
+namespace {
+
+Functions loaded;
+bool is_loaded = false;
+
+#ifdef _WIN32
+void* open_library(const std::string& path) { return reinterpret_cast<void*>(LoadLibraryA(path.c_str())); }
+void* find_symbol(void* library, const char* name) {
+  return reinterpret_cast<void*>(GetProcAddress(reinterpret_cast<HMODULE>(library), name));
+}
+#else
+void* open_library(const std::string& path) { return dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); }
+void* find_symbol(void* library, const char* name) { return dlsym(library, name); }
+#endif
+
+template <class Function>
+void find(void* library, const char* name, const std::string& path, Function& function) {
+  function = reinterpret_cast<Function>(find_symbol(library, name));
+  if (function == nullptr) {
+    throw std::runtime_error("the DDS library " + path + " has no function " + name +
+                             "; coframe is written for cyclonedds 11");
+  }
+}
+
+}  // namespace
+
+Error::Error(const std::string& what, Code code)
+    : std::runtime_error("could not " + what + ": " + functions().dds_strretcode(code)), code_(code) {}
+
+void load(const std::string& path) {
+  if (is_loaded) return;
+  void* library = open_library(path);
+  if (library == nullptr) throw std::runtime_error("the DDS library " + path + " could not be loaded");
+  Functions found;
+#define COFRAME_FIND(result, name, arguments) find(library, #name, path, found.name);
+  COFRAME_DDS_FUNCTIONS(COFRAME_FIND)
+#undef COFRAME_FIND
+  loaded = found;
+  is_loaded = true;
+}
+
+const Functions& functions() {
+  if (!is_loaded) throw std::logic_error("the DDS library is not loaded");
+  return loaded;
+}
+
+Code check(Code code, const char* what) {
+  if (code < 0) throw Error(what, code);
+  return code;
+}
+
+std::vector<Handle> matched_handles(Code (*get)(Entity, Handle*, std::size_t), Entity entity) {
+  std::vector<Handle> handles;
+  for (;;) {
+    const Code count = check(get(entity, handles.data(), handles.size()), "list the matched endpoints");
+    const bool all = static_cast<std::size_t>(count) <= handles.size();
+    handles.resize(static_cast<std::size_t>(count));
+    if (all) return handles;
+  }
+}
+
+Sample::Sample(Serdata* data, const SampleInfo& info) noexcept : data_(data), info_(info) {
+  view_ = loaded.ddsi_serdata_to_ser_ref(data, 0, loaded.ddsi_serdata_size(data), &bytes_);
+}
+
+Sample::Sample(Sample&& other) noexcept
+    : data_(std::exchange(other.data_, nullptr)),
+      view_(std::exchange(other.view_, nullptr)),
+      bytes_(other.bytes_),
+      info_(other.info_) {}
+
+Sample::~Sample() {
+  if (view_ != nullptr) loaded.ddsi_serdata_to_ser_unref(view_, &bytes_);
+  if (data_ != nullptr) loaded.ddsi_serdata_unref(data_);
+}
+
+std::span<const std::uint8_t> Sample::bytes() const noexcept {
+  return {static_cast<const std::uint8_t*>(bytes_.data), static_cast<std::size_t>(bytes_.size)};
+}
+
+}  // namespace coframe::dds

@@ -1,0 +1,209 @@
+// The functions of Cyclone DDS that the wire calls, found at run time in the library of the `cyclonedds` wheel.
+// The wheel brings no headers: the few structures that cross the boundary are declared here as Cyclone 11 has them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace coframe::dds {
+
+using Entity = std::int32_t;
+using Handle = std::uint64_t;  // of an instance: a sample's writer, an announced endpoint
+using Code = std::int32_t;     // 0 or a negative error
+
+struct Guid {
+  std::uint8_t bytes[16];
+};
+
+struct SampleInfo {
+  std::int32_t sample_state;
+  std::int32_t view_state;
+  std::int32_t instance_state;
+  bool valid_data;  // false: an instance's or a writer's end, the payload is a stub
+  std::int64_t source_timestamp;
+  Handle instance_handle;
+  Handle publication_handle;
+  std::uint32_t disposed_generation_count;
+  std::uint32_t no_writers_generation_count;
+  std::uint32_t sample_rank;
+  std::uint32_t generation_rank;
+  std::uint32_t absolute_generation_rank;
+};
+
+struct Serdata;   // a reference-counted serialised sample
+struct Qos;
+struct Listener;
+
+// dds_builtintopic_endpoint_t
+struct BuiltinEndpoint {
+  Guid key;
+  Guid participant_key;
+  Handle participant_handle;
+  const char* topic_name;
+  const char* type_name;
+  const Qos* qos;
+};
+
+struct MatchedStatus {
+  std::uint32_t total_count;
+  std::int32_t total_count_change;
+  std::uint32_t current_count;
+  std::int32_t current_count_change;
+  Handle last_handle;
+};
+
+struct IncompatibleQosStatus {
+  std::uint32_t total_count;
+  std::int32_t total_count_change;
+  std::uint32_t last_policy_id;
+};
+
+// ddsrt_iovec_t
+struct IoVector {
+#ifdef _WIN32
+  unsigned long size;
+  void* data;
+#else
+  void* data;
+  std::size_t size;
+#endif
+};
+
+// What the wheel's topics take as a sample to write.
+struct SampleContainer {
+  const void* data;
+  std::size_t size;
+};
+
+using DataCallback = void (*)(Entity reader, void* argument);
+
+inline constexpr Entity kPublicationTopic = 0x7fff0003;   // DDS_BUILTIN_TOPIC_DCPSPUBLICATION
+inline constexpr Entity kSubscriptionTopic = 0x7fff0004;  // DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION
+
+enum Durability : std::int32_t { kVolatile = 0, kTransientLocal = 1 };
+enum History : std::int32_t { kKeepLast = 0, kKeepAll = 1 };
+enum Reliability : std::int32_t { kBestEffort = 0, kReliable = 1 };
+enum IgnoreLocal : std::int32_t { kIgnoreNothing = 0, kIgnoreParticipant = 1 };
+inline constexpr std::int32_t kAliveInstance = 16;
+inline constexpr std::int32_t kUnlimited = -1;
+inline constexpr std::int16_t kXcdr1 = 0;
+inline constexpr Code kTimeout = -10;
+inline constexpr Code kPreconditionNotMet = -4;
+
+// X(return type, name, arguments): every function called, once.
+#define COFRAME_DDS_FUNCTIONS(X)                                                                              \
+  X(Entity, dds_create_domain, (std::uint32_t id, const char* config))                                       \
+  X(Entity, dds_create_participant, (std::uint32_t domain, const Qos*, const Listener*))                     \
+  X(Entity, dds_create_writer, (Entity participant, Entity topic, const Qos*, const Listener*))              \
+  X(Entity, dds_create_reader, (Entity participant, Entity topic, const Qos*, const Listener*))              \
+  X(Code, dds_delete, (Entity))                                                                              \
+  X(Code, dds_write, (Entity writer, const void* sample))                                                    \
+  X(Code, dds_take, (Entity reader, void** samples, SampleInfo*, std::size_t size, std::uint32_t limit))     \
+  X(Code, dds_return_loan, (Entity reader, void** samples, std::int32_t count))                              \
+  X(Code, dds_takecdr, (Entity reader, Serdata**, std::uint32_t limit, SampleInfo*, std::uint32_t mask))     \
+  X(Code, dds_get_guid, (Entity, Guid*))                                                                     \
+  X(Code, dds_get_publication_matched_status, (Entity writer, MatchedStatus*))                               \
+  X(Code, dds_get_subscription_matched_status, (Entity reader, MatchedStatus*))                              \
+  X(Code, dds_get_matched_subscriptions, (Entity writer, Handle*, std::size_t size))                         \
+  X(Code, dds_get_matched_publications, (Entity reader, Handle*, std::size_t size))                          \
+  X(Code, dds_get_offered_incompatible_qos_status, (Entity writer, IncompatibleQosStatus*))                  \
+  X(Code, dds_get_requested_incompatible_qos_status, (Entity reader, IncompatibleQosStatus*))                \
+  X(Listener*, dds_create_listener, (void* argument))                                                        \
+  X(void, dds_delete_listener, (Listener*))                                                                  \
+  X(void, dds_lset_data_available, (Listener*, DataCallback))                                                \
+  X(Code, dds_set_listener, (Entity, const Listener*))                                                       \
+  X(Qos*, dds_create_qos, ())                                                                                \
+  X(void, dds_delete_qos, (Qos*))                                                                            \
+  X(void, dds_qset_userdata, (Qos*, const void* data, std::size_t size))                                     \
+  X(void, dds_qset_durability, (Qos*, std::int32_t kind))                                                    \
+  X(void, dds_qset_history, (Qos*, std::int32_t kind, std::int32_t depth))                                   \
+  X(void, dds_qset_reliability, (Qos*, std::int32_t kind, std::int64_t max_blocking_ns))                     \
+  X(void, dds_qset_ignorelocal, (Qos*, std::int32_t kind))                                                   \
+  X(void, dds_qset_data_representation, (Qos*, std::uint32_t count, const std::int16_t* values))             \
+  X(void, dds_qset_durability_service,                                                                       \
+    (Qos*, std::int64_t cleanup_delay_ns, std::int32_t history_kind, std::int32_t history_depth,             \
+     std::int32_t max_samples, std::int32_t max_instances, std::int32_t max_samples_per_instance))           \
+  X(bool, dds_qget_durability, (const Qos*, std::int32_t* kind))                                             \
+  X(bool, dds_qget_history, (const Qos*, std::int32_t* kind, std::int32_t* depth))                           \
+  X(bool, dds_qget_reliability, (const Qos*, std::int32_t* kind, std::int64_t* max_blocking_ns))             \
+  X(const char*, dds_strretcode, (Code))                                                                     \
+  X(std::uint32_t, ddsi_serdata_size, (const Serdata*))                                                      \
+  X(Serdata*, ddsi_serdata_to_ser_ref, (const Serdata*, std::size_t offset, std::size_t size, IoVector*))    \
+  X(void, ddsi_serdata_to_ser_unref, (Serdata*, const IoVector*))                                            \
+  X(void, ddsi_serdata_unref, (Serdata*))
+
+struct Functions {
+#define COFRAME_DECLARE(result, name, arguments) result(*name) arguments = nullptr;
+  COFRAME_DDS_FUNCTIONS(COFRAME_DECLARE)
+#undef COFRAME_DECLARE
+};
+
+// A call that DDS refused.
+class Error : public std::runtime_error {
+ public:
+  Error(const std::string& what, Code code);
+  Code code() const { return code_; }
+
+ private:
+  Code code_;
+};
+
+// Loads the library at `path` and finds every function; throws std::runtime_error naming what is missing.
+// The library stays loaded: its threads may outlive any of our objects.
+void load(const std::string& path);
+
+// The functions; throws std::logic_error before `load`.
+const Functions& functions();
+
+// `code` itself, or throws Error "could not <what>: <DDS's word>" where it is negative.
+Code check(Code code, const char* what);
+
+// The handles that `get`, dds_get_matched_*, gives for `entity`.
+std::vector<Handle> matched_handles(Code (*get)(Entity, Handle*, std::size_t), Entity entity);
+
+// One taken sample, given back to DDS when it goes out of scope.
+class Sample {
+ public:
+  Sample(Serdata* data, const SampleInfo& info) noexcept;
+  Sample(Sample&& other) noexcept;
+  Sample(const Sample&) = delete;
+  Sample& operator=(Sample&&) = delete;
+  Sample& operator=(const Sample&) = delete;
+  ~Sample();
+
+  // The whole payload: the 4 bytes of encapsulation, then CDR.
+  std::span<const std::uint8_t> bytes() const noexcept;
+  const SampleInfo& info() const noexcept { return info_; }
+
+ private:
+  Serdata* data_;      // owned
+  Serdata* view_;      // the reference that keeps `bytes_` mapped
+  IoVector bytes_{};
+  SampleInfo info_;
+};
+
+// Takes up to `limit` (at most kBatch) samples off `reader`; calls `use(Sample&&)` for those that hold data.
+// Returns how many were taken, with or without data.
+inline constexpr std::uint32_t kBatch = 64;
+
+template <class Use>
+std::uint32_t take(Entity reader, std::uint32_t limit, Use&& use) {
+  Serdata* data[kBatch];
+  SampleInfo info[kBatch];
+  const Code count = functions().dds_takecdr(reader, data, limit < kBatch ? limit : kBatch, info, 0);
+  if (count <= 0) return 0;
+  for (Code i = 0; i < count; ++i) {
+    if (info[i].valid_data) {
+      use(Sample(data[i], info[i]));
+    } else {
+      functions().ddsi_serdata_unref(data[i]);
+    }
+  }
+  return static_cast<std::uint32_t>(count);
+}
+
+}  // namespace coframe::dds

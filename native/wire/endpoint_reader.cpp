@@ -1,0 +1,60 @@
+#include "wire/endpoint_reader.hpp"
+
+#include <utility>
+
+namespace coframe {
+namespace {
+
+QosProfile read_qos(const dds::Qos* qos) {
+  const dds::Functions& f = dds::functions();
+  std::int32_t durability = dds::kVolatile;
+  std::int32_t history = dds::kKeepLast;
+  std::int32_t depth = 1;
+  std::int32_t reliability = dds::kBestEffort;
+  std::int64_t max_blocking_ns = 0;
+  f.dds_qget_durability(qos, &durability);
+  f.dds_qget_history(qos, &history, &depth);
+  f.dds_qget_reliability(qos, &reliability, &max_blocking_ns);
+  return {.depth = depth,
+          .reliable = reliability == dds::kReliable,
+          .transient_local = durability >= dds::kTransientLocal,
+          .keep_all = history == dds::kKeepAll};
+}
+
+EndpointChange read_change(const dds::BuiltinEndpoint& endpoint, const dds::SampleInfo& info) {
+  if (!info.valid_data || info.instance_state != dds::kAliveInstance) {
+    return {.handle = info.instance_handle, .alive = false};
+  }
+  return {.handle = info.instance_handle,
+          .alive = true,
+          .guid = endpoint.key,
+          .participant = endpoint.participant_key,
+          .topic = endpoint.topic_name,
+          .type = endpoint.type_name,
+          .qos = read_qos(endpoint.qos)};
+}
+
+}  // namespace
+
+EndpointReader::EndpointReader(dds::Entity participant, dds::Entity topic, std::shared_ptr<Event> on_change)
+    : event_(std::move(on_change)), reader_(participant, topic, nullptr, &EndpointReader::on_data, this) {
+  event_->set();
+}
+
+void EndpointReader::on_data(dds::Entity, void* self) noexcept { static_cast<EndpointReader*>(self)->event_->set(); }
+
+std::vector<EndpointChange> EndpointReader::take() {
+  std::vector<EndpointChange> changes;
+  for (;;) {
+    void* samples[dds::kBatch] = {};  // null: DDS lends its own
+    dds::SampleInfo info[dds::kBatch];
+    const dds::Code count = dds::functions().dds_take(reader_.entity(), samples, info, dds::kBatch, dds::kBatch);
+    if (count <= 0) return changes;
+    for (dds::Code i = 0; i < count; ++i) {
+      changes.push_back(read_change(*static_cast<const dds::BuiltinEndpoint*>(samples[i]), info[i]));
+    }
+    dds::functions().dds_return_loan(reader_.entity(), samples, count);
+  }
+}
+
+}  // namespace coframe

@@ -1,0 +1,38 @@
+// The endpoints that DDS discovery knows, own and foreign: publications or subscriptions as they come and go.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wire/data_reader.hpp"
+#include "wire/event.hpp"
+#include "wire/qos.hpp"
+
+namespace coframe {
+
+struct EndpointChange {
+  dds::Handle handle;  // equals the publication_handle of a writer's samples
+  bool alive;          // false: it has gone, and only the handle is set
+  dds::Guid guid{};
+  dds::Guid participant{};
+  std::string topic{};
+  std::string type{};
+  QosProfile qos{};
+};
+
+class EndpointReader {
+ public:
+  // `topic` is dds::kPublicationTopic or dds::kSubscriptionTopic; `on_change` is set whenever something changed.
+  EndpointReader(dds::Entity participant, dds::Entity topic, std::shared_ptr<Event> on_change);
+  void close() noexcept { reader_.close(); }
+  std::vector<EndpointChange> take();
+
+ private:
+  static void on_data(dds::Entity, void* self) noexcept;
+
+  std::shared_ptr<Event> event_;
+  DataReader reader_;  // last: its callback uses the member above
+};
+
+}  // namespace coframe

@@ -1,0 +1,24 @@
+// Quality of service: the four policies ROS programs set, and the DDS object made of them.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "wire/dds.hpp"
+
+namespace coframe {
+
+struct QosProfile {
+  std::int32_t depth;  // of keep-last
+  bool reliable;
+  bool transient_local;
+  bool keep_all;
+};
+
+using QosPointer = std::unique_ptr<dds::Qos, void (*)(dds::Qos*)>;
+
+// What others read of the entity is `user_data`.
+QosPointer make_qos(const std::string& user_data);
+QosPointer make_qos(const QosProfile& profile, const std::string& user_data);
+
+}  // namespace coframe

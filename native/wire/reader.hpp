@@ -1,0 +1,37 @@
+// DDS -> serialised messages of any type, taken by whoever waits for the event.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "wire/data_reader.hpp"
+#include "wire/event.hpp"
+#include "wire/qos.hpp"
+
+namespace coframe {
+
+class Reader {
+ public:
+  // `on_data` (may be null) is set whenever samples arrive.
+  Reader(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
+         std::shared_ptr<Event> on_data);
+  void close() noexcept { reader_.close(); }
+
+  // Up to `limit` messages, oldest first.
+  std::vector<dds::Sample> take(std::uint32_t limit);
+  // Whether samples may be waiting: true once too often rather than once too few.
+  bool pending() const { return pending_; }
+
+  const DataReader& reader() const { return reader_; }
+
+ private:
+  static void on_data(dds::Entity, void* self) noexcept;
+
+  std::shared_ptr<Event> event_;
+  std::atomic<bool> pending_ = true;  // samples may have come before the listener
+  DataReader reader_;                 // last: its callback uses the members above
+};
+
+}  // namespace coframe

@@ -1,0 +1,40 @@
+// DDS -> buffer: transforms are stored on DDS's own thread, without Python and its lock.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+#include "core/buffer.hpp"
+#include "wire/data_reader.hpp"
+#include "wire/qos.hpp"
+
+namespace coframe {
+
+class TfReader {
+ public:
+  // `authority` is what the buffer notes as the source of every transform, until `name_writer` says better.
+  TfReader(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
+           std::shared_ptr<Buffer> buffer, bool is_static, const std::string& authority);
+  void close() noexcept { reader_.close(); }
+
+  // The buffer notes `authority` for what this writer sends from now on.
+  void name_writer(dds::Handle writer, const std::string& authority);
+
+  const DataReader& reader() const { return reader_; }
+
+ private:
+  static void on_data(dds::Entity reader, void* self) noexcept;
+  void drain(dds::Entity reader);
+  void store(const dds::Sample& sample);
+
+  std::shared_ptr<Buffer> buffer_;
+  const bool is_static_;
+  const std::string authority_;
+  std::mutex mutex_;  // of the streams
+  std::unordered_map<dds::Handle, TransformStream> streams_;  // by writer
+  DataReader reader_;  // last: its callback uses the members above
+};
+
+}  // namespace coframe

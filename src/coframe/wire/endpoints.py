@@ -1,0 +1,213 @@
+"""What a node has on the wire: publishers, subscriptions, and listeners that fill a buffer."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+from coframe.errors import WireError
+from coframe.wire import _native, names
+from coframe.wire.discovery_info import NodeInfo
+from coframe.wire.graph import DdsEndpoint, Graph
+
+if TYPE_CHECKING:
+    from coframe.wire.participant import Participant
+    from coframe.wire.qos import QoS
+
+_NO_AUTHORITY = "<no authority available>"
+
+NativeEndpoint: TypeAlias = "_native.Writer | _native.Reader | _native.TfReader"
+
+
+class Sample(NamedTuple):
+    """A received message.
+
+    Attributes:
+        data: 4 bytes of encapsulation, then CDR.
+        source_timestamp: when it was written, in nanoseconds since 1970 by the writer's clock.
+        writer: its writer's handle, for `Participant.writer_node`.
+    """
+
+    data: bytes
+    source_timestamp: int
+    writer: int
+
+
+class GraphNode:
+    """A node of this process, as the graph sees it. Made by `Participant.add_node`."""
+
+    def __init__(self, participant: Participant, namespace: str, name: str) -> None:
+        self.namespace = namespace
+        self.name = name
+        self._participant = participant
+        self._endpoints: dict[bytes, WireEndpoint] = {}
+
+    @property
+    def full_name(self) -> str:
+        """With the namespace: "/talker"."""
+        return names.full_name(self.namespace, self.name)
+
+    @property
+    def endpoints(self) -> list[WireEndpoint]:
+        """The open endpoints."""
+        return list(self._endpoints.values())
+
+    def info(self) -> NodeInfo:
+        """What the graph is told."""
+        endpoints = self.endpoints
+        return NodeInfo(
+            self.namespace,
+            self.name,
+            readers=tuple(endpoint.guid for endpoint in endpoints if not endpoint.is_writer),
+            writers=tuple(endpoint.guid for endpoint in endpoints if endpoint.is_writer),
+        )
+
+    def add(self, endpoint: WireEndpoint) -> None:
+        """Shows `endpoint` as this node's."""
+        self._endpoints[endpoint.guid] = endpoint
+        self._participant.announce()
+
+    def remove(self, endpoint: WireEndpoint) -> None:
+        """Shows `endpoint` as this node's no longer."""
+        if self._endpoints.pop(endpoint.guid, None):
+            self._participant.announce()
+
+    def close(self) -> None:
+        """Takes the node off the graph and closes its endpoints."""
+        for endpoint in self.endpoints:
+            endpoint.leave(self)
+        self._participant.remove_node(self)
+
+
+class WireEndpoint:
+    """A DDS reader or writer on a topic, announced as that of one node or of several."""
+
+    def __init__(self, native: NativeEndpoint, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
+        self.guid = native.guid
+        self.topic = topic
+        self.qos = qos
+        self.is_writer = isinstance(native, _native.Writer)
+        self.description = DdsEndpoint(self.guid, b"", topic, dds_type, qos)
+        self._endpoint = native
+        self._nodes: list[GraphNode] = []
+        self._lock = threading.Lock()
+        self._closed = False
+        self.share(node)
+
+    @property
+    def matched(self) -> int:
+        """How many endpoints on the other side have been found; 0 once closed."""
+        return 0 if self._closed else self._endpoint.matched
+
+    def matched_handles(self) -> set[int]:
+        """The handles of the endpoints on the other side that have been found."""
+        return set() if self._closed else set(self._endpoint.matched_handles())
+
+    @property
+    def refused_policy(self) -> int:
+        """DDS's number of the policy by which the last endpoint was refused; 0: none was."""
+        return 0 if self._closed else self._endpoint.refused_policy
+
+    @property
+    def closed(self) -> bool:
+        """Whether it has left the topic."""
+        return self._closed
+
+    def share(self, node: GraphNode) -> None:
+        """Announces it as that of `node` too."""
+        with self._lock:
+            if node not in self._nodes:
+                self._nodes.append(node)
+        node.add(self)
+
+    def leave(self, node: GraphNode) -> None:
+        """Takes it from `node`; taken from the last one, it closes. Leaving twice does no harm."""
+        with self._lock:
+            if node in self._nodes:
+                self._nodes.remove(node)
+            last = not self._nodes and not self._closed
+            self._closed |= last
+        node.remove(self)
+        if last:
+            self._endpoint.close()
+
+    def close(self) -> None:
+        """Leaves the topic. Closing twice does no harm."""
+        for node in list(self._nodes):
+            self.leave(node)
+
+
+class Publisher(WireEndpoint):
+    """Writes serialised messages."""
+
+    def __init__(self, native: _native.Writer, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
+        super().__init__(native, node, topic, dds_type, qos)
+        self._writer = native
+
+    def write(self, cdr: bytes) -> None:
+        """Sends a message: 4 bytes of encapsulation, then CDR. Other threads go on meanwhile.
+
+        Raises:
+            WireError: the publisher is closed, the bytes are not of the topic's type, or a reliable subscription
+                has not kept up for a second.
+        """
+        try:
+            self._writer.write(cdr)
+        except _native.DdsError as error:
+            raise self._write_error(error) from error
+
+    def _write_error(self, error: _native.DdsError) -> WireError:
+        topic = names.any_ros_name(self.topic)
+        if self._closed:
+            return WireError(f"The publisher on {topic} is closed.", hint="Publish before closing the node.")
+        if error.args[0].endswith("Timeout"):
+            return WireError(
+                f"Publishing on {topic} failed: a reliable subscription has not kept up for a second.",
+                hint="Publish less, or best-effort (qos_profile_sensor_data), or find out which subscriber hangs.",
+            )
+        return WireError(
+            f"Publishing on {topic} failed: {error}.",
+            hint=f"The bytes must be the CDR of a {names.ros_type(self.description.type)}.",
+        )
+
+
+class Subscription(WireEndpoint):
+    """Holds serialised messages until they are taken."""
+
+    def __init__(self, native: _native.Reader, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
+        super().__init__(native, node, topic, dds_type, qos)
+        self._reader = native
+
+    def take(self, limit: int = 100) -> list[Sample]:
+        """Up to `limit` messages, the oldest first; without waiting."""
+        return [Sample(*message) for message in self._reader.take(limit)]
+
+    def pending(self) -> bool:
+        """Whether messages may be waiting: cheap, and now and then true although `take` finds none."""
+        return not self._closed and self._reader.pending
+
+
+class TfReader(WireEndpoint):
+    """Stores the transforms of a topic in a buffer as they arrive, on DDS's own thread."""
+
+    def __init__(
+        self, native: _native.TfReader, node: GraphNode, topic: str, dds_type: str, qos: QoS, *, name_writers: bool
+    ) -> None:
+        super().__init__(native, node, topic, dds_type, qos)
+        self._reader = native
+        self._named: dict[int, str] | None = {} if name_writers else None
+
+    def name_writers(self, graph: Graph) -> None:
+        """Lets the buffer note the publishing nodes, as far as the graph tells them."""
+        if self._named is None or self._closed:
+            return
+        for handle, writer in graph.writers(self.topic).items():
+            node = graph.owner(writer.guid)
+            if node is not None and self._named.get(handle) != node:
+                self._reader.name_writer(handle, node)
+                self._named[handle] = node
+
+
+def initial_authority(authority: str | None) -> str:
+    """What a buffer notes before a publisher's node is known."""
+    return _NO_AUTHORITY if authority is None else authority

@@ -1,0 +1,56 @@
+"""ROS names and what they are called in DDS."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+Kind = Literal["topic", "request", "reply"]
+
+_AFFIXES: dict[Kind, tuple[str, str]] = {
+    "topic": ("rt", ""),
+    "request": ("rq", "Request"),
+    "reply": ("rr", "Reply"),
+}
+
+
+def dds_topic(name: str, kind: Kind = "topic") -> str:
+    """The DDS topic of a ROS topic or service: "/tf" is "rt/tf", a service "/add" has "rq/addRequest"."""
+    if not name.startswith("/"):
+        raise ValueError(f"topic name {name!r} is not fully qualified: it must begin with a slash")
+    prefix, suffix = _AFFIXES[kind]
+    return f"{prefix}{name}{suffix}"
+
+
+def ros_topic(name: str, kind: Kind = "topic") -> str | None:
+    """The ROS name behind a DDS topic; None if the topic is not of this kind."""
+    prefix, suffix = _AFFIXES[kind]
+    if name.startswith(prefix + "/") and name.endswith(suffix):
+        return name[len(prefix) : len(name) - len(suffix)]
+    return None
+
+
+def dds_type(ros_type: str) -> str:
+    """The DDS type of a ROS type: "tf2_msgs/msg/TFMessage" is "tf2_msgs::msg::dds_::TFMessage_"."""
+    *package, name = ros_type.split("/")
+    return "::".join([*package, "dds_", f"{name}_"])
+
+
+def ros_type(name: str) -> str:
+    """The ROS type behind a DDS type; the name itself where it does not follow ROS's rule."""
+    parts = name.split("::")
+    if len(parts) < 3 or parts[-2] != "dds_" or not parts[-1].endswith("_"):
+        return name
+    return "/".join([*parts[:-2], parts[-1][:-1]])
+
+
+def full_name(namespace: str, name: str) -> str:
+    """A node's name with its namespace: ("/", "talker") is "/talker"."""
+    return f"{namespace.rstrip('/')}/{name}"
+
+
+def any_ros_name(topic: str) -> str:
+    """The ROS topic or service behind a DDS topic of any kind; the name itself if it is not of ROS."""
+    for kind in _AFFIXES:
+        if (name := ros_topic(topic, kind)) is not None:
+            return name
+    return topic

@@ -1,0 +1,129 @@
+"""Message types as DDS knows them: a name and a layout. Encoding and decoding is `coframe.messages.codec`'s."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from coframe.errors import WireError
+from coframe.wire import names
+from coframe.wire.discovery_info import MAX_NAME
+
+if TYPE_CHECKING:
+    from coframe.wire.names import Kind
+
+# Basic types of `SLOT_TYPES` that cyclonedds calls differently.
+_BASIC = {"octet": "byte", "char": "uint8", "float": "float32", "double": "float64"}
+_BASIC_PYTHON = {"boolean": bool}
+
+
+@cache
+def dds_type(message_type: type, kind: Kind = "topic") -> Any:
+    """The DDS type of a message class; for requests and replies with the header that ROS puts before them.
+
+    Raises:
+        WireError: it has a field that DDS's Python types cannot express.
+    """
+    types = _idl_types()
+    fields: dict[str, Any] = {}
+    if kind != "topic":
+        # Who asks, and which of its questions: rmw_cyclonedds's way to match replies with requests.
+        fields |= {"client_guid": types.uint64, "sequence_number": types.int64}
+    field_names = message_type.get_fields_and_field_types()  # type: ignore[attr-defined]
+    slots = message_type.SLOT_TYPES  # type: ignore[attr-defined]
+    for name, slot in zip(field_names, slots, strict=True):
+        fields[name] = _field_type(slot, f"{ros_type(message_type)}.{name}")
+    if not fields:
+        # DDS has no empty structure; this is the member that ROS puts in.
+        fields["structure_needs_at_least_one_member"] = types.uint8
+    return _struct(names.dds_type(ros_type(message_type)), fields)
+
+
+def ros_type(message_type: type) -> str:
+    """The ROS type of a message class, such as "tf2_msgs/msg/TFMessage"."""
+    return str(message_type.ROS_TYPE)  # type: ignore[attr-defined]
+
+
+@cache
+def graph_type() -> Any:
+    """The DDS type of the topic ros_discovery_info.
+
+    The identifiers are declared with 16 bytes, whatever is sent. Humble's form, with 24, has zeros where this
+    layout has the number of nodes, so DDS lets both forms through to a reader of this type.
+    """
+    types = _idl_types()
+    prefix = "rmw_dds_common::msg::dds_::"
+    gid = _struct(prefix + "Gid_", {"data": types.array[types.uint8, 16]})
+    node = _struct(
+        prefix + "NodeEntitiesInfo_",
+        {
+            "node_namespace": types.bounded_str[MAX_NAME],
+            "node_name": types.bounded_str[MAX_NAME],
+            "reader_gid_seq": types.sequence[gid],
+            "writer_gid_seq": types.sequence[gid],
+        },
+    )
+    return _struct(prefix + "ParticipantEntitiesInfo_", {"gid": gid, "node_entities_info_seq": types.sequence[node]})
+
+
+def create_topic(participant: int, name: str, data_type: Any) -> int:
+    """A DDS topic in the participant with this number: the topic's number.
+
+    Raises:
+        WireError: DDS refuses.
+    """
+    from cyclonedds import _clayer  # noqa: PLC0415 - optional, see dds.py
+
+    data_type.__idl__.populate()
+    data_type.__idl__.fill_type_data()
+    topic: int = _clayer.ddspy_topic_create(participant, name, data_type, None, None)
+    if topic < 0:
+        raise WireError(f"DDS refuses the topic {name} (code {topic}).", hint="Check the topic's name.")
+    return topic
+
+
+def _field_type(slot: Any, where: str) -> Any:
+    from coframe.messages import definition  # noqa: PLC0415 - not needed for joining
+
+    types = _idl_types()
+    match slot:
+        case definition.Array():
+            return types.array[_field_type(slot.value_type, where), slot.size]
+        case definition.BoundedSequence():
+            return types.sequence[_field_type(slot.value_type, where), slot.maximum_size]
+        case definition.UnboundedSequence():
+            return types.sequence[_field_type(slot.value_type, where)]
+        case _:
+            return _single_type(slot, where)
+
+
+def _single_type(slot: Any, where: str) -> Any:
+    from coframe.messages import definition, registry  # noqa: PLC0415 - not needed for joining
+
+    types = _idl_types()
+    match slot:
+        case definition.BasicType():
+            return _BASIC_PYTHON.get(slot.typename) or getattr(types, _BASIC.get(slot.typename, slot.typename))
+        case definition.UnboundedString():
+            return str
+        case definition.BoundedString():
+            return types.bounded_str[slot.maximum_size]
+        case definition.NamespacedType():
+            return dds_type(registry.find("/".join(slot.namespaced_name())))
+        case _:
+            raise WireError(
+                f"{where} is a {type(slot).__name__}, which DDS cannot carry from Python.",
+                hint="Use a string, which is UTF-8.",
+            )
+
+
+def _struct(name: str, fields: dict[str, Any]) -> Any:
+    from cyclonedds.idl import make_idl_struct  # noqa: PLC0415 - optional, see dds.py
+
+    return make_idl_struct(name.rsplit("::", maxsplit=1)[-1].rstrip("_"), name, fields, dataclassify=False)
+
+
+def _idl_types() -> Any:
+    from cyclonedds.idl import types  # noqa: PLC0415 - optional, see dds.py
+
+    return types

@@ -1,0 +1,81 @@
+import os
+
+import pytest
+
+from coframe.errors import WireError
+from coframe.wire import config
+
+
+def test_with_nothing_set_only_this_machine_is_reached():
+    assert config.domain_id({}) == 0
+    assert config.discovery_range({}) == "LOCALHOST"
+    xml = config.cyclone_config({})
+    assert '<NetworkInterface address="127.0.0.1" multicast="true"/>' in xml
+    assert '<Peer address="127.0.0.1"/>' in xml
+    assert "<MaxAutoParticipantIndex>99</MaxAutoParticipantIndex>" in xml
+
+
+@pytest.mark.parametrize(
+    ("environment", "reach"),
+    [
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}, "SUBNET"),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "subnet"}, "SUBNET"),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"}, "OFF"),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT"}, "SYSTEM_DEFAULT"),
+        ({"ROS_LOCALHOST_ONLY": "1", "ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}, "LOCALHOST"),
+        ({"ROS_LOCALHOST_ONLY": "0"}, "SUBNET"),
+        ({"ROS_LOCALHOST_ONLY": "0", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, "LOCALHOST"),
+    ],
+)
+def test_the_ranges_of_ros(environment, reach):
+    assert config.discovery_range(environment) == reach
+
+
+def test_subnet_leaves_the_interfaces_to_cyclone():
+    assert "Interface" not in config.cyclone_config({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"})
+
+
+def test_off_reaches_nobody():
+    xml = config.cyclone_config({"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF", "ROS_STATIC_PEERS": "10.0.0.1"})
+    assert "<AllowMulticast>false</AllowMulticast>" in xml
+    assert f"coframe_{os.getpid()}" in xml
+    assert "Peer " not in xml
+
+
+def test_static_peers():
+    environment = {"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET", "ROS_STATIC_PEERS": "10.0.0.1;robot.local; "}
+    xml = config.cyclone_config(environment)
+    assert '<Peer address="10.0.0.1"/><Peer address="robot.local"/>' in xml
+
+
+def test_a_peer_on_another_machine_is_not_sought_through_the_loopback_interface():
+    xml = config.cyclone_config({"ROS_STATIC_PEERS": "10.0.0.1"})
+    assert "NetworkInterface" not in xml
+    assert "<AllowMulticast>false</AllowMulticast>" in xml
+    assert '<Peer address="127.0.0.1"/><Peer address="10.0.0.1"/>' in xml
+    assert "NetworkInterface" in config.cyclone_config({"ROS_STATIC_PEERS": "127.0.0.1"})
+
+
+def test_the_users_own_configuration_comes_last_and_wins():
+    assert config.cyclone_config({"CYCLONEDDS_URI": "file:///etc/c.xml"}).endswith("</CycloneDDS>,file:///etc/c.xml")
+
+
+@pytest.mark.parametrize("text", ["233", "-1", "abc", "1.5", "1000", "²"])
+def test_a_domain_that_is_none(text):
+    with pytest.raises(WireError, match=r"ROS_DOMAIN_ID is '.*': a domain is a number from 0 to 232\.") as caught:
+        config.domain_id({"ROS_DOMAIN_ID": text})
+    assert caught.value.hint
+
+
+def test_a_range_that_is_none():
+    with pytest.raises(WireError, match="'GALAXY': it must be one of OFF, LOCALHOST, SUBNET, SYSTEM_DEFAULT") as caught:
+        config.discovery_range({"ROS_AUTOMATIC_DISCOVERY_RANGE": "galaxy"})
+    assert "SUBNET opens the local network" in caught.value.hint
+    with pytest.raises(WireError, match="ROS_LOCALHOST_ONLY is 'yes': it must be 0 or 1"):
+        config.discovery_range({"ROS_LOCALHOST_ONLY": "yes"})
+
+
+def test_a_peer_that_is_none():
+    with pytest.raises(WireError, match="neither an address nor a host name") as caught:
+        config.static_peers({"ROS_STATIC_PEERS": '10.0.0.1,"/><Domain'})
+    assert "semicolons" in caught.value.hint

@@ -1,0 +1,66 @@
+import threading
+
+import coframe
+from coframe.messages import find
+
+STRING = find("std_msgs/msg/String")
+
+
+def test_publish_and_receive(domain_id):
+    with coframe.connect("one", domain=domain_id) as ros:
+        subscription = ros.subscribe("chatter", STRING)
+        publisher = ros.publisher("/chatter", STRING)
+        publisher.publish(STRING(data="hello"))
+        message = subscription.receive(10)
+        assert message is not None
+        assert message.data == "hello"
+        assert subscription.receive(0) is None
+
+
+def test_a_relative_topic_is_in_the_nodes_namespace(domain_id):
+    with coframe.connect("one", namespace="/robot", domain=domain_id) as ros:
+        ros.publisher("chatter", STRING)
+        assert "/robot/chatter" in ros.participant.topics()
+        assert ("/robot", "one") in ros.participant.nodes()
+
+
+def test_a_callback_runs_beside_the_program_and_survives_its_own_errors(domain_id, caplog):
+    heard, done = [], threading.Event()
+
+    def callback(message):
+        heard.append(message.data)
+        if message.data == "bad":
+            raise RuntimeError("on purpose")
+        if message.data == "end":
+            done.set()
+
+    with coframe.connect("one", domain=domain_id) as ros:
+        ros.subscribe("/chatter", STRING, callback)
+        publisher = ros.publisher("/chatter", STRING)
+        for text in ("hello", "bad", "end"):
+            publisher.publish(STRING(data=text))
+        assert done.wait(10)
+    assert heard == ["hello", "bad", "end"]
+    assert "on purpose" in caplog.text
+    assert not [thread for thread in threading.enumerate() if thread.name.startswith("coframe")]
+
+
+def test_closing_ends_a_loop_over_a_subscription(domain_id):
+    ros = coframe.connect("one", domain=domain_id)
+    subscription = ros.subscribe("/chatter", STRING)
+    closer = threading.Timer(0.05, ros.close)
+    closer.start()
+    assert list(subscription) == []
+    closer.join()
+    ros.close()
+
+
+def test_the_buffer_fills_and_knows_its_publishers(domain_id):
+    with coframe.connect("one", domain=domain_id) as ros:
+        stamped = find("geometry_msgs/msg/TransformStamped")()
+        stamped.header.frame_id, stamped.child_frame_id = "map", "odom"
+        stamped.transform.rotation.w = 1.0
+        ros.participant.static_broadcaster(ros.node).send([stamped])
+        ros.buffer.lookup("map", "odom", timeout="10s")
+        assert [frame.authority for frame in ros.buffer.frames() if frame.name == "odom"] == ["/one"]
+    assert ros.buffer.can_transform("map", "odom"), "what was heard stays"

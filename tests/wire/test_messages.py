@@ -1,0 +1,168 @@
+import struct
+
+import pytest
+
+from coframe import WireError
+from coframe.messages import codec, definition, find
+from coframe.wire import QoS, types
+from coframe.wire._native import Event
+
+rosless = pytest.importorskip("rosless", reason="an independent RTPS program")
+
+STRING = find("std_msgs/msg/String")
+
+ECHO = """
+    import coframe
+    from coframe.messages import find
+    STRING = find("std_msgs/msg/String")
+    with coframe.connect("echo") as ros:
+        publisher = ros.publisher("/back", STRING)
+        for message in ros.subscribe("/there", STRING):
+            publisher.publish(STRING(data=message.data.upper()))
+            if message.data == "end":
+                break
+        input()
+"""
+
+
+def test_messages_go_there_and_back_between_processes(participant, node, child, eventually):
+    arrived = Event()
+    there = participant.publisher(node, "/there", STRING, QoS())
+    back = participant.subscription(node, "/back", STRING, QoS(), on_data=arrived)
+    other = child(ECHO)
+    eventually(lambda: there.matched == 1 and back.matched == 1)
+    arrived.clear()
+    for text in ("hello", "grüß Gott", "end"):
+        there.write(codec.serialize(STRING(data=text)))
+    received = []
+    while len(received) < 3:
+        assert arrived.wait(10_000_000_000)
+        received += back.take()
+    assert [codec.deserialize(s.data, STRING).data for s in received] == ["HELLO", "GRÜSS GOTT", "END"]
+    assert all(sample.source_timestamp > 1_600_000_000_000_000_000 for sample in received)
+    eventually(lambda: participant.writer_node(received[0].writer) == "/echo")
+    assert other.finish() == (0, "")
+    eventually(lambda: back.matched == 0)
+    assert participant.writer_node(received[0].writer) == "/echo", "known for a while after it has gone"
+
+
+def test_pending_and_limit(participant, node):
+    publisher = participant.publisher(node, "/chatter", STRING, QoS())
+    subscription = participant.subscription(node, "/chatter", STRING, QoS(), on_data=None)
+    assert subscription.take() == []
+    assert not subscription.pending()
+    for text in "abc":
+        publisher.write(codec.serialize(STRING(data=text)))
+    assert subscription.pending()
+    assert len(subscription.take(limit=2)) == 2
+    assert subscription.pending()
+    assert [codec.deserialize(sample.data, STRING).data for sample in subscription.take()] == ["c"]
+    assert not subscription.pending()
+
+
+def test_keep_last_keeps_the_last(participant, node):
+    publisher = participant.publisher(node, "/chatter", STRING, QoS())
+    subscription = participant.subscription(node, "/chatter", STRING, QoS(depth=2), on_data=None)
+    for text in "abcde":
+        publisher.write(codec.serialize(STRING(data=text)))
+    assert [codec.deserialize(sample.data, STRING).data for sample in subscription.take()] == ["d", "e"]
+
+
+def test_a_large_message(participant, node, child):
+    other = child("""
+        import coframe
+        from coframe.messages import find
+        with coframe.connect("large") as ros:
+            publisher = ros.publisher("/large", find("std_msgs/msg/UInt8MultiArray"))
+            while not publisher.matched:
+                pass
+            publisher.publish(find("std_msgs/msg/UInt8MultiArray")(data=bytes(range(256)) * 20_000))
+            input()
+    """)
+    arrived = Event()
+    kind = find("std_msgs/msg/UInt8MultiArray")
+    subscription = participant.subscription(node, "/large", kind, QoS(), on_data=arrived)
+    samples = subscription.take()
+    while not samples:
+        assert arrived.wait(20_000_000_000)
+        samples = subscription.take()
+    assert bytes(codec.deserialize(samples[0].data, kind).data) == bytes(range(256)) * 20_000
+    assert other.finish() == (0, "")
+
+
+def test_bytes_of_another_type_are_refused(participant, node):
+    publisher = participant.publisher(node, "/chatter", STRING, QoS())
+    with pytest.raises(WireError, match="Publishing on /chatter failed") as caught:
+        publisher.write(b"\0\1\0\0\xff\xff\xff\xff")
+    assert "must be the CDR of a std_msgs/msg/String" in caught.value.hint
+    with pytest.raises(ValueError, match="4 bytes of encapsulation"):
+        publisher.write(b"\0\1")
+
+
+def test_an_independent_program_publishes_receives_and_lists(participant, node, eventually):
+    arrived = Event()
+    publisher = participant.publisher(node, "/ours", STRING, QoS())
+    subscription = participant.subscription(node, "/theirs", STRING, QoS(), on_data=arrived)
+    peer = rosless.Node(participant.domain_id)
+    theirs = peer.advertise("/theirs", "std_msgs/msg/String")
+    ours = peer.subscribe("/ours", "std_msgs/msg/String", reliability="reliable")
+    eventually(lambda: publisher.matched and subscription.matched and theirs.subscriber_count)
+    publisher.write(codec.serialize(STRING(data="from coframe")))
+    assert ours.read(10).data == "from coframe"
+    theirs.send({"data": "from rosless"})
+    eventually(subscription.pending)
+    eventually(lambda: [codec.deserialize(s.data, STRING).data for s in subscription.take()] == ["from rosless"])
+    listed = {topic.name: topic.type_name for topic in peer.graph().topics}
+    assert listed["/ours"] == listed["/theirs"] == "std_msgs/msg/String"
+
+
+def test_service_messages_carry_rmws_header(participant, node):
+    request = find("std_srvs/srv/SetBool_Request")
+    arrived = Event()
+    client = participant.publisher(node, "/light", request, QoS(), kind="request")
+    server = participant.subscription(node, "/light", request, QoS(), on_data=arrived, kind="request")
+    cdr = codec.serialize(request(data=True))
+    client.write(cdr[:4] + struct.pack("<Qq", 77, 1) + cdr[4:])
+    assert arrived.wait(10_000_000_000)
+    (sample,) = server.take()
+    assert struct.unpack_from("<Qq?", sample.data, 4) == (77, 1, True)
+    assert participant.services() == {"/light": ["std_srvs/srv/SetBool_Request"]}
+    assert participant.publishers("/light", kind="request")[0].ros_type == "std_srvs/srv/SetBool_Request"
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "sensor_msgs/msg/PointCloud2",
+        "sensor_msgs/msg/Imu",
+        "nav_msgs/msg/Odometry",
+        "rcl_interfaces/msg/ParameterEvent",
+        "rcl_interfaces/srv/GetParameters_Request",
+        "visualization_msgs/msg/MarkerArray",
+        "std_msgs/msg/Empty",
+        "std_msgs/msg/Byte",
+        "std_msgs/msg/Char",
+        "tf2_msgs/action/LookupTransform_Feedback",
+        "action_msgs/msg/GoalStatusArray",
+    ],
+)
+def test_messages_of_many_types_pass(name, participant, node):
+    kind = find(name)
+    publisher = participant.publisher(node, "/any", kind, QoS())
+    subscription = participant.subscription(node, "/any", kind, QoS(), on_data=None)
+    publisher.write(codec.serialize(kind()))
+    (sample,) = subscription.take()
+    assert codec.deserialize(sample.data, kind) == kind()
+
+
+def test_a_field_that_dds_cannot_carry_is_named():
+    class Wide:
+        ROS_TYPE = "test_msgs/msg/Wide"
+        SLOT_TYPES = (definition.UnboundedWString(),)
+
+        @staticmethod
+        def get_fields_and_field_types():
+            return {"text": "wstring"}
+
+    with pytest.raises(WireError, match=r"test_msgs/msg/Wide\.text is a UnboundedWString"):
+        types.dds_type(Wide)

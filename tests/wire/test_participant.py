@@ -1,0 +1,189 @@
+import os
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import pytest
+
+import coframe
+from coframe import WireError
+from coframe.messages import find
+from coframe.wire import Participant, QoS
+from coframe.wire._native import Event
+
+STRING = find("std_msgs/msg/String")
+
+NODE_IN_A_CHILD = """
+    from coframe.wire import Participant, QoS
+    from coframe.messages import find
+    participant = Participant.get()
+    node = participant.add_node("/robot", "{name}")
+    participant.publisher(node, "/chatter", find("std_msgs/msg/String"), QoS())
+    print("ready", flush=True)
+    input()
+    participant.close()
+"""
+
+
+def wire_threads() -> set[str]:
+    return {thread.name for thread in threading.enumerate() if thread.name.startswith("coframe-wire")}
+
+
+def native_threads() -> int:
+    tasks = Path("/proc/self/task")
+    return len(list(tasks.iterdir())) if tasks.is_dir() else threading.active_count()
+
+
+def test_one_participant_for_a_process_and_domain(domain_id):
+    first = Participant.get(domain_id)
+    assert Participant.get() is first, "None is ROS_DOMAIN_ID"
+    first.close()
+    assert first.nodes() == []
+    first.close()
+    second = Participant.get(domain_id)
+    assert second is not first
+    second.close()
+
+
+def test_close_ends_all_threads(domain_id):
+    before = native_threads()
+    participant = Participant.get(domain_id)
+    node = participant.add_node("/", "tester")
+    participant.tf_reader(node, "/tf", coframe.Buffer(), static=False)
+    assert wire_threads() == {f"coframe-wire-{domain_id}"}
+    assert native_threads() > before
+    participant.close()
+    assert not wire_threads()
+    assert native_threads() == before
+
+
+def test_endpoints_of_a_closed_participant_say_so(domain_id):
+    participant = Participant.get(domain_id)
+    node = participant.add_node("/", "tester")
+    publisher = participant.publisher(node, "/chatter", STRING, QoS())
+    subscription = participant.subscription(node, "/chatter", STRING, QoS(), on_data=None)
+    participant.close()
+    assert publisher.matched == subscription.matched == 0
+    assert subscription.take() == []
+    assert not subscription.pending()
+    with pytest.raises(WireError, match="publisher on /chatter is closed"):
+        publisher.write(b"\0\1\0\0\1\0\0\0\0")
+    publisher.close()
+    node.close()
+
+
+def test_a_process_that_never_closes_ends_promptly_and_without_complaint(child, participant, node):
+    talker = participant.publisher(node, "/tf", find("tf2_msgs/msg/TFMessage"), QoS(100))
+    other = child("""
+        import coframe
+        connection = coframe.connect("forgetful")
+        print("ready", flush=True)
+        input()
+    """)
+    other.read()
+    talker.write(b"\0\1\0\0" + bytes(4))
+    began = time.monotonic()
+    assert other.finish() == (0, "")
+    assert time.monotonic() - began < 3
+
+
+@pytest.mark.parametrize("distro", ["humble", "jazzy"])
+def test_nodes_of_other_processes_are_seen_whatever_their_distribution(distro, child, participant, eventually):
+    other = child(NODE_IN_A_CHILD.format(name="talker"), ROS_DISTRO=distro)
+    eventually(lambda: ("/robot", "talker") in participant.nodes())
+    eventually(lambda: participant.topics().get("/chatter") == ["std_msgs/msg/String"])
+    (publisher,) = participant.publishers("/chatter")
+    assert (publisher.namespace, publisher.node) == ("/robot", "talker")
+    assert publisher.ros_type == "std_msgs/msg/String"
+    assert publisher.qos == QoS()
+    assert other.finish() == (0, "")
+    eventually(lambda: ("/robot", "talker") not in participant.nodes())
+    eventually(lambda: not participant.publishers("/chatter"))
+
+
+@pytest.mark.slow  # DDS gives the silent ten seconds
+def test_nodes_of_a_killed_process_vanish_at_the_latest_with_its_lease(participant, child, eventually):
+    other = child(NODE_IN_A_CHILD.format(name="talker"))
+    eventually(lambda: ("/robot", "talker") in participant.nodes())
+    other.kill()
+    eventually(lambda: ("/robot", "talker") not in participant.nodes())
+
+
+def test_own_nodes_are_on_the_graph_at_once(participant):
+    node = participant.add_node("/a/b", "own")
+    assert participant.nodes() == [("/a/b", "own")]
+    participant.subscription(node, "/chatter", STRING, QoS(depth=7, reliable=False), on_data=None)
+    (subscriber,) = participant.subscribers("/chatter")
+    assert (subscriber.namespace, subscriber.node, subscriber.qos.reliable) == ("/a/b", "own", False)
+    node.close()
+    assert participant.nodes() == []
+    assert participant.topics() == {}
+
+
+def test_the_graph_event_is_set_by_a_change(participant):
+    event = Event()
+    participant.watch_graph(event)
+    participant.add_node("/", "newcomer")
+    assert event.wait(10_000_000_000)
+    participant.unwatch_graph(event)
+
+
+def test_names_that_the_graph_cannot_carry(participant):
+    with pytest.raises(WireError, match="has 300 bytes: the ROS graph takes 256"):
+        participant.add_node("/", "x" * 300)
+    with pytest.raises(WireError, match="Namespace 'robot' is not absolute") as caught:
+        participant.add_node("robot", "x")
+    assert caught.value.hint == "Write it as '/robot'."
+
+
+def test_a_domain_that_is_none():
+    with pytest.raises(WireError, match="a domain is a number from 0 to 232"):
+        Participant.get(233)
+
+
+def test_a_configuration_that_cyclone_refuses(domain_id, monkeypatch):
+    monkeypatch.setenv("CYCLONEDDS_URI", "<CycloneDDS><Nonsense/></CycloneDDS>")
+    with pytest.raises(WireError, match=f"Joining domain {domain_id} failed") as caught:
+        Participant.get(domain_id)
+    assert "CYCLONEDDS_URI" in caught.value.hint
+
+
+def test_a_full_domain_is_told_in_words(domain_id, monkeypatch, child):
+    monkeypatch.setattr("coframe.wire.config.MAX_PARTICIPANT_INDEX", 0)
+    other = child(NODE_IN_A_CHILD.format(name="first"))
+    assert other.read() == "ready"
+    with pytest.raises(WireError, match=f"Domain {domain_id} is full on this machine: all 1 places") as caught:
+        Participant.get(domain_id)
+    assert "ROS_DOMAIN_ID" in caught.value.hint
+
+
+def test_without_cyclonedds_only_joining_fails(tmp_path):
+    (tmp_path / "cyclonedds.py").write_text("raise ImportError('not installed')\n")
+    code = (
+        "import coframe, coframe.wire\n"
+        "try:\n    coframe.connect()\n"
+        "except coframe.WireError as error:\n    print(error)\n"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+        env={**os.environ, "PYTHONPATH": str(tmp_path)},
+    )
+    assert "pip install 'coframe[dds]'" in run.stdout
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="only where processes fork")
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_forked_child_is_told_so(participant):
+    pid = os.fork()
+    if pid == 0:
+        try:
+            Participant.get(participant.domain_id)
+        except WireError as error:
+            os._exit(0 if "forked" in str(error) else 1)
+        os._exit(2)
+    assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 0

@@ -1,0 +1,183 @@
+import pytest
+
+import coframe
+from coframe.messages import codec, find
+from coframe.wire import QoS
+from coframe.wire.qos import TF, TF_STATIC_WRITER
+
+TF_MESSAGE = find("tf2_msgs/msg/TFMessage")
+TRANSFORM_STAMPED = find("geometry_msgs/msg/TransformStamped")
+
+BROADCASTER = """
+    import time
+    import coframe
+    from coframe.messages import find
+    from coframe.wire.qos import TF
+    with coframe.connect("broadcaster") as ros:
+        message = find("tf2_msgs/msg/TFMessage")()
+        stamped = find("geometry_msgs/msg/TransformStamped")()
+        stamped.header.frame_id, stamped.child_frame_id = "odom", "base_link"
+        stamped.transform.rotation.w = 1.0
+        message.transforms.append(stamped)
+        publisher = ros.publisher("/tf", find("tf2_msgs/msg/TFMessage"), TF)
+        while not publisher.matched > 1:  # ros.buffer's own reader is one
+            time.sleep(0.005)
+        number = 0
+        while publisher.matched > 1:
+            number += 1
+            stamped.header.stamp.sec, stamped.header.stamp.nanosec = 100 + number // 1000, number % 1000 * 1_000_000
+            stamped.transform.translation.x = float(number)
+            publisher.publish(message)
+            time.sleep(0.001)
+"""
+
+
+def stamped(parent, child, x=0.0):
+    message = TRANSFORM_STAMPED()
+    message.header.frame_id, message.child_frame_id = parent, child
+    message.transform.translation.x = x
+    message.transform.rotation.w = 1.0
+    return message
+
+
+def tf_cdr(*transforms):
+    return codec.serialize(TF_MESSAGE(transforms=list(transforms)))
+
+
+def test_transforms_of_another_process_fill_the_buffer(participant, node, child, eventually):
+    buffer = coframe.Buffer()
+    reader = participant.tf_reader(node, "/tf", buffer, static=False)
+    other = child(BROADCASTER)
+    eventually(lambda: buffer.can_transform("odom", "base_link"))
+    first = buffer.lookup("odom", "base_link")
+    eventually(lambda: buffer.lookup("odom", "base_link").stamp > first.stamp)
+    assert reader.matched == 1
+    assert {frame.authority for frame in buffer.frames() if frame.name == "base_link"} == {"default_authority"}
+    reader.close()
+    changes = buffer.changes
+    assert other.finish() == (0, "")
+    assert buffer.changes == changes, "nothing is stored after close"
+
+
+def test_transforms_are_stored_while_python_does_something_else(participant, node, child, eventually):
+    buffer = coframe.Buffer()
+    reader = participant.tf_reader(node, "/tf", buffer, static=False)
+    other = child(BROADCASTER)
+    eventually(lambda: buffer.can_transform("odom", "base_link"))
+    before = buffer.changes
+    sum(range(30_000_000))  # one C call, which holds the GIL
+    stored = buffer.changes - before
+    reader.close()
+    assert stored > 50
+    assert other.finish() == (0, "")
+
+
+def test_a_wait_ends_when_the_transform_arrives(participant, node, child):
+    buffer = coframe.Buffer()
+    participant.tf_reader(node, "/tf", buffer, static=False)
+    child(BROADCASTER)
+    assert buffer.lookup("odom", "base_link", timeout="20s").translation[0] > 0
+
+
+def test_a_late_joiner_gets_the_static_transforms(participant, node, child, eventually):
+    child("""
+        import coframe
+        from coframe.messages import find
+        with coframe.connect("early") as ros:
+            stamped = find("geometry_msgs/msg/TransformStamped")()
+            stamped.header.frame_id, stamped.child_frame_id = "base_link", "lidar"
+            stamped.transform.rotation.w = 1.0
+            writer = ros.participant.static_broadcaster(ros.node)
+            writer.send([stamped])
+            print("sent", flush=True)
+            input()
+    """).read()
+    buffer = coframe.Buffer()
+    participant.tf_reader(node, "/tf_static", buffer, static=True)
+    eventually(lambda: buffer.can_transform("base_link", "lidar"))
+
+
+def test_what_was_written_before_the_reader_is_stored_at_once(participant, node):
+    participant.publisher(node, "/tf_static", TF_MESSAGE, TF_STATIC_WRITER).write(tf_cdr(stamped("a", "b")))
+    buffer = coframe.Buffer()
+    participant.tf_reader(node, "/tf_static", buffer, static=True)
+    assert buffer.can_transform("a", "b")
+
+
+def test_the_publishing_node_is_noted_if_asked_for(participant, child, node, eventually):
+    buffer = coframe.Buffer()
+    participant.tf_reader(node, "/tf", buffer, static=False, authority=None)
+    child(BROADCASTER)
+    eventually(lambda: any(frame.authority == "/broadcaster" for frame in buffer.frames()))
+
+
+def test_the_publishing_node_of_static_transforms_is_noted_although_they_come_once(
+    participant, node, child, eventually
+):
+    buffer = coframe.Buffer()
+    participant.tf_reader(node, "/tf_static", buffer, static=True, authority=None)
+    child("""
+        import coframe
+        from coframe.messages import find
+        with coframe.connect("placer") as ros:
+            stamped = find("geometry_msgs/msg/TransformStamped")()
+            stamped.header.frame_id, stamped.child_frame_id = "base_link", "lidar"
+            stamped.transform.rotation.w = 1.0
+            ros.participant.static_broadcaster(ros.node).send([stamped])
+            input()
+    """)
+    eventually(lambda: any(frame.authority == "/placer" for frame in buffer.frames()))
+
+
+def test_broken_messages_of_a_peer_are_dropped_or_counted_and_the_rest_goes_on(participant, node, eventually):
+    rosless = pytest.importorskip("rosless", reason="an independent RTPS program")
+    buffer = coframe.Buffer()
+    reader = participant.tf_reader(node, "/tf", buffer, static=False)
+    peer = rosless.Node(participant.domain_id).advertise("/tf", "tf2_msgs/msg/TFMessage", depth=1000)
+    eventually(lambda: reader.matched and peer.subscriber_count)
+    whole = tf_cdr(stamped("a", "b"), stamped("b", "c"))
+    peer.send_payload(whole)
+    eventually(lambda: buffer.statistics["stored"] == 2)
+
+    for size in range(4, len(whole), 3):  # DDS itself drops what is too short
+        peer.send_payload(whole[:size])
+    for seed in range(50):
+        peer.send_payload(b"\0\1\0\0" + bytes((seed * 37 + i * i) % 256 for i in range(seed)))
+    peer.send_payload(whole + bytes(32))  # what DDS lets through
+    peer.send_payload(whole.replace(b"a\0", b"\xff\0"))
+    peer.send_payload(tf_cdr(stamped("a", "last")))
+    eventually(lambda: buffer.can_transform("a", "last"))
+
+    statistics = buffer.statistics
+    assert statistics["malformed"] >= 1
+    assert statistics["refused"] >= 1
+    assert set(buffer.frame_names()) <= {"a", "b", "c", "last"}
+
+
+def test_an_empty_message_is_fine(participant, node):
+    buffer = coframe.Buffer()
+    participant.tf_reader(node, "/tf", buffer, static=False)
+    participant.publisher(node, "/tf", TF_MESSAGE, TF).write(tf_cdr())
+    assert buffer.statistics["messages"] == 1
+    assert buffer.statistics["malformed"] == 0
+
+
+def test_readers_come_and_go_under_load(participant, node, child, eventually):
+    buffer = coframe.Buffer()
+    participant.tf_reader(node, "/tf", buffer, static=False)
+    other = child(BROADCASTER)
+    eventually(lambda: buffer.can_transform("odom", "base_link"))
+    for _ in range(50):
+        passing = coframe.Buffer()
+        reader = participant.tf_reader(node, "/tf", passing, static=False)
+        reader.close()
+        del passing, reader
+    seen = buffer.changes
+    eventually(lambda: buffer.changes > seen)
+    assert other.process.poll() is None
+
+
+def test_own_qos(participant, node):
+    buffer = coframe.Buffer()
+    participant.tf_reader(node, "/tf", buffer, static=False, qos=QoS(depth=1, reliable=False))
+    assert [subscriber.qos.reliable for subscriber in participant.subscribers("/tf")] == [False]
