@@ -6,7 +6,7 @@ namespace coframe {
 namespace {
 
 // Publishers come and go; when this many have been seen, all are learnt anew.
-constexpr std::size_t kMaxStreams = 1024;
+constexpr std::size_t kMaxSources = 1024;
 
 }  // namespace
 
@@ -22,7 +22,12 @@ TfReader::TfReader(dds::Entity participant, dds::Entity topic, const QosProfile&
 
 void TfReader::name_writer(dds::Handle writer, const std::string& authority) {
   const std::lock_guard lock(mutex_);
-  streams_.insert_or_assign(writer, buffer_->open_stream(is_static_, authority));
+  Source& source = sources_[writer];
+  source.stream = buffer_->open_stream(is_static_, authority);
+  source.named = true;
+  const std::vector<std::uint8_t> message = std::exchange(source.last_static, {});
+  std::size_t stored = 0;
+  if (!message.empty()) buffer_->ingest(source.stream, message.data(), message.size(), stored);
 }
 
 // An exception must not reach DDS, which is C: out of memory, a message is lost.
@@ -41,15 +46,17 @@ void TfReader::drain(dds::Entity reader) {
 
 void TfReader::store(const dds::Sample& sample) {
   const dds::Handle writer = sample.info().publication_handle;
-  auto stream = streams_.find(writer);
-  if (stream == streams_.end()) {
-    if (streams_.size() >= kMaxStreams) streams_.clear();
-    stream = streams_.emplace(writer, buffer_->open_stream(is_static_, authority_)).first;
+  auto found = sources_.find(writer);
+  if (found == sources_.end()) {
+    if (sources_.size() >= kMaxSources) sources_.clear();
+    found = sources_.emplace(writer, Source{buffer_->open_stream(is_static_, authority_), false, {}}).first;
   }
+  Source& source = found->second;
   const auto bytes = sample.bytes();
   std::size_t stored = 0;
   // What is malformed the buffer counts.
-  buffer_->ingest(stream->second, bytes.data(), bytes.size(), stored);
+  buffer_->ingest(source.stream, bytes.data(), bytes.size(), stored);
+  if (is_static_ && !source.named) source.last_static.assign(bytes.begin(), bytes.end());
 }
 
 }  // namespace coframe

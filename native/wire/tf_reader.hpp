@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "core/buffer.hpp"
 #include "wire/data_reader.hpp"
@@ -19,12 +20,19 @@ class TfReader {
            std::shared_ptr<Buffer> buffer, bool is_static, const std::string& authority);
   void close() noexcept { reader_.close(); }
 
-  // The buffer notes `authority` for what this writer sends from now on.
+  // The buffer notes `authority` for what this writer sends from now on, and for the static transforms it has sent.
   void name_writer(dds::Handle writer, const std::string& authority);
 
   const DataReader& reader() const { return reader_; }
 
  private:
+  struct Source {
+    TransformStream stream;
+    bool named = false;
+    // A static message comes once, often before its writer's name: kept to be stored again under the name.
+    std::vector<std::uint8_t> last_static;
+  };
+
   static void on_data(dds::Entity reader, void* self) noexcept;
   void drain(dds::Entity reader);
   void store(const dds::Sample& sample);
@@ -32,9 +40,9 @@ class TfReader {
   std::shared_ptr<Buffer> buffer_;
   const bool is_static_;
   const std::string authority_;
-  std::mutex mutex_;  // of the streams
-  std::unordered_map<dds::Handle, TransformStream> streams_;  // by writer
-  DataReader reader_;  // last: its callback uses the members above
+  std::mutex mutex_;                                  // of the sources
+  std::unordered_map<dds::Handle, Source> sources_;  // by writer
+  DataReader reader_;                                 // last: its callback uses the members above
 };
 
 }  // namespace coframe

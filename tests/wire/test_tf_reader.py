@@ -129,6 +129,18 @@ def test_the_publishing_node_of_static_transforms_is_noted_although_they_come_on
     eventually(lambda: any(frame.authority == "/placer" for frame in buffer.frames()))
 
 
+def test_static_transforms_that_came_before_their_nodes_name_get_it(participant, node):
+    publisher = participant.publisher(node, "/tf_static", TF_MESSAGE, TF_STATIC_WRITER)
+    watcher = participant.subscription(node, "/tf_static", TF_MESSAGE, TF_STATIC_WRITER, on_data=None)
+    buffer = coframe.Buffer()
+    reader = participant.tf_reader(node, "/tf_static", buffer, static=True, authority="unknown")
+    publisher.write(tf_cdr(stamped("a", "b")))
+    (sample,) = watcher.take()
+    assert [frame.authority for frame in buffer.frames() if frame.name == "b"] == ["unknown"]
+    reader._reader.name_writer(sample.writer, "/late")
+    assert [frame.authority for frame in buffer.frames() if frame.name == "b"] == ["/late"]
+
+
 def test_broken_messages_of_a_peer_are_dropped_or_counted_and_the_rest_goes_on(participant, node, eventually):
     rosless = pytest.importorskip("rosless", reason="an independent RTPS program")
     buffer = coframe.Buffer()
