@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+
 import rclpy
 from rclpy.context import Context
 from rclpy.node import Node
@@ -102,7 +103,8 @@ class Script:
 
 @pytest.fixture
 def run_script(domain_id: int, tmp_path: Path) -> Iterator[Callable[..., Script]]:
-    """Starts programs given by their text; they end with the test."""
+    """Starts programs given by their text, in the test's domain; they end with the test."""
+    assert os.environ["ROS_DOMAIN_ID"] == str(domain_id)
     scripts: list[Script] = []
 
     def run(text: str, *args: str) -> Script:

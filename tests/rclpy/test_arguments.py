@@ -1,6 +1,7 @@
 """The command line: `--ros-args` and what is behind it."""
 
 import pytest
+
 from rclpy import _arguments, _yaml
 from rclpy._remapping import NameResolver, remap_node
 from rclpy.exceptions import RCLInvalidROSArgsError, UnknownROSArgsError
@@ -39,10 +40,9 @@ def test_mistakes_are_named(args, error, text):
 
 
 def test_logging_options():
-    logging = _arguments.parse(
-        ["--ros-args", "--log-level", "warn", "--log-level", "arm.child:=DEBUG", "--disable-stdout-logs"]
-        + ["--disable-rosout-logs", "--enable-external-lib-logs", "--log-config-file", "x"]
-    ).logging
+    words = "--log-level warn --log-level arm.child:=DEBUG --disable-stdout-logs --disable-rosout-logs"
+    words += " --enable-external-lib-logs --log-config-file x"
+    logging = _arguments.parse(["--ros-args", *words.split()]).logging
     assert logging.default_level is LoggingSeverity.WARN
     assert logging.levels == {"arm.child": LoggingSeverity.DEBUG}
     assert (logging.stdout, logging.rosout) == (False, False)

@@ -4,6 +4,7 @@ import threading
 import time
 
 import pytest
+
 from rclpy.clock import Clock, ClockChange, ClockType, JumpThreshold, ROSClock
 from rclpy.context import Context
 from rclpy.duration import Duration

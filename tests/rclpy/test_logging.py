@@ -4,6 +4,7 @@ import io
 import re
 
 import pytest
+
 import rclpy.logging
 from rclpy.clock import ROSClock
 from rclpy.impl.console import console
@@ -80,9 +81,15 @@ def test_bad_options_are_named():
         logger.info("x", twice=True)
     with pytest.raises(TypeError, match='required parameter "throttle_duration_sec" not specified'):
         logger.info("x", throttle_time_source_type=ROSClock())
+
+
+def test_a_place_in_the_code_keeps_its_severity():
+    def log(severity):
+        get_logger("arm").log("x", severity, once=True)
+
+    log(LoggingSeverity.INFO)
     with pytest.raises(ValueError, match="Logger severity cannot be changed between calls"):
-        for severity in (LoggingSeverity.INFO, LoggingSeverity.ERROR):
-            logger.log("x", severity, once=True)
+        log(LoggingSeverity.ERROR)
 
 
 def test_format_can_be_chosen(capfd, monkeypatch):

@@ -1,6 +1,7 @@
 """Rules of names, and their expansion."""
 
 import pytest
+
 from rclpy.exceptions import (
     InvalidNamespaceException,
     InvalidNodeNameException,

@@ -1,14 +1,15 @@
 """Nodes: names, what they have, and their end."""
 
 import pytest
+
 import rclpy
 from rclpy.context import Context
 from rclpy.exceptions import (
     InvalidHandle,
     InvalidNodeNameException,
     InvalidTopicNameException,
-    NoTypeSupportImportedException,
     NotInitializedException,
+    NoTypeSupportImportedException,
 )
 from rclpy.executors import SingleThreadedExecutor
 from std_msgs.msg import String
@@ -120,7 +121,8 @@ def test_context_manager_and_callbacks():
         Context().init([], domain_id=-1)
 
 
-def test_init_and_shutdown_can_be_repeated(domain_id):
+@pytest.mark.usefixtures("domain_id")
+def test_init_and_shutdown_can_be_repeated():
     for _ in range(2):
         rclpy.init(args=[])
         assert rclpy.ok()

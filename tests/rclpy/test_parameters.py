@@ -1,6 +1,7 @@
 """Parameters of a node."""
 
 import pytest
+
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult
 from rclpy.exceptions import (
     InvalidParameterException,
@@ -58,7 +59,7 @@ def test_declare_and_get(node):
     assert node.get_parameter_type("rate") is Parameter.Type.DOUBLE
     with pytest.raises(ParameterAlreadyDeclaredException, match="already declared"):
         node.declare_parameter("rate", 10.0)
-    with pytest.raises(ParameterNotDeclaredException, match="undeclared parameter.*speed"):
+    with pytest.raises(ParameterNotDeclaredException, match=r"undeclared parameter.*speed"):
         node.get_parameter("speed")
     with pytest.raises(InvalidParameterException):
         node.declare_parameter("", 1)
@@ -88,9 +89,7 @@ def test_several_with_a_namespace_and_a_prefix(node):
 
 
 def test_overrides_win_over_defaults(make_node):
-    node = make_node(
-        cli_args=["--ros-args", "-p", "a:=5", "-p", "b:=5"], parameter_overrides=[Parameter("b", value=7)]
-    )
+    node = make_node(cli_args=["--ros-args", "-p", "a:=5", "-p", "b:=5"], parameter_overrides=[Parameter("b", value=7)])
     assert node.declare_parameter("a", 1).value == 5
     assert node.declare_parameter("b", 1).value == 7
     node.undeclare_parameter("a")
@@ -99,7 +98,9 @@ def test_overrides_win_over_defaults(make_node):
 
 def test_override_of_the_wrong_type(make_node):
     node = make_node(cli_args=["--ros-args", "-p", "rate:=fast"])
-    with pytest.raises(InvalidParameterTypeException, match="Trying to set parameter 'rate' to 'fast' of type 'STRING'"):
+    with pytest.raises(
+        InvalidParameterTypeException, match="Trying to set parameter 'rate' to 'fast' of type 'STRING'"
+    ):
         node.declare_parameter("rate", 10)
     assert not node.has_parameter("rate")
 
@@ -119,7 +120,9 @@ def test_undeclared_ones_where_allowed(make_node):
 
 
 def test_set_checks_type_range_and_read_only(node):
-    node.declare_parameter("count", 5, ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=10, step=5)]))
+    node.declare_parameter(
+        "count", 5, ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=10, step=5)])
+    )
     node.declare_parameter(
         "gain", 0.5, ParameterDescriptor(floating_point_range=[FloatingPointRange(from_value=0.0, to_value=1.0)])
     )

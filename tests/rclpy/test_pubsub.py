@@ -3,6 +3,7 @@
 import threading
 
 import pytest
+
 import rclpy.serialization
 from rcl_interfaces.msg import Log
 from rclpy.context import Context
@@ -107,9 +108,7 @@ def test_destroyed_subscriptions_are_gone(node, wait_until):
 def test_waiting_for_one_message(node, wait_until):
     publisher = node.create_publisher(String, "a", 10)
     results = []
-    thread = threading.Thread(
-        target=lambda: results.append(wait_for_message(String, node, "a", time_to_wait=10))
-    )
+    thread = threading.Thread(target=lambda: results.append(wait_for_message(String, node, "a", time_to_wait=10)))
     thread.start()
     wait_until(lambda: publisher.get_subscription_count() == 1)
     publisher.publish(String(data="x"))
@@ -129,10 +128,9 @@ def test_log_messages_go_to_rosout(node, spin):
 
 def test_rosout_can_be_switched_off(domain_id, make_node):
     assert make_node("loud").count_publishers("/rosout") == 1
-    with Context() as context:
-        context = Context()
-        context.init(["--ros-args", "--disable-rosout-logs"], domain_id=domain_id)
-        quiet = rclpy.create_node("quiet", context=context)
-        assert "quiet" not in [info.node_name for info in quiet.get_publishers_info_by_topic("/rosout")]
-        quiet.destroy_node()
-        context.shutdown()
+    context = Context()
+    context.init(["--ros-args", "--disable-rosout-logs"], domain_id=domain_id)
+    quiet = rclpy.create_node("quiet", context=context)
+    assert "quiet" not in [info.node_name for info in quiet.get_publishers_info_by_topic("/rosout")]
+    quiet.destroy_node()
+    context.shutdown()

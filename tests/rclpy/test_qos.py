@@ -1,6 +1,7 @@
 """Profiles of the quality of service."""
 
 import pytest
+
 from rclpy.duration import Duration
 from rclpy.qos import (
     DurabilityPolicy,

@@ -1,6 +1,7 @@
 """No mixture of our ROS packages with others'."""
 
 import pytest
+
 from coframe import ros_side
 
 

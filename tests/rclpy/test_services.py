@@ -3,6 +3,7 @@
 import threading
 
 import pytest
+
 import rclpy
 from rcl_interfaces.srv import GetParameters, ListParameters, SetParameters
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
@@ -29,6 +30,7 @@ def test_call_async(node, executor):
     client = node.create_client(SetBool, "switch")
     assert client.wait_for_service(timeout_sec=10)
     assert client.service_is_ready()
+    assert ("/switch", ["std_srvs/srv/SetBool"]) in node.get_service_names_and_types()
     futures = [client.call_async(SetBool.Request(data=value)) for value in (True, False, True)]
     for future in futures:
         executor.spin_until_future_complete(future, timeout_sec=10)
@@ -74,9 +76,7 @@ def test_blocking_call_inside_a_callback(make_node, wait_until):
     client = node.create_client(SetBool, "switch", callback_group=MutuallyExclusiveCallbackGroup())
     assert client.wait_for_service(timeout_sec=10)
     results = []
-    guard = node.create_guard_condition(
-        lambda: results.append(client.call(SetBool.Request(data=True), timeout_sec=10))
-    )
+    guard = node.create_guard_condition(lambda: results.append(client.call(SetBool.Request(data=True), timeout_sec=10)))
     guard.trigger()
     wait_until(lambda: results, lambda: pool.spin_once(timeout_sec=0.1))
     assert results[0].success

@@ -49,9 +49,7 @@ BLOCKED = {
     "sleep_for": "node.get_clock().sleep_for(rclpy.duration.Duration(seconds=60))",
     "rate": "rate = node.create_rate(0.01); rate.sleep()",
     "wait_for_service": "from std_srvs.srv import Trigger; node.create_client(Trigger, 'x').wait_for_service()",
-    "threads": (
-        "thread = threading.Thread(target=lambda: rclpy.spin(node)); thread.start(); time.sleep(60)"
-    ),
+    "threads": ("thread = threading.Thread(target=lambda: rclpy.spin(node)); thread.start(); time.sleep(60)"),
 }
 
 
@@ -80,6 +78,16 @@ def test_sigterm_ends_the_spin(ready):
     assert script.end() == 0
     assert script.output.split() == ["ready", "end"]
     assert script.errors == ""
+
+
+def test_last_words_after_a_signal(ready):
+    script = ready(
+        f"{NODE}\npublisher = node.create_publisher(String, 'a', 10)\nprint('ready')\ntry:\n    rclpy.spin(node)\n"
+        "except KeyboardInterrupt:\n    publisher.publish(String(data='stop'))\n    print('said')\n"
+    )
+    script.process.send_signal(signal.SIGINT)
+    assert script.end() == 0
+    assert script.output.split() == ["ready", "said"]
 
 
 def test_uncaught_interrupt_is_silent(ready):
@@ -114,7 +122,9 @@ def test_interrupts_without_a_signal_keep_their_traceback(ready):
 
 
 def test_shutdown_in_another_thread_ends_the_spin(ready):
-    script = ready(f"{NODE}\nthreading.Timer(0.1, rclpy.shutdown).start()\nprint('ready')\nrclpy.spin(node)\nprint('end')\n")
+    script = ready(
+        f"{NODE}\nthreading.Timer(0.1, rclpy.shutdown).start()\nprint('ready')\nrclpy.spin(node)\nprint('end')\n"
+    )
     assert script.end() == 0
     assert script.output.split() == ["ready", "end"]
     assert script.errors == ""
@@ -131,8 +141,7 @@ def test_shutdown_in_a_callback_ends_the_spin(ready):
     [
         "",
         "threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()",
-        "executor = MultiThreadedExecutor(); executor.add_node(node); "
-        "threading.Thread(target=executor.spin, daemon=True).start()",
+        "pool = MultiThreadedExecutor(); pool.add_node(node); threading.Thread(target=pool.spin, daemon=True).start()",
     ],
     ids=["idle", "spinning thread", "pool"],
 )
@@ -153,7 +162,8 @@ def test_signals_are_python_s_again_after_the_shutdown(ready):
 
 def test_signals_can_be_left_alone(ready):
     script = ready(
-        "import signal, rclpy\nfrom rclpy.signals import SignalHandlerOptions\nbefore = signal.getsignal(signal.SIGINT)\n"
+        "import signal, rclpy\nfrom rclpy.signals import SignalHandlerOptions\n"
+        "before = signal.getsignal(signal.SIGINT)\n"
         "rclpy.init(signal_handler_options=SignalHandlerOptions.NO)\n"
         "assert signal.getsignal(signal.SIGINT) is before\nprint('ready')\n"
     )
@@ -175,7 +185,15 @@ def test_command_line_reaches_the_node(ready):
         "import rclpy\nrclpy.init()\nnode = rclpy.create_node('a')\n"
         "print('ready', node.get_fully_qualified_name(), node.declare_parameter('x', 1).value)\n"
         "node.get_logger().debug('shown')\n",
-        "--ros-args", "-r", "__node:=b", "-r", "__ns:=/c", "-p", "x:=2", "--log-level", "debug",
+        "--ros-args",
+        "-r",
+        "__node:=b",
+        "-r",
+        "__ns:=/c",
+        "-p",
+        "x:=2",
+        "--log-level",
+        "debug",
     )
     assert script.end() == 0
     assert script.output == "ready /c/b 2\n"

@@ -1,6 +1,7 @@
 """Simulated time by /clock."""
 
 import pytest
+
 from rclpy.clock import ClockChange, JumpThreshold
 from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor

@@ -1,6 +1,7 @@
 """Futures and tasks without an executor."""
 
 import pytest
+
 from rclpy.task import Future, Task
 
 

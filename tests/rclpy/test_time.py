@@ -1,7 +1,8 @@
 """Time and Duration: values, arithmetic, and comparisons that refuse what makes no sense."""
 
-import builtin_interfaces.msg
 import pytest
+
+import builtin_interfaces.msg
 from rclpy.clock import ClockType
 from rclpy.duration import Duration, Infinite
 from rclpy.time import Time
