@@ -7,6 +7,7 @@ from rclpy.context import Context
 from rclpy.exceptions import (
     InvalidHandle,
     InvalidNodeNameException,
+    InvalidParameterTypeException,
     InvalidTopicNameException,
     NotInitializedException,
     NoTypeSupportImportedException,
@@ -55,6 +56,12 @@ def test_bad_arguments_are_refused(make_node):
         node.create_service(String, "a", lambda _, response: response)
     with pytest.raises(ValueError, match="frequency must be > 0"):
         node.create_rate(0)
+
+
+def test_nodes_that_fail_leave_nothing_behind(make_node):
+    with pytest.raises(InvalidParameterTypeException, match=r"value \(5\) for parameter 'use_sim_time'"):
+        make_node("failed", cli_args=["--ros-args", "-p", "use_sim_time:=5"])
+    assert make_node().get_node_names() == ["tester"]
 
 
 def test_entities_come_and_go(node):
