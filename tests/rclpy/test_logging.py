@@ -69,6 +69,13 @@ def test_throttle_follows_the_given_clock():
     assert logged == [1, 5, 10]
 
 
+def test_loggers_are_apart():
+    first, second = get_logger("one"), get_logger("two")
+    assert [logger.info("x", once=True) for logger in (first, second, first)] == [True, True, False]
+    assert get_logger("one") is first
+    assert first.get_child("child") is first.get_child("child")
+
+
 def test_places_in_the_code_are_apart():
     logger = get_logger("arm")
     assert logger.info("x", once=True)

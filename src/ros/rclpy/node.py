@@ -21,7 +21,7 @@ from rclpy.clock import Clock, ROSClock
 from rclpy.constants import S_TO_NS
 from rclpy.exceptions import InvalidHandle, NotInitializedException
 from rclpy.guard_condition import GuardCondition
-from rclpy.logging import get_logger
+from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
 from rclpy.publisher import Publisher
@@ -42,7 +42,6 @@ if TYPE_CHECKING:
 
     from rclpy.context import Context
     from rclpy.executors import Executable, Executor
-    from rclpy.impl.rcutils_logger import RcutilsLogger
 
 EntityT = TypeVar("EntityT")
 
@@ -95,7 +94,7 @@ class Node(NodeParameters, NodeGraph):
         }
         self.__executables: tuple[Executable, ...] = ()
         self.__default_callback_group = MutuallyExclusiveCallbackGroup()
-        self.__logger = get_logger(self.get_fully_qualified_name().lstrip("/").replace("/", "."))
+        self.__logger = RcutilsLogger(self.get_fully_qualified_name().lstrip("/").replace("/", "."))
         self.__clock = ROSClock()
 
         overrides = {
