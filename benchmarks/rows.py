@@ -79,7 +79,10 @@ class Tf2:
         latest, stamp, early = self.Time(), self.Time(self.stamp // NS, self.stamp % NS), self.Time(0, 1)
         for depth in DEPTHS:
             source = f"f{depth}"
-            yield f"look-up, newest, depth {depth}", lambda source=source: buffer.lookup_transform_core("f0", source, latest)
+            yield (
+                f"look-up, newest, depth {depth}",
+                lambda source=source: buffer.lookup_transform_core("f0", source, latest),
+            )
         yield "look-up, interpolated, depth 5", lambda: buffer.lookup_transform_core("f0", "f5", stamp)
         yield "can_transform, depth 5", lambda: buffer.can_transform_core("f0", "f5", stamp)
         yield "failing look-up, caught", lambda: self.fail(early)

@@ -18,9 +18,7 @@ class Contender:
     """A process that times calls on request."""
 
     def __init__(self, python, name):
-        self.process = subprocess.Popen(
-            [python, ROWS, name], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-        )
+        self.process = subprocess.Popen([python, ROWS, name], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def ask(self, question):
         self.process.stdin.write(question + "\n")

@@ -115,5 +115,5 @@ def test_values_survive_pickle_and_copy(rng):
     for a in (random_transform(rng, target="a", source="b", stamp=7), random_transform(rng, (3,))):
         assert pickle.loads(pickle.dumps(a)) == a
         assert copy.deepcopy(a) == a
-    error = pickle.loads(pickle.dumps(coframe.LookupException("text", target="a", hint="do")))
+    error = pickle.loads(pickle.dumps(coframe.LookupException.telling("text", target="a", hint="do")))
     assert (str(error), error.target, error.hint) == ("text", "a", "do")

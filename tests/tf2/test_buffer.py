@@ -122,6 +122,7 @@ def test_a_future_of_a_known_transform_is_done_at_once(buffer, stamped):
 
 def test_a_future_completes_when_data_come_in_natively(buffer):
     future = buffer.wait_for_transform_async("a", "b", Time(seconds=1))
+    buffer._waits.feed_natively()  # as a TransformListener says
     done = _core.Event()
     future.add_done_callback(lambda _: done.set())
     # Past everything of Python's, as a reader on the wire does.
@@ -148,8 +149,9 @@ def test_cancelled_futures_are_forgotten(buffer, stamped):
 
 
 def test_the_waiting_thread_ends_with_the_waits(buffer, stamped):
-    assert buffer._waits._watcher is None
     buffer.wait_for_transform_async("a", "b", Time())
+    assert buffer._waits._watcher is None
+    buffer._waits.feed_natively()
     watcher = buffer._waits._watcher
     assert watcher.daemon
     buffer.set_transform(stamped("a", "b", 1.0), "me")
@@ -159,6 +161,7 @@ def test_the_waiting_thread_ends_with_the_waits(buffer, stamped):
 
 def test_a_dropped_buffer_takes_its_thread_along():
     buffer = tf2_ros.Buffer()
+    buffer._waits.feed_natively()
     buffer.wait_for_transform_async("a", "b", Time())
     watcher = buffer._waits._watcher
     del buffer

@@ -40,6 +40,4 @@ def _main(
 app.command()(demo)
 app.command()(echo)
 # The numbers of a transform may be negative: this command reads its arguments itself.
-app.command(
-    add_help_option=False, context_settings={"ignore_unknown_options": True, "allow_extra_args": True}
-)(static)
+app.command(add_help_option=False, context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(static)

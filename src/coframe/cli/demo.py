@@ -25,7 +25,7 @@ COMPLETE = ("world", "end_effector", "camera_link", "lidar_link")
 START_TIMEOUT = 20.0
 
 
-class _Clouds:
+class Clouds:
     """Counts the clouds of the sensor node."""
 
     def __init__(self) -> None:
@@ -60,14 +60,18 @@ def demo(
     """
     console = Console()
     with session(), coframe.connect("coframe_demo", domain=domain) as ros, Launcher(domain=domain) as nodes:
-        clouds = _Clouds()
+        clouds = Clouds()
         ros.subscribe("/scan_base_frame", PointCloud2, clouds.take)
         start = time.monotonic()
 
         def picture() -> Group:
             running = time.monotonic() - start
             state = f"{', '.join(nodes.names)} - {running:.0f} s - Ctrl-C to leave"
-            return Group(tree_table(ros.buffer, "base_link"), Text(str(clouds)), Text(state, style="dim"))
+            return Group(
+                tree_table(ros.buffer, "base_link", wide=console.width >= 100),
+                Text(str(clouds)),
+                Text(state, style="dim", no_wrap=True),
+            )
 
         with Live(get_renderable=picture, console=console, refresh_per_second=1 / REFRESH, transient=False):
             _watch(ros.buffer, nodes, start, duration)

@@ -27,7 +27,9 @@ def echo(
     echo_rate: Annotated[
         str | None, typer.Argument(metavar="[RATE]", help="How often, in Hz.", show_default="1.0")
     ] = None,
-    rate: Annotated[float | None, typer.Option("--rate", "-r", help="The same as an option.", show_default="1.0")] = None,
+    rate: Annotated[
+        float | None, typer.Option("--rate", "-r", help="The same as an option.", show_default="1.0")
+    ] = None,
     cache_time: Annotated[float, typer.Option("--cache-time", "-c", help="Seconds to keep transforms for.")] = 10.0,
     offset: Annotated[
         float | None, typer.Option("--offset", "-o", help="Seconds to add to now; negative is the past.")
@@ -71,7 +73,9 @@ def _positional_rate(text: str | None) -> float:
     except ValueError:
         # tf2_echo tells "no number" (2) from "a number and something behind it" (3)
         starts_with_number = text[:1].isdigit()
-        fail(f"Failed to convert rate argument '{text}' to a floating-point number", code=3 if starts_with_number else 2)
+        fail(
+            f"Failed to convert rate argument '{text}' to a floating-point number", code=3 if starts_with_number else 2
+        )
 
 
 def _positive(what: str, value: float) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING
 
+import numpy as np
 from rich.table import Table
 from rich.text import Text
 
@@ -19,23 +20,30 @@ __all__ = ["tree_table"]
 STALE_AFTER = 1.0
 
 
-def tree_table(buffer: Buffer, reference: str) -> Table:
-    """Every frame below its parent; poses are seen from ``reference``, in metres and degrees."""
-    table = Table(title=f"transform tree, poses in {reference}", title_justify="left", expand=False)
+def tree_table(buffer: Buffer, reference: str, *, wide: bool = True) -> Table:
+    """Every frame below its parent; poses are seen from ``reference``, in metres and degrees.
+
+    Args:
+        buffer: Where the frames are.
+        reference: The frame that poses are told in.
+        wide: Whether there is room for millimetres: about 100 columns.
+    """
+    title = f"transform tree, poses seen from {reference} (metres, degrees)"
+    table = Table(title=title, title_justify="left", box=None, padding=(0, 1, 0, 0), pad_edge=False)
     for column in ("frame", "parent"):
         table.add_column(column, no_wrap=True)
-    for column in ("rate Hz", "age ms", "x", "y", "z", "roll", "pitch", "yaw"):
+    for column in ("rate Hz", "age ms", "x y z", "roll pitch yaw"):
         table.add_column(column, justify="right", no_wrap=True)
     now = time.time_ns()
     for depth, frame in _in_tree_order(buffer.frames()):
         age = (now - frame.newest) * 1e-9
         stale = bool(frame.parent) and not frame.static and age > STALE_AFTER
         table.add_row(
-            Text("  " * depth + frame.name, style="dim" if stale else "bold"),
+            Text(" " * depth + frame.name, style="dim" if stale else "bold"),
             frame.parent,
             _rate(frame),
             Text(_age(frame, age), style="red" if stale else ""),
-            *_pose(buffer, reference, frame.name),
+            *_pose(buffer, reference, frame.name, 3 if wide else 2),
         )
     return table
 
@@ -67,11 +75,11 @@ def _age(frame: FrameInfo, age: float) -> str:
     return "" if frame.static or not frame.parent else f"{age * 1e3:.0f}"
 
 
-def _pose(buffer: Buffer, reference: str, frame: str) -> list[str]:
+def _pose(buffer: Buffer, reference: str, frame: str, decimals: int) -> tuple[str, str]:
     try:
         transform = buffer.lookup(reference, frame)
     except TransformException:
-        return ["", "", "", "", "", ""]
-    x, y, z = transform.translation.tolist()
-    roll, pitch, yaw = (transform.rpy * (180.0 / 3.141592653589793)).tolist()
-    return [f"{x:.3f}", f"{y:.3f}", f"{z:.3f}", f"{roll:.1f}", f"{pitch:.1f}", f"{yaw:.1f}"]
+        return "not connected", ""
+    position = " ".join(f"{value:{decimals + 3}.{decimals}f}" for value in transform.translation.tolist())
+    angles = " ".join(f"{value:{decimals + 2}.{decimals - 2}f}" for value in np.degrees(transform.rpy).tolist())
+    return position, angles

@@ -16,12 +16,11 @@ Parameters:
 import math
 from collections.abc import Sequence
 
-from rclpy.node import Node
-
 import rclpy
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
 from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
 from rclpy.time import Time as ClockTime
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 

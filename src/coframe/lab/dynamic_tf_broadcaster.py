@@ -15,11 +15,10 @@ Parameters:
 
 import math
 
-from rclpy.node import Node
-
 import rclpy
 from geometry_msgs.msg import TransformStamped
 from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
 from rclpy.time import Time
 from sensor_msgs.msg import JointState
 from tf2_ros import TransformBroadcaster

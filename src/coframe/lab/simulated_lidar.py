@@ -21,10 +21,10 @@ from array import array
 
 import numpy as np
 from numpy.typing import NDArray
-from rclpy.node import Node
 
 import rclpy
 from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
 from rclpy.time import Time
 from sensor_msgs.msg import LaserScan
 from tf2_ros import Buffer, TransformException, TransformListener

@@ -13,11 +13,10 @@ Parameters (lengths in metres, quaternions x, y, z, w):
 
 import math
 
-from rclpy.node import Node
-
 import rclpy
 from geometry_msgs.msg import TransformStamped
 from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
 from tf2_ros import StaticTransformBroadcaster
 
 NO_ROTATION = [0.0, 0.0, 0.0, 1.0]

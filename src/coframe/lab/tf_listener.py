@@ -13,12 +13,11 @@ Parameters:
 
 from collections.abc import Sequence
 
-from rclpy.node import Node
-
 import rclpy
 from geometry_msgs.msg import PointStamped, PoseStamped
 from rclpy.duration import Duration
 from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
 from rclpy.time import Time
 from tf2_geometry_msgs import do_transform_point
 from tf2_ros import Buffer, TransformException, TransformListener

@@ -7,8 +7,6 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from typing_extensions import Self
-
 from coframe.buffer import Buffer
 from coframe.wire import _native
 from coframe.wire.participant import Participant
@@ -18,6 +16,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from datetime import timedelta
     from types import TracebackType
+
+    from typing_extensions import Self
 
     from coframe.messages.message import Message
     from coframe.wire.endpoints import Publisher, Subscription

@@ -50,6 +50,11 @@ class NodeGraph:
             return topics
         return [(f"rt{name}", [_mangle(ros_type) for ros_type in types]) for name, types in topics]
 
+    def get_service_names_and_types(self) -> list[tuple[str, list[str]]]:
+        """Returns all services with their types."""
+        services = sorted(self._wire.services().items())
+        return [(name, sorted({_service_type(ros_type) for ros_type in types})) for name, types in services]
+
     def count_publishers(self, topic_name: str) -> int:
         """Returns the number of publishers of a topic."""
         return len(self._wire.publishers(self.resolve_topic_name(topic_name)))
@@ -110,6 +115,11 @@ def _profile(qos: WireQoS) -> QoSProfile:
         reliability=ReliabilityPolicy.RELIABLE if qos.reliable else ReliabilityPolicy.BEST_EFFORT,
         durability=DurabilityPolicy.TRANSIENT_LOCAL if qos.transient_local else DurabilityPolicy.VOLATILE,
     )
+
+
+def _service_type(ros_type: str) -> str:
+    """The service of a request's or response's type."""
+    return ros_type.removesuffix("_Request").removesuffix("_Response")
 
 
 def _mangle(ros_type: str) -> str:

@@ -155,8 +155,12 @@ class InvalidParameterValueException(ParameterException):
     """
 
     def __init__(self, parameter: str, value: object, reason: str = "", *args: object) -> None:
-        text = f"Invalid parameter value ({value}) for parameter. Reason: {reason}"
-        super().__init__(text, parameter, *args)
+        super().__init__("Invalid parameter value", parameter, *args)
+        self.value = value
+        self.reason = reason
+
+    def __str__(self) -> str:
+        return f"Invalid parameter value ({self.value}) for parameter '{self.parameters[0]}'. Reason: {self.reason}"
 
 
 class InvalidParameterTypeException(InvalidParameterValueException):

@@ -12,9 +12,10 @@ import time
 from abc import ABC, abstractmethod
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from rclpy.constants import S_TO_NS
+from rclpy.exceptions import NotInitializedException, RCLError, ROSInterruptException
 from rclpy.task import Future, Task
 from rclpy.utilities import get_default_context
 
@@ -28,7 +29,8 @@ if TYPE_CHECKING:
     from rclpy.context import Context
     from rclpy.node import Node
 
-T = TypeVar("T")
+# What a callback meets when the context is shut down under it.
+_ERRORS_OF_THE_END: Final = (NotInitializedException, RCLError, ROSInterruptException)
 
 
 class TimeoutException(Exception):
@@ -77,7 +79,7 @@ class Executor(ABC):
         self._nodes: list[Node] = []
         self._lock = threading.RLock()
         self._tasks: deque[Task[Any]] = deque()
-        self._due: deque[tuple[Executable, Node]] = deque()
+        self._due: deque[tuple[Task[Any] | Executable, Node | None]] = deque()
         self._is_shutdown = False
         self._running_in: list[int] = []
         self._is_idle = threading.Condition()
@@ -200,7 +202,7 @@ class Executor(ABC):
             remaining = None if deadline is None else (deadline - time.monotonic_ns()) / S_TO_NS
             if remaining is not None and remaining < 0:
                 return
-            self.spin_once_until_future_complete(future, remaining)
+            self._spin_once_unless(future._is_over, remaining)
 
     def spin_once_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
         """Waits for one callback or the future's end, and runs the callback; otherwise as `spin_once`."""
@@ -294,25 +296,31 @@ class Executor(ABC):
                 self._running_in.remove(me)
                 self._is_idle.notify_all()
 
+    def _raise_error_of(self, task: Task[Any]) -> None:
+        error = task.exception()
+        is_end = isinstance(error, _ERRORS_OF_THE_END) and not self._context.ok()
+        if error is not None and not is_end:
+            raise error
+
     def _next_work(self, nodes: Iterable[Node] | None) -> tuple[Work | None, int | None]:
         """What is due, if anything, else nanoseconds until the next timer is."""
         if not self._has_room():
             return None, None
         with self._lock:
-            if self._tasks:
-                return (self._tasks.popleft(), None, None), None
             allowed = self._nodes if nodes is None else [node for node in nodes if node in self._nodes]
-            next_ns = None
-            if not self._due:
+            while True:
+                # Everything that was due gets its turn before anything does again.
+                while self._due:
+                    due, node = self._due.popleft()
+                    if (work := self._begin(due, node, allowed)) is not None:
+                        return work, None
                 next_ns = self._look_for_due(allowed)
-            # Everything that was due gets its turn before anything does again.
-            while self._due:
-                entity, node = self._due.popleft()
-                if node in allowed and (task := self._begin(entity)) is not None:
-                    return (task, entity, node), None
-            return None, next_ns
+                if not self._due:
+                    return None, next_ns
 
     def _look_for_due(self, nodes: Iterable[Node]) -> int | None:
+        while self._tasks:
+            self._due.append((self._tasks.popleft(), None))
         next_ns: int | None = None
         for node in nodes:
             for entity in node._executables():
@@ -325,14 +333,18 @@ class Executor(ABC):
                     self._due.append((entity, node))
         return next_ns
 
-    def _begin(self, entity: Executable) -> Task[Any] | None:
-        if not entity.callback_group.beginning_execution(entity):
+    def _begin(self, due: Task[Any] | Executable, node: Node | None, allowed: list[Node]) -> Work | None:
+        if isinstance(due, Task):
+            return due, None, None
+        if node not in allowed or not due.callback_group.beginning_execution(due):
             return None
-        call = entity._take()
-        if call is None:
-            entity.callback_group.ending_execution(entity)
-            return None
-        return Task(self._execute, (entity, call), executor=self)
+        call = None
+        try:
+            call = due._take()
+        finally:
+            if call is None:
+                due.callback_group.ending_execution(due)
+        return None if call is None else (Task(self._execute, (due, call), executor=self), due, node)
 
     async def _execute(self, entity: Executable, call: Callable[[], Any]) -> None:
         try:
@@ -349,8 +361,7 @@ class SingleThreadedExecutor(Executor):
 
     def _run(self, task: Task[Any]) -> None:
         self._call(task)
-        if task.done():
-            task.result()
+        self._raise_error_of(task)
 
 
 class MultiThreadedExecutor(Executor):
@@ -386,7 +397,7 @@ class MultiThreadedExecutor(Executor):
     def _spin_once_unless(self, condition: Callable[[], bool], timeout_sec: float | None) -> None:
         super()._spin_once_unless(condition, timeout_sec)
         if self._failed:
-            self._failed.popleft().result()
+            self._raise_error_of(self._failed.popleft())
 
     def _has_room(self) -> bool:
         # Taking more than there are threads for would empty the queues of DDS into one without bounds here.

@@ -18,16 +18,18 @@ __all__ = [
     "shutdown",
 ]
 
+_loggers: dict[str, RcutilsLogger] = {}
+
 
 def get_logger(name: str) -> RcutilsLogger:
-    """Returns the logger of a name.
+    """Returns the logger of a name, the same one each time.
 
     Raises:
         ValueError: The name is empty.
     """
     if not name:
         raise ValueError("Logger name must not be empty.")
-    return RcutilsLogger(name)
+    return _loggers.setdefault(name, RcutilsLogger(name))
 
 
 def set_logger_level(name: str, level: int, detailed_error: bool = False) -> None:

@@ -21,7 +21,7 @@ from rclpy.clock import Clock, ROSClock
 from rclpy.constants import S_TO_NS
 from rclpy.exceptions import InvalidHandle, NotInitializedException
 from rclpy.guard_condition import GuardCondition
-from rclpy.logging import get_logger
+from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
 from rclpy.publisher import Publisher
@@ -42,7 +42,6 @@ if TYPE_CHECKING:
 
     from rclpy.context import Context
     from rclpy.executors import Executable, Executor
-    from rclpy.impl.rcutils_logger import RcutilsLogger
 
 EntityT = TypeVar("EntityT")
 
@@ -95,8 +94,15 @@ class Node(NodeParameters, NodeGraph):
         }
         self.__executables: tuple[Executable, ...] = ()
         self.__default_callback_group = MutuallyExclusiveCallbackGroup()
-        self.__logger = get_logger(self.get_fully_qualified_name().lstrip("/").replace("/", "."))
+        self.__logger = RcutilsLogger(self.get_fully_qualified_name().lstrip("/").replace("/", "."))
         self.__clock = ROSClock()
+
+        overrides = {
+            override.name: Parameter(override.name, value=override.value)
+            for override in arguments.parameters
+            if override.fits(self.get_fully_qualified_name())
+        }
+        overrides.update((parameter.name, parameter) for parameter in parameter_overrides or [])
 
         self._wire = self.__context._join_graph()
         self._graph_node = self._wire.add_node(self.__names.namespace, self.__names.node_name)
@@ -105,22 +111,20 @@ class Node(NodeParameters, NodeGraph):
             self.__rosout = RosoutPublisher(self._wire, self._graph_node, self.__logger.name)
         self.__time_source = TimeSource(node=self)
         self.__time_source.attach_clock(self.__clock)
-        overrides = {
-            override.name: Parameter(override.name, value=override.value)
-            for override in arguments.parameters
-            if override.fits(self.get_fully_qualified_name())
-        }
-        overrides.update((parameter.name, parameter) for parameter in parameter_overrides or [])
-        NodeParameters.__init__(
-            self,
-            overrides,
-            allow_undeclared=allow_undeclared_parameters,
-            declare_overrides=automatically_declare_parameters_from_overrides,
-        )
-        if not self.has_parameter(USE_SIM_TIME_NAME):
-            self.declare_parameter(USE_SIM_TIME_NAME, False)
-        if start_parameter_services:
-            ParameterService(self)
+        try:
+            NodeParameters.__init__(
+                self,
+                overrides,
+                allow_undeclared=allow_undeclared_parameters,
+                declare_overrides=automatically_declare_parameters_from_overrides,
+            )
+            if not self.has_parameter(USE_SIM_TIME_NAME):
+                self.declare_parameter(USE_SIM_TIME_NAME, False)
+            if start_parameter_services:
+                ParameterService(self)
+        except BaseException:
+            self.destroy_node()  # nobody else could
+            raise
 
     # Names
 

@@ -1,5 +1,8 @@
 """Publishers."""
 
+# The modules of rclpy share what its users do not see.
+# ruff: noqa: SLF001
+
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
@@ -47,7 +50,8 @@ class Publisher:
             data = msg
         else:
             raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
-        if not self._context.ok():
+        # After a signal a program may still say its last words: stop the robot, ...
+        if not self._context.ok() and not self._context._was_ended_by_signal:
             raise RCLError("Failed to publish: publisher's context is invalid")
         self._alive().write(data)
 

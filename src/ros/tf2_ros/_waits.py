@@ -40,7 +40,8 @@ class Waits:
     """The waits of one buffer.
 
     Transforms that Python inserts are looked at at once, by the inserting thread. Those that arrive straight from the
-    wire are noticed by a thread that lives while something is waited for. No lock is held while futures complete.
+    wire, and the end of a wait's time, are noticed by a thread that lives while something is waited for. No lock is
+    held while futures complete. When two threads notice the same transform, both bring it; the callbacks run once.
     """
 
     def __init__(self, buffer: coframe.Buffer) -> None:
@@ -48,6 +49,13 @@ class Waits:
         self._lock = threading.Lock()
         self._pending: list[_Wait] = []
         self._watcher: threading.Thread | None = None
+        self._is_fed_natively = False
+
+    def feed_natively(self) -> None:
+        """From now on, transforms arrive that no Python thread inserts."""
+        with self._lock:
+            self._is_fed_natively = True
+            self._watch_if_needed()
 
     def add(self, attempt: Attempt, timeout: int | None = None) -> Future[TransformStamped]:
         """A future of what `attempt` returns once it no longer raises a `TransformException`.
@@ -58,10 +66,11 @@ class Waits:
         """
         deadline = None if timeout is None else time.monotonic_ns() + timeout
         wait = _Wait(attempt, Future(), deadline)
-        if not _complete(wait):
-            with self._lock:
-                self._pending.append(wait)
-                self._watch()
+        with self._lock:
+            self._pending.append(wait)
+        self._try(wait)
+        with self._lock:
+            self._watch_if_needed()
         return wait.future
 
     def settle(self) -> None:
@@ -69,16 +78,18 @@ class Waits:
         with self._lock:
             pending = list(self._pending)
         for wait in pending:
-            if wait.future.done() or wait.future.cancelled() or _complete(wait):
-                self._forget(wait)
+            self._try(wait)
 
-    def _forget(self, wait: _Wait) -> None:
-        with self._lock:
-            if wait in self._pending:
-                self._pending.remove(wait)
+    def _try(self, wait: _Wait) -> None:
+        if wait.future.done() or wait.future.cancelled() or _complete(wait):
+            with self._lock:
+                if wait in self._pending:
+                    self._pending.remove(wait)
 
-    def _watch(self) -> None:
-        if self._watcher is None:
+    def _watch_if_needed(self) -> None:
+        if self._watcher is not None:
+            return
+        if any(self._is_fed_natively or wait.deadline is not None for wait in self._pending):
             self._watcher = threading.Thread(
                 target=_watch, args=(weakref.ref(self), self._buffer), name="tf2_ros waits", daemon=True
             )

@@ -102,7 +102,7 @@ class TransformListener:
         if isinstance(buffer, Buffer) and buffer.clock is not self.node.get_clock():
             self._jump_handle = clear_on_time_jump(buffer, self.node.get_clock())
         if spin_thread:
-            self.executor = SingleThreadedExecutor()
+            self.executor = SingleThreadedExecutor(context=self.node.context)
             self.dedicated_listener_thread = threading.Thread(target=self._spin, daemon=True)
             self.dedicated_listener_thread.start()
 
@@ -143,6 +143,8 @@ class TransformListener:
     def _listen(self, *, static: bool) -> Any:
         topic, qos = self._topics[static], self._qos[static]
         if self._is_plain():
+            if isinstance(self._buffer, Buffer):
+                self._buffer._waits.feed_natively()
             return NativeSubscription(self.node, topic, qos, self._buffer, static=static)
         callback = self.static_callback if static else self.callback
         return self.node.create_subscription(TFMessage, topic, callback, qos, callback_group=self.group)

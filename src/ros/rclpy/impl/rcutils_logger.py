@@ -48,9 +48,6 @@ class _CallSite:
         return True
 
 
-_call_sites: dict[tuple[str, int, int], _CallSite] = {}
-
-
 class RcutilsLogger:
     """Logs under a name; levels are inherited along the dots of names.
 
@@ -60,6 +57,9 @@ class RcutilsLogger:
 
     def __init__(self, name: str = "") -> None:
         self.name = name
+        # Of this logger alone: two nodes of one class log from the same lines.
+        self._call_sites: dict[tuple[str, int, int], _CallSite] = {}
+        self._children: dict[str, RcutilsLogger] = {}
 
     def get_child(self, name: str) -> RcutilsLogger:
         """Returns the logger `name` below this one.
@@ -69,7 +69,7 @@ class RcutilsLogger:
         """
         if not name:
             raise ValueError("Child logger name must not be None or empty.")
-        return RcutilsLogger(f"{self.name}.{name}" if self.name else name)
+        return self._children.setdefault(name, RcutilsLogger(f"{self.name}.{name}" if self.name else name))
 
     def set_level(self, level: int) -> None:
         """Sets the least severity that is logged; UNSET inherits it again."""
@@ -105,7 +105,7 @@ class RcutilsLogger:
         if console.effective_level(name) > severity:
             return False
         frame = _caller()
-        if kwargs and not _call_site(frame, severity, name, kwargs).lets_pass():
+        if kwargs and not self._call_site(frame, severity, name, kwargs).lets_pass():
             return False
         console.emit(Record(time.time_ns(), severity, name, str(message), frame.f_code, frame.f_lineno))
         return True
@@ -134,29 +134,28 @@ class RcutilsLogger:
         """Logs with severity FATAL; see `log`."""
         return self.log(message, LoggingSeverity.FATAL, **kwargs)
 
+    def _call_site(self, frame: FrameType, severity: LoggingSeverity, name: str, options: dict[str, Any]) -> _CallSite:
+        for option in options:
+            if option not in _OPTIONS:
+                raise TypeError(f'parameter "{option}" is not one of the recognized logging options "{list(_OPTIONS)}"')
+        if "throttle_time_source_type" in options and "throttle_duration_sec" not in options:
+            raise TypeError(
+                'required parameter "throttle_duration_sec" not specified but is required for the the logging filter '
+                '"throttle"'
+            )
+        key = (frame.f_code.co_filename, frame.f_lineno, frame.f_lasti)
+        site = self._call_sites.setdefault(key, _CallSite(severity, name, options))
+        if site.severity != severity:
+            raise ValueError("Logger severity cannot be changed between calls.")
+        if site.name != name:
+            raise ValueError("Logger name cannot be changed between calls.")
+        if site.options.keys() != options.keys():
+            raise ValueError("Logging filters cannot be changed between calls.")
+        return site
+
 
 def _caller() -> FrameType:
     frame = sys._getframe(1)
     while frame.f_code.co_filename == __file__ and frame.f_back is not None:
         frame = frame.f_back
     return frame
-
-
-def _call_site(frame: FrameType, severity: LoggingSeverity, name: str, options: dict[str, Any]) -> _CallSite:
-    for option in options:
-        if option not in _OPTIONS:
-            raise TypeError(f'parameter "{option}" is not one of the recognized logging options "{list(_OPTIONS)}"')
-    if "throttle_time_source_type" in options and "throttle_duration_sec" not in options:
-        raise TypeError(
-            'required parameter "throttle_duration_sec" not specified but is required for the the logging filter '
-            '"throttle"'
-        )
-    key = (frame.f_code.co_filename, frame.f_lineno, frame.f_lasti)
-    site = _call_sites.setdefault(key, _CallSite(severity, name, options))
-    if site.severity != severity:
-        raise ValueError("Logger severity cannot be changed between calls.")
-    if site.name != name:
-        raise ValueError("Logger name cannot be changed between calls.")
-    if site.options.keys() != options.keys():
-        raise ValueError("Logging filters cannot be changed between calls.")
-    return site

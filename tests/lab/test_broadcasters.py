@@ -1,0 +1,239 @@
+"""static_tf_broadcaster, dynamic_tf_broadcaster and complete_tf_tree."""
+
+import math
+
+import numpy as np
+import pytest
+
+import tf2_ros
+from coframe.lab.complete_tf_tree import CompleteTFTree
+from coframe.lab.dynamic_tf_broadcaster import DynamicFramePublisher
+from coframe.lab.static_tf_broadcaster import StaticFramePublisher
+from rclpy.duration import Duration
+from rclpy.time import Time
+from sensor_msgs.msg import JointState
+
+ROOT_HALF = math.sqrt(0.5)
+ARM = ["link1", "link2", "end_effector"]
+
+
+def children(message):
+    return [transform.child_frame_id for transform in message.transforms]
+
+
+def by_child(message):
+    return {transform.child_frame_id: transform for transform in message.transforms}
+
+
+def numbers(transform):
+    t, q = transform.transform.translation, transform.transform.rotation
+    return [t.x, t.y, t.z, q.x, q.y, q.z, q.w]
+
+
+def nanoseconds(stamp):
+    return stamp.sec * 10**9 + stamp.nanosec
+
+
+def angle(transform):
+    return 2 * math.atan2(transform.transform.rotation.z, transform.transform.rotation.w)
+
+
+def test_sensor_mounts_are_those_of_the_lab(start):
+    observer = start()
+    observer.add(StaticFramePublisher())
+    _, heard = observer.hear_tf()
+    observer.until(lambda: heard)
+    assert len(heard) == 1
+    mounts = by_child(heard[0])
+    assert numbers(mounts["camera_link"]) == pytest.approx([0.05, 0, 0.02, 0, ROOT_HALF, 0, ROOT_HALF], abs=1e-15)
+    assert numbers(mounts["imu_link"]) == [0, 0, 0.1, 0, 0, 0, 1]
+    assert numbers(mounts["lidar_link"]) == [0, 0, 0.5, 0, 0, 0, 1]
+    assert [mounts[child].header.frame_id for child in ("camera_link", "imu_link", "lidar_link")] == [
+        "end_effector",
+        "base_link",
+        "base_link",
+    ]
+
+
+def test_sensor_mounts_may_be_moved(start):
+    observer = start("lidar_translation:=[0.1, 0.2, 0.3]", "lidar_rotation:=[0.0, 0.0, 2.0, 0.0]", "lidar_frame:=laser")
+    observer.add(StaticFramePublisher())
+    _, heard = observer.hear_tf()
+    observer.until(lambda: heard)
+    assert numbers(by_child(heard[0])["laser"]) == [0.1, 0.2, 0.3, 0, 0, 1, 0]
+
+
+@pytest.mark.parametrize("parameter", ["imu_translation:=[0.0, 1.0]", "imu_rotation:=[0.0, 0.0, 0.0, 0.0]"])
+def test_mounts_that_make_no_sense_are_refused(start, parameter):
+    start(parameter)
+    with pytest.raises(ValueError, match=f"parameter '{parameter.split(':')[0]}'"):
+        StaticFramePublisher()
+
+
+def test_the_arm_swings_by_itself(start):
+    observer = start()
+    observer.add(DynamicFramePublisher())
+    heard, _ = observer.hear_tf()
+    observer.until(lambda: len(heard) >= 50)
+    assert all(children(message) == ARM for message in heard)
+    first, second, third = heard[0].transforms
+    assert [t.header.frame_id for t in heard[0].transforms] == ["base_link", "link1", "link2"]
+    assert numbers(first)[:3] == [0, 0, 0.1]
+    assert numbers(second)[:3] == [0.5, 0, 0]
+    assert numbers(third) == [0.4, 0, 0, 0, 0, 0, 1]
+
+    stamps = np.array([nanoseconds(message.transforms[0].header.stamp) for message in heard])
+    assert np.all(np.diff(stamps) > 0)
+    assert np.median(np.diff(stamps)) == pytest.approx(20e6, rel=0.1)
+    # The lab's law of motion, with one unknown: when it began.
+    q1 = np.array([angle(message.transforms[0]) for message in heard])
+    q2 = np.array([angle(message.transforms[1]) for message in heard])
+    begins = np.linspace(-0.1, 3.0, 31001)
+    elapsed = (stamps - stamps[0]) * 1e-9
+    begin = begins[np.argmin([np.abs(0.5 * np.sin(0.4 * np.pi * (b + elapsed)) - q1).max() for b in begins])]
+    assert np.allclose(q1, 0.5 * np.sin(0.4 * np.pi * (begin + elapsed)), atol=1e-4)
+    assert np.allclose(q2, 0.3 * np.sin(0.6 * np.pi * (begin + elapsed) + np.pi / 4), atol=1e-4)
+
+
+def test_joint_states_take_over_and_the_simulation_comes_back(start):
+    observer = start("joint_timeout:=0.3")
+    node = observer.add(DynamicFramePublisher())
+    heard, _ = observer.hear_tf()
+    robot = observer.node.create_publisher(JointState, "/joint_states", 10)
+    observer.until(lambda: robot.get_subscription_count() and len(heard) > 5)
+
+    sent: list[int] = []
+
+    def send() -> None:
+        now = observer.node.get_clock().now()
+        sent.append(now.nanoseconds)
+        state = JointState(name=["gripper", "joint2", "joint1"], position=[0.0, -0.7, 1.1])
+        state.header.stamp = now.to_msg()
+        robot.publish(state)
+
+    timer = observer.node.create_timer(0.05, send)
+    observer.until(lambda: any(angle(message.transforms[0]) > 1.0 for message in heard))
+    begin = len(heard)
+    paused_at = node.sim_time
+    observer.until(lambda: len(heard) >= begin + 15)
+    timer.cancel()
+    driven = heard[begin : begin + 15]
+    # Nothing simulated in between: no flicker.
+    assert all(angle(message.transforms[0]) == pytest.approx(1.1) for message in driven)
+    assert all(angle(message.transforms[1]) == pytest.approx(-0.7) for message in driven)
+    assert all(children(message) == ARM for message in driven)
+    assert {nanoseconds(t.header.stamp) for message in driven for t in message.transforms} <= set(sent)
+    assert node.sim_time == paused_at
+
+    observer.until(lambda: angle(heard[-1].transforms[0]) < 1.0)
+    resumed = heard[-1].transforms[0]
+    assert nanoseconds(resumed.header.stamp) - sent[-1] >= 0.3e9
+    # The simulation goes on from where it stopped.
+    assert angle(resumed) == pytest.approx(0.5 * math.sin(0.4 * math.pi * (paused_at + 0.02)), abs=0.1)
+
+
+def arm_after(start, *states):
+    """Angles and stamps of the arm that follow joint states handed straight to the node."""
+    observer = start()
+    node = observer.add(DynamicFramePublisher())
+    node.timer.cancel()
+    heard, _ = observer.hear_tf()
+    observer.until(node.tf_broadcaster.pub_tf.get_subscription_count)
+    for state in states:
+        node.joint_callback(state)
+    observer.until(lambda: heard)
+    return [
+        (round(angle(m.transforms[0]), 9), round(angle(m.transforms[1]), 9), m.transforms[0].header.stamp.sec)
+        for m in heard
+    ]
+
+
+def state(*positions, names=(), sec=5):
+    message = JointState(name=list(names), position=[float(position) for position in positions])
+    message.header.stamp.sec = sec
+    return message
+
+
+def test_without_names_the_first_two_positions_count(start):
+    assert arm_after(start, state(0.1, 0.2, 0.3)) == [(0.1, 0.2, 5)]
+
+
+def test_other_names_count_in_order(start):
+    assert arm_after(start, state(0.1, 0.2, names=["shoulder", "elbow"])) == [(0.1, 0.2, 5)]
+
+
+def test_an_unstamped_joint_state_is_stamped_now(start):
+    [(q1, q2, sec)] = arm_after(start, state(0.1, 0.2, sec=0))
+    assert (q1, q2) == (0.1, 0.2)
+    assert sec > 1_600_000_000
+
+
+def test_joint_states_that_make_no_sense_are_ignored_with_a_warning(start, capfd):
+    broken = [
+        state(0.1),
+        state(),
+        state(math.nan, 0.2),
+        state(0.1, math.inf),
+        state(0.1, 0.2, names=["joint1", "wheel"]),
+        state(0.1, names=["joint2", "joint1"]),
+    ]
+    assert arm_after(start, *broken, state(0.3, 0.4)) == [(0.3, 0.4, 5)]
+    warnings = [line for line in capfd.readouterr().err.splitlines() if "Joint state ignored" in line]
+    assert len(warnings) == 1  # not one for each
+    assert "[WARN]" in warnings[0]
+
+
+def test_an_arm_needs_two_links(start):
+    start("link_lengths:=[0.5]")
+    with pytest.raises(ValueError, match="'link_lengths' need two entries"):
+        DynamicFramePublisher()
+
+
+def test_the_complete_tree(start):
+    observer = start()
+    observer.add(CompleteTFTree())
+    buffer = tf2_ros.Buffer()
+    tf2_ros.TransformListener(buffer, observer.node)
+    heard, heard_static = observer.hear_tf()
+    observer.until(lambda: len(heard) >= 10 and heard_static)
+    assert all(children(message) == ["odom", "base_link", *ARM] for message in heard)
+    mounts = by_child(heard_static[0])
+    assert {child: mount.header.frame_id for child, mount in mounts.items()} == {
+        "map": "world",
+        "imu_link": "base_link",
+        "lidar_link": "base_link",
+        "camera_link": "end_effector",
+        "gripper_link": "end_effector",
+    }
+    assert numbers(mounts["lidar_link"]) == [0.1, 0, 0.3, 0, 0, 0, 1]
+    assert numbers(mounts["camera_link"]) == pytest.approx([0.05, 0, 0.02, 0, ROOT_HALF, 0, ROOT_HALF], abs=1e-15)
+    for frame in ("imu_link", "lidar_link", "camera_link", "gripper_link"):
+        assert buffer.can_transform("world", frame, Time(), Duration(seconds=10))
+
+    transforms = by_child(heard[-1])
+    # Forward motion of 0.1 m/s tells the simulated time; everything else follows from it.
+    time = transforms["base_link"].transform.translation.x / 0.1
+    assert numbers(transforms["odom"])[:3] == pytest.approx([0.001 * time, 0.0005 * time, 0])
+    assert transforms["base_link"].transform.translation.y == pytest.approx(0.05 * math.sin(0.5 * time))
+    assert angle(transforms["base_link"]) == pytest.approx(0.1 * math.sin(0.2 * time))
+    assert angle(transforms["link1"]) == pytest.approx(0.5 * math.sin(0.3 * time))
+    assert angle(transforms["link2"]) == pytest.approx(0.3 * math.sin(0.4 * time + 0.5))
+    assert numbers(transforms["link1"])[:3] == [0, 0, 0.2]
+    assert numbers(transforms["link2"])[:3] == [0.4, 0, 0]
+    assert numbers(transforms["end_effector"])[:3] == [0.3, 0, 0]
+
+
+def test_arm_and_mounts_may_come_from_elsewhere(start):
+    observer = start("publish_arm:=false", "publish_mounts:=false")
+    observer.add(CompleteTFTree())
+    heard, heard_static = observer.hear_tf()
+    observer.until(lambda: heard and heard_static)
+    assert children(heard[0]) == ["odom", "base_link"]
+    assert children(heard_static[0]) == ["map", "gripper_link"]
+
+
+@pytest.mark.parametrize("node", [DynamicFramePublisher, CompleteTFTree])
+def test_a_rate_of_zero_is_refused(start, node):
+    start("rate:=0.0")
+    with pytest.raises(ValueError, match="parameter 'rate' must be more than 0"):
+        node()

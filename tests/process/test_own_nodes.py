@@ -1,0 +1,111 @@
+"""Our own nodes as processes: every scan becomes a cloud, exact at the scan's own time, while arm and base move."""
+
+import bisect
+import signal
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation, Slerp
+
+TOPICS = (
+    "/scan:sensor_msgs/msg/LaserScan:volatile",
+    "/scan_base_frame:sensor_msgs/msg/PointCloud2:volatile",
+    "/tf:tf2_msgs/msg/TFMessage:volatile",
+    "/tf_static:tf2_msgs/msg/TFMessage:transient_local",
+    "/end_effector_pose:geometry_msgs/msg/PoseStamped:volatile",
+)
+NODES = {
+    "complete_tf_tree": ["--ros-args", "-p", "publish_arm:=false"],
+    "dynamic_tf_broadcaster": [],
+    "tf_listener": [],
+    "simulated_lidar": [],
+    # The lidar's frame does not move in base_link; seen from odom it does, with the whole base.
+    "sensor_transform": ["--ros-args", "-p", "target_frame:=odom"],
+}
+
+
+def nanoseconds(message):
+    stamp = message["header"]["stamp"]
+    return stamp["sec"] * 10**9 + stamp["nanosec"]
+
+
+class Tree:
+    """What was heard on /tf and /tf_static, composed with scipy."""
+
+    def __init__(self, heard):
+        self.links = {}
+        for topic in ("/tf", "/tf_static"):
+            for _, message in heard[topic]:
+                for transform in message["transforms"]:
+                    parent, child = transform["header"]["frame_id"], transform["child_frame_id"]
+                    t, r = transform["transform"]["translation"], transform["transform"]["rotation"]
+                    values = [t["x"], t["y"], t["z"], r["x"], r["y"], r["z"], r["w"]]
+                    _, static, samples = self.links.setdefault(child, (parent, topic == "/tf_static", {}))
+                    samples[nanoseconds(transform)] = values
+        self.links = {c: (p, static, sorted(samples.items())) for c, (p, static, samples) in self.links.items()}
+
+    def matrix(self, child, stamp):
+        _, static, samples = self.links[child]
+        if static:
+            values = np.array(samples[-1][1])
+        else:
+            i = bisect.bisect_left([s for s, _ in samples], stamp)
+            assert 0 < i < len(samples), "the scan's time must lie within what was heard"
+            (start, a), (end, b) = samples[i - 1], samples[i]
+            share = (stamp - start) / (end - start)
+            rotation = Slerp([0, 1], Rotation.from_quat([a[3:], b[3:]]))(share).as_quat()
+            values = np.concatenate([(1 - share) * np.array(a[:3]) + share * np.array(b[:3]), rotation])
+        matrix = np.eye(4)
+        matrix[:3, :3], matrix[:3, 3] = Rotation.from_quat(values[3:]).as_matrix(), values[:3]
+        return matrix
+
+    def lookup(self, ancestor, frame, stamp):
+        matrix = np.eye(4)
+        while frame != ancestor:
+            matrix = self.matrix(frame, stamp) @ matrix
+            frame = self.links[frame][0]
+        return matrix
+
+
+def expected_points(scan, tree):
+    ranges = np.array(scan["ranges"], dtype=np.float64)
+    angles = scan["angle_min"] + np.arange(len(ranges)) * scan["angle_increment"]
+    valid = np.isfinite(ranges) & (ranges >= scan["range_min"]) & (ranges <= scan["range_max"])
+    ranges, angles = ranges[valid], angles[valid]
+    points = np.stack([ranges * np.cos(angles), ranges * np.sin(angles), 0 * ranges, 1 + 0 * ranges])
+    return (tree.lookup("odom", scan["header"]["frame_id"], nanoseconds(scan)) @ points)[:3].T
+
+
+@pytest.mark.timeout(120)
+def test_every_scan_becomes_an_exact_cloud(processes):
+    for name, arguments in NODES.items():
+        processes.start(name, "python", "-m", f"coframe.lab.{name}", *arguments)
+    heard = processes.observe(6.0, *TOPICS)
+
+    tree = Tree(heard)
+    moving = [samples for _, static, samples in tree.links.values() if not static]
+    first, last = max(s[0][0] for s in moving), min(s[-1][0] for s in moving)
+    scans = {nanoseconds(scan): scan for _, scan in heard["/scan"] if first < nanoseconds(scan) < last - 500_000_000}
+    clouds = {nanoseconds(cloud): cloud for _, cloud in heard["/scan_base_frame"]}
+    # Whoever listens first hears some scans before the first cloud: from then on every one must be there.
+    scans = {stamp: scan for stamp, scan in scans.items() if stamp >= min(clouds)}
+    assert len(scans) >= 40
+    assert set(scans) <= set(clouds), "some scans became no cloud"
+
+    positions = []
+    for stamp, scan in scans.items():
+        cloud = clouds[stamp]
+        assert cloud["header"]["frame_id"] == "odom"
+        assert [field["name"] for field in cloud["fields"]] == ["x", "y", "z", "intensity"]
+        values = np.frombuffer(bytes(cloud["data"]), dtype="<f4").reshape(-1, 4)
+        expected = expected_points(scan, tree)
+        assert 100 < len(values) == len(expected) < len(scan["ranges"])
+        np.testing.assert_allclose(values[:, :3], expected, rtol=0, atol=1e-6)
+        positions.append(tree.lookup("odom", "base_link", stamp)[:3, 3])
+    assert np.ptp(positions, axis=0)[0] > 0.2, "the base must have moved"
+    assert np.ptp([p["pose"]["position"]["y"] for _, p in heard["/end_effector_pose"]]) > 0.1, "so must the arm"
+
+    for name in NODES:
+        code, text = processes.end(name, signal.SIGINT)
+        assert code == 0, text
+        assert "Traceback" not in text

@@ -1,0 +1,120 @@
+"""Contexts, nodes and child processes for the tests of rclpy."""
+
+import os
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+import rclpy
+from rclpy.context import Context
+from rclpy.node import Node
+
+
+@pytest.fixture
+def context(domain_id: int) -> Iterator[Context]:
+    """A context of this test's own, in a domain of its own."""
+    context = Context()
+    context.init([], domain_id=domain_id)
+    yield context
+    context.try_shutdown()
+
+
+@pytest.fixture
+def make_node(context: Context) -> Iterator[Callable[..., Node]]:
+    """Makes nodes that end with the test."""
+    nodes: list[Node] = []
+
+    def make(name: str = "tester", **options) -> Node:
+        nodes.append(rclpy.create_node(name, context=context, start_parameter_services=False, **options))
+        return nodes[-1]
+
+    yield make
+    for node in nodes:
+        node.destroy_node()
+
+
+@pytest.fixture
+def node(make_node: Callable[..., Node]) -> Node:
+    """A node."""
+    return make_node()
+
+
+@pytest.fixture
+def wait_until() -> Callable[..., None]:
+    """Waits for a condition, while doing `meanwhile`."""
+
+    def wait(
+        condition: Callable[[], object],
+        meanwhile: Callable[[], object] = lambda: time.sleep(0.005),
+        timeout: float = 10.0,
+    ) -> None:
+        deadline = time.monotonic() + timeout
+        while not condition():
+            assert time.monotonic() < deadline, "the condition did not come true in time"
+            meanwhile()
+
+    return wait
+
+
+class Script:
+    """A Python program in a process of its own, whose output is collected."""
+
+    def __init__(self, path: Path, *args: str) -> None:
+        self.process = subprocess.Popen(
+            [sys.executable, str(path), *args],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env=os.environ | {"PYTHONUNBUFFERED": "1"},
+        )
+        self._lines: list[str] = []
+        self._errors: list[str] = []
+        self._threads = [
+            threading.Thread(target=lambda: self._lines.extend(self.process.stdout), daemon=True),
+            threading.Thread(target=lambda: self._errors.extend(self.process.stderr), daemon=True),
+        ]
+        for thread in self._threads:
+            thread.start()
+
+    @property
+    def output(self) -> str:
+        """What it printed so far."""
+        return "".join(self._lines)
+
+    @property
+    def errors(self) -> str:
+        """What it wrote to stderr so far."""
+        return "".join(self._errors)
+
+    def end(self, timeout: float = 10.0) -> int:
+        """Waits for its end and returns its exit code."""
+        code = self.process.wait(timeout)
+        for thread in self._threads:
+            thread.join(timeout)
+        self.process.stdout.close()
+        self.process.stderr.close()
+        return code
+
+
+@pytest.fixture
+def run_script(domain_id: int, tmp_path: Path) -> Iterator[Callable[..., Script]]:
+    """Starts programs given by their text, in the test's domain; they end with the test."""
+    assert os.environ["ROS_DOMAIN_ID"] == str(domain_id)
+    scripts: list[Script] = []
+
+    def run(text: str, *args: str) -> Script:
+        path = tmp_path / f"script_{len(scripts)}.py"
+        path.write_text(text, encoding="utf-8")
+        scripts.append(Script(path, *args))
+        return scripts[-1]
+
+    yield run
+    for script in scripts:
+        if script.process.poll() is None:
+            script.process.kill()
+            script.end()

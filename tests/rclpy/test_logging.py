@@ -1,0 +1,142 @@
+"""Loggers: the format on the terminal, levels, filters."""
+
+import io
+import re
+
+import pytest
+
+import rclpy.logging
+from rclpy.clock import ROSClock
+from rclpy.impl.console import console
+from rclpy.logging import LoggingSeverity, get_logger
+from rclpy.time import Time
+
+
+@pytest.fixture(autouse=True)
+def fresh_levels():
+    yield
+    rclpy.logging.clear_config()
+
+
+def test_format_is_ros_s(capfd):
+    get_logger("arm").info("moving")
+    assert re.fullmatch(r"\[INFO\] \[\d{10}\.\d{9}\] \[arm\]: moving\n", capfd.readouterr().err)
+
+
+@pytest.mark.parametrize(
+    ("method", "word"),
+    [("info", "INFO"), ("warn", "WARN"), ("warning", "WARN"), ("error", "ERROR"), ("fatal", "FATAL")],
+)
+def test_severities(capfd, method, word):
+    assert getattr(get_logger("arm"), method)("text")
+    assert capfd.readouterr().err.startswith(f"[{word}] ")
+
+
+def test_levels_are_inherited_along_dots(capfd):
+    parent, child = get_logger("arm"), get_logger("arm").get_child("hand")
+    assert child.name == "arm.hand"
+    assert not parent.debug("hidden")
+    parent.set_level(LoggingSeverity.DEBUG)
+    assert child.debug("shown")
+    child.set_level(LoggingSeverity.ERROR)
+    assert not child.is_enabled_for(LoggingSeverity.WARN)
+    child.set_level(LoggingSeverity.UNSET)
+    assert child.get_effective_level() is LoggingSeverity.DEBUG
+    assert "hidden" not in capfd.readouterr().err
+
+
+def test_names_must_be_there():
+    with pytest.raises(ValueError, match="Logger name must not be empty"):
+        get_logger("")
+    with pytest.raises(ValueError, match="Child logger name must not be None or empty"):
+        get_logger("arm").get_child("")
+
+
+def test_once_and_skip_first():
+    logger = get_logger("arm")
+    assert [logger.info("x", once=True) for _ in range(3)] == [True, False, False]
+    assert [logger.info("x", skip_first=True) for _ in range(3)] == [False, True, True]
+
+
+def test_throttle_follows_the_given_clock():
+    clock = ROSClock()
+    clock._set_ros_time_is_active(True)
+    logged = []
+    for seconds in (1, 2, 5, 6, 10):
+        clock.set_ros_time_override(Time(seconds=seconds, clock_type=clock.clock_type))
+        if get_logger("arm").info("x", throttle_duration_sec=4, throttle_time_source_type=clock):
+            logged.append(seconds)
+    assert logged == [1, 5, 10]
+
+
+def test_loggers_are_apart():
+    first, second = get_logger("one"), get_logger("two")
+    assert [logger.info("x", once=True) for logger in (first, second, first)] == [True, True, False]
+    assert get_logger("one") is first
+    assert first.get_child("child") is first.get_child("child")
+
+
+def test_places_in_the_code_are_apart():
+    logger = get_logger("arm")
+    assert logger.info("x", once=True)
+    assert logger.info("x", once=True)
+
+
+def test_bad_options_are_named():
+    logger = get_logger("arm")
+    with pytest.raises(TypeError, match='"twice" is not one of the recognized logging options'):
+        logger.info("x", twice=True)
+    with pytest.raises(TypeError, match='required parameter "throttle_duration_sec" not specified'):
+        logger.info("x", throttle_time_source_type=ROSClock())
+
+
+def test_a_place_in_the_code_keeps_its_severity():
+    def log(severity):
+        get_logger("arm").log("x", severity, once=True)
+
+    log(LoggingSeverity.INFO)
+    with pytest.raises(ValueError, match="Logger severity cannot be changed between calls"):
+        log(LoggingSeverity.ERROR)
+
+
+def test_format_can_be_chosen(capfd, monkeypatch):
+    monkeypatch.setenv("RCUTILS_CONSOLE_OUTPUT_FORMAT", "{severity}|{name}|{message}|{function_name}|{other}")
+    get_logger("arm").info("{name}")
+    assert capfd.readouterr().err == "INFO|arm|{name}|test_format_can_be_chosen|{other}\n"
+
+
+def test_colors(capfd, monkeypatch):
+    get_logger("arm").error("plain")
+    assert "\033" not in capfd.readouterr().err
+    monkeypatch.setenv("RCUTILS_COLORIZED_OUTPUT", "1")
+    get_logger("arm").error("red")
+    assert capfd.readouterr().err.startswith("\033[31m[ERROR]")
+    monkeypatch.setenv("RCUTILS_COLORIZED_OUTPUT", "0")
+    terminal = io.StringIO()
+    terminal.isatty = lambda: True
+    monkeypatch.setattr("sys.stderr", terminal)
+    get_logger("arm").error("plain")
+    assert "\033" not in terminal.getvalue()
+
+
+def test_stdout_on_request(capfd, monkeypatch):
+    monkeypatch.setenv("RCUTILS_LOGGING_USE_STDOUT", "1")
+    get_logger("arm").info("moving")
+    assert "moving" in capfd.readouterr().out
+
+
+def test_sinks_get_the_records_of_children():
+    records = []
+    console.sinks["arm"] = records.append
+    try:
+        get_logger("arm.hand").info("closing")
+        get_logger("armada").info("sailing")
+    finally:
+        del console.sinks["arm"]
+    assert [record.message for record in records] == ["closing"]
+
+
+def test_severity_from_text():
+    assert rclpy.logging.get_logging_severity_from_string("warn") is LoggingSeverity.WARN
+    with pytest.raises(RuntimeError, match="no logging severity 'loud'"):
+        rclpy.logging.get_logging_severity_from_string("loud")

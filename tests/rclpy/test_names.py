@@ -1,0 +1,80 @@
+"""Rules of names, and their expansion."""
+
+import pytest
+
+from rclpy.exceptions import (
+    InvalidNamespaceException,
+    InvalidNodeNameException,
+    InvalidServiceNameException,
+    InvalidTopicNameException,
+)
+from rclpy.expand_topic_name import expand_topic_name
+from rclpy.validate_full_topic_name import validate_full_topic_name
+from rclpy.validate_namespace import validate_namespace
+from rclpy.validate_node_name import validate_node_name
+from rclpy.validate_topic_name import validate_topic_name
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("/a/b", "/a/b"),
+        ("a", "/ns/a"),
+        ("~", "/ns/arm"),
+        ("~/a", "/ns/arm/a"),
+        ("{node}/a", "/ns/arm/a"),
+        ("/x{namespace}/a", "/x/ns/a"),
+    ],
+)
+def test_expansion(name, expected):
+    assert expand_topic_name(name, "arm", "/ns") == expected
+
+
+def test_root_namespace():
+    assert expand_topic_name("a", "arm", "/") == "/a"
+    assert expand_topic_name("~/a", "arm", "/") == "/arm/a"
+
+
+@pytest.mark.parametrize("name", ["", "a b", "a//b", "a/", "1a", "a/1b", "~a", "a~", "a{", "{1}", "{a b}", "a-b"])
+def test_bad_topic_names(name):
+    with pytest.raises(InvalidTopicNameException, match="Invalid topic name"):
+        validate_topic_name(name)
+    with pytest.raises(InvalidServiceNameException, match="Invalid service name"):
+        validate_topic_name(name, is_service=True)
+
+
+def test_unknown_substitution():
+    with pytest.raises(InvalidTopicNameException, match="unknown substitution"):
+        expand_topic_name("{robot}/a", "arm", "/")
+
+
+def test_error_points_at_the_place():
+    with pytest.raises(InvalidTopicNameException) as caught:
+        validate_topic_name("ab cd")
+    assert str(caught.value).splitlines()[1:] == ["  'ab cd'", "     ^"]
+
+
+@pytest.mark.parametrize("name", ["a", "/a/{b}", "~/a"])
+def test_full_names_have_everything_filled_in(name):
+    with pytest.raises(InvalidTopicNameException):
+        validate_full_topic_name(name)
+
+
+def test_good_names_pass():
+    assert validate_full_topic_name("/tf_static")
+    assert validate_topic_name("~/a_1/{node}")
+    assert validate_node_name("arm_1")
+    assert validate_namespace("/")
+    assert validate_namespace("/a/b_2")
+
+
+@pytest.mark.parametrize("name", ["", "1a", "a/b", "a b"])
+def test_bad_node_names(name):
+    with pytest.raises(InvalidNodeNameException):
+        validate_node_name(name)
+
+
+@pytest.mark.parametrize("name", ["", "a", "/a/", "//a", "/1a", "/a b"])
+def test_bad_namespaces(name):
+    with pytest.raises(InvalidNamespaceException):
+        validate_namespace(name)

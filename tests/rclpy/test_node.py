@@ -1,0 +1,143 @@
+"""Nodes: names, what they have, and their end."""
+
+import pytest
+
+import rclpy
+from rclpy.context import Context
+from rclpy.exceptions import (
+    InvalidHandle,
+    InvalidNodeNameException,
+    InvalidParameterTypeException,
+    InvalidTopicNameException,
+    NotInitializedException,
+    NoTypeSupportImportedException,
+)
+from rclpy.executors import SingleThreadedExecutor
+from std_msgs.msg import String
+
+
+def test_names(make_node):
+    node = make_node("arm", namespace="robot1")
+    assert node.get_name() == "arm"
+    assert node.get_namespace() == "/robot1"
+    assert node.get_fully_qualified_name() == "/robot1/arm"
+    assert node.get_logger().name == "robot1.arm"
+    assert node.resolve_topic_name("~/state") == "/robot1/arm/state"
+
+
+def test_command_line_of_the_node_and_of_the_process(domain_id):
+    context = Context()
+    context.init(["prog", "--ros-args", "-r", "__ns:=/fleet", "-r", "a:=b", "-p", "x:=1"], domain_id=domain_id)
+    node = rclpy.create_node("arm", context=context, cli_args=["--ros-args", "-r", "__node:=leg", "-r", "a:=c"])
+    assert node.get_fully_qualified_name() == "/fleet/leg"
+    assert node.resolve_topic_name("a") == "/fleet/c"
+    assert node.declare_parameter("x", 0).value == 1
+    other = rclpy.create_node("arm", context=context, use_global_arguments=False)
+    assert other.get_fully_qualified_name() == "/arm"
+    for each in (node, other):
+        each.destroy_node()
+    context.shutdown()
+
+
+def test_needs_init():
+    with pytest.raises(NotInitializedException, match=r"rclpy.init\(\) has not been called"):
+        rclpy.create_node("arm", context=Context())
+
+
+def test_bad_arguments_are_refused(make_node):
+    with pytest.raises(InvalidNodeNameException):
+        make_node("a b")
+    node = make_node()
+    with pytest.raises(InvalidTopicNameException):
+        node.create_publisher(String, "a b", 10)
+    with pytest.raises(NoTypeSupportImportedException):
+        node.create_publisher(int, "a", 10)
+    with pytest.raises(NoTypeSupportImportedException):
+        node.create_service(String, "a", lambda _, response: response)
+    with pytest.raises(ValueError, match="frequency must be > 0"):
+        node.create_rate(0)
+
+
+def test_nodes_that_fail_leave_nothing_behind(make_node):
+    with pytest.raises(InvalidParameterTypeException, match=r"value \(5\) for parameter 'use_sim_time'"):
+        make_node("failed", cli_args=["--ros-args", "-p", "use_sim_time:=5"])
+    assert make_node().get_node_names() == ["tester"]
+
+
+def test_entities_come_and_go(node):
+    publisher = node.create_publisher(String, "a", 10)
+    timer = node.create_timer(1.0, lambda: None)
+    assert list(node.publishers) == [publisher]
+    assert list(node.timers) == [timer]
+    assert node.destroy_publisher(publisher)
+    assert not node.destroy_publisher(publisher)
+    with pytest.raises(InvalidHandle):
+        publisher.publish(String())
+    assert list(node.publishers) == []
+
+
+def test_destroying_twice_is_fine(node):
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    node.destroy_node()
+    node.destroy_node()
+    assert executor.get_nodes() == []
+    with pytest.raises(InvalidHandle):
+        node.create_publisher(String, "a", 10)
+
+
+def test_graph(make_node, wait_until):
+    talker, listener = make_node("talker", namespace="/a"), make_node("listener")
+    publisher = talker.create_publisher(String, "/chatter", 10)
+    listener.create_subscription(String, "/chatter", lambda _: None, 10)
+    wait_until(lambda: listener.count_publishers("/chatter") == 1 and publisher.get_subscription_count() == 1)
+    assert talker.count_subscribers("chatter") == 0
+    assert talker.count_subscribers("/chatter") == 1
+    assert ("/chatter", ["std_msgs/msg/String"]) in listener.get_topic_names_and_types()
+    assert ("rt/chatter", ["std_msgs::msg::dds_::String_"]) in listener.get_topic_names_and_types(no_demangle=True)
+    wait_until(lambda: ("talker", "/a") in listener.get_node_names_and_namespaces())
+    assert {"talker", "listener"} <= set(listener.get_node_names())
+    assert "/a/talker" in listener.get_fully_qualified_node_names()
+    [info] = listener.get_publishers_info_by_topic("/chatter")
+    assert (info.node_name, info.node_namespace, info.topic_type) == ("talker", "/a", "std_msgs/msg/String")
+    assert ("/chatter", ["std_msgs/msg/String"]) in listener.get_publisher_names_and_types_by_node("talker", "/a")
+
+
+def test_context_of_its_own(domain_id):
+    with rclpy.init(args=[], context=Context(), domain_id=domain_id) as started:
+        context = started.context
+        assert context.ok()
+        assert context.get_domain_id() == domain_id
+        with pytest.raises(RuntimeError, match="must only be called once"):
+            context.init([])
+    assert not context.ok()
+    context.try_shutdown()
+    with pytest.raises(RuntimeError, match="already called"):
+        context.shutdown()
+
+
+def test_context_manager_and_callbacks():
+    calls = []
+    with Context() as context:
+        context.on_shutdown(lambda: calls.append(context.ok()))
+        assert context.ok()
+    assert calls == [False]
+    with pytest.raises(RuntimeError, match="must be initialized before"):
+        Context().shutdown()
+    with pytest.raises(RuntimeError, match="should not be lower than zero"):
+        Context().init([], domain_id=-1)
+
+
+@pytest.mark.usefixtures("domain_id")
+def test_init_and_shutdown_can_be_repeated():
+    for _ in range(2):
+        rclpy.init(args=[])
+        assert rclpy.ok()
+        node = rclpy.create_node("again")
+        rclpy.spin_once(node, timeout_sec=0)
+        node.destroy_node()
+        rclpy.shutdown()
+        assert not rclpy.ok()
+    rclpy.try_shutdown()
+    with pytest.raises(RuntimeError, match="must be initialized"):
+        rclpy.shutdown()

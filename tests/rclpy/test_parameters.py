@@ -1,0 +1,181 @@
+"""Parameters of a node."""
+
+import pytest
+
+from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult
+from rclpy.exceptions import (
+    InvalidParameterException,
+    InvalidParameterTypeException,
+    InvalidParameterValueException,
+    ParameterAlreadyDeclaredException,
+    ParameterImmutableException,
+    ParameterNotDeclaredException,
+    ParameterUninitializedException,
+)
+from rclpy.parameter import Parameter, get_parameter_value, parameter_value_to_python
+
+VALUES = [
+    (True, Parameter.Type.BOOL),
+    (5, Parameter.Type.INTEGER),
+    (5.0, Parameter.Type.DOUBLE),
+    ("x", Parameter.Type.STRING),
+    ([b"a"], Parameter.Type.BYTE_ARRAY),
+    ([True], Parameter.Type.BOOL_ARRAY),
+    ([1, 2], Parameter.Type.INTEGER_ARRAY),
+    ([1.0], Parameter.Type.DOUBLE_ARRAY),
+    (["x"], Parameter.Type.STRING_ARRAY),
+    (None, Parameter.Type.NOT_SET),
+]
+
+
+@pytest.mark.parametrize(("value", "kind"), VALUES)
+def test_types_are_found_and_survive_the_message(value, kind):
+    parameter = Parameter("p", value=value)
+    assert parameter.type_ is kind
+    assert Parameter.from_parameter_msg(parameter.to_parameter_msg()) == parameter
+
+
+def test_values_no_parameter_can_have():
+    with pytest.raises(TypeError, match="not one of the allowed types"):
+        Parameter("p", value={"a": 1})
+    with pytest.raises(TypeError):
+        Parameter("p", value=[1, "x"])
+    with pytest.raises(ValueError, match="do not agree"):
+        Parameter("p", Parameter.Type.INTEGER, 1.0)
+    with pytest.raises(TypeError, match="type must be an instance"):
+        Parameter("p", "integer", 1)
+
+
+def test_text_to_value():
+    assert get_parameter_value("5").integer_value == 5
+    assert parameter_value_to_python(get_parameter_value("[1, 2]")) == [1, 2]
+    assert parameter_value_to_python(get_parameter_value("[1, x]")) == "[1, x]"
+
+
+def test_declare_and_get(node):
+    assert node.declare_parameter("rate", 10.0).value == 10.0
+    assert node.get_parameter("rate").get_parameter_value().double_value == 10.0
+    assert node.has_parameter("rate")
+    assert node.get_parameter_type("rate") is Parameter.Type.DOUBLE
+    with pytest.raises(ParameterAlreadyDeclaredException, match="already declared"):
+        node.declare_parameter("rate", 10.0)
+    with pytest.raises(ParameterNotDeclaredException, match=r"undeclared parameter.*speed"):
+        node.get_parameter("speed")
+    with pytest.raises(InvalidParameterException):
+        node.declare_parameter("", 1)
+
+
+def test_declare_by_type(node):
+    node.declare_parameter("name", Parameter.Type.STRING)
+    with pytest.raises(ParameterUninitializedException):
+        node.get_parameter("name")
+    assert node.get_parameter_or("name", Parameter("name", value="x")).value == "x"
+    assert node.get_parameter_or("nothing").value is None
+    assert node.set_parameters([Parameter("name", value="y")])[0].successful
+    assert node.get_parameter("name").value == "y"
+
+
+def test_several_with_a_namespace_and_a_prefix(node):
+    node.declare_parameters("gain", [("p", 1.0), ("i", 2.0, ParameterDescriptor(description="integral")), ("d",)])
+    assert {name: parameter.value for name, parameter in node.get_parameters_by_prefix("gain").items()} == {
+        "p": 1.0,
+        "i": 2.0,
+        "d": None,
+    }
+    assert node.describe_parameter("gain.i").description == "integral"
+    assert [parameter.value for parameter in node.get_parameters(["gain.p", "gain.i"])] == [1.0, 2.0]
+    with pytest.raises(TypeError, match="Invalid parameter tuple"):
+        node.declare_parameters("", [(5,)])
+
+
+def test_overrides_win_over_defaults(make_node):
+    node = make_node(cli_args=["--ros-args", "-p", "a:=5", "-p", "b:=5"], parameter_overrides=[Parameter("b", value=7)])
+    assert node.declare_parameter("a", 1).value == 5
+    assert node.declare_parameter("b", 1).value == 7
+    node.undeclare_parameter("a")
+    assert node.declare_parameter("a", 1, ignore_override=True).value == 1
+
+
+def test_override_of_the_wrong_type(make_node):
+    node = make_node(cli_args=["--ros-args", "-p", "rate:=fast"])
+    with pytest.raises(
+        InvalidParameterTypeException, match="Trying to set parameter 'rate' to 'fast' of type 'STRING'"
+    ):
+        node.declare_parameter("rate", 10)
+    assert not node.has_parameter("rate")
+
+
+def test_automatic_declaration(make_node):
+    node = make_node(
+        cli_args=["--ros-args", "-p", "zeros.joint1:=1.5"], automatically_declare_parameters_from_overrides=True
+    )
+    assert node.get_parameters_by_prefix("zeros")["joint1"].value == 1.5
+
+
+def test_undeclared_ones_where_allowed(make_node):
+    node = make_node(allow_undeclared_parameters=True)
+    assert node.get_parameter("x").type_ is Parameter.Type.NOT_SET
+    assert node.set_parameters([Parameter("x", value=1)])[0].successful
+    assert node.get_parameter("x").value == 1
+
+
+def test_set_checks_type_range_and_read_only(node):
+    node.declare_parameter(
+        "count", 5, ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=10, step=5)])
+    )
+    node.declare_parameter(
+        "gain", 0.5, ParameterDescriptor(floating_point_range=[FloatingPointRange(from_value=0.0, to_value=1.0)])
+    )
+    node.declare_parameter("fixed", 1, ParameterDescriptor(read_only=True))
+    results = node.set_parameters(
+        [
+            Parameter("count", value=10),
+            Parameter("count", value=7),
+            Parameter("count", value=11),
+            Parameter("count", value="x"),
+            Parameter("gain", value=1.5),
+            Parameter("fixed", value=2),
+        ]
+    )
+    assert [result.successful for result in results] == [True, False, False, False, False, False]
+    assert "multiple of the step" in results[1].reason
+    assert "out of range. Min: 0, Max: 10, value: 11" in results[2].reason
+    assert results[3].reason == "Wrong parameter type, expected 'INTEGER' got 'STRING'"
+    assert "read-only" in results[5].reason
+    with pytest.raises(ParameterImmutableException):
+        node.undeclare_parameter("fixed")
+    with pytest.raises(InvalidParameterValueException, match="out of range"):
+        node.declare_parameter("bad", 7, ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=1)]))
+    with pytest.raises(ParameterNotDeclaredException):
+        node.set_parameters([Parameter("unknown", value=1)])
+
+
+def test_all_or_nothing(node):
+    node.declare_parameters("", [("a", 1), ("b", 2)])
+    assert not node.set_parameters_atomically([Parameter("a", value=5), Parameter("b", value="x")]).successful
+    assert node.get_parameter("a").value == 1
+    assert node.set_parameters_atomically([Parameter("a", value=5), Parameter("b", value=6)]).successful
+    assert node.get_parameter("b").value == 6
+
+
+def test_callbacks_decide(node):
+    node.declare_parameter("a", 1)
+
+    def refuse_big(parameters):
+        big = [parameter.name for parameter in parameters if parameter.value > 10]
+        return SetParametersResult(successful=not big, reason="too big" if big else "")
+
+    node.add_on_set_parameters_callback(refuse_big)
+    [result] = node.set_parameters([Parameter("a", value=11)])
+    assert (result.successful, result.reason) == (False, "too big")
+    node.remove_on_set_parameters_callback(refuse_big)
+    assert node.set_parameters([Parameter("a", value=11)])[0].successful
+
+
+def test_new_descriptor(node):
+    node.declare_parameter("a", 20)
+    limits = ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=10)])
+    with pytest.raises(InvalidParameterValueException):
+        node.set_descriptor("a", limits)
+    assert node.set_descriptor("a", limits, Parameter("a", value=3).get_parameter_value()).integer_value == 3
+    assert node.get_parameter("a").value == 3

@@ -1,0 +1,92 @@
+"""Profiles of the quality of service."""
+
+import pytest
+
+from rclpy.duration import Duration
+from rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    InvalidQoSProfileException,
+    LivelinessPolicy,
+    QoSCompatibility,
+    QoSDurabilityPolicy,
+    QoSHistoryPolicy,
+    QoSLivelinessPolicy,
+    QoSPresetProfiles,
+    QoSProfile,
+    QoSReliabilityPolicy,
+    ReliabilityPolicy,
+    qos_check_compatible,
+    qos_from,
+    qos_profile_sensor_data,
+    qos_profile_system_default,
+)
+
+
+def test_depth_alone_is_keep_last_reliable_volatile():
+    profile = QoSProfile(depth=7)
+    assert profile.history is HistoryPolicy.KEEP_LAST
+    assert profile.reliability is ReliabilityPolicy.RELIABLE
+    assert profile.durability is DurabilityPolicy.VOLATILE
+    assert profile.depth == 7
+
+
+def test_incomplete_profiles_are_refused():
+    with pytest.raises(InvalidQoSProfileException, match="History and/or depth settings are required"):
+        QoSProfile()
+    with pytest.raises(InvalidQoSProfileException, match="KEEP_LAST without a depth setting"):
+        QoSProfile(history=HistoryPolicy.KEEP_LAST)
+    assert QoSProfile(history=HistoryPolicy.KEEP_ALL).depth == 0
+
+
+def test_wrong_types_are_refused():
+    with pytest.raises(AssertionError, match="nonsense"):
+        QoSProfile(depth=1, nonsense=2)
+    with pytest.raises(AssertionError):
+        QoSProfile(depth="1")
+    with pytest.raises(AssertionError):
+        QoSProfile(depth=-1)
+    with pytest.raises(AssertionError):
+        QoSProfile(depth=1, deadline=1.0)
+    with pytest.raises(ValueError, match="17"):
+        QoSProfile(depth=1, durability=17)
+
+
+def test_both_spellings_are_one_class():
+    assert QoSHistoryPolicy is HistoryPolicy
+    assert QoSReliabilityPolicy is ReliabilityPolicy
+    assert QoSDurabilityPolicy is DurabilityPolicy
+    assert QoSLivelinessPolicy is LivelinessPolicy
+    assert QoSDurabilityPolicy.RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL is DurabilityPolicy.TRANSIENT_LOCAL
+
+
+def test_short_names():
+    assert "keep_last" in HistoryPolicy.short_keys()
+    assert HistoryPolicy.get_from_short_key("SYSTEM_DEFAULT") == HistoryPolicy.SYSTEM_DEFAULT.value
+    assert DurabilityPolicy.TRANSIENT_LOCAL.short_key == "transient_local"
+    assert QoSPresetProfiles.get_from_short_key("system_default") is qos_profile_system_default
+    assert QoSPresetProfiles.SENSOR_DATA.value is qos_profile_sensor_data
+
+
+def test_profiles_are_values():
+    assert QoSProfile(depth=1) == QoSProfile(depth=1)
+    assert QoSProfile(depth=1) != QoSProfile(depth=2)
+    assert QoSProfile(depth=1, lifespan=Duration(seconds=1)) != QoSProfile(depth=1)
+    assert QoSProfile(depth=1) != 1
+    assert "depth=1" in repr(QoSProfile(depth=1))
+
+
+def test_numbers_are_depths():
+    assert qos_from(3) == QoSProfile(depth=3)
+    with pytest.raises(ValueError, match="greater than or equal to zero"):
+        qos_from(-1)
+    with pytest.raises(TypeError, match="Expected QoSProfile or int"):
+        qos_from("sensor_data")
+
+
+def test_compatibility():
+    reliable, best_effort = QoSProfile(depth=1), qos_profile_sensor_data
+    assert qos_check_compatible(reliable, best_effort) == (QoSCompatibility.OK, "")
+    verdict, reason = qos_check_compatible(best_effort, reliable)
+    assert verdict is QoSCompatibility.ERROR
+    assert "Best effort publisher and reliable subscription" in reason

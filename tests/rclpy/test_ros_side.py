@@ -1,0 +1,31 @@
+"""No mixture of our ROS packages with others'."""
+
+import pytest
+
+from coframe import ros_side
+
+
+def test_ours_alone_is_fine():
+    assert ros_side.foreign_packages() == {}
+    ros_side.check()
+
+
+def test_half_a_ros_before_ours_is_refused(tmp_path):
+    package = tmp_path / "geometry_msgs"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    path = [str(tmp_path), str(ros_side.ours())]
+    assert ros_side.foreign_packages(path) == {"geometry_msgs": str(tmp_path)}
+    with pytest.raises(ImportError, match=r"geometry_msgs would come from .*source a complete ROS 2 so that"):
+        ros_side.check(path)
+
+
+def test_what_comes_after_ours_does_not_matter(tmp_path):
+    (tmp_path / "rclpy").mkdir()
+    (tmp_path / "rclpy" / "__init__.py").touch()
+    ros_side.check([str(ros_side.ours()), str(tmp_path)])
+
+
+def test_folders_without_code_do_not_matter(tmp_path):
+    (tmp_path / "std_msgs").mkdir()
+    ros_side.check([str(tmp_path), str(ros_side.ours())])

@@ -1,0 +1,137 @@
+"""Services and clients, and the services of parameters."""
+
+import threading
+
+import pytest
+
+import rclpy
+from rcl_interfaces.srv import GetParameters, ListParameters, SetParameters
+from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.parameter import Parameter
+from std_srvs.srv import SetBool, Trigger
+
+
+def answer(request, response):
+    response.success = request.data
+    response.message = f"got {request.data}"
+    return response
+
+
+@pytest.fixture
+def executor(node):
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    return executor
+
+
+def test_call_async(node, executor):
+    node.create_service(SetBool, "switch", answer)
+    client = node.create_client(SetBool, "switch")
+    assert client.wait_for_service(timeout_sec=10)
+    assert client.service_is_ready()
+    assert ("/switch", ["std_srvs/srv/SetBool"]) in node.get_service_names_and_types()
+    futures = [client.call_async(SetBool.Request(data=value)) for value in (True, False, True)]
+    for future in futures:
+        executor.spin_until_future_complete(future, timeout_sec=10)
+    assert [future.result().success for future in futures] == [True, False, True]
+
+
+def test_clients_get_their_own_answers(node, executor):
+    node.create_service(SetBool, "switch", answer)
+    clients = [node.create_client(SetBool, "switch") for _ in range(2)]
+    assert all(client.wait_for_service(timeout_sec=10) for client in clients)
+    futures = [client.call_async(SetBool.Request(data=index == 0)) for index, client in enumerate(clients)]
+    for future in futures:
+        executor.spin_until_future_complete(future, timeout_sec=10)
+    assert [future.result().message for future in futures] == ["got True", "got False"]
+
+
+def test_nobody_there(node):
+    client = node.create_client(SetBool, "nowhere")
+    assert not client.service_is_ready()
+    assert not client.wait_for_service(timeout_sec=0.05)
+    assert client.call(SetBool.Request(), timeout_sec=0.05) is None
+    with pytest.raises(TypeError, match="Expected"):
+        client.call_async(SetBool.Response())
+
+
+def test_blocking_call_from_another_thread(node, executor):
+    node.create_service(SetBool, "switch", answer)
+    client = node.create_client(SetBool, "switch")
+    assert client.wait_for_service(timeout_sec=10)
+    results = []
+    thread = threading.Thread(target=lambda: results.append(client.call(SetBool.Request(data=True), timeout_sec=10)))
+    thread.start()
+    while thread.is_alive():
+        executor.spin_once(timeout_sec=0.05)
+    assert results[0].success
+
+
+def test_blocking_call_inside_a_callback(make_node, wait_until):
+    node = make_node()
+    pool = MultiThreadedExecutor(3, context=node.context)
+    pool.add_node(node)
+    node.create_service(SetBool, "switch", answer, callback_group=MutuallyExclusiveCallbackGroup())
+    client = node.create_client(SetBool, "switch", callback_group=MutuallyExclusiveCallbackGroup())
+    assert client.wait_for_service(timeout_sec=10)
+    results = []
+    guard = node.create_guard_condition(lambda: results.append(client.call(SetBool.Request(data=True), timeout_sec=10)))
+    guard.trigger()
+    wait_until(lambda: results, lambda: pool.spin_once(timeout_sec=0.1))
+    assert results[0].success
+    pool.shutdown(timeout_sec=10)
+
+
+def test_await_inside_a_callback(node, executor):
+    inner = MutuallyExclusiveCallbackGroup()
+    node.create_service(SetBool, "inner", answer, callback_group=inner)
+    client = node.create_client(SetBool, "inner", callback_group=inner)
+
+    async def outer(_, response):
+        response.success = (await client.call_async(SetBool.Request(data=True))).success
+        return response
+
+    node.create_service(Trigger, "outer", outer)
+    caller = node.create_client(Trigger, "outer", callback_group=inner)
+    assert client.wait_for_service(timeout_sec=10)
+    assert caller.wait_for_service(timeout_sec=10)
+    future = caller.call_async(Trigger.Request())
+    executor.spin_until_future_complete(future, timeout_sec=10)
+    assert future.result().success
+
+
+def test_forgotten_answers_reach_the_spinner(node, executor):
+    node.create_service(SetBool, "switch", lambda _request, _response: None)
+    client = node.create_client(SetBool, "switch")
+    assert client.wait_for_service(timeout_sec=10)
+    future = client.call_async(SetBool.Request())
+    with pytest.raises(TypeError, match="Expected"):
+        executor.spin_until_future_complete(future, timeout_sec=10)
+
+
+def test_parameter_services(context, make_node, executor):
+    served = rclpy.create_node("served", context=context)
+    served.declare_parameters("", [("rate", 5), ("gain.p", 1.0)])
+    executor.add_node(served)
+    node = make_node("asker")
+    executor.add_node(node)
+
+    def call(srv_type, name, **fields):
+        client = node.create_client(srv_type, f"/served/{name}")
+        assert client.wait_for_service(timeout_sec=10)
+        future = client.call_async(srv_type.Request(**fields))
+        executor.spin_until_future_complete(future, timeout_sec=10)
+        return future.result()
+
+    listed = call(ListParameters, "list_parameters").result
+    assert set(listed.names) == {"use_sim_time", "rate", "gain.p"}
+    assert listed.prefixes == ["gain"]
+    assert call(ListParameters, "list_parameters", prefixes=["gain"]).result.names == ["gain.p"]
+    values = call(GetParameters, "get_parameters", names=["rate", "unknown"]).values
+    assert [(value.type, value.integer_value) for value in values] == [(2, 5), (0, 0)]
+    messages = [Parameter("rate", value=7).to_parameter_msg(), Parameter("unknown", value=7).to_parameter_msg()]
+    results = call(SetParameters, "set_parameters", parameters=messages).results
+    assert [result.successful for result in results] == [True, False]
+    assert served.get_parameter("rate").value == 7
+    served.destroy_node()

@@ -1,0 +1,200 @@
+"""The ends of programs: Ctrl-C, SIGTERM, shutdown elsewhere, and programs that forget it."""
+
+import signal
+
+import pytest
+
+NODE = """
+import threading, time
+import rclpy
+from rclpy.node import Node
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, SingleThreadedExecutor
+from std_msgs.msg import String
+
+rclpy.init()
+node = Node("ender")
+node.create_timer(0.01, lambda: None)
+"""
+
+CAREFUL = (
+    NODE
+    + """
+print("ready")
+try:
+    rclpy.spin(node)
+except KeyboardInterrupt:
+    print("interrupted")
+finally:
+    node.destroy_node()
+    rclpy.shutdown()
+print("end")
+"""
+)
+
+CARELESS = (
+    NODE
+    + """
+print("ready")
+rclpy.spin(node)
+node.destroy_node()
+rclpy.shutdown()
+print("end")
+"""
+)
+
+BLOCKED = {
+    "spin": "rclpy.spin(node)",
+    "pool": "executor = MultiThreadedExecutor(); executor.add_node(node); executor.spin()",
+    "spin_once": "while True: rclpy.spin_once(node)",
+    "sleep_for": "node.get_clock().sleep_for(rclpy.duration.Duration(seconds=60))",
+    "rate": "rate = node.create_rate(0.01); rate.sleep()",
+    "wait_for_service": "from std_srvs.srv import Trigger; node.create_client(Trigger, 'x').wait_for_service()",
+    "threads": ("thread = threading.Thread(target=lambda: rclpy.spin(node)); thread.start(); time.sleep(60)"),
+}
+
+
+@pytest.fixture
+def ready(run_script, wait_until):
+    def start(text, *args):
+        script = run_script(text, *args)
+        wait_until(lambda: "ready" in script.output or script.process.poll() is not None, timeout=30)
+        assert "ready" in script.output, script.errors
+        return script
+
+    return start
+
+
+def test_ctrl_c_is_a_keyboard_interrupt(ready):
+    script = ready(CAREFUL)
+    script.process.send_signal(signal.SIGINT)
+    assert script.end() == 0
+    assert script.output.split() == ["ready", "interrupted", "end"]
+    assert script.errors == ""
+
+
+def test_sigterm_ends_the_spin(ready):
+    script = ready(CAREFUL)
+    script.process.send_signal(signal.SIGTERM)
+    assert script.end() == 0
+    assert script.output.split() == ["ready", "end"]
+    assert script.errors == ""
+
+
+def test_last_words_after_a_signal(ready):
+    script = ready(
+        f"{NODE}\npublisher = node.create_publisher(String, 'a', 10)\nprint('ready')\ntry:\n    rclpy.spin(node)\n"
+        "except KeyboardInterrupt:\n    publisher.publish(String(data='stop'))\n    print('said')\n"
+    )
+    script.process.send_signal(signal.SIGINT)
+    assert script.end() == 0
+    assert script.output.split() == ["ready", "said"]
+
+
+def test_uncaught_interrupt_is_silent(ready):
+    script = ready(CARELESS)
+    script.process.send_signal(signal.SIGINT)
+    assert script.end() in {130, -signal.SIGINT}
+    assert script.errors == ""
+
+
+@pytest.mark.parametrize("statement", BLOCKED.values(), ids=BLOCKED.keys())
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=["SIGINT", "SIGTERM"])
+def test_everything_that_blocks_ends_without_a_traceback(ready, statement, number):
+    if "time.sleep" in statement and number == signal.SIGTERM:
+        statement = statement.replace("time.sleep(60)", "thread.join()")
+    script = ready(f"{NODE}\nprint('ready')\n{statement}\n")
+    script.process.send_signal(number)
+    script.end()
+    assert script.errors == ""
+
+
+def test_other_exceptions_keep_their_traceback(ready):
+    script = ready(f"{NODE}\nprint('ready')\ntry:\n    rclpy.spin(node)\nexcept KeyboardInterrupt:\n    1 / 0\n")
+    script.process.send_signal(signal.SIGINT)
+    assert script.end() == 1
+    assert "ZeroDivisionError" in script.errors
+
+
+def test_interrupts_without_a_signal_keep_their_traceback(ready):
+    script = ready(f"{NODE}\nprint('ready')\nraise KeyboardInterrupt\n")
+    script.end()
+    assert "KeyboardInterrupt" in script.errors
+
+
+def test_shutdown_in_another_thread_ends_the_spin(ready):
+    script = ready(
+        f"{NODE}\nthreading.Timer(0.1, rclpy.shutdown).start()\nprint('ready')\nrclpy.spin(node)\nprint('end')\n"
+    )
+    assert script.end() == 0
+    assert script.output.split() == ["ready", "end"]
+    assert script.errors == ""
+
+
+def test_shutdown_in_a_callback_ends_the_spin(ready):
+    script = ready(f"{NODE}\nnode.create_timer(0.05, rclpy.shutdown)\nprint('ready')\nrclpy.spin(node)\nprint('end')\n")
+    assert script.end() == 0
+    assert script.output.split() == ["ready", "end"]
+
+
+@pytest.mark.parametrize(
+    "statement",
+    [
+        "",
+        "threading.Thread(target=rclpy.spin, args=(node,), daemon=True).start()",
+        "pool = MultiThreadedExecutor(); pool.add_node(node); threading.Thread(target=pool.spin, daemon=True).start()",
+    ],
+    ids=["idle", "spinning thread", "pool"],
+)
+def test_forgotten_shutdowns_do_not_hang(ready, statement):
+    script = ready(f"{NODE}\n{statement}\nprint('ready')\n")
+    assert script.end() == 0
+    assert script.errors == ""
+
+
+def test_signals_are_python_s_again_after_the_shutdown(ready):
+    script = ready(
+        "import signal, sys, rclpy\nbefore = signal.getsignal(signal.SIGINT), sys.excepthook\nrclpy.init()\n"
+        "assert signal.getsignal(signal.SIGINT) is not before[0]\nrclpy.shutdown()\n"
+        "assert (signal.getsignal(signal.SIGINT), sys.excepthook) == before\nprint('ready')\n"
+    )
+    assert script.end() == 0
+
+
+def test_signals_can_be_left_alone(ready):
+    script = ready(
+        "import signal, rclpy\nfrom rclpy.signals import SignalHandlerOptions\n"
+        "before = signal.getsignal(signal.SIGINT)\n"
+        "rclpy.init(signal_handler_options=SignalHandlerOptions.NO)\n"
+        "assert signal.getsignal(signal.SIGINT) is before\nprint('ready')\n"
+    )
+    assert script.end() == 0
+
+
+def test_a_user_s_own_handler_is_called_too(ready):
+    script = ready(
+        "import signal, rclpy\nsignal.signal(signal.SIGINT, lambda *_: print('mine'))\nrclpy.init()\n"
+        "node = rclpy.create_node('ender')\nprint('ready')\nrclpy.spin(node)\nprint('end')\n"
+    )
+    script.process.send_signal(signal.SIGINT)
+    assert script.end() == 0
+    assert script.output.split() == ["ready", "mine", "end"]
+
+
+def test_command_line_reaches_the_node(ready):
+    script = ready(
+        "import rclpy\nrclpy.init()\nnode = rclpy.create_node('a')\n"
+        "print('ready', node.get_fully_qualified_name(), node.declare_parameter('x', 1).value)\n"
+        "node.get_logger().debug('shown')\n",
+        "--ros-args",
+        "-r",
+        "__node:=b",
+        "-r",
+        "__ns:=/c",
+        "-p",
+        "x:=2",
+        "--log-level",
+        "debug",
+    )
+    assert script.end() == 0
+    assert script.output == "ready /c/b 2\n"
+    assert "[DEBUG]" in script.errors
