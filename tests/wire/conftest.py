@@ -17,6 +17,16 @@ _PATIENCE = 20.0  # seconds; two cores that others use too
 
 
 @pytest.fixture
+def domain_id(domain_id: int, monkeypatch: pytest.MonkeyPatch) -> int:
+    """A domain that no earlier test of this process has left open: the numbers come round."""
+    number = domain_id
+    while number in Participant._instances:
+        number = 1 + number % 200
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
+    return number
+
+
+@pytest.fixture
 def participant(domain_id: int) -> Iterator[Participant]:
     """This process's participant in the test's own domain."""
     joined = Participant.get(domain_id)
@@ -43,11 +53,11 @@ def eventually() -> Callable[[Callable[[], object]], None]:
 
 
 class Child:
-    """A Python process that runs `code` and talks by lines."""
+    """A process that talks by lines."""
 
-    def __init__(self, code: str, environment: dict[str, str]) -> None:
+    def __init__(self, command: list[str], environment: dict[str, str]) -> None:
         self.process = subprocess.Popen(
-            [sys.executable, "-c", textwrap.dedent(code)],
+            command,
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
@@ -80,9 +90,46 @@ def child(domain_id: int) -> Iterator[Callable[..., Child]]:
     children: list[Child] = []
 
     def start(code: str, **environment: str) -> Child:
-        children.append(Child(code, {"ROS_DOMAIN_ID": str(domain_id), **environment}))
+        command = [sys.executable, "-c", textwrap.dedent(code)]
+        children.append(Child(command, {"ROS_DOMAIN_ID": str(domain_id), **environment}))
         return children[-1]
 
     yield start
     for started in children:
         started.kill()
+
+
+@pytest.fixture
+def beside_rosless(network, domain_id: int) -> Iterator[Callable[[str], None]]:
+    """Runs code with coframe and the independent program on a network of their own; fails where the code does.
+
+    The independent program sends on every interface it sees, so it never runs on the machine's own network.
+    """
+    pytest.importorskip("rosless", reason="an independent RTPS program")
+    started: list[Child] = []
+
+    def run(code: str) -> None:
+        command = network.command(sys.executable, "-c", _BESIDE_ROSLESS + textwrap.dedent(code))
+        started.append(Child(command, {"ROS_DOMAIN_ID": str(domain_id)}))
+        code_of_exit, errors = started[-1].finish()
+        assert code_of_exit == 0, errors
+
+    yield run
+    for process in started:
+        process.kill()
+
+
+_BESIDE_ROSLESS = """
+import time, rosless, coframe
+from coframe.messages import codec, find
+from coframe.wire import Participant, QoS
+STRING, TF_MESSAGE = find("std_msgs/msg/String"), find("tf2_msgs/msg/TFMessage")
+def eventually(condition):
+    deadline = time.monotonic() + 15
+    while not condition():
+        assert time.monotonic() < deadline, "waited in vain"
+        time.sleep(0.005)
+participant = Participant.get()
+node = participant.add_node("/", "tester")
+peer = rosless.Node(participant.domain_id)
+"""

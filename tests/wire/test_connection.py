@@ -25,7 +25,7 @@ def test_a_relative_topic_is_in_the_nodes_namespace(domain_id):
 
 
 def test_a_callback_runs_beside_the_program_and_survives_its_own_errors(domain_id, caplog):
-    heard, done = [], threading.Event()
+    heard, done, before = [], threading.Event(), set(threading.enumerate())
 
     def callback(message):
         heard.append(message.data)
@@ -42,7 +42,7 @@ def test_a_callback_runs_beside_the_program_and_survives_its_own_errors(domain_i
         assert done.wait(10)
     assert heard == ["hello", "bad", "end"]
     assert "on purpose" in caplog.text
-    assert not [thread for thread in threading.enumerate() if thread.name.startswith("coframe")]
+    assert not set(threading.enumerate()) - before
 
 
 def test_closing_ends_a_loop_over_a_subscription(domain_id):

@@ -7,8 +7,6 @@ from coframe.messages import codec, definition, find
 from coframe.wire import QoS, types
 from coframe.wire._native import Event
 
-rosless = pytest.importorskip("rosless", reason="an independent RTPS program")
-
 STRING = find("std_msgs/msg/String")
 
 ECHO = """
@@ -99,21 +97,20 @@ def test_bytes_of_another_type_are_refused(participant, node):
         publisher.write(b"\0\1")
 
 
-def test_an_independent_program_publishes_receives_and_lists(participant, node, eventually):
-    arrived = Event()
-    publisher = participant.publisher(node, "/ours", STRING, QoS())
-    subscription = participant.subscription(node, "/theirs", STRING, QoS(), on_data=arrived)
-    peer = rosless.Node(participant.domain_id)
-    theirs = peer.advertise("/theirs", "std_msgs/msg/String")
-    ours = peer.subscribe("/ours", "std_msgs/msg/String", reliability="reliable")
-    eventually(lambda: publisher.matched and subscription.matched and theirs.subscriber_count)
-    publisher.write(codec.serialize(STRING(data="from coframe")))
-    assert ours.read(10).data == "from coframe"
-    theirs.send({"data": "from rosless"})
-    eventually(subscription.pending)
-    eventually(lambda: [codec.deserialize(s.data, STRING).data for s in subscription.take()] == ["from rosless"])
-    listed = {topic.name: topic.type_name for topic in peer.graph().topics}
-    assert listed["/ours"] == listed["/theirs"] == "std_msgs/msg/String"
+def test_an_independent_program_publishes_receives_and_lists(beside_rosless):
+    beside_rosless("""
+        publisher = participant.publisher(node, "/ours", STRING, QoS())
+        subscription = participant.subscription(node, "/theirs", STRING, QoS())
+        theirs = peer.advertise("/theirs", "std_msgs/msg/String")
+        ours = peer.subscribe("/ours", "std_msgs/msg/String", reliability="reliable")
+        eventually(lambda: publisher.matched and subscription.matched and theirs.subscriber_count)
+        publisher.write(codec.serialize(STRING(data="from coframe")))
+        assert ours.read(10).data == "from coframe"
+        theirs.send({"data": "from rosless"})
+        eventually(lambda: [codec.deserialize(s.data, STRING).data for s in subscription.take()] == ["from rosless"])
+        listed = {topic.name: topic.type_name for topic in peer.graph().topics}
+        assert listed["/ours"] == listed["/theirs"] == "std_msgs/msg/String"
+    """)
 
 
 def test_service_messages_carry_rmws_header(participant, node):

@@ -84,14 +84,15 @@ def test_two_endpoints_of_this_process_are_told_of_once(participant, node, warni
     assert warnings[1].startswith("node /tester on /done publishes std_msgs/msg/Int32")
 
 
-def test_a_peer_without_a_name(participant, node, warnings, eventually):
-    rosless = pytest.importorskip("rosless", reason="an independent RTPS program")
-    participant.subscription(node, "/scan", STRING, QoS(), on_data=None)
-    peer = rosless.Node(participant.domain_id)
-    publisher = peer.advertise("/scan", "std_msgs/msg/String", reliability="best_effort")
-    eventually(lambda: warnings)
-    assert warnings[0].startswith("an unnamed node on /scan offers best-effort")
-    publisher.close()
+def test_a_peer_without_a_name(beside_rosless):
+    beside_rosless("""
+        warnings = []
+        participant.on_warning(warnings.append)
+        participant.subscription(node, "/scan", STRING, QoS())
+        publisher = peer.advertise("/scan", "std_msgs/msg/String", reliability="best_effort")
+        eventually(lambda: warnings)
+        assert warnings[0].startswith("an unnamed node on /scan offers best-effort"), warnings
+    """)
 
 
 def test_without_a_callback_the_log_has_it(participant, node, caplog, eventually):

@@ -52,10 +52,10 @@ def test_close_ends_all_threads(domain_id):
     participant = Participant.get(domain_id)
     node = participant.add_node("/", "tester")
     participant.tf_reader(node, "/tf", coframe.Buffer(), static=False)
-    assert wire_threads() == {f"coframe-wire-{domain_id}"}
+    assert f"coframe-wire-{domain_id}" in wire_threads()
     assert native_threads() > before
     participant.close()
-    assert not wire_threads()
+    assert f"coframe-wire-{domain_id}" not in wire_threads()
     assert native_threads() == before
 
 
@@ -94,6 +94,7 @@ def test_nodes_of_other_processes_are_seen_whatever_their_distribution(distro, c
     other = child(NODE_IN_A_CHILD.format(name="talker"), ROS_DISTRO=distro)
     eventually(lambda: ("/robot", "talker") in participant.nodes())
     eventually(lambda: participant.topics().get("/chatter") == ["std_msgs/msg/String"])
+    eventually(lambda: [publisher.node for publisher in participant.publishers("/chatter")] == ["talker"])
     (publisher,) = participant.publishers("/chatter")
     assert (publisher.namespace, publisher.node) == ("/robot", "talker")
     assert publisher.ros_type == "std_msgs/msg/String"
