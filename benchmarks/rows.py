@@ -56,6 +56,7 @@ class Tf2:
 
     def __init__(self):
         import genpy
+
         import tf2_py
         from geometry_msgs.msg import TransformStamped
 

@@ -63,6 +63,10 @@ def main() -> int:
     return 1 if stale else 0
 
 
+# Of the packages that users import: all of them come from here, or none.
+CHECK = "\nfrom coframe import ros_side\n\nros_side.check(__name__)\n"
+
+
 def generate() -> dict[Path, str]:
     """The text of every file."""
     files = {GENERATED / "__init__.py": '"""The message classes of each ROS package."""\n'}
@@ -70,7 +74,9 @@ def generate() -> dict[Path, str]:
         package = folder.name
         docstring = f'"""ROS package {package}."""\n'
         files[GENERATED / package / "__init__.py"] = docstring
-        files[ROS / package / "__init__.py"] = docstring
+        files[ROS / package / "__init__.py"] = (
+            f'{docstring}\nfrom coframe import ros_side\n\nros_side.check("{package}")\n'
+        )
         files[ROS / package / "py.typed"] = ""
         for kind in sorted(path.name for path in folder.iterdir()):
             module = Module(package, kind)

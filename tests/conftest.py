@@ -36,7 +36,10 @@ class Network:
     def __init__(self) -> None:
         self._rights = [] if os.geteuid() == 0 else ["--user", "--map-root-user"]
         self._holder = subprocess.Popen(
-            ["unshare", *self._rights, "--net", "sh", "-c", _UP], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+            ["unshare", *self._rights, "--net", "sh", "-c", _UP],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
         )
         if self._holder.stdout.readline() != "up\n":
             self.close()

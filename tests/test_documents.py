@@ -21,7 +21,8 @@ def blocks(document, language):
 
 
 @pytest.mark.parametrize("document", [d for d in DOCUMENTS if blocks(d, "python")], ids=lambda d: d.name)
-def test_python_examples_run_and_print_what_they_say(document, domain_id, capsys):
+@pytest.mark.usefixtures("domain_id")
+def test_python_examples_run_and_print_what_they_say(document, capsys):
     pytest.importorskip("cyclonedds", reason="some examples join the ROS graph")
     source = "\n".join(blocks(document, "python"))
     exec(compile(source, document.name, "exec"), {"__name__": document.name})  # the examples of one page go together

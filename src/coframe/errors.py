@@ -215,11 +215,9 @@ def _unknown_frame_hint(name: str, known: list[str]) -> str:
 
 def _not_connected_hint(failure: Failure) -> str:
     target_root, source_root = failure.roots or ("", "")
-    trees = [_tree_text(root, failure.parents) for root in (target_root, source_root)]
+    trees = " and ".join(_tree_text(root, failure.parents) for root in (target_root, source_root))
     return (
-        f"There are different trees: {' and '.join(trees)}. Nothing says where {source_root!r} is seen from the first, "
-        f"or {target_root!r} from the second: the missing link is a transform with the child {source_root!r} "
-        f"(or {target_root!r})."
+        f"The trees are {trees}. The missing link is a transform with the child {source_root!r} (or {target_root!r})."
     )
 
 

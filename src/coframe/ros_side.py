@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import sys
 from pathlib import Path
 from typing import Final
@@ -25,7 +26,6 @@ PACKAGES: Final = (
     "std_srvs",
     "action_msgs",
     "unique_identifier_msgs",
-    "tf_transformations",
 )
 
 
@@ -36,18 +36,19 @@ def ours() -> Path:
     return inside if inside.is_dir() else package.parent / "ros"
 
 
-def foreign_packages(path: list[str] | None = None) -> dict[str, str]:
+@functools.lru_cache(maxsize=1)  # every package of ours asks
+def foreign_packages(path: tuple[str, ...]) -> dict[str, str]:
     """Finds packages that would be imported from elsewhere.
 
     Args:
-        path: Folders in the order of the search; None: `sys.path`.
+        path: Folders in the order of the search, such as `sys.path`.
 
     Returns:
         Package -> the folder it would come from.
     """
     home = ours()
     found: dict[str, str] = {}
-    for entry in sys.path if path is None else path:
+    for entry in path:
         folder = Path(entry or ".")
         if folder.resolve() == home:
             break
@@ -57,22 +58,23 @@ def foreign_packages(path: list[str] | None = None) -> dict[str, str]:
     return found
 
 
-def check(path: list[str] | None = None) -> None:
+def check(importing: str, path: list[str] | None = None) -> None:
     """Refuses a mixture of our packages with those of a ROS installation.
 
     Args:
+        importing: Our package that is being imported.
         path: Folders in the order of the search; None: `sys.path`.
 
     Raises:
         ImportError: Some of the packages would come from elsewhere.
     """
-    found = foreign_packages(path)
+    found = foreign_packages(tuple(sys.path if path is None else path))
     if not found:
         return
     names = ", ".join(sorted(found))
     folders = ", ".join(sorted(set(found.values())))
     raise ImportError(
-        f"coframe's rclpy is being imported, but {names} would come from {folders}, and the two do not mix: source a "
-        "complete ROS 2 so that everything comes from there, or take that folder out of PYTHONPATH so that everything "
-        "comes from coframe"
+        f"coframe's {importing} is being imported, but {names} would come from {folders}, and the two do not mix: "
+        "source a complete ROS 2 so that everything comes from there, or take that folder out of PYTHONPATH so that "
+        "everything comes from coframe"
     )

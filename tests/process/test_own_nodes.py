@@ -40,7 +40,7 @@ class Tree:
                     parent, child = transform["header"]["frame_id"], transform["child_frame_id"]
                     t, r = transform["transform"]["translation"], transform["transform"]["rotation"]
                     values = [t["x"], t["y"], t["z"], r["x"], r["y"], r["z"], r["w"]]
-                    _, static, samples = self.links.setdefault(child, (parent, topic == "/tf_static", {}))
+                    _, _, samples = self.links.setdefault(child, (parent, topic == "/tf_static", {}))
                     samples[nanoseconds(transform)] = values
         self.links = {c: (p, static, sorted(samples.items())) for c, (p, static, samples) in self.links.items()}
 

@@ -10,20 +10,37 @@ Parameters:
     publish_arm: whether the arm moves from here (false: dynamic_tf_broadcaster or a robot tells)
     publish_mounts: whether the sensor mounts come from here (false: static_tf_broadcaster tells)
     link_lengths, base_height: of the arm, metres
+    world_frame, map_frame, odom_frame, base_frame, link1_frame, link2_frame, end_effector_frame: names of the frames
+    imu_frame, lidar_frame, camera_frame, gripper_frame: names of the mounts
     imu_translation, lidar_translation, camera_translation, gripper_translation: the mounts, metres
 """
 
 import math
+import sys
 from collections.abc import Sequence
 
 import rclpy
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
+from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.time import Time as ClockTime
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 
+FRAMES = {
+    "world": "world",
+    "map": "map",
+    "odom": "odom",
+    "base": "base_link",
+    "link1": "link1",
+    "link2": "link2",
+    "end_effector": "end_effector",
+    "imu": "imu_link",
+    "lidar": "lidar_link",
+    "camera": "camera_link",
+    "gripper": "gripper_link",
+}
 NO_MOVE = [0.0, 0.0, 0.0]
 NO_ROTATION = [0.0, 0.0, 0.0, 1.0]
 # A quarter turn about y: the camera's z axis looks along the gripper.
@@ -39,6 +56,9 @@ class CompleteTFTree(Node):
         if not rate > 0.0:
             raise ValueError(f"parameter 'rate' must be more than 0 per second, but is {rate}")
         self.period = 1.0 / rate
+        self.frames = {
+            frame: self.declare_parameter(f"{frame}_frame", default).value for frame, default in FRAMES.items()
+        }
         self.publish_base = self.declare_parameter("publish_base", True).value
         self.publish_arm = self.declare_parameter("publish_arm", True).value
         self.publish_mounts = self.declare_parameter("publish_mounts", True).value
@@ -72,11 +92,11 @@ class CompleteTFTree(Node):
         static_tfs = [self.make_transform("world", "map", NO_MOVE, NO_ROTATION)]
         if self.publish_mounts:
             static_tfs += [
-                self.make_transform("base_link", "imu_link", imu, NO_ROTATION),
-                self.make_transform("base_link", "lidar_link", lidar, NO_ROTATION),
-                self.make_transform("end_effector", "camera_link", camera, LOOK_FORWARD),
+                self.make_transform("base", "imu", imu, NO_ROTATION),
+                self.make_transform("base", "lidar", lidar, NO_ROTATION),
+                self.make_transform("end_effector", "camera", camera, LOOK_FORWARD),
             ]
-        static_tfs.append(self.make_transform("end_effector", "gripper_link", gripper, NO_ROTATION))
+        static_tfs.append(self.make_transform("end_effector", "gripper", gripper, NO_ROTATION))
 
         self.static_broadcaster.sendTransform(static_tfs)
         self.get_logger().info(f"Published {len(static_tfs)} static transforms")
@@ -108,7 +128,7 @@ class CompleteTFTree(Node):
         yaw = 0.1 * math.sin(0.2 * self.sim_time)
         return [
             self.make_transform("map", "odom", [drift, drift / 2, 0.0], NO_ROTATION, stamp),
-            self.make_transform("odom", "base_link", [x, y, 0.0], self.yaw_to_quat(yaw), stamp),
+            self.make_transform("odom", "base", [x, y, 0.0], self.yaw_to_quat(yaw), stamp),
         ]
 
     def arm_transforms(self, stamp: Time) -> list[TransformStamped]:
@@ -117,7 +137,7 @@ class CompleteTFTree(Node):
         q2 = 0.3 * math.sin(0.4 * self.sim_time + 0.5)
         first, second = self.link_lengths
         return [
-            self.make_transform("base_link", "link1", [0.0, 0.0, self.base_height], self.yaw_to_quat(q1), stamp),
+            self.make_transform("base", "link1", [0.0, 0.0, self.base_height], self.yaw_to_quat(q1), stamp),
             self.make_transform("link1", "link2", [first, 0.0, 0.0], self.yaw_to_quat(q2), stamp),
             self.make_transform("link2", "end_effector", [second, 0.0, 0.0], NO_ROTATION, stamp),
         ]
@@ -130,11 +150,11 @@ class CompleteTFTree(Node):
         rotation: Sequence[float],
         stamp: Time | None = None,
     ) -> TransformStamped:
-        """Create TransformStamped message; stamped now unless told otherwise."""
+        """Create TransformStamped message between two of FRAMES; stamped now unless told otherwise."""
         t = TransformStamped()
         t.header.stamp = stamp if stamp is not None else self.get_clock().now().to_msg()
-        t.header.frame_id = parent
-        t.child_frame_id = child
+        t.header.frame_id = self.frames[parent]
+        t.child_frame_id = self.frames[child]
         t.transform.translation.x = float(translation[0])
         t.transform.translation.y = float(translation[1])
         t.transform.translation.z = float(translation[2])
@@ -159,6 +179,8 @@ def main(args: list[str] | None = None) -> None:
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    except (ParameterException, ValueError) as error:
+        sys.exit(f"complete_tf_tree: {error}")
     finally:
         if node is not None:
             node.destroy_node()

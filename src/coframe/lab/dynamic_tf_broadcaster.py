@@ -14,9 +14,11 @@ Parameters:
 """
 
 import math
+import sys
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
+from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.time import Time
@@ -158,6 +160,8 @@ def main(args: list[str] | None = None) -> None:
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    except (ParameterException, ValueError) as error:
+        sys.exit(f"dynamic_tf_broadcaster: {error}")
     finally:
         if node is not None:
             node.destroy_node()

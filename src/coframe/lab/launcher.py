@@ -105,7 +105,7 @@ class Launcher:
         module = f"coframe.lab.{command.name}"
         arguments = ("--ros-args", *command.arguments) if command.arguments else ()
         with self._log(command.name).open("wb") as log:
-            return subprocess.Popen(
+            return subprocess.Popen(  # noqa: S603 - our own modules in our own Python
                 [sys.executable, "-m", module, *arguments],
                 stdin=subprocess.DEVNULL,
                 stdout=log,

@@ -14,6 +14,7 @@ Parameters:
     scan_topic, cloud_topic: where scans come from and clouds go to
 """
 
+import sys
 from array import array
 from collections import deque
 from typing import Any, NamedTuple
@@ -24,6 +25,7 @@ from numpy.typing import NDArray
 import rclpy
 from geometry_msgs.msg import TransformStamped
 from rclpy.duration import Duration
+from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -187,6 +189,8 @@ def main(args: list[str] | None = None) -> None:
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    except (ParameterException, ValueError) as error:
+        sys.exit(f"sensor_transform: {error}")
     finally:
         if node is not None:
             node.destroy_node()

@@ -17,12 +17,14 @@ Parameters:
 """
 
 import math
+import sys
 from array import array
 
 import numpy as np
 from numpy.typing import NDArray
 
 import rclpy
+from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.time import Time
@@ -165,6 +167,8 @@ def main(args: list[str] | None = None) -> None:
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    except (ParameterException, ValueError) as error:
+        sys.exit(f"simulated_lidar: {error}")
     finally:
         if node is not None:
             node.destroy_node()

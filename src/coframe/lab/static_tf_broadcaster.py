@@ -12,9 +12,11 @@ Parameters (lengths in metres, quaternions x, y, z, w):
 """
 
 import math
+import sys
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
+from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from tf2_ros import StaticTransformBroadcaster
@@ -78,6 +80,8 @@ def main(args: list[str] | None = None) -> None:
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    except (ParameterException, ValueError) as error:
+        sys.exit(f"static_tf_broadcaster: {error}")
     finally:
         if node is not None:
             node.destroy_node()

@@ -11,11 +11,13 @@ Parameters:
     pose_topic: where the pose is published
 """
 
+import sys
 from collections.abc import Sequence
 
 import rclpy
 from geometry_msgs.msg import PointStamped, PoseStamped
 from rclpy.duration import Duration
+from rclpy.exceptions import ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.time import Time
@@ -98,6 +100,8 @@ def main(args: list[str] | None = None) -> None:
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
+    except (ParameterException, ValueError) as error:
+        sys.exit(f"tf_listener: {error}")
     finally:
         if node is not None:
             node.destroy_node()

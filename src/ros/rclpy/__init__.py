@@ -15,10 +15,10 @@ from typing import TYPE_CHECKING, Any
 
 from coframe import ros_side
 
-ros_side.check()
+ros_side.check(__name__)
 
 # Users reach the modules as attributes: rclpy.time.Time after `import rclpy`.
-from rclpy import (  # noqa: E402 - the check comes first
+from rclpy import (
     callback_groups,
     client,
     clock,
@@ -54,16 +54,16 @@ from rclpy import (  # noqa: E402 - the check comes first
     validate_topic_name,
     wait_for_message,
 )
-from rclpy.context import Context  # noqa: E402
-from rclpy.executors import SingleThreadedExecutor  # noqa: E402
-from rclpy.parameter import Parameter  # noqa: E402
-from rclpy.signals import (  # noqa: E402
+from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
+from rclpy.signals import (
     SignalHandlerOptions,
     install_signal_handlers,
     uninstall_signal_handlers,
 )
-from rclpy.task import Future  # noqa: E402
-from rclpy.utilities import (  # noqa: E402
+from rclpy.task import Future
+from rclpy.utilities import (
     get_default_context,
     get_rmw_implementation_identifier,
     ok,

@@ -3,6 +3,11 @@
 Importing this package teaches `tf2_ros.Buffer.transform` the stamped types.
 """
 
+from coframe import ros_side
+
+ros_side.check(__name__)
+
+
 import tf2_ros
 from geometry_msgs.msg import (
     PointStamped,

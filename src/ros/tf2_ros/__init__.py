@@ -3,6 +3,11 @@
 Upstream's package has no `__all__`; programs import what its modules happen to import, so those names are here as well.
 """
 
+from coframe import ros_side
+
+ros_side.check(__name__)
+
+
 import threading
 import warnings
 from collections.abc import Callable
