@@ -1,4 +1,4 @@
-// The submodule coframe._core.wire: what coframe.wire stands on. Private.
+// DDS without the GIL: what coframe.wire stands on.
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
@@ -131,7 +131,8 @@ void define_readers(nb::module_& wire) {
   auto reader = nb::class_<PyReader>(wire, "Reader", "A DDS reader of serialised messages.");
   reader
       .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, std::shared_ptr<Event>>(),
-           nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("on_data").none(), ReleaseGil())
+           nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("on_data").none(),
+           ReleaseGil())
       .def("take", &take, nb::arg("limit"), "Up to `limit` tuples (bytes, source timestamp in ns, writer's handle).")
       .def_prop_ro("pending", &PyReader::pending, "Whether messages may be waiting.");
   define_reader_properties<PyReader>(reader);
@@ -163,10 +164,9 @@ void define_readers(nb::module_& wire) {
 
 }  // namespace
 
-void define_wire(nb::module_& module) {
-  nb::module_ wire = module.def_submodule("wire", "DDS without the GIL. Private: use `coframe.wire`.");
+void define_wire(nb::module_& wire) {
   nb::exception<dds::Error>(wire, "DdsError", PyExc_RuntimeError);
-  wire.def("load", &dds::load, nb::arg("path"), "Loads the DDS library; RuntimeError where it does not fit.");
+  wire.def("load_dds", &dds::load, nb::arg("path"), "Loads the DDS library; RuntimeError where it does not fit.");
   nb::class_<QosProfile>(wire, "QosProfile", "The four policies ROS programs set.")
       .def(
           "__init__",

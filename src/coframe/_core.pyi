@@ -240,3 +240,122 @@ def register_errors(errors: ModuleType) -> None:
 
 def register_time(time: ModuleType) -> None:
     """Stamps and durations that are not int are converted by this module."""
+
+PUBLICATIONS: int
+SUBSCRIPTIONS: int
+
+class DdsError(RuntimeError):
+    """DDS has refused something."""
+
+def load_dds(path: str) -> None:
+    """Loads the DDS library; RuntimeError where it does not fit."""
+
+class QosProfile:
+    """The four policies ROS programs set."""
+
+    def __init__(self, depth: int, reliable: bool, transient_local: bool, keep_all: bool) -> None: ...
+
+class DomainParticipant:
+    """A DDS domain of this process and a participant in it."""
+
+    def __init__(self, domain: int, config: str, user_data: str) -> None: ...
+    @property
+    def entity(self) -> int:
+        """DDS's number for the participant; 0 after close."""
+
+    @property
+    def guid(self) -> bytes: ...
+    def close(self) -> None:
+        """Ends the participant and DDS's threads."""
+
+class Writer:
+    """A DDS writer of serialised messages."""
+
+    def __init__(self, participant: int, topic: int, qos: QosProfile, user_data: str) -> None: ...
+    def write(self, message: bytes) -> None:
+        """Sends one serialised message, without the GIL."""
+
+    @property
+    def guid(self) -> bytes: ...
+    @property
+    def matched(self) -> int:
+        """How many readers the writer has found."""
+
+    def matched_handles(self) -> list[int]:
+        """The handles of those readers."""
+
+    @property
+    def refused_policy(self) -> int:
+        """DDS's number of the policy by which the last reader was refused; 0: none was."""
+
+    def close(self) -> None: ...
+
+class Reader:
+    """A DDS reader of serialised messages; the event is set whenever some arrive."""
+
+    def __init__(
+        self, participant: int, topic: int, qos: QosProfile, user_data: str, on_data: Event | None
+    ) -> None: ...
+    def take(self, limit: int) -> list[tuple[bytes, int, int]]:
+        """Up to `limit` tuples (bytes, source timestamp in ns, writer's handle)."""
+
+    @property
+    def pending(self) -> bool:
+        """Whether messages may be waiting."""
+
+    @property
+    def guid(self) -> bytes: ...
+    @property
+    def matched(self) -> int:
+        """How many writers the reader has found."""
+
+    def matched_handles(self) -> list[int]:
+        """The handles of those writers."""
+
+    @property
+    def refused_policy(self) -> int:
+        """DDS's number of the policy by which the last writer was refused; 0: none was."""
+
+    def close(self) -> None:
+        """Ends the reader; no callback runs afterwards."""
+
+class TfReader:
+    """Stores the transforms of a topic in a buffer, on DDS's thread and without the GIL."""
+
+    def __init__(
+        self,
+        participant: int,
+        topic: int,
+        qos: QosProfile,
+        user_data: str,
+        buffer: Buffer,
+        is_static: bool,
+        authority: str,
+    ) -> None: ...
+    def name_writer(self, writer: int, authority: str) -> None:
+        """The buffer notes `authority` for what the writer with this handle sends from now on."""
+
+    @property
+    def guid(self) -> bytes: ...
+    @property
+    def matched(self) -> int:
+        """How many writers the reader has found."""
+
+    def matched_handles(self) -> list[int]:
+        """The handles of those writers."""
+
+    @property
+    def refused_policy(self) -> int:
+        """DDS's number of the policy by which the last writer was refused; 0: none was."""
+
+    def close(self) -> None:
+        """Ends the reader; no callback runs afterwards."""
+
+class EndpointReader:
+    """What DDS discovery tells about writers (PUBLICATIONS) or readers (SUBSCRIPTIONS)."""
+
+    def __init__(self, participant: int, topic: int, on_change: Event) -> None: ...
+    def take(self) -> list[tuple[int, bool, bytes, bytes, str, str, tuple[int, bool, bool, bool]]]:
+        """(handle, alive, guid, participant guid, topic, type, (depth, reliable, transient_local, keep_all)) a change."""
+
+    def close(self) -> None: ...

@@ -309,7 +309,10 @@ def test_a_listener_without_a_node_has_one_of_its_own(domain_id, stamped):
         buffer = tf2_ros.Buffer()
         listener = tf2_ros.TransformListener(buffer)
         assert listener.node.get_name().startswith("transform_listener_impl_")
-        tf2_ros.StaticTransformBroadcaster(rclpy.create_node("talker")).sendTransform(stamped("a", "b"))
+        talker = rclpy.create_node("talker")
+        tf2_ros.StaticTransformBroadcaster(talker).sendTransform(stamped("a", "b"))
         assert buffer.can_transform("a", "b", Time(), ENOUGH)
+        talker.destroy_node()
+        listener.node.destroy_node()
     finally:
         rclpy.shutdown()

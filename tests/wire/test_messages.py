@@ -3,9 +3,9 @@ import struct
 import pytest
 
 from coframe import WireError
+from coframe._core import Event
 from coframe.messages import codec, definition, find
 from coframe.wire import QoS, types
-from coframe.wire._native import Event
 
 STRING = find("std_msgs/msg/String")
 

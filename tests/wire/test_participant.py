@@ -9,9 +9,9 @@ import pytest
 
 import coframe
 from coframe import WireError
+from coframe._core import Event
 from coframe.messages import find
 from coframe.wire import Participant, QoS
-from coframe.wire._native import Event
 
 STRING = find("std_msgs/msg/String")
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 import re
+from html import escape
 from typing import TYPE_CHECKING
-from xml.sax.saxutils import quoteattr
 
 from coframe.errors import WireError
 
@@ -125,7 +125,7 @@ def _localhost(peers: list[str]) -> str:
 
 
 def _peers(peers: list[str]) -> str:
-    elements = "".join(f"<Peer address={quoteattr(peer)}/>" for peer in peers)
+    elements = "".join(f'<Peer address="{escape(peer)}"/>' for peer in peers)
     return (
         "<ParticipantIndex>auto</ParticipantIndex>"
         f"<MaxAutoParticipantIndex>{MAX_PARTICIPANT_INDEX}</MaxAutoParticipantIndex>"

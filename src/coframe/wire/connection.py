@@ -7,8 +7,8 @@ import threading
 import time
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+from coframe import _core
 from coframe.buffer import Buffer
-from coframe.wire import _native
 from coframe.wire.participant import Participant
 from coframe.wire.qos import DEFAULT, QoS
 
@@ -66,7 +66,7 @@ class MessageSubscription(Generic[M]):
         self,
         subscription: Subscription,
         message_type: type[M],
-        event: _native.Event,
+        event: _core.Event,
         callback: Callable[[M], None] | None,
     ) -> None:
         self._subscription = subscription
@@ -170,7 +170,7 @@ class Connection:
         qos: QoS | None = None,
     ) -> MessageSubscription[M]:
         """A subscription to a topic; the name is relative to the namespace unless it begins with a slash."""
-        event = _native.Event()
+        event = _core.Event()
         native = self.participant.subscription(
             self.node, self._qualified(topic), message_type, qos or DEFAULT, on_data=event
         )

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import socket
 
+from coframe import _core
 from coframe.errors import WireError
-from coframe.wire import _native, config
+from coframe.wire import config
 
 
 def load() -> None:
@@ -23,7 +24,7 @@ def load() -> None:
             "everything else of coframe works without.",
         ) from error
     try:
-        _native.load(DDS._dll_handle._name)  # noqa: SLF001 - the only place that knows the library's path
+        _core.load_dds(DDS._dll_handle._name)  # noqa: SLF001 - the only place that knows the library's path
     except RuntimeError as error:
         raise WireError(
             f"This cyclonedds does not fit: {error}.",
@@ -31,15 +32,15 @@ def load() -> None:
         ) from error
 
 
-def join(domain: int, xml: str, user_data: str) -> _native.DomainParticipant:
+def join(domain: int, xml: str, user_data: str) -> _core.DomainParticipant:
     """A participant in `domain`, which is opened with Cyclone's configuration `xml`.
 
     Raises:
         WireError: DDS does not let us in.
     """
     try:
-        return _native.DomainParticipant(domain, xml, user_data)
-    except _native.DdsError as error:
+        return _core.DomainParticipant(domain, xml, user_data)
+    except _core.DdsError as error:
         if not _free_participant_index(domain):
             raise WireError(
                 f"Domain {domain} is full on this machine: all {config.MAX_PARTICIPANT_INDEX + 1} places are taken.",

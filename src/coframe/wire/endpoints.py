@@ -5,8 +5,9 @@ from __future__ import annotations
 import threading
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
+from coframe import _core
 from coframe.errors import WireError
-from coframe.wire import _native, names
+from coframe.wire import names
 from coframe.wire.discovery_info import NodeInfo
 from coframe.wire.graph import DdsEndpoint, Graph
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 _NO_AUTHORITY = "<no authority available>"
 
-NativeEndpoint: TypeAlias = "_native.Writer | _native.Reader | _native.TfReader"
+NativeEndpoint: TypeAlias = "_core.Writer | _core.Reader | _core.TfReader"
 
 
 class Sample(NamedTuple):
@@ -86,7 +87,7 @@ class WireEndpoint:
         self.guid = native.guid
         self.topic = topic
         self.qos = qos
-        self.is_writer = isinstance(native, _native.Writer)
+        self.is_writer = isinstance(native, _core.Writer)
         self.description = DdsEndpoint(self.guid, b"", topic, dds_type, qos)
         self._endpoint = native
         self._nodes: list[GraphNode] = []
@@ -140,7 +141,7 @@ class WireEndpoint:
 class Publisher(WireEndpoint):
     """Writes serialised messages."""
 
-    def __init__(self, native: _native.Writer, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
+    def __init__(self, native: _core.Writer, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
         super().__init__(native, node, topic, dds_type, qos)
         self._writer = native
 
@@ -153,10 +154,10 @@ class Publisher(WireEndpoint):
         """
         try:
             self._writer.write(cdr)
-        except _native.DdsError as error:
+        except _core.DdsError as error:
             raise self._write_error(error) from error
 
-    def _write_error(self, error: _native.DdsError) -> WireError:
+    def _write_error(self, error: _core.DdsError) -> WireError:
         topic = names.any_ros_name(self.topic)
         if self._closed:
             return WireError(f"The publisher on {topic} is closed.", hint="Publish before closing the node.")
@@ -174,7 +175,7 @@ class Publisher(WireEndpoint):
 class Subscription(WireEndpoint):
     """Holds serialised messages until they are taken."""
 
-    def __init__(self, native: _native.Reader, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
+    def __init__(self, native: _core.Reader, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
         super().__init__(native, node, topic, dds_type, qos)
         self._reader = native
 
@@ -191,7 +192,7 @@ class TfReader(WireEndpoint):
     """Stores the transforms of a topic in a buffer as they arrive, on DDS's own thread."""
 
     def __init__(
-        self, native: _native.TfReader, node: GraphNode, topic: str, dds_type: str, qos: QoS, *, name_writers: bool
+        self, native: _core.TfReader, node: GraphNode, topic: str, dds_type: str, qos: QoS, *, name_writers: bool
     ) -> None:
         super().__init__(native, node, topic, dds_type, qos)
         self._reader = native

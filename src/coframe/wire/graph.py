@@ -7,7 +7,8 @@ from collections import OrderedDict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.wire import _native, names
+from coframe import _core
+from coframe.wire import names
 from coframe.wire.discovery_info import TOPIC, NodeInfo, decode_info
 from coframe.wire.qos import QoS
 
@@ -53,12 +54,12 @@ class DdsEndpoint(NamedTuple):
 class Graph:
     """What is known of the graph. Each question first takes in what DDS has learnt meanwhile."""
 
-    def __init__(self, participant: int, topic: int, changed: _native.Event) -> None:
-        qos = _native.QosProfile(depth=1, reliable=True, transient_local=True, keep_all=True)
+    def __init__(self, participant: int, topic: int, changed: _core.Event) -> None:
+        qos = _core.QosProfile(depth=1, reliable=True, transient_local=True, keep_all=True)
         self._lock = threading.Lock()
-        self._info_reader = _native.Reader(participant, topic, qos, "", changed)
-        self._writer_reader = _native.EndpointReader(participant, _native.PUBLICATIONS, changed)
-        self._reader_reader = _native.EndpointReader(participant, _native.SUBSCRIPTIONS, changed)
+        self._info_reader = _core.Reader(participant, topic, qos, "", changed)
+        self._writer_reader = _core.EndpointReader(participant, _core.PUBLICATIONS, changed)
+        self._reader_reader = _core.EndpointReader(participant, _core.SUBSCRIPTIONS, changed)
         self._nodes: dict[bytes, list[NodeInfo]] = {}
         self._owners: dict[bytes, NodeInfo] = {}
         self._writers: dict[int, DdsEndpoint] = {}
@@ -159,7 +160,7 @@ class Graph:
                     changed = True
         return changed
 
-    def _take_endpoints(self, reader: _native.EndpointReader, known: dict[int, DdsEndpoint]) -> bool:
+    def _take_endpoints(self, reader: _core.EndpointReader, known: dict[int, DdsEndpoint]) -> bool:
         changes = reader.take()
         for handle, alive, guid, participant, topic, type_name, (depth, *policies) in changes:
             if alive:

@@ -8,8 +8,9 @@ import os
 import threading
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from coframe import _core
 from coframe.errors import WireError
-from coframe.wire import _native, config, dds, names, types
+from coframe.wire import config, dds, names, types
 from coframe.wire.discovery_info import MAX_NAME, TOPIC, encode_info, gid_size
 from coframe.wire.endpoints import GraphNode, Publisher, Subscription, TfReader, WireEndpoint, initial_authority
 from coframe.wire.graph import DdsEndpoint, Endpoint, Graph
@@ -48,11 +49,11 @@ class Participant:
         self._gid_size = gid_size(os.environ)
 
         graph_topic = self._topic(TOPIC, types.graph_type())
-        self._info_writer = _native.Writer(self._native.entity, graph_topic, _native_qos(GRAPH_WRITER), "")
-        self._wake = _native.Event()
+        self._info_writer = _core.Writer(self._native.entity, graph_topic, _native_qos(GRAPH_WRITER), "")
+        self._wake = _core.Event()
         self._graph = Graph(self._native.entity, graph_topic, self._wake)
         self._mismatches = MismatchWatch(self._graph, self._warn)
-        self._watchers: list[_native.Event] = []
+        self._watchers: list[_core.Event] = []
         self._warning_callbacks: list[Callable[[str], None]] = []
         self._ending = False
         self._thread = threading.Thread(target=self._keep_house, name=f"coframe-wire-{domain_id}", daemon=True)
@@ -137,7 +138,7 @@ class Participant:
             WireError: DDS refuses.
         """
         name, type_name, entity = self._topic_of(topic, message_type, kind)
-        native = _create(lambda: _native.Writer(self._native.entity, entity, _native_qos(qos), ""), topic)
+        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), ""), topic)
         return Publisher(native, node, name, type_name, qos)
 
     def subscription(
@@ -147,7 +148,7 @@ class Participant:
         message_type: type,
         qos: QoS,
         *,
-        on_data: _native.Event | None = None,
+        on_data: _core.Event | None = None,
         kind: Kind = "topic",
     ) -> Subscription:
         """A subscription of `node`; the arguments are those of `publisher`.
@@ -164,7 +165,7 @@ class Participant:
             WireError: DDS refuses.
         """
         name, type_name, entity = self._topic_of(topic, message_type, kind)
-        native = _create(lambda: _native.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
+        native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
         return Subscription(native, node, name, type_name, qos)
 
     def tf_reader(
@@ -196,7 +197,7 @@ class Participant:
         name, type_name, entity = self._topic_of(topic, find("tf2_msgs/msg/TFMessage"), "topic")
         source = initial_authority(authority)
         native = _create(
-            lambda: _native.TfReader(self._native.entity, entity, _native_qos(chosen), "", buffer, static, source),
+            lambda: _core.TfReader(self._native.entity, entity, _native_qos(chosen), "", buffer, static, source),
             topic,
         )
         reader = TfReader(native, node, name, type_name, chosen, name_writers=authority is None)
@@ -241,12 +242,12 @@ class Participant:
         """The full name of the node that wrote a sample, such as "/talker"; None if no node has claimed it."""
         return self._graph.writer_node(handle)
 
-    def watch_graph(self, event: _native.Event) -> None:
+    def watch_graph(self, event: _core.Event) -> None:
         """Sets `event` whenever the graph has changed, until `unwatch_graph`."""
         with self._lock:
             self._watchers.append(event)
 
-    def unwatch_graph(self, event: _native.Event) -> None:
+    def unwatch_graph(self, event: _core.Event) -> None:
         """Ends what `watch_graph` began."""
         with self._lock:
             self._watchers = [watcher for watcher in self._watchers if watcher is not event]
@@ -331,14 +332,14 @@ class Participant:
         self._native.close()
 
 
-def _native_qos(qos: QoS) -> _native.QosProfile:
-    return _native.QosProfile(qos.depth, qos.reliable, qos.transient_local, qos.keep_all)
+def _native_qos(qos: QoS) -> _core.QosProfile:
+    return _core.QosProfile(qos.depth, qos.reliable, qos.transient_local, qos.keep_all)
 
 
 def _create(make: Callable[[], Any], topic: str) -> Any:
     try:
         return make()
-    except _native.DdsError as error:
+    except _core.DdsError as error:
         raise WireError(f"DDS refuses {topic}: {error}.", hint="Has the participant been closed already?") from error
 
 
