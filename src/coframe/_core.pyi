@@ -356,6 +356,6 @@ class EndpointReader:
 
     def __init__(self, participant: int, topic: int, on_change: Event) -> None: ...
     def take(self) -> list[tuple[int, bool, bytes, bytes, str, str, tuple[int, bool, bool, bool]]]:
-        """(handle, alive, guid, participant guid, topic, type, (depth, reliable, transient_local, keep_all)) a change."""
+        """The changes: (handle, alive, guid, guid of the participant, topic, type, the four policies of its QoS)."""
 
     def close(self) -> None: ...
