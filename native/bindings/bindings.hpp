@@ -7,6 +7,8 @@
 #include <chrono>
 #include <cstdint>
 
+#include "bindings/gil.hpp"
+
 namespace coframe::bindings {
 
 namespace nb = nanobind;
@@ -26,23 +28,20 @@ template <class Wait>
 bool wait_with_signals(std::int64_t timeout_ns, Wait&& wait) {
   using clock = std::chrono::steady_clock;
   const auto start = clock::now();
-  for (;;) {
-    std::int64_t slice = kSignalSliceNs;
-    bool last = false;
-    if (timeout_ns >= 0) {
-      const std::int64_t elapsed =
-          std::chrono::duration_cast<std::chrono::nanoseconds>(clock::now() - start).count();
-      const std::int64_t left = std::max<std::int64_t>(timeout_ns - elapsed, 0);
-      last = left <= slice;
-      slice = std::min(slice, left);
-    }
+  const auto left = [&]() -> std::int64_t {
+    const auto elapsed = std::chrono::duration_cast<std::chrono::nanoseconds>(clock::now() - start).count();
+    return std::max<std::int64_t>(timeout_ns - elapsed, 0);
+  };
+  for (std::int64_t slice = kSignalSliceNs;;) {
+    if (timeout_ns >= 0) slice = std::min(kSignalSliceNs, left());
     bool done;
     {
-      nb::gil_scoped_release release;
+      WithoutGil release;
       done = wait(slice);
     }
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
-    if (done || last) return done;
+    // `wait` may also end early in vain: only the clock says when the time is over.
+    if (done || (timeout_ns >= 0 && left() == 0)) return done;
   }
 }
 

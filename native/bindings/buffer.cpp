@@ -35,11 +35,13 @@ std::int64_t to_int64(nb::handle number) {
 Stamp to_stamp(nb::handle stamp) {
   if (stamp.is_none()) return 0;
   if (PyLong_CheckExact(stamp.ptr())) return to_int64(stamp);
+  const CallingPython call;
   return to_int64(time_module.attr("stamp_ns")(stamp));
 }
 
 std::int64_t to_duration(nb::handle duration) {
   if (duration.is_none()) return 0;
+  const CallingPython call;
   return to_int64(time_module.attr("duration_ns")(duration));
 }
 
@@ -305,7 +307,8 @@ FrameId NameCache::find(PyObject* name, const Buffer& buffer) {
   Entry& entry = entries_[(reinterpret_cast<std::uintptr_t>(name) >> 4) % entries_.size()];
   if (entry.name == name) return entry.frame;
   const FrameId frame = buffer.find(text(name));
-  if (frame != 0) {
+  // Letting go of an instance of a subclass could run any code.
+  if (frame != 0 && PyUnicode_CheckExact(name)) {
     Py_INCREF(name);
     Py_XDECREF(std::exchange(entry.name, name));
     entry.frame = frame;

@@ -57,10 +57,12 @@ nb::object frame_name(const FailureObject& object, FrameId frame, const nb::obje
 nb::object edge(const FailureObject& object) {
   if (!has_edge(object.failure.code)) return nb::none();
   const FrameId child = object.failure.edge;
-  return object.buffer->read([&](const Tree& tree) -> nb::object {
+  // No Python object is made under the buffer's lock: that may run finalizers, which may ask the buffer.
+  const auto [parent, name] = object.buffer->read([&](const Tree& tree) {
     const History* history = tree.history(child);
-    return nb::make_tuple(history ? tree.name(history->parent()) : std::string(), tree.name(child));
+    return std::pair(history ? tree.name(history->parent()) : std::string(), tree.name(child));
   });
+  return nb::make_tuple(parent, name);
 }
 
 nb::object roots(const FailureObject& object) {
@@ -72,7 +74,7 @@ nb::object roots(const FailureObject& object) {
 // Of all frames, as of now; "" for those that have none.
 nb::dict parents(const FailureObject& object) {
   nb::dict all;
-  for (const FrameSummary& frame : object.buffer->frames()) all[frame.name.c_str()] = frame.parent;
+  for (const FrameSummary& frame : object.buffer->frames()) all[nb::str(frame.name.data(), frame.name.size())] = frame.parent;
   return all;
 }
 
@@ -89,6 +91,7 @@ std::string text_of(const FailureObject& object) {
 }
 
 nb::object raise_failure(FailureObject failure) {
+  const CallingPython call;
   nb::object cls = errors_module.attr(exception_name(failure));
   PyErr_SetObject(cls.ptr(), nb::cast(std::move(failure)).ptr());
   return nb::object();

@@ -3,6 +3,8 @@
 
 NB_MODULE(_core, module) {
   using namespace coframe::bindings;
+  nb::set_leak_warnings(false);  // threads that are alive at the exit keep what they hold
+  guard_exit();
   module.doc() = "The native core of coframe. Private: use `import coframe`.";
   define_transform(module);
   define_failure(module);

@@ -16,7 +16,7 @@
 namespace coframe::bindings {
 namespace {
 
-using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
+using ReleaseGil = nb::call_guard<WithoutGil>;
 
 // Closing waits for DDS threads, and DDS frees Python types on its way: never with the GIL held.
 template <class Native>
@@ -24,7 +24,7 @@ class Closing : public Native {
  public:
   using Native::Native;
   ~Closing() {
-    nb::gil_scoped_release release;
+    WithoutGil release;
     Native::close();
   }
 };
@@ -51,7 +51,7 @@ nb::tuple to_tuple(const QosProfile& qos) {
 nb::list take(PyReader& reader, std::uint32_t limit) {
   std::vector<dds::Sample> samples;
   {
-    nb::gil_scoped_release release;
+    WithoutGil release;
     samples = reader.take(limit);
   }
   nb::list messages;
@@ -66,7 +66,7 @@ nb::list take(PyReader& reader, std::uint32_t limit) {
 nb::list take_endpoints(PyEndpointReader& reader) {
   std::vector<EndpointChange> changes;
   {
-    nb::gil_scoped_release release;
+    WithoutGil release;
     changes = reader.take();
   }
   nb::list list;
@@ -98,8 +98,10 @@ void define_writer(nb::module_& wire) {
       .def(
           "write",
           [](const PyWriter& self, nb::bytes message) {
-            nb::gil_scoped_release release;
-            self.write(message.c_str(), message.size());
+            const char* data = message.c_str();
+            const std::size_t size = message.size();
+            WithoutGil release;
+            self.write(data, size);
           },
           nb::arg("message"), "Sends one serialised message, without the GIL.")
       .def_prop_ro("guid", [](const PyWriter& self) { return to_bytes(self.guid()); })
@@ -148,7 +150,9 @@ void define_readers(nb::module_& wire) {
           nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("buffer"),
           nb::arg("is_static"), nb::arg("authority"), ReleaseGil())
       .def("name_writer", &PyTfReader::name_writer, nb::arg("writer"), nb::arg("authority"), ReleaseGil(),
-           "The buffer notes `authority` for what the writer with this handle sends from now on.");
+           "The buffer notes `authority` for what the writer with this handle has sent and will send.")
+      .def("forget_writer", &PyTfReader::forget_writer, nb::arg("writer"), ReleaseGil(),
+           "The writer with this handle has left.");
   define_reader_properties<PyTfReader>(tf_reader);
 
   nb::class_<PyEndpointReader>(wire, "EndpointReader", "What DDS discovery tells about writers or readers.")

@@ -188,3 +188,25 @@ def test_a_forked_child_is_told_so(participant):
             os._exit(0 if "forked" in str(error) else 1)
         os._exit(2)
     assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 0
+
+
+def test_a_process_ends_well_although_threads_publish(child):
+    ended = child("""
+        import threading
+        import coframe
+        from coframe.errors import WireError
+        from coframe.messages import find
+        ros = coframe.connect("busy")
+        message = find("std_msgs/msg/String")(data="x")
+        publisher = ros.publisher("/busy", type(message))
+        def publish():
+            while True:
+                try:
+                    publisher.publish(message)
+                except WireError:
+                    pass
+        for _ in range(3):
+            threading.Thread(target=publish, daemon=True).start()
+        input()
+    """)
+    assert ended.finish() == (0, "")

@@ -1,0 +1,73 @@
+#include "bindings/gil.hpp"
+
+#include <nanobind/nanobind.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#ifndef _WIN32
+#include <pthread.h>
+#endif
+
+namespace coframe::bindings {
+
+namespace {
+
+namespace nb = nanobind;
+
+constexpr auto kPatience = std::chrono::seconds(1);
+
+std::atomic<bool> ending = false;
+std::atomic<int> crossing = 0;  // threads on their way into Python, or called from C++ inside it
+std::thread::id last_thread;    // runs the rest of the exit; set before `ending`
+
+// The counter goes up before `ending` is read, `ending` is set before the counter is read: one side sees the other.
+bool may_cross() {
+  crossing.fetch_add(1);
+  if (!ending.load() || std::this_thread::get_id() == last_thread) return true;
+  crossing.fetch_sub(1);
+  return false;
+}
+
+[[noreturn]] void wait_for_end_of_process() {
+  for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+// Nobody crosses from now on; waits for those who are about to.
+void end() {
+  last_thread = std::this_thread::get_id();
+  ending.store(true);
+  PyThreadState* thread = PyEval_SaveThread();
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  while (crossing.load() > 0 && std::chrono::steady_clock::now() < deadline) {
+    std::this_thread::sleep_for(std::chrono::microseconds(50));
+  }
+  PyEval_RestoreThread(thread);
+}
+
+}  // namespace
+
+WithoutGil::~WithoutGil() {
+  if (!may_cross()) wait_for_end_of_process();
+  PyEval_RestoreThread(thread_);
+  crossing.fetch_sub(1);
+}
+
+CallingPython::CallingPython() {
+  if (may_cross()) return;
+  PyEval_SaveThread();
+  wait_for_end_of_process();
+}
+
+CallingPython::~CallingPython() { crossing.fetch_sub(1); }
+
+void guard_exit() {
+  // Exit handlers run last in, first out: those of who imports this module still find all threads at work.
+  nb::module_::import_("atexit").attr("register")(nb::cpp_function(&end));
+#ifndef _WIN32
+  pthread_atfork(nullptr, nullptr, [] { crossing.store(0); });  // a child has none of the other threads
+#endif
+}
+
+}  // namespace coframe::bindings
