@@ -155,11 +155,21 @@ Stamp path_common_time(const std::vector<PathCache::Step>& steps) {
 }  // namespace
 
 const PathCache::Path* PathCache::find(const Tree& tree, FrameId target, FrameId source) {
-  Path& path = paths_[(static_cast<std::uint64_t>(target) << 32) | source];
-  if (path.version != tree.version()) {
-    walk(tree, target, source, path);
-    path.version = tree.version();
+  const std::uint64_t key = (static_cast<std::uint64_t>(target) << 32) | source;
+  auto found = paths_.find(key);
+  if (found != paths_.end() && found->second.version == tree.version()) {
+    return found->second.usable ? &found->second : nullptr;
   }
+  if (paths_.size() >= kMaxEntries || steps_ >= kMaxSteps) {
+    paths_.clear();
+    steps_ = 0;
+    found = paths_.end();
+  }
+  Path& path = found != paths_.end() ? found->second : paths_[key];
+  steps_ -= path.steps.size();
+  walk(tree, target, source, path);
+  steps_ += path.steps.size();
+  path.version = tree.version();
   return path.usable ? &path : nullptr;
 }
 

@@ -11,7 +11,8 @@
 
 namespace coframe {
 
-// Paths that were walked once, valid for one version of the tree.
+// Paths that were walked once, valid for one version of the tree. All are forgotten when they become too many: a
+// program may ask for every pair of a thousand frames.
 class PathCache {
  public:
   struct Step {
@@ -28,8 +29,13 @@ class PathCache {
   const Path* find(const Tree& tree, FrameId target, FrameId source);
 
  private:
+  // About 4 MB: entries and steps.
+  static constexpr std::size_t kMaxEntries = 1 << 14;
+  static constexpr std::size_t kMaxSteps = 1 << 17;
+
   static void walk(const Tree& tree, FrameId target, FrameId source, Path& path);
 
+  std::size_t steps_ = 0;  // of all paths
   std::unordered_map<std::uint64_t, Path> paths_;
 };
 
