@@ -26,6 +26,15 @@ TransformStream Buffer::open_stream(bool is_static, std::string_view authority) 
   return stream;
 }
 
+void Buffer::rename(TransformStream& stream, std::string_view authority) {
+  WriteLock lock(mutex_);
+  const AuthorityId before = stream.authority;
+  stream.authority = tree_.authority(authority);
+  for (const TransformStream::Names& names : stream.expected) {
+    tree_.change_authority(names.child_id, before, stream.authority);
+  }
+}
+
 DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size,
                              std::size_t& stored) {
   stored = 0;
@@ -37,6 +46,7 @@ DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, 
     for (std::size_t i = 0; i < stream.decoded.size(); ++i) stored += store(stream, i, stream.decoded[i]);
   }
   if (stored > 0) notify();
+  if (stream.decoded.capacity() > TransformStream::kMaxRemembered) stream.decoded = {};
   return failure;
 }
 
@@ -51,7 +61,7 @@ bool Buffer::store(TransformStream& stream, std::size_t index, const TransformVi
   if (!is_utf8(view.parent) || !is_utf8(view.child)) return count(kNoChildFrame);
   const unsigned refusals =
       tree_.insert(view.parent, view.child, view.stamp, view.values, stream.is_static, stream.authority);
-  if (refusals == 0) {
+  if (refusals == 0 && index < TransformStream::kMaxRemembered) {
     if (stream.expected.size() <= index) stream.expected.resize(index + 1);
     stream.expected[index] = {std::string(view.parent), std::string(view.child),
                               tree_.find(without_slash(view.parent)), tree_.find(without_slash(view.child))};

@@ -5,7 +5,6 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
-#include <thread>
 
 #include "core/cdr.hpp"
 #include "core/lookup.hpp"
@@ -13,23 +12,34 @@
 
 namespace coframe {
 
-// A mutex under which readers step aside while a writer waits, so that busy readers cannot starve the wire.
+// A mutex under which a reader steps aside once for writers that wait, so that busy readers cannot starve the wire,
+// nor busy writers the readers. Who waits sleeps: a writer that is not running must not make readers spin.
 class TreeMutex {
  public:
   void lock_for_writing() {
-    writers_waiting_.fetch_add(1, std::memory_order_relaxed);
+    if (mutex_.try_lock()) return;
+    writers_waiting_.fetch_add(1);
     mutex_.lock();
-    writers_waiting_.fetch_sub(1, std::memory_order_relaxed);
+    writers_waiting_.fetch_sub(1);
+    turns_.fetch_add(1);
+    turns_.notify_all();
   }
   void lock_for_reading() {
-    while (writers_waiting_.load(std::memory_order_relaxed) > 0) std::this_thread::yield();
+    if (writers_waiting_.load(std::memory_order_relaxed) > 0) step_aside();
     mutex_.lock();
   }
   void unlock() { mutex_.unlock(); }
 
  private:
+  // The turn is read before the writers are looked for: who still waits then will raise it.
+  void step_aside() {
+    const std::uint32_t turn = turns_.load();
+    if (writers_waiting_.load() > 0) turns_.wait(turn);
+  }
+
   std::mutex mutex_;
   std::atomic<int> writers_waiting_{0};
+  std::atomic<std::uint32_t> turns_{0};  // of writers that had to wait
 };
 
 struct Counts {
@@ -43,6 +53,8 @@ struct Counts {
 // One source of messages: the same publisher sends the same names in the same order, so the last ones are tried
 // first. Used by one thread at a time.
 struct TransformStream {
+  // More of one message's transforms are not remembered: there may be many sources, and any of them may send much.
+  static constexpr std::size_t kMaxRemembered = 1024;
   struct Names {
     std::string parent, child;
     FrameId parent_id = 0, child_id = 0;
@@ -70,6 +82,8 @@ class Buffer {
   unsigned insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
                   bool is_static, std::string_view authority);
   TransformStream open_stream(bool is_static, std::string_view authority);
+  // The source has another name: notes it for the frames that its last messages told of, and for all to come.
+  void rename(TransformStream& stream, std::string_view authority);
   DecodeFailure ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
   void clear();
 

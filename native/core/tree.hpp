@@ -42,6 +42,10 @@ class Tree {
   const Frame& frame(FrameId id) const { return frames_[id]; }
 
   AuthorityId authority(std::string_view name);
+  // For a frame whose newest transform came from `from`.
+  void change_authority(FrameId id, AuthorityId from, AuthorityId to) {
+    if (frames_[id].authority == from) frames_[id].authority = to;
+  }
   const std::string& authority_name(AuthorityId id) const { return authorities_[id]; }
 
   // Checks as tf2's setTransform does and stores; 0 or the reasons for refusal (Refusal bits).

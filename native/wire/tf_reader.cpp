@@ -1,11 +1,12 @@
 #include "wire/tf_reader.hpp"
 
+#include <unordered_map>
 #include <utility>
 
 namespace coframe {
 namespace {
 
-// Publishers come and go; when this many have been seen, all are learnt anew.
+// Publishers come and go, and of those without a name nobody says that they have left: so many are remembered.
 constexpr std::size_t kMaxSources = 1024;
 
 }  // namespace
@@ -22,12 +23,14 @@ TfReader::TfReader(dds::Entity participant, dds::Entity topic, const QosProfile&
 
 void TfReader::name_writer(dds::Handle writer, const std::string& authority) {
   const std::lock_guard lock(mutex_);
-  Source& source = sources_[writer];
-  source.stream = buffer_->open_stream(is_static_, authority);
+  Source& source = source_of(writer);
+  buffer_->rename(source.stream, authority);
   source.named = true;
-  const std::vector<std::uint8_t> message = std::exchange(source.last_static, {});
-  std::size_t stored = 0;
-  if (!message.empty()) buffer_->ingest(source.stream, message.data(), message.size(), stored);
+}
+
+void TfReader::forget_writer(dds::Handle writer) {
+  const std::lock_guard lock(mutex_);
+  sources_.erase(writer);
 }
 
 // An exception must not reach DDS, which is C: out of memory, a message is lost.
@@ -44,19 +47,18 @@ void TfReader::drain(dds::Entity reader) {
   }
 }
 
+TfReader::Source& TfReader::source_of(dds::Handle writer) {
+  const auto found = sources_.find(writer);
+  if (found != sources_.end()) return found->second;
+  if (sources_.size() >= kMaxSources) std::erase_if(sources_, [](const auto& entry) { return !entry.second.named; });
+  return sources_.emplace(writer, Source{buffer_->open_stream(is_static_, authority_), false}).first->second;
+}
+
 void TfReader::store(const dds::Sample& sample) {
-  const dds::Handle writer = sample.info().publication_handle;
-  auto found = sources_.find(writer);
-  if (found == sources_.end()) {
-    if (sources_.size() >= kMaxSources) sources_.clear();
-    found = sources_.emplace(writer, Source{buffer_->open_stream(is_static_, authority_), false, {}}).first;
-  }
-  Source& source = found->second;
   const auto bytes = sample.bytes();
   std::size_t stored = 0;
   // What is malformed the buffer counts.
-  buffer_->ingest(source.stream, bytes.data(), bytes.size(), stored);
-  if (is_static_ && !source.named) source.last_static.assign(bytes.begin(), bytes.end());
+  buffer_->ingest(source_of(sample.info().publication_handle).stream, bytes.data(), bytes.size(), stored);
 }
 
 }  // namespace coframe

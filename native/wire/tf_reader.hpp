@@ -5,7 +5,6 @@
 #include <mutex>
 #include <string>
 #include <unordered_map>
-#include <vector>
 
 #include "core/buffer.hpp"
 #include "wire/data_reader.hpp"
@@ -20,8 +19,10 @@ class TfReader {
            std::shared_ptr<Buffer> buffer, bool is_static, const std::string& authority);
   void close() noexcept { reader_.close(); }
 
-  // The buffer notes `authority` for what this writer sends from now on, and for the static transforms it has sent.
+  // The buffer notes `authority` for what this writer has sent and will send.
   void name_writer(dds::Handle writer, const std::string& authority);
+  // The writer has left.
+  void forget_writer(dds::Handle writer);
 
   const DataReader& reader() const { return reader_; }
 
@@ -29,13 +30,12 @@ class TfReader {
   struct Source {
     TransformStream stream;
     bool named = false;
-    // A static message comes once, often before its writer's name: kept to be stored again under the name.
-    std::vector<std::uint8_t> last_static;
   };
 
   static void on_data(dds::Entity reader, void* self) noexcept;
   void drain(dds::Entity reader);
   void store(const dds::Sample& sample);
+  Source& source_of(dds::Handle writer);
 
   std::shared_ptr<Buffer> buffer_;
   const bool is_static_;

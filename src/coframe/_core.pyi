@@ -332,8 +332,11 @@ class TfReader:
         is_static: bool,
         authority: str,
     ) -> None: ...
+    def forget_writer(self, writer: int) -> None:
+        """The writer with this handle has left."""
+
     def name_writer(self, writer: int, authority: str) -> None:
-        """The buffer notes `authority` for what the writer with this handle sends from now on."""
+        """The buffer notes `authority` for what the writer with this handle has sent and will send."""
 
     @property
     def guid(self) -> bytes: ...

@@ -1,6 +1,6 @@
 import coframe
 from coframe.messages import codec, find
-from coframe.wire import QoS
+from coframe.wire import GraphNode, QoS
 from coframe.wire.qos import TF, TF_STATIC_WRITER
 
 TF_MESSAGE = find("tf2_msgs/msg/TFMessage")
@@ -192,3 +192,37 @@ def test_own_qos(participant, node):
     buffer = coframe.Buffer()
     participant.tf_reader(node, "/tf", buffer, static=False, qos=QoS(depth=1, reliable=False))
     assert [subscriber.qos.reliable for subscriber in participant.subscribers("/tf")] == [False]
+
+
+def test_a_writer_that_gets_its_name_late_does_not_bring_its_transforms_again(participant, node, eventually):
+    buffer = coframe.Buffer()
+    reader = participant.tf_reader(node, "/tf_static", buffer, static=True, authority="nobody")
+    first, second = (participant.publisher(node, "/tf_static", TF_MESSAGE, TF_STATIC_WRITER) for _ in range(2))
+    first.write(tf_cdr(stamped("a", "b", 1.0), stamped("a", "c")))
+    (handle,) = (h for h, w in participant._graph.writers("rt/tf_static").items() if w.guid == first.guid)
+    eventually(lambda: buffer.can_transform("a", "c"))
+    second.write(tf_cdr(stamped("a", "b", 2.0)))
+    eventually(lambda: buffer.lookup("a", "b").translation[0] == 2)
+    reader._reader.name_writer(handle, "/first")
+    assert buffer.lookup("a", "b").translation[0] == 2
+    assert {frame.name: frame.authority for frame in buffer.frames() if frame.parent}["c"] == "/first"
+
+
+def test_writers_that_left_are_forgotten(participant, node, eventually):
+    reader = participant.tf_reader(node, "/tf", coframe.Buffer(), static=False, authority=None)
+    publishers = [participant.publisher(node, "/tf", TF_MESSAGE, TF) for _ in range(3)]
+    eventually(lambda: len(reader._named) == 3)
+    for publisher in publishers:
+        publisher.close()
+    eventually(lambda: not reader._named)
+
+
+def test_a_reader_is_whole_when_other_threads_first_see_it(participant, node, monkeypatch):
+    add = GraphNode.add
+
+    def add_and_look(self, endpoint):
+        add(self, endpoint)
+        participant._graph_changed()
+
+    monkeypatch.setattr(GraphNode, "add", add_and_look)
+    participant.tf_reader(node, "/tf", coframe.Buffer(), static=False, authority=None)

@@ -142,8 +142,8 @@ class Publisher(WireEndpoint):
     """Writes serialised messages."""
 
     def __init__(self, native: _core.Writer, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
-        super().__init__(native, node, topic, dds_type, qos)
         self._writer = native
+        super().__init__(native, node, topic, dds_type, qos)
 
     def write(self, cdr: bytes) -> None:
         """Sends a message: 4 bytes of encapsulation, then CDR. Other threads go on meanwhile.
@@ -176,8 +176,8 @@ class Subscription(WireEndpoint):
     """Holds serialised messages until they are taken."""
 
     def __init__(self, native: _core.Reader, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
-        super().__init__(native, node, topic, dds_type, qos)
         self._reader = native
+        super().__init__(native, node, topic, dds_type, qos)
 
     def take(self, limit: int = 100) -> list[Sample]:
         """Up to `limit` messages, the oldest first; without waiting."""
@@ -194,19 +194,25 @@ class TfReader(WireEndpoint):
     def __init__(
         self, native: _core.TfReader, node: GraphNode, topic: str, dds_type: str, qos: QoS, *, name_writers: bool
     ) -> None:
-        super().__init__(native, node, topic, dds_type, qos)
         self._reader = native
         self._named: dict[int, str] | None = {} if name_writers else None
+        self._naming = threading.Lock()
+        super().__init__(native, node, topic, dds_type, qos)  # last: other threads see it from now on
 
     def name_writers(self, graph: Graph) -> None:
         """Lets the buffer note the publishing nodes, as far as the graph tells them."""
         if self._named is None or self._closed:
             return
-        for handle, writer in graph.writers(self.topic).items():
-            node = graph.owner(writer.guid)
-            if node is not None and self._named.get(handle) != node:
-                self._reader.name_writer(handle, node)
-                self._named[handle] = node
+        with self._naming:
+            writers = graph.writers(self.topic)
+            for handle in self._named.keys() - writers.keys():
+                self._reader.forget_writer(handle)
+                del self._named[handle]
+            for handle, writer in writers.items():
+                node = graph.owner(writer.guid)
+                if node is not None and self._named.get(handle) != node:
+                    self._reader.name_writer(handle, node)
+                    self._named[handle] = node
 
 
 def initial_authority(authority: str | None) -> str:

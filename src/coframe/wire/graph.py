@@ -174,6 +174,7 @@ class Graph:
         for handle, writer in self._writers.items():
             if (node := self.owner(writer.guid)) is not None:
                 self._writer_nodes[handle] = node
+                self._writer_nodes.move_to_end(handle)
         while len(self._writer_nodes) > len(self._writers) + _GONE_WRITERS:
             self._writer_nodes.popitem(last=False)
 
