@@ -19,7 +19,7 @@ DataReader::DataReader(dds::Entity participant, dds::Entity topic, const dds::Qo
 
 void DataReader::close() noexcept {
   const dds::Entity entity = entity_.exchange(0);
-  if (entity <= 0) return;
+  if (entity <= 0 || dds::forked()) return;
   dds::functions().dds_set_listener(entity, nullptr);  // waits for callbacks that run or are about to
   dds::functions().dds_delete(entity);
 }

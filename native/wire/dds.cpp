@@ -1,11 +1,13 @@
 #include "wire/dds.hpp"
 
+#include <atomic>
 #include <utility>
 
 #ifdef _WIN32
 #include <windows.h>
 #else
 #include <dlfcn.h>
+#include <pthread.h>
 #endif
 
 namespace coframe::dds {
@@ -13,6 +15,8 @@ namespace {
 
 Functions loaded;
 bool is_loaded = false;
+std::atomic<int> participants = 0;
+std::atomic<bool> is_forked = false;
 
 #ifdef _WIN32
 void* open_library(const std::string& path) { return reinterpret_cast<void*>(LoadLibraryA(path.c_str())); }
@@ -36,7 +40,7 @@ void find(void* library, const char* name, const std::string& path, Function& fu
 }  // namespace
 
 Error::Error(const std::string& what, Code code)
-    : std::runtime_error("could not " + what + ": " + functions().dds_strretcode(code)), code_(code) {}
+    : std::runtime_error("could not " + what + ": " + loaded.dds_strretcode(code)), code_(code) {}
 
 void load(const std::string& path) {
   if (is_loaded) return;
@@ -48,12 +52,20 @@ void load(const std::string& path) {
 #undef COFRAME_FIND
   loaded = found;
   is_loaded = true;
+#ifndef _WIN32
+  pthread_atfork(nullptr, nullptr, [] { is_forked = is_forked || participants > 0; });
+#endif
 }
 
 const Functions& functions() {
   if (!is_loaded) throw std::logic_error("the DDS library is not loaded");
+  if (is_forked) throw std::logic_error("DDS does not survive that this process was forked from one that had joined");
   return loaded;
 }
+
+bool forked() noexcept { return is_forked; }
+
+void count_participants(int change) noexcept { participants += change; }
 
 Code check(Code code, const char* what) {
   if (code < 0) throw Error(what, code);

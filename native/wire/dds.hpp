@@ -156,8 +156,13 @@ class Error : public std::runtime_error {
 // The library stays loaded: its threads may outlive any of our objects.
 void load(const std::string& path);
 
-// The functions; throws std::logic_error before `load`.
+// The functions; throws std::logic_error before `load`, and where `forked`.
 const Functions& functions();
+
+// True in a child that was forked while its parent had joined: DDS's threads are not there, and its locks may be held.
+bool forked() noexcept;
+// A participant has been opened (1) or closed (-1).
+void count_participants(int change) noexcept;
 
 // `code` itself, or throws Error "could not <what>: <DDS's word>" where it is negative.
 Code check(Code code, const char* what);

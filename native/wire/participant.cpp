@@ -12,13 +12,15 @@ DomainParticipant::DomainParticipant(std::uint32_t domain, const std::string& co
   const dds::Entity participant = f.dds_create_participant(domain, qos.get(), nullptr);
   if (participant < 0 && domain_ > 0) f.dds_delete(domain_);
   participant_ = dds::check(participant, "join the DDS domain");
+  dds::count_participants(1);
 }
 
 void DomainParticipant::close() noexcept {
   const dds::Entity participant = participant_.exchange(0);
-  if (participant <= 0) return;
+  if (participant <= 0 || dds::forked()) return;
   dds::functions().dds_delete(participant);
   if (domain_ > 0) dds::functions().dds_delete(domain_);
+  dds::count_participants(-1);
 }
 
 dds::Guid DomainParticipant::guid() const {

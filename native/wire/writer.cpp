@@ -17,7 +17,7 @@ void Writer::write(const void* data, std::size_t size) const {
 
 void Writer::close() noexcept {
   const dds::Entity entity = entity_.exchange(0);
-  if (entity > 0) dds::functions().dds_delete(entity);
+  if (entity > 0 && !dds::forked()) dds::functions().dds_delete(entity);
 }
 
 dds::Guid Writer::guid() const {

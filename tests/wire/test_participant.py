@@ -210,3 +210,24 @@ def test_a_process_ends_well_although_threads_publish(child):
         input()
     """)
     assert ended.finish() == (0, "")
+
+
+def test_a_forked_child_ends_well_and_leaves_its_parent_in_the_graph(child, participant, eventually):
+    parent = child("""
+        import os, sys
+        import coframe
+        from coframe.messages import find
+        with coframe.connect("parent") as ros:
+            string = find("std_msgs/msg/String")
+            publisher, subscription = ros.publisher("/s", string), ros.subscribe("/s", string)
+            if (pid := os.fork()) == 0:
+                try:
+                    publisher.publish(string())
+                except RuntimeError:
+                    sys.exit(3)  # through the end of the block, which closes everything
+            print(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), flush=True)
+            input()
+    """)
+    assert parent.read() == "3"
+    eventually(lambda: ("/", "parent") in participant.nodes())
+    assert parent.finish() == (0, "")

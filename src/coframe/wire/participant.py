@@ -72,14 +72,14 @@ class Participant:
         """
         domain = config.domain_id() if domain_id is None else config.check_domain_id(domain_id)
         with cls._instances_lock:
-            participant = cls._instances.get(domain)
-            if participant is None:
-                participant = cls._instances[domain] = cls(domain)
-            elif participant._process != os.getpid():
+            if any(joined._process != os.getpid() for joined in cls._instances.values()):
                 raise WireError(
                     "This process was forked from one that had joined the ROS graph, and DDS does not survive that.",
                     hint="Start it by 'spawn': multiprocessing.set_start_method('spawn').",
                 )
+            participant = cls._instances.get(domain)
+            if participant is None:
+                participant = cls._instances[domain] = cls(domain)
             participant._references += 1
             return participant
 
@@ -263,7 +263,7 @@ class Participant:
     def announce(self) -> None:
         """Tells the graph about the nodes of this process and their endpoints."""
         with self._lock:
-            if self._ending:
+            if self._ending or self._process != os.getpid():
                 return
             infos = [node.info() for node in self._nodes]
             self._info_writer.write(encode_info(self._native.guid, infos, self._gid_size))
