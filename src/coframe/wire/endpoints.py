@@ -81,7 +81,11 @@ class GraphNode:
 
 
 class WireEndpoint:
-    """A DDS reader or writer on a topic, announced as that of one node or of several."""
+    """A DDS reader or writer on a topic, announced as that of one node or of several.
+
+    The constructor announces it, and from then on the housekeeping thread uses it: it must be the last thing that a
+    child's constructor calls.
+    """
 
     def __init__(self, native: NativeEndpoint, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
         self.guid = native.guid
@@ -142,8 +146,8 @@ class Publisher(WireEndpoint):
     """Writes serialised messages."""
 
     def __init__(self, native: _core.Writer, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
-        super().__init__(native, node, topic, dds_type, qos)
         self._writer = native
+        super().__init__(native, node, topic, dds_type, qos)
 
     def write(self, cdr: bytes) -> None:
         """Sends a message: 4 bytes of encapsulation, then CDR. Other threads go on meanwhile.
@@ -176,8 +180,8 @@ class Subscription(WireEndpoint):
     """Holds serialised messages until they are taken."""
 
     def __init__(self, native: _core.Reader, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
-        super().__init__(native, node, topic, dds_type, qos)
         self._reader = native
+        super().__init__(native, node, topic, dds_type, qos)
 
     def take(self, limit: int = 100) -> list[Sample]:
         """Up to `limit` messages, the oldest first; without waiting."""
@@ -194,9 +198,9 @@ class TfReader(WireEndpoint):
     def __init__(
         self, native: _core.TfReader, node: GraphNode, topic: str, dds_type: str, qos: QoS, *, name_writers: bool
     ) -> None:
-        super().__init__(native, node, topic, dds_type, qos)
         self._reader = native
         self._named: dict[int, str] | None = {} if name_writers else None
+        super().__init__(native, node, topic, dds_type, qos)
 
     def name_writers(self, graph: Graph) -> None:
         """Lets the buffer note the publishing nodes, as far as the graph tells them."""
