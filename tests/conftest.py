@@ -3,11 +3,15 @@
 import itertools
 import os
 import shutil
+import signal
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
+# Shells start background jobs with Ctrl-C ignored, and children would inherit that: tests are about Ctrl-C, too.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 _domain_ids = itertools.count(os.getpid() % 97)
 

@@ -1,7 +1,6 @@
 #include "core/tree.hpp"
 
 #include <cmath>
-#include <cstdarg>
 #include <cstdio>
 
 #include "core/error.hpp"
@@ -10,17 +9,11 @@ namespace coframe {
 
 namespace {
 
-std::string format(const char* pattern, ...) __attribute__((format(printf, 1, 2)));
-
-std::string format(const char* pattern, ...) {
-  va_list arguments, again;
-  va_start(arguments, pattern);
-  va_copy(again, arguments);
-  const int length = std::vsnprintf(nullptr, 0, pattern, arguments);
-  va_end(arguments);
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  const int length = std::snprintf(nullptr, 0, pattern, values...);
   std::string text(static_cast<std::size_t>(length), '\0');
-  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
-  va_end(again);
+  std::snprintf(text.data(), text.size() + 1, pattern, values...);
   return text;
 }
 

@@ -1,5 +1,7 @@
 """No mixture of our ROS packages with others'."""
 
+import os
+import subprocess
 import sys
 
 import pytest
@@ -31,3 +33,15 @@ def test_what_comes_after_ours_does_not_matter(tmp_path):
 def test_folders_without_code_do_not_matter(tmp_path):
     (tmp_path / "std_msgs").mkdir()
     ros_side.check("rclpy", [str(tmp_path), str(ros_side.ours())])
+
+
+def test_a_sourced_ros_wins(tmp_path):
+    (tmp_path / "rclpy").mkdir()
+    (tmp_path / "rclpy" / "__init__.py").write_text("whose = 'theirs'")
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    code = "import rclpy; print(rclpy.whose)"
+    result = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True)
+    assert result.stdout == "theirs\n"
+    code = "import tf2_ros"
+    result = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
+    assert "coframe's tf2_ros is being imported, but rclpy would come from" in result.stderr

@@ -66,7 +66,7 @@ def demo(
 
         def picture() -> Group:
             running = time.monotonic() - start
-            state = f"{', '.join(nodes.names)} - {running:.0f} s - Ctrl-C to leave"
+            state = f"{running:.0f} s, Ctrl-C to leave: {', '.join(nodes.names)}"
             return Group(
                 tree_table(ros.buffer, "base_link", wide=console.width >= 100),
                 Text(str(clouds)),

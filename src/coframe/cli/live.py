@@ -32,7 +32,11 @@ def tree_table(buffer: Buffer, reference: str, *, wide: bool = True) -> Table:
     table = Table(title=title, title_justify="left", box=None, padding=(0, 1, 0, 0), pad_edge=False)
     for column in ("frame", "parent"):
         table.add_column(column, no_wrap=True)
-    for column in ("rate Hz", "age ms", "x y z", "roll pitch yaw"):
+    decimals = 3 if wide else 2
+    position, angles = decimals + 3, decimals + 2  # characters a number
+    axes = " ".join(f"{axis:>{position}}" for axis in "xyz")
+    turns = " ".join(f"{turn:>{angles}}" for turn in ("roll", "pit", "yaw"))
+    for column in ("rate Hz", "age ms", axes, turns):
         table.add_column(column, justify="right", no_wrap=True)
     now = time.time_ns()
     for depth, frame in _in_tree_order(buffer.frames()):
@@ -41,9 +45,9 @@ def tree_table(buffer: Buffer, reference: str, *, wide: bool = True) -> Table:
         table.add_row(
             Text(" " * depth + frame.name, style="dim" if stale else "bold"),
             frame.parent,
-            _rate(frame),
+            Text(_rate(frame), style="dim" if frame.static else "cyan"),
             Text(_age(frame, age), style="red" if stale else ""),
-            *_pose(buffer, reference, frame.name, 3 if wide else 2),
+            *_pose(buffer, reference, frame.name, decimals),
         )
     return table
 

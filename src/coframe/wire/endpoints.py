@@ -81,7 +81,11 @@ class GraphNode:
 
 
 class WireEndpoint:
-    """A DDS reader or writer on a topic, announced as that of one node or of several."""
+    """A DDS reader or writer on a topic, announced as that of one node or of several.
+
+    The constructor announces it, and from then on the housekeeping thread uses it: it must be the last thing that a
+    child's constructor calls.
+    """
 
     def __init__(self, native: NativeEndpoint, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
         self.guid = native.guid
@@ -197,7 +201,7 @@ class TfReader(WireEndpoint):
         self._reader = native
         self._named: dict[int, str] | None = {} if name_writers else None
         self._naming = threading.Lock()
-        super().__init__(native, node, topic, dds_type, qos)  # last: other threads see it from now on
+        super().__init__(native, node, topic, dds_type, qos)
 
     def name_writers(self, graph: Graph) -> None:
         """Lets the buffer note the publishing nodes, as far as the graph tells them."""

@@ -1,0 +1,38 @@
+"""The wheel in an environment of its own, as `pip install` would have it."""
+
+import os
+import re
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+
+def run(*command, **environment):
+    command = [str(part) for part in command]
+    result = subprocess.run(
+        command, capture_output=True, text=True, cwd="/", env={**os.environ, **environment}, check=False
+    )
+    assert result.returncode == 0, result.stderr
+    return result.stdout
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(600)
+def test_the_wheel_has_everything(tmp_path):
+    run(sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--wheel-dir", tmp_path, ROOT)
+    (wheel,) = tmp_path.glob("coframe-*.whl")
+    venv.create(tmp_path / "env", with_pip=True)
+    python = tmp_path / "env" / "bin" / "python"
+    run(python, "-m", "pip", "install", "--quiet", f"{wheel}[dds,cli]")
+
+    path, rclpy = run(python, "-c", "import sys, rclpy; print(sys.path[-1]); print(rclpy.__file__)").splitlines()
+    assert path.endswith("coframe/ros"), "the ROS packages come last on the path"
+    assert rclpy.startswith(path)
+    run(python, "-c", "import tf2_ros, tf2_geometry_msgs, tf2_sensor_msgs, tf_transformations, sensor_msgs_py")
+    shown = run(tmp_path / "env" / "bin" / "coframe", "demo", "--duration", "5", ROS_DOMAIN_ID="201")
+    assert re.search(r"^ *camera_link +end_effector +static", shown, re.MULTILINE)
