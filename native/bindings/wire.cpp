@@ -171,6 +171,9 @@ void define_readers(nb::module_& wire) {
 void define_wire(nb::module_& wire) {
   nb::exception<dds::Error>(wire, "DdsError", PyExc_RuntimeError);
   wire.def("load_dds", &dds::load, nb::arg("path"), "Loads the DDS library; RuntimeError where it does not fit.");
+  wire.def("create_unchecked_topic", &dds::create_unchecked_topic, nb::arg("participant"), nb::arg("name"),
+           nb::arg("type_name"), ReleaseGil(),
+           "A topic whose readers are given any bytes that come under the type's name: its number.");
   nb::class_<QosProfile>(wire, "QosProfile", "The four policies ROS programs set.")
       .def(
           "__init__",

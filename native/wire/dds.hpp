@@ -79,6 +79,23 @@ struct SampleContainer {
   std::size_t size;
 };
 
+// dds_topic_descriptor_t: a type, as programs are made of it that know it at compile time.
+struct TypeDescriptor {
+  struct Blob {
+    const unsigned char* data;
+    std::uint32_t size;
+  };
+  std::uint32_t size, alignment, flags;
+  std::uint32_t key_count;
+  const char* name;
+  const void* keys;
+  std::uint32_t instruction_count;
+  const std::uint32_t* instructions;  // for the serialiser
+  const char* meta;
+  Blob type_information, type_mapping;
+  std::uint32_t representations;
+};
+
 using DataCallback = void (*)(Entity reader, void* argument);
 
 inline constexpr Entity kPublicationTopic = 0x7fff0003;   // DDS_BUILTIN_TOPIC_DCPSPUBLICATION
@@ -98,6 +115,8 @@ inline constexpr Code kPreconditionNotMet = -4;
 #define COFRAME_DDS_FUNCTIONS(X)                                                                              \
   X(Entity, dds_create_domain, (std::uint32_t id, const char* config))                                       \
   X(Entity, dds_create_participant, (std::uint32_t domain, const Qos*, const Listener*))                     \
+  X(Entity, dds_create_topic,                                                                                 \
+    (Entity participant, const TypeDescriptor*, const char* name, const Qos*, const Listener*))              \
   X(Entity, dds_create_writer, (Entity participant, Entity topic, const Qos*, const Listener*))              \
   X(Entity, dds_create_reader, (Entity participant, Entity topic, const Qos*, const Listener*))              \
   X(Code, dds_delete, (Entity))                                                                              \
@@ -166,6 +185,10 @@ void count_participants(int change) noexcept;
 
 // `code` itself, or throws Error "could not <what>: <DDS's word>" where it is negative.
 Code check(Code code, const char* what);
+
+// A topic whose readers are given any bytes that come under the type's name. With the type itself, Cyclone drops what
+// does not fit, with a line on stderr for each message, where nobody can count it.
+Entity create_unchecked_topic(Entity participant, const std::string& name, const std::string& type);
 
 // The handles that `get`, dds_get_matched_*, gives for `entity`.
 std::vector<Handle> matched_handles(Code (*get)(Entity, Handle*, std::size_t), Entity entity);

@@ -250,6 +250,9 @@ class DdsError(RuntimeError):
 def load_dds(path: str) -> None:
     """Loads the DDS library; RuntimeError where it does not fit."""
 
+def create_unchecked_topic(participant: int, name: str, type_name: str) -> int:
+    """A topic whose readers are given any bytes that come under the type's name: its number."""
+
 class QosProfile:
     """The four policies ROS programs set."""
 

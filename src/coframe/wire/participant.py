@@ -44,6 +44,7 @@ class Participant:
         self._native = dds.join(domain_id, config.cyclone_config(), _ENCLAVE)
         self._lock = threading.RLock()
         self._topics: dict[tuple[str, str], int] = {}
+        self._tf_topics: dict[str, int] = {}
         self._nodes: list[GraphNode] = []
         self._statics: dict[str, StaticTopic] = {}
         self._gid_size = gid_size(os.environ)
@@ -72,7 +73,7 @@ class Participant:
         """
         domain = config.domain_id() if domain_id is None else config.check_domain_id(domain_id)
         with cls._instances_lock:
-            if any(joined._process != os.getpid() for joined in cls._instances.values()):
+            if any(joined.is_inherited() for joined in cls._instances.values()):
                 raise WireError(
                     "This process was forked from one that had joined the ROS graph, and DDS does not survive that.",
                     hint="Start it by 'spawn': multiprocessing.set_start_method('spawn').",
@@ -191,10 +192,9 @@ class Participant:
         Raises:
             WireError: DDS refuses.
         """
-        from coframe.messages.registry import find  # noqa: PLC0415 - importing coframe.wire stays cheap
-
         chosen = qos or (TF_STATIC_READER if static else TF)
-        name, type_name, entity = self._topic_of(topic, find("tf2_msgs/msg/TFMessage"), "topic")
+        name, type_name = names.dds_topic(topic), names.dds_type("tf2_msgs/msg/TFMessage")
+        entity = self._tf_topic(name, type_name)
         source = initial_authority(authority)
         native = _create(
             lambda: _core.TfReader(self._native.entity, entity, _native_qos(chosen), "", buffer, static, source),
@@ -263,10 +263,14 @@ class Participant:
     def announce(self) -> None:
         """Tells the graph about the nodes of this process and their endpoints."""
         with self._lock:
-            if self._ending or self._process != os.getpid():
+            if self._ending or self.is_inherited():
                 return
             infos = [node.info() for node in self._nodes]
             self._info_writer.write(encode_info(self._native.guid, infos, self._gid_size))
+
+    def is_inherited(self) -> bool:
+        """Whether this process is a forked child, and the participant its parent's."""
+        return self._process != os.getpid()
 
     def _topic_of(self, topic: str, message_type: type, kind: Kind) -> tuple[str, str, int]:
         """The DDS topic's name, its type's name, and its number."""
@@ -280,6 +284,15 @@ class Participant:
             if key not in self._topics:
                 self._topics[key] = types.create_topic(self._native.entity, name, data_type)
             return self._topics[key]
+
+    def _tf_topic(self, name: str, type_name: str) -> int:
+        """For readers whose buffer checks the bytes, and counts what is malformed."""
+        with self._lock:
+            if name not in self._tf_topics:
+                self._tf_topics[name] = _create(
+                    lambda: _core.create_unchecked_topic(self._native.entity, name, type_name), name
+                )
+            return self._tf_topics[name]
 
     def _describe(self, endpoints: dict[int, DdsEndpoint]) -> list[Endpoint]:
         return [self._graph.describe(endpoint) for endpoint in endpoints.values()]
