@@ -192,3 +192,18 @@ def test_own_qos(participant, node):
     buffer = coframe.Buffer()
     participant.tf_reader(node, "/tf", buffer, static=False, qos=QoS(depth=1, reliable=False))
     assert [subscriber.qos.reliable for subscriber in participant.subscribers("/tf")] == [False]
+
+
+def test_refused_transforms_are_told_of_with_their_publisher(participant, node, eventually):
+    heard = []
+    participant.on_warning(heard.append)
+    buffer = coframe.Buffer()
+    reader = participant.tf_reader(node, "/tf", buffer, static=False)
+    publisher = participant.publisher(node, "/tf", TF_MESSAGE, TF)
+    eventually(lambda: reader.matched and publisher.matched)
+    good, zeros = stamped("odom", "good"), stamped("odom", "base_link")
+    zeros.transform.rotation.w = 0.0
+    publisher.write(codec.serialize(TF_MESSAGE(transforms=[good, zeros])))
+    eventually(lambda: heard)
+    assert len(heard) == 1
+    assert heard[0].startswith("Refused 1 of the transforms on /tf (from /tester): tf2 takes no quaternion of zeros")
