@@ -71,16 +71,16 @@ bool fail_name(ErrorCode code, Argument argument, std::string_view name, Failure
 
 // A frame's number, or a failure that says what is wrong with its name. Needs no GIL.
 bool resolve(const Buffer& buffer, std::string_view name, Argument argument, FrameId& frame, Failure& failure) {
-  if (frame != 0) return true;
   if (name.empty()) return fail_name(ErrorCode::empty_name, argument, name, failure);
   if (name.front() == '/') return fail_name(ErrorCode::leading_slash, argument, name, failure);
-  frame = buffer.find(name);
+  if (frame == 0) frame = buffer.find(name);
   return frame != 0 || fail_name(ErrorCode::unknown_frame, argument, name, failure);
 }
 
 bool lookup(Leg& leg, Stamp& stamp, Pose& pose, Failure& failure) {
   const Buffer& buffer = *leg.buffer.core;
-  if ((leg.target_id == 0 || leg.source_id == 0) && leg.target_name == leg.source_name) {
+  if (leg.target_id == leg.source_id && leg.target_name == leg.source_name) {
+    if (leg.target_id != 0) return buffer.lookup(leg.target_id, leg.source_id, stamp, pose, failure);
     pose = Pose{};  // any frame seen from itself, even one that nobody knows
     return true;
   }

@@ -1,14 +1,16 @@
 #include "core/history.hpp"
 
-#include <cstring>
+#include <algorithm>
 #include <limits>
 
 namespace coframe {
 
 namespace {
 
+// By value, as 0.0 and -0.0 are one number.
 bool same(const Sample& a, const Sample& b) {
-  return a.parent == b.parent && std::memcmp(&a.pose, &b.pose, sizeof(Pose)) == 0;
+  return a.parent == b.parent && std::equal(a.pose.q, a.pose.q + 4, b.pose.q) &&
+         std::equal(a.pose.p, a.pose.p + 3, b.pose.p);
 }
 
 // Saturating: stamps may come from anywhere.

@@ -1,6 +1,7 @@
 """static_tf_broadcaster, dynamic_tf_broadcaster and complete_tf_tree."""
 
 import math
+import os
 import subprocess
 import sys
 
@@ -236,6 +237,29 @@ def test_arm_and_mounts_may_come_from_elsewhere(start):
 def test_a_parameter_that_makes_no_sense_ends_the_node_with_a_sentence(node, parameter, sentence):
     command = [sys.executable, "-m", f"coframe.lab.{node}", "--ros-args", "-p", parameter]
     result = subprocess.run(command, capture_output=True, text=True, timeout=30, check=False)
+    assert result.returncode == 1
+    assert result.stderr.startswith(f"{node}: ")
+    assert sentence in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+@pytest.mark.parametrize("node", ["static_tf_broadcaster", "dynamic_tf_broadcaster", "complete_tf_tree"])
+@pytest.mark.parametrize(
+    ("arguments", "environment", "sentence"),
+    [
+        (["-r", "nonsense"], {}, "--remap 'nonsense' is not of the form from:=to"),
+        (["--params-file", "nowhere.yaml"], {}, "--params-file nowhere.yaml"),
+        (["-r", "__node:=a-b"], {}, "Invalid node name"),
+        ([], {"ROS_DOMAIN_ID": "abc"}, "ROS_DOMAIN_ID is 'abc'"),
+        ([], {"ROS_AUTOMATIC_DISCOVERY_RANGE": "FAR"}, "ROS_AUTOMATIC_DISCOVERY_RANGE is 'FAR'"),
+    ],
+)
+@pytest.mark.usefixtures("domain_id")
+def test_a_command_line_or_environment_that_makes_no_sense_does_too(node, arguments, environment, sentence):
+    command = [sys.executable, "-m", f"coframe.lab.{node}", "--ros-args", *arguments]
+    result = subprocess.run(
+        command, capture_output=True, text=True, timeout=30, check=False, env={**os.environ, **environment}
+    )
     assert result.returncode == 1
     assert result.stderr.startswith(f"{node}: ")
     assert sentence in result.stderr

@@ -79,6 +79,14 @@ def test_static_with_both_argument_styles(processes):
         (["static", "0", "0", "a", "b"], 1, "Extra unparsed arguments on command-line"),
         (["static", "--child-frame-id", "b"], 1, "Frame id must not be empty"),
         (["static", "--frame-id", "b"], 1, "Child frame id must not be empty"),
+        (["static", "--frame-id=a", "--colour=red"], 1, "Extra unparsed arguments on command-line: --colour"),
+        (["static", "--frame-id", "a", "--child-frame-id", "\udcff"], 1, "Frame ids are UTF-8 texts"),
+        (["static", "--frame-id=a", "--child-frame-id=b", "--tf-static-topic", "x y"], 1, "Check the topic's name"),
+        (["echo", "a", "b", "--tf-topic", "x y"], 1, "Check the topic's name"),
+        (["echo", "a", "b", "inf"], 1, "Rate must be at most 10000"),
+        (["echo", "a", "b", "1e-300"], 1, "Period must be at most"),
+        (["echo", "a", "b", "-c", "inf"], 1, "Cache time must be at most"),
+        (["echo", "a", "b", "-o", "nan"], 1, "--offset must be a number of seconds"),
         (["static", "--frame-id", "b", "--child-frame-id", "b"], 1, "cannot publish static transform from 'b' to 'b'"),
         (["frobnicate"], 2, "No such command"),
     ],
@@ -110,3 +118,22 @@ def test_demo_shows_the_whole_tree_and_ends_its_nodes(processes):
         assert re.search(rf"^ *{frame}\b", text, re.MULTILINE), text
     assert "not connected" not in text
     assert re.search(r"/scan_base_frame: \d+\.\d Hz, \d+ points in base_link", text)
+
+
+@pytest.mark.parametrize(("how", "code"), [(signal.SIGHUP, 0), (signal.SIGKILL, -signal.SIGKILL)])
+def test_no_node_outlives_the_demo(processes, how, code):
+    """A closed terminal or a kill must not leave a second arm behind for the next demo."""
+    processes.start("demo", "python", "-m", "coframe.cli", "demo")
+    assert processes.observe(1.0, "/tf:tf2_msgs/msg/TFMessage:volatile")["/tf"]
+    assert processes.end("demo", how)[0] == code
+    eventually(
+        lambda: not processes.observe(0.5, "/tf:tf2_msgs/msg/TFMessage:volatile")["/tf"], lambda: "silence on /tf"
+    )
+
+
+def test_options_take_their_value_behind_an_equals_sign_and_topics_need_no_slash(processes):
+    static = ["--frame-id=a", "--child-frame-id=b", "--x=-1.5", "--tf-static-topic=other_static"]
+    processes.start("static", "python", "-m", "coframe.cli", "static", *static)
+    start_echo(processes, "a", "b", "--limit=1", "--tf-static-topic=other_static")
+    eventually(lambda: not processes.running("echo"), lambda: processes.text("echo"))
+    assert "- Translation: [-1.500, 0.000, 0.000]" in processes.text("echo")

@@ -31,6 +31,8 @@ BROADCASTER = """
 
 
 BROKEN_MESSAGES = """
+warned = []
+participant.on_warning(warned.append)
 buffer = coframe.Buffer()
 reader = participant.tf_reader(node, "/tf", buffer, static=False)
 publisher = peer.advertise("/tf", "tf2_msgs/msg/TFMessage", depth=1000)
@@ -50,6 +52,7 @@ publisher.send_payload(last)
 eventually(lambda: buffer.can_transform("a", "last"))
 assert buffer.statistics["malformed"] == sent + 1, buffer.statistics
 assert buffer.statistics["refused"] >= 1
+eventually(lambda: any(text.startswith("Dropped") and "that are no TFMessage" in text for text in warned))
 assert set(buffer.frame_names()) <= {"a", "b", "c", "last"}
 """
 
@@ -229,3 +232,18 @@ def test_a_reader_is_whole_when_other_threads_first_see_it(participant, node, mo
 
     monkeypatch.setattr(GraphNode, "add", add_and_look)
     participant.tf_reader(node, "/tf", coframe.Buffer(), static=False, authority=None)
+
+
+def test_refused_transforms_are_told_of_with_their_publisher(participant, node, eventually):
+    heard = []
+    participant.on_warning(heard.append)
+    buffer = coframe.Buffer()
+    reader = participant.tf_reader(node, "/tf", buffer, static=False)
+    publisher = participant.publisher(node, "/tf", TF_MESSAGE, TF)
+    eventually(lambda: reader.matched and publisher.matched)
+    good, zeros = stamped("odom", "good"), stamped("odom", "base_link")
+    zeros.transform.rotation.w = 0.0
+    publisher.write(codec.serialize(TF_MESSAGE(transforms=[good, zeros])))
+    eventually(lambda: heard)
+    assert len(heard) == 1
+    assert heard[0].startswith("Refused 1 of the transforms on /tf (from /tester): tf2 takes no quaternion of zeros")

@@ -15,4 +15,6 @@ def main() -> None:
         if error.name not in {"typer", "rich"}:
             raise
         sys.exit(f"coframe: the command line needs the package {error.name}: pip install 'coframe[all]'")
+    except KeyboardInterrupt:  # while everything is being loaded
+        sys.exit(130)
     app()

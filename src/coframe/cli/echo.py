@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from typing import TYPE_CHECKING, Annotated
 
@@ -19,6 +20,9 @@ __all__ = ["echo"]
 
 NODE = "tf2_echo"
 SECOND = 1_000_000_000
+FASTEST = 10_000.0  # Hz: quicker than any terminal
+LONGEST = 4e9  # seconds: stamps of more than 126 years leave int64 nanoseconds when they are added up
+MOST_DIGITS = 17  # what a float64 has
 
 
 def echo(
@@ -45,10 +49,14 @@ def echo(
 
     Example: coframe echo base_link camera_link 2
     """
-    hertz = _positive("Rate", rate if rate is not None else _positional_rate(echo_rate))
-    _positive("Cache time", cache_time)
+    hertz = _positive("Rate", rate if rate is not None else _positional_rate(echo_rate), FASTEST)
+    _positive("Period", 1.0 / hertz, LONGEST)
+    _positive("Cache time", cache_time, LONGEST)
     _positive("Limit", 1 if limit is None else limit)
-    _positive("Precision", precision)
+    _positive("Precision", precision, MOST_DIGITS)
+    for option, value in (("--time", at), ("--offset", offset)):
+        if value is not None and not abs(value) <= LONGEST:
+            fail(f"{option} must be a number of seconds from {-LONGEST:.0e} to {LONGEST:.0e}, not {value}")
     with (
         session(),
         coframe.connect(
@@ -78,9 +86,11 @@ def _positional_rate(text: str | None) -> float:
         )
 
 
-def _positive(what: str, value: float) -> float:
+def _positive(what: str, value: float, most: float = math.inf) -> float:
     if not value > 0:
         fail(f"{what} must be > 0.0")
+    if value > most:
+        fail(f"{what} must be at most {most:g}, not {value:g}")
     return value
 
 

@@ -21,8 +21,14 @@ __all__ = ["DomainOption", "TfStaticTopicOption", "TfTopicOption", "fail", "log"
 DomainOption = Annotated[
     int | None, typer.Option(min=0, max=232, help="The ROS domain; by default ROS_DOMAIN_ID, or 0.", show_default=False)
 ]
-TfTopicOption = Annotated[str, typer.Option(help="Where transforms are sent, such as /robot1/tf.")]
-TfStaticTopicOption = Annotated[str, typer.Option(help="Where static transforms are sent.")]
+
+
+def _qualified(topic: str) -> str:
+    return topic if topic.startswith("/") else f"/{topic}"
+
+
+TfTopicOption = Annotated[str, typer.Option(help="Where transforms are sent, such as /robot1/tf.", callback=_qualified)]
+TfStaticTopicOption = Annotated[str, typer.Option(help="Where static transforms are sent.", callback=_qualified)]
 
 
 def fail(text: str, hint: str = "", *, code: int = 1) -> NoReturn:
@@ -39,8 +45,10 @@ def log(level: str, node: str, text: str) -> None:
 
 @contextlib.contextmanager
 def session() -> Iterator[None]:
-    """Ctrl-C and SIGTERM end the block quietly; errors of ours become a sentence and exit code 1."""
-    previous = signal.signal(signal.SIGTERM, _interrupt)
+    """Ctrl-C, SIGTERM and a closed terminal end the block quietly; errors of ours become a sentence and exit code 1."""
+    # Under nohup a closed terminal is to be ignored.
+    ending = [number for number in _ENDING if signal.getsignal(number) is not signal.SIG_IGN]
+    previous = {number: signal.signal(number, _interrupt) for number in ending}
     try:
         yield
     except KeyboardInterrupt:
@@ -50,7 +58,12 @@ def session() -> Iterator[None]:
     except (WireError, TransformException, DecodeError) as error:
         fail(str(error), error.hint)
     finally:
-        signal.signal(signal.SIGTERM, previous)
+        for number, handler in previous.items():
+            signal.signal(number, handler)
+
+
+# Windows has no SIGHUP.
+_ENDING = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 
 
 def _interrupt(_signal: int, _frame: FrameType | None) -> None:

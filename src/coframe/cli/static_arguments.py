@@ -50,7 +50,7 @@ def parse(arguments: Sequence[str]) -> StaticArguments:
         ArgumentError: They are incomplete, contradict each other, or are no numbers.
     """
     flags = _flags(arguments)
-    topic = flags.names.get("--tf-static-topic", "/tf_static")
+    topic = "/" + flags.names.get("--tf-static-topic", "/tf_static").removeprefix("/")
     domain = _domain(flags.names.get("--domain"))
     if not flags.positional:
         return _new_style(flags, domain, topic)
@@ -63,14 +63,18 @@ def _flags(arguments: Sequence[str]) -> _Flags:
     flags = _Flags()
     rest = iter(arguments)
     for argument in rest:
-        if argument in NUMBERS:
-            flags.numbers[argument] = _number(_value(argument, rest), argument)
-        elif argument in NAMES:
-            flags.names[argument] = _value(argument, rest)
-        elif argument.startswith("--"):
-            raise ArgumentError("Extra unparsed arguments on command-line")
-        else:
+        if not argument.startswith("--"):
             flags.positional.append(argument)
+            continue
+        flag, equals, value = argument.partition("=")
+        if flag not in NUMBERS and flag not in NAMES:
+            raise ArgumentError(f"Extra unparsed arguments on command-line: {flag}")
+        if not equals:
+            value = _value(flag, rest)
+        if flag in NUMBERS:
+            flags.numbers[flag] = _number(value, flag)
+        else:
+            flags.names[flag] = value
     return flags
 
 
@@ -139,3 +143,8 @@ def _check_names(frame_id: str, child_frame_id: str) -> None:
         raise ArgumentError("Frame id must not be empty")
     if not child_frame_id:
         raise ArgumentError("Child frame id must not be empty")
+    for name in (frame_id, child_frame_id):
+        try:
+            name.encode()
+        except UnicodeEncodeError:
+            raise ArgumentError(f"Frame ids are UTF-8 texts, which {name!r} is not") from None

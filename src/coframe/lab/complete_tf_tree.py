@@ -22,7 +22,7 @@ from collections.abc import Sequence
 import rclpy
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import TransformStamped
-from rclpy.exceptions import ParameterException
+from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.time import Time as ClockTime
@@ -172,14 +172,14 @@ class CompleteTFTree(Node):
 
 def main(args: list[str] | None = None) -> None:
     """Run the node until it is stopped."""
-    rclpy.init(args=args)
     node = None
     try:
+        rclpy.init(args=args)
         node = CompleteTFTree()
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
-    except (ParameterException, ValueError) as error:
+    except (RuntimeError, NameValidationException, ParameterException, ValueError) as error:
         sys.exit(f"complete_tf_tree: {error}")
     finally:
         if node is not None:

@@ -18,7 +18,7 @@ import sys
 
 import rclpy
 from geometry_msgs.msg import TransformStamped
-from rclpy.exceptions import ParameterException
+from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.time import Time
@@ -153,14 +153,14 @@ class DynamicFramePublisher(Node):
 
 def main(args: list[str] | None = None) -> None:
     """Run the node until it is stopped."""
-    rclpy.init(args=args)
     node = None
     try:
+        rclpy.init(args=args)
         node = DynamicFramePublisher()
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
-    except (ParameterException, ValueError) as error:
+    except (RuntimeError, NameValidationException, ParameterException, ValueError) as error:
         sys.exit(f"dynamic_tf_broadcaster: {error}")
     finally:
         if node is not None:

@@ -95,6 +95,9 @@ class Launcher:
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
+        for process in self._processes.values():
+            if process.stdin:
+                process.stdin.close()
         self._processes.clear()
         self._folder.cleanup()
 
@@ -106,8 +109,8 @@ class Launcher:
         arguments = ("--ros-args", *command.arguments) if command.arguments else ()
         with self._log(command.name).open("wb") as log:
             return subprocess.Popen(  # noqa: S603 - our own modules in our own Python
-                [sys.executable, "-m", module, *arguments],
-                stdin=subprocess.DEVNULL,
+                [sys.executable, "-m", "coframe.lab.leash", module, *arguments],
+                stdin=subprocess.PIPE,
                 stdout=log,
                 stderr=log,
                 env=self._environment,

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 import rclpy
 from geometry_msgs.msg import TransformStamped
 from rclpy.duration import Duration
-from rclpy.exceptions import ParameterException
+from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -182,14 +182,14 @@ class SensorTransformNode(Node):
 
 def main(args: list[str] | None = None) -> None:
     """Run the node until it is stopped."""
-    rclpy.init(args=args)
     node = None
     try:
+        rclpy.init(args=args)
         node = SensorTransformNode()
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
-    except (ParameterException, ValueError) as error:
+    except (RuntimeError, NameValidationException, ParameterException, ValueError) as error:
         sys.exit(f"sensor_transform: {error}")
     finally:
         if node is not None:

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import rclpy
-from rclpy.exceptions import ParameterException
+from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.time import Time
@@ -160,14 +160,14 @@ def distance_to_pillars(x: float, y: float, dx: Array, dy: Array, range_max: flo
 
 def main(args: list[str] | None = None) -> None:
     """Run the node until it is stopped."""
-    rclpy.init(args=args)
     node = None
     try:
+        rclpy.init(args=args)
         node = SimulatedLidar()
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
-    except (ParameterException, ValueError) as error:
+    except (RuntimeError, NameValidationException, ParameterException, ValueError) as error:
         sys.exit(f"simulated_lidar: {error}")
     finally:
         if node is not None:

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 import rclpy
 from geometry_msgs.msg import PointStamped, PoseStamped
 from rclpy.duration import Duration
-from rclpy.exceptions import ParameterException
+from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.time import Time
@@ -93,14 +93,14 @@ class TransformListenerNode(Node):
 
 def main(args: list[str] | None = None) -> None:
     """Run the node until it is stopped."""
-    rclpy.init(args=args)
     node = None
     try:
+        rclpy.init(args=args)
         node = TransformListenerNode()
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
-    except (ParameterException, ValueError) as error:
+    except (RuntimeError, NameValidationException, ParameterException, ValueError) as error:
         sys.exit(f"tf_listener: {error}")
     finally:
         if node is not None:

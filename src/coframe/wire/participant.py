@@ -16,6 +16,7 @@ from coframe.wire.endpoints import GraphNode, Publisher, Subscription, TfReader,
 from coframe.wire.graph import DdsEndpoint, Endpoint, Graph
 from coframe.wire.mismatch import MismatchWatch
 from coframe.wire.qos import GRAPH_WRITER, TF, TF_STATIC_READER, QoS
+from coframe.wire.refusals import RefusalWatch
 from coframe.wire.statics import StaticTopic, StaticWriter
 
 if TYPE_CHECKING:
@@ -54,6 +55,7 @@ class Participant:
         self._wake = _core.Event()
         self._graph = Graph(self._native.entity, graph_topic, self._wake)
         self._mismatches = MismatchWatch(self._graph, self._warn)
+        self._refusals = RefusalWatch(self._graph, self._warn)
         self._watchers: list[_core.Event] = []
         self._warning_callbacks: list[Callable[[str], None]] = []
         self._ending = False
@@ -202,6 +204,7 @@ class Participant:
         )
         reader = TfReader(native, node, name, type_name, chosen, name_writers=authority is None)
         reader.name_writers(self._graph)
+        self._refusals.add(reader, buffer)
         return reader
 
     def static_broadcaster(self, node: GraphNode, topic: str = "/tf_static") -> StaticWriter:
@@ -317,6 +320,7 @@ class Participant:
                 if version != seen or self._mismatches.waiting:
                     self._mismatches.check(self._endpoints())
                 seen = version
+                self._refusals.check([end for end in self._endpoints() if isinstance(end, TfReader)])
             except Exception:
                 # A callback of the user's, or an endpoint that was closed meanwhile.
                 if not self._ending:
