@@ -214,13 +214,14 @@ def test_a_process_ends_well_although_threads_publish(child):
 
 def test_a_forked_child_ends_well_and_leaves_its_parent_in_the_graph(child, participant, eventually):
     parent = child("""
-        import os, sys
+        import os, signal, sys
         import coframe
         from coframe.messages import find
         with coframe.connect("parent") as ros:
             string = find("std_msgs/msg/String")
             publisher, subscription = ros.publisher("/s", string), ros.subscribe("/s", string)
             if (pid := os.fork()) == 0:
+                signal.alarm(20)
                 try:
                     publisher.publish(string())
                 except RuntimeError:

@@ -360,6 +360,17 @@ def _create(make: Callable[[], Any], topic: str) -> Any:
         raise WireError(f"DDS refuses {topic}: {error}.", hint="Has the participant been closed already?") from error
 
 
+def _renew_locks() -> None:
+    """In a forked child: whoever held them is not here to give them back."""
+    Participant._instances_lock = threading.RLock()  # noqa: SLF001 - our own class
+    for participant in Participant._instances.values():  # noqa: SLF001 - our own class
+        participant._lock = threading.RLock()  # noqa: SLF001 - our own class
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_renew_locks)
+
+
 @atexit.register
 def _end_all() -> None:
     """DDS's threads must have ended before the interpreter does."""
