@@ -121,8 +121,9 @@ def test_demo_shows_the_whole_tree_and_ends_its_nodes(processes):
 
 
 @pytest.mark.parametrize(("how", "code"), [(signal.SIGHUP, 0), (signal.SIGKILL, -signal.SIGKILL)])
-def test_no_node_outlives_the_demo(processes, how, code):
+def test_no_node_outlives_the_demo(processes, how, code, tmp_path, monkeypatch):
     """A closed terminal or a kill must not leave a second arm behind for the next demo."""
+    monkeypatch.setenv("TMPDIR", str(tmp_path))  # who is killed leaves the nodes' logs behind
     processes.start("demo", "python", "-m", "coframe.cli", "demo")
     assert processes.observe(1.0, "/tf:tf2_msgs/msg/TFMessage:volatile")["/tf"]
     assert processes.end("demo", how)[0] == code
