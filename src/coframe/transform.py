@@ -119,12 +119,12 @@ class Transform(_core.Transform):
     @property
     def translation(self) -> Array:
         """Metres, shape (3,), of a batch (..., 3)."""
-        return np.array(self.values[:3]) if self.batch is None else self.batch[0]
+        return _frozen(self.values[:3]) if self.batch is None else self.batch[0]
 
     @property
     def quaternion(self) -> Array:
         """x, y, z, w, of unit length, shape (4,), of a batch (..., 4)."""
-        return np.array(self.values[3:]) if self.batch is None else self.batch[1]
+        return _frozen(self.values[3:]) if self.batch is None else self.batch[1]
 
     @property
     def stamps(self) -> NDArray[np.int64] | None:
@@ -275,6 +275,13 @@ def _vectors(values: ArrayLike, size: int, what: str) -> Array:
         raise InvalidArgumentException.telling(
             f"{what} must be finite", hint="Look for NaN or inf where the numbers come from."
         )
+    return array
+
+
+def _frozen(values: tuple[float, ...]) -> Array:
+    """An array that refuses to be written to: a transform would not change with it."""
+    array = np.array(values)
+    array.setflags(write=False)
     return array
 
 

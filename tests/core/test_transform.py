@@ -138,3 +138,9 @@ def test_a_transform_is_true_and_numpy_does_not_take_it_apart():
     assert not Transform(np.zeros((0, 3)))
     with pytest.raises(TypeError, match="unsupported operand"):
         np.zeros(3) @ Transform()
+
+
+def test_parts_of_a_transform_cannot_be_written_to(rng):
+    for a in (random_transform(rng), random_transform(rng, (3,))):
+        with pytest.raises(ValueError, match="read-only"):
+            a.translation[0] = 9

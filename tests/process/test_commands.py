@@ -128,7 +128,8 @@ def test_no_node_outlives_the_demo(processes, how, code, tmp_path, monkeypatch):
     assert processes.observe(1.0, "/tf:tf2_msgs/msg/TFMessage:volatile")["/tf"]
     assert processes.end("demo", how)[0] == code
     eventually(
-        lambda: not processes.observe(0.5, "/tf:tf2_msgs/msg/TFMessage:volatile")["/tf"], lambda: "silence on /tf"
+        lambda: not processes.observe(0.5, "/tf:tf2_msgs/msg/TFMessage:volatile", patience=2.0)["/tf"],
+        lambda: "silence on /tf",
     )
 
 
