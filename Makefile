@@ -5,10 +5,10 @@ STAMP := $(VENV)/.ready
 NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp') CMakeLists.txt
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test test-slow lint typecheck format bench generate clean
+.PHONY: help setup build demo test test-slow lint typecheck format conformance bench generate clean
 
 help: ## what there is
-	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 $(STAMP): pyproject.toml scripts/make_venv.sh $(NATIVE)
 	@VENV=$(VENV) sh scripts/make_venv.sh
@@ -29,6 +29,9 @@ test: $(STAMP) ## the test suite (under 6 minutes)
 test-slow: $(STAMP) ## the tests that take minutes
 	$(BIN)/python -m pytest -m slow $(ARGS)
 
+conformance: $(STAMP) ## tf2's semantics, case by case
+	@$(BIN)/python conformance/run.py $(ARGS)
+
 lint: $(STAMP) ## style: ruff, and the generated messages are up to date
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -36,6 +39,7 @@ lint: $(STAMP) ## style: ruff, and the generated messages are up to date
 
 typecheck: $(STAMP) ## mypy --strict, and the stub against the native module
 	$(BIN)/mypy
+	$(BIN)/mypy conformance/run.py
 	$(BIN)/python -m mypy.stubtest coframe._core --allowlist scripts/stubtest_allow.txt --mypy-config-file pyproject.toml
 
 format: $(STAMP) ## mend what can be mended

@@ -124,8 +124,8 @@ class Module:
             f'    """Service {self.package}/{self.kind}/{name}."""',
             "",
             f'    ROS_TYPE = "{self.package}/{self.kind}/{name}"',
-            f"    Request = {name}_Request",
-            f"    Response = {name}_Response",
+            f"    Request: TypeAlias = {name}_Request",
+            f"    Response: TypeAlias = {name}_Response",
         ]
 
     def _add_action(self, name: str, goal: Structure, result: Structure, feedback: Structure) -> None:
@@ -152,18 +152,18 @@ class Module:
             f'    """Action {self.package}/{self.kind}/{name}."""',
             "",
             f'    ROS_TYPE = "{self.package}/{self.kind}/{name}"',
-            f"    Goal = {name}_Goal",
-            f"    Result = {name}_Result",
-            f"    Feedback = {name}_Feedback",
+            f"    Goal: TypeAlias = {name}_Goal",
+            f"    Result: TypeAlias = {name}_Result",
+            f"    Feedback: TypeAlias = {name}_Feedback",
             "",
             "    class Impl:",
             '        """The services and messages that carry the action."""',
             "",
-            f"        SendGoalService = {name}_SendGoal",
-            f"        GetResultService = {name}_GetResult",
-            f"        FeedbackMessage = {name}_FeedbackMessage",
-            "        CancelGoalService = CancelGoal",
-            "        GoalStatusMessage = GoalStatusArray",
+            f"        SendGoalService: TypeAlias = {name}_SendGoal",
+            f"        GetResultService: TypeAlias = {name}_GetResult",
+            f"        FeedbackMessage: TypeAlias = {name}_FeedbackMessage",
+            "        CancelGoalService: TypeAlias = CancelGoal",
+            "        GoalStatusMessage: TypeAlias = GoalStatusArray",
         ]
 
     def _import(self, package: str, kind: str, name: str) -> None:
@@ -183,7 +183,8 @@ class Module:
         header += f'"""{self.docstring()}"""\n\nfrom __future__ import annotations\n\n'
         if any("array(" in text for text in classes):
             header += "from array import array\n"
-        header += "from typing import TYPE_CHECKING, Any, Final\n\n"
+        alias = ", TypeAlias" if self.wholes else ""
+        header += f"from typing import TYPE_CHECKING, Any, Final{alias}\n\n"
         if any("np." in text for text in classes):
             header += "import numpy as np\n\n"
         for module in ("definition", "message"):

@@ -221,7 +221,9 @@ nb::object py_chain(BufferObject& self, nb::handle target, nb::handle target_sta
                 fixed_id = buffer.find(text(fixed));
   std::vector<FrameId> frames, rest;
   Failure failure;
-  bool ok = buffer.chain(fixed_id, source_id, source_time, frames, failure);
+  bool ok = source_id == 0
+                ? fail_name(ErrorCode::unknown_frame, Argument::source_frame, text(source), failure)
+                : buffer.chain(fixed_id, source_id, source_time, frames, failure);
   if (ok && source_time != target_time) {
     ok = buffer.chain(target_id, fixed_id, target_time, rest, failure);
     if (!frames.empty() && !rest.empty() && frames.back() == rest.front()) frames.pop_back();

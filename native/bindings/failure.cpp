@@ -30,10 +30,11 @@ const char* exception_name(const FailureObject& object) {
   switch (object.failure.code) {
     case ErrorCode::empty_name:
     case ErrorCode::leading_slash: return "InvalidArgumentException";
-    case ErrorCode::unknown_frame:
-    case ErrorCode::loop: return "LookupException";
+    case ErrorCode::unknown_frame: return "LookupException";
+    // tf2's Python binding has only the base class for what the latest common time meets in the tree.
+    case ErrorCode::loop:
+      return object.speaker == Speaker::latest_common_time ? "TransformException" : "LookupException";
     case ErrorCode::not_connected:
-      // tf2's Python binding has only the base class for this one.
       return object.speaker == Speaker::latest_common_time ? "TransformException" : "ConnectivityException";
     default: return "ExtrapolationException";
   }

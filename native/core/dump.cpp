@@ -106,11 +106,13 @@ std::string frames_as_dot(const Tree& tree, Stamp now) {
     if (now != 0) text += "( " + fixed(seconds(now) - seconds(history.newest()), 3) + " sec old)";
     text += "\\nBuffer length: " + fixed(span(history), 3) + " sec\\n\"];\n";
   });
-  for (FrameId id = 1; id < tree.frame_count() && now != 0; ++id) {
-    if (tree.history(id)) continue;
+  // The legend hangs on every frame without a parent; on emptied ones, as in tf2, even without a time to tell.
+  for (FrameId id = 1; id < tree.frame_count(); ++id) {
+    const History* history = tree.history(id);
+    if (history ? !history->empty() : now == 0) continue;
     text += "edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label =\"view_frames Result\";\n";
-    text += "\"Recorded at time: " + fixed(seconds(now), 6) + "\"[ shape=plaintext ] ;\n }->" + dot_id(tree.name(id));
-    text += ";\n";
+    if (now != 0) text += "\"Recorded at time: " + fixed(seconds(now), 6) + "\"[ shape=plaintext ] ;\n ";
+    text += "}->" + dot_id(tree.name(id)) + ";\n";
   }
   return text + "}";
 }

@@ -138,7 +138,7 @@ class Buffer:
 
         Raises:
             LookupException: A frame that nobody has mentioned.
-            TransformException: The frames are in different trees (tf2's choice of exception).
+            TransformException: The frames are in different trees or a loop is in the way (tf2's choice of exception).
         """
 
     def chain(

@@ -95,6 +95,11 @@ class Buffer(_core.Buffer):
             InvalidArgumentException: tf2 refuses it (empty or equal names, NaN, ...), with tf2's text; or the
                 transform is between other frames, or has no stamp.
         """
+        if not isinstance(transform, _core.Transform):
+            raise TypeError(
+                f"set() takes a coframe.Transform, not {type(transform).__name__}: make one by "
+                "Transform(translation, quaternion), Transform.from_rpy(...) or Transform.from_matrix(...)"
+            )
         if transform.shape:
             raise InvalidArgumentException("set() takes a single transform, not a batch")
         _check_frames(parent, child, transform)

@@ -125,6 +125,9 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
         failure = self._failure
         return self._told.hint if failure is None else _hint(failure)
 
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({str(self)!r})"
+
     def __reduce__(self) -> tuple[object, ...]:
         facts = {name: getattr(self, name) for name in _Facts._fields}
         return _restore, (type(self), str(self), facts)
@@ -189,10 +192,19 @@ def _hint(failure: Failure) -> str:
         return _not_connected_hint(failure)
     if failure.code == "leading_slash":
         return f"Leave the leading '/' off: {failure.name.lstrip('/')!r}."
+    if failure.code == "too_old" and _looks_like_seconds(failure):
+        return f"Stamps are nanoseconds: {failure.requested} s would be {failure.requested}_000_000_000."
     if failure.code in _FIXED_HINTS:
         parent, child = failure.edge or ("", "")
         return _FIXED_HINTS[failure.code].format(parent=parent, child=child)
     return ""
+
+
+def _looks_like_seconds(failure: Failure) -> bool:
+    """Whether the time asked for, taken as seconds, is one that the link has."""
+    if failure.requested is None or failure.earliest is None or failure.latest is None:
+        return False
+    return failure.earliest <= failure.requested * 1_000_000_000 <= failure.latest
 
 
 _FIXED_HINTS = {

@@ -54,7 +54,7 @@ def stamp_ns(stamp: StampLike) -> int:
 
     Raises:
         TypeError: It is something else; a float of seconds above all.
-        ValueError: It is a datetime without a time zone, or NaT.
+        ValueError: It is a datetime without a time zone, or NaT, or does not fit 64 bits.
     """
     if isinstance(stamp, np.datetime64):
         if np.isnat(stamp):
@@ -64,7 +64,7 @@ def stamp_ns(stamp: StampLike) -> int:
         if stamp.tzinfo is None:
             raise ValueError("a datetime without a time zone is ambiguous: give it one, such as timezone.utc")
         return _timedelta_ns(stamp - datetime.datetime.fromtimestamp(0, datetime.timezone.utc))
-    return _number_ns(stamp, "a stamp", "int nanoseconds, numpy.datetime64, datetime or a Time")
+    return _in_range(_number_ns(stamp, "a stamp", "int nanoseconds, numpy.datetime64, datetime or a Time"))
 
 
 def duration_ns(duration: DurationLike) -> int:
@@ -76,17 +76,25 @@ def duration_ns(duration: DurationLike) -> int:
 
     Raises:
         TypeError: It is something else; a float of seconds above all.
-        ValueError: The text is not a number and a unit, or it is NaT.
+        ValueError: The text is not a number and a unit, or it is NaT, or it does not fit 64 bits.
     """
     if isinstance(duration, str):
-        return _parse_duration(duration)
+        return _in_range(_parse_duration(duration))
     if isinstance(duration, datetime.timedelta):
         return _timedelta_ns(duration)
     if isinstance(duration, np.timedelta64):
         if np.isnat(duration):
             raise ValueError("NaT is not a duration")
         return int(duration.astype("timedelta64[ns]").astype(np.int64))
-    return _number_ns(duration, "a duration", 'text such as "100ms", int nanoseconds, timedelta or a Duration')
+    return _in_range(
+        _number_ns(duration, "a duration", 'text such as "100ms", int nanoseconds, timedelta or a Duration')
+    )
+
+
+def _in_range(nanoseconds: int) -> int:
+    if not -(2**63) <= nanoseconds < 2**63:
+        raise ValueError(f"{nanoseconds} ns do not fit 64 bits, which hold 292 years")
+    return nanoseconds
 
 
 def _parse_duration(text: str) -> int:

@@ -22,6 +22,8 @@ Array = NDArray[np.float64]
 
 # How far from a rotation a matrix may be: what float32 and five printed digits leave over.
 _MATRIX_TOLERANCE = 1e-5
+# Quaternions between these lengths have squares that a float64 holds to full precision.
+_SHORT, _LONG = 1e-140, 1e140
 
 
 class Transform(_core.Transform):
@@ -49,6 +51,8 @@ class Transform(_core.Transform):
     """
 
     __slots__ = ()
+    # `array @ transform` is no product: numpy must not take the transform for an array of objects.
+    __array_ufunc__ = None
 
     def __init__(
         self,
@@ -68,7 +72,8 @@ class Transform(_core.Transform):
             return
         shape = np.broadcast_shapes(t.shape[:-1], q.shape[:-1])
         stamps = _stamps(stamp, shape)
-        batch = (np.broadcast_to(t, (*shape, 3)), np.broadcast_to(q, (*shape, 4)), stamps)
+        # A copy: the caller's array may change, a transform does not.
+        batch = (np.broadcast_to(t.copy(), (*shape, 3)), np.broadcast_to(q, (*shape, 4)), stamps)
         super().__init__(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, target, source, None, batch)
 
     @classmethod
@@ -114,12 +119,12 @@ class Transform(_core.Transform):
     @property
     def translation(self) -> Array:
         """Metres, shape (3,), of a batch (..., 3)."""
-        return np.array(self.values[:3]) if self.batch is None else self.batch[0]
+        return _frozen(self.values[:3]) if self.batch is None else self.batch[0]
 
     @property
     def quaternion(self) -> Array:
         """x, y, z, w, of unit length, shape (4,), of a batch (..., 4)."""
-        return np.array(self.values[3:]) if self.batch is None else self.batch[1]
+        return _frozen(self.values[3:]) if self.batch is None else self.batch[1]
 
     @property
     def stamps(self) -> NDArray[np.int64] | None:
@@ -218,6 +223,9 @@ class Transform(_core.Transform):
 
     __hash__ = None  # type: ignore[assignment]
 
+    def __bool__(self) -> bool:
+        return not self.shape or self.shape[0] > 0
+
     def __len__(self) -> int:
         if not self.shape:
             raise TypeError("a single transform has no length")
@@ -270,6 +278,13 @@ def _vectors(values: ArrayLike, size: int, what: str) -> Array:
     return array
 
 
+def _frozen(values: tuple[float, ...]) -> Array:
+    """An array that refuses to be written to: a transform would not change with it."""
+    array = np.array(values)
+    array.setflags(write=False)
+    return array
+
+
 def _points(values: ArrayLike) -> Array:
     points = np.asarray(values, dtype=np.float64)
     if points.ndim == 0 or points.shape[-1] != 3:
@@ -278,11 +293,16 @@ def _points(values: ArrayLike) -> Array:
 
 
 def _normalised(q: Array) -> Array:
-    length = np.linalg.norm(q, axis=-1, keepdims=True)
-    if not (length > 0.0).all():
-        raise InvalidArgumentException.telling(
-            "a quaternion of length zero is no rotation", hint="Is w unset? It is 1 at rest."
-        )
+    with np.errstate(over="ignore"):
+        length = np.sqrt((q * q).sum(axis=-1, keepdims=True))
+    if not ((length > _SHORT) & (length < _LONG)).all():  # squares that left the range of float64
+        largest = np.abs(q).max(axis=-1, keepdims=True, initial=0.0)
+        if not (largest > 0.0).all():
+            raise InvalidArgumentException.telling(
+                "a quaternion of length zero is no rotation", hint="Is w unset? It is 1 at rest."
+            )
+        q = q / largest
+        length = np.sqrt((q * q).sum(axis=-1, keepdims=True))
     unit: Array = q / length
     return unit
 

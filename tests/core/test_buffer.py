@@ -341,3 +341,22 @@ def test_text_dumps():
         "  oldest_transform: 10.000000\n  buffer_length: 0.000\n"
     )
     assert '"a" -> "b"[label="Broadcaster: auth\\nAverage rate: 10000.000 Hz\\n' in buffer.all_frames_as_dot()
+
+
+@pytest.mark.parametrize("value", [([0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]), np.eye(4), None])
+def test_set_says_what_it_takes(value):
+    with pytest.raises(TypeError, match=r"takes a coframe.Transform, not .*Transform.from_matrix"):
+        coframe.Buffer().set("a", "b", value, stamp=1)
+
+
+def test_seconds_where_nanoseconds_are_wanted_are_noticed():
+    buffer = coframe.Buffer()
+    for stamp in (1_000_000_000, 3_000_000_000):
+        buffer.set("a", "b", coframe.Transform(), stamp=stamp)
+    with pytest.raises(coframe.ExtrapolationException) as caught:
+        buffer.lookup("a", "b", 2)
+    assert caught.value.hint == "Stamps are nanoseconds: 2 s would be 2_000_000_000."
+    assert repr(caught.value).startswith("ExtrapolationException('Lookup would require extrapolation into the past.")
+    with pytest.raises(coframe.ExtrapolationException) as caught:
+        buffer.lookup("a", "b", 500_000_000)
+    assert "has forgotten that time" in caught.value.hint

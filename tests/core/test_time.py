@@ -41,3 +41,15 @@ def test_stamps():
     assert stamp_ns(np.datetime64("2026-01-02T03:04:05.678901")) == nanoseconds
     with pytest.raises(ValueError, match="time zone"):
         stamp_ns(moment.replace(tzinfo=None))
+
+
+@pytest.mark.parametrize("read", [stamp_ns, duration_ns])
+def test_what_does_not_fit_64_bits(read):
+    assert read(2**63 - 1) == 2**63 - 1
+    with pytest.raises(ValueError, match="do not fit 64 bits"):
+        read(2**63)
+
+
+def test_a_text_that_does_not_fit_64_bits():
+    with pytest.raises(ValueError, match="do not fit 64 bits"):
+        duration_ns("9999999h")

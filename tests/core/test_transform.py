@@ -117,3 +117,30 @@ def test_values_survive_pickle_and_copy(rng):
         assert copy.deepcopy(a) == a
     error = pickle.loads(pickle.dumps(coframe.LookupException.telling("text", target="a", hint="do")))
     assert (str(error), error.target, error.hint) == ("text", "a", "do")
+
+
+@pytest.mark.parametrize("size", [1e-320, 1e-200, 1.0, 1e200, 1e308])
+def test_quaternions_of_any_length_are_normalised(size):
+    np.testing.assert_allclose(Transform(quaternion=[0.0, 0.0, 0.0, size]).quaternion, [0, 0, 0, 1])
+    half = Transform(quaternion=[[size, 0.0, 0.0, size], [0.0, 0.0, 0.0, 1.0]]).quaternion
+    np.testing.assert_allclose(half, [[np.sqrt(0.5), 0, 0, np.sqrt(0.5)], [0, 0, 0, 1]], atol=1e-3)
+
+
+def test_a_batch_does_not_change_with_the_array_it_was_made_of():
+    positions = np.zeros((4, 3))
+    batch = Transform(positions)
+    positions[:] = 7.0
+    assert (batch.translation == 0.0).all()
+
+
+def test_a_transform_is_true_and_numpy_does_not_take_it_apart():
+    assert Transform()
+    assert not Transform(np.zeros((0, 3)))
+    with pytest.raises(TypeError, match="unsupported operand"):
+        np.zeros(3) @ Transform()
+
+
+def test_parts_of_a_transform_cannot_be_written_to(rng):
+    for a in (random_transform(rng), random_transform(rng, (3,))):
+        with pytest.raises(ValueError, match="read-only"):
+            a.translation[0] = 9

@@ -58,9 +58,12 @@ class Processes:
                 process.kill()
                 process.wait()
 
-    def observe(self, seconds, *topics):
-        """What the independent program hears on TOPIC:TYPE:DURABILITY ... within some seconds."""
-        command = self.network.command(sys.executable, OBSERVER, self.domain_id, seconds, *topics)
+    def observe(self, seconds, *topics, patience=30.0):
+        """What the independent program hears on TOPIC:TYPE:DURABILITY ... within some seconds from the first message.
+
+        It waits for the first one no longer than `patience` seconds.
+        """
+        command = self.network.command(sys.executable, OBSERVER, self.domain_id, patience, seconds, *topics)
         result = subprocess.run(command, capture_output=True, text=True, timeout=90, check=False)
         assert result.returncode == 0, result.stderr
         return json.loads(result.stdout)

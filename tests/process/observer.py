@@ -1,9 +1,9 @@
 """An independent RTPS program (rosless, in Rust): writes down what it hears.
 
-    python observer.py DOMAIN SECONDS TOPIC:TYPE:DURABILITY ...
+    python observer.py DOMAIN PATIENCE SECONDS TOPIC:TYPE:DURABILITY ...
 
-Listens from the first message of every topic on for SECONDS. Prints one JSON object: for each topic a list of
-[arrival in seconds, message as a dictionary].
+Waits up to PATIENCE seconds for the first message of each topic and listens from there on for SECONDS. Prints one
+JSON object: for each topic a list of [arrival in seconds, message as a dictionary].
 """
 
 import json
@@ -13,14 +13,12 @@ import time
 
 import rosless
 
-START_TIMEOUT = 30.0
 
-
-def listen(node, topic, type_name, durability, seconds, heard):
+def listen(node, topic, type_name, durability, patience, seconds, heard):
     subscription = node.subscribe(
         topic, type_name, reliability="reliable", durability=durability, history="keep_last", depth=1000
     )
-    message = subscription.read(START_TIMEOUT)
+    message = subscription.read(patience)
     end = time.monotonic() + seconds
     while message is not None:
         heard.append([time.monotonic(), message.to_dict()])
@@ -28,7 +26,7 @@ def listen(node, topic, type_name, durability, seconds, heard):
 
 
 def main():
-    domain, seconds, *topics = sys.argv[1:]
+    domain, patience, seconds, *topics = sys.argv[1:]
     node = rosless.Node(int(domain))
     heard = {}
     threads = []
@@ -36,7 +34,10 @@ def main():
         topic, type_name, durability = spec.split(":")
         heard[topic] = []
         threads.append(
-            threading.Thread(target=listen, args=(node, topic, type_name, durability, float(seconds), heard[topic]))
+            threading.Thread(
+                target=listen,
+                args=(node, topic, type_name, durability, float(patience), float(seconds), heard[topic]),
+            )
         )
     for thread in threads:
         thread.start()

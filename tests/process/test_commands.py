@@ -109,6 +109,7 @@ def test_help_has_an_example(processes, command):
 
 def test_demo_shows_the_whole_tree_and_ends_its_nodes(processes):
     processes.start("demo", "python", "-m", "coframe.cli", "demo", "--duration", "8", "--no-browser")
+    processes.start("other", "python", "-m", "coframe.lab.simulated_lidar")
     heard = processes.observe(1.0, "/scan_base_frame:sensor_msgs/msg/PointCloud2:volatile")
     assert len(heard["/scan_base_frame"]) > 1
     eventually(lambda: not processes.running("demo"), lambda: processes.text("demo"))
@@ -117,17 +118,20 @@ def test_demo_shows_the_whole_tree_and_ends_its_nodes(processes):
     for frame in ("world", "map", "odom", "base_link", "link1", "link2", "end_effector", "camera_link", "lidar_link"):
         assert re.search(rf"^ *{frame}\b", text, re.MULTILINE), text
     assert "not connected" not in text
+    assert "another simulated_lidar in this domain: stop it, or choose another domain" in text
     assert re.search(r"/scan_base_frame: \d+\.\d Hz, \d+ points in base_link", text)
 
 
 @pytest.mark.parametrize(("how", "code"), [(signal.SIGHUP, 0), (signal.SIGKILL, -signal.SIGKILL)])
-def test_no_node_outlives_the_demo(processes, how, code):
+def test_no_node_outlives_the_demo(processes, how, code, tmp_path, monkeypatch):
     """A closed terminal or a kill must not leave a second arm behind for the next demo."""
+    monkeypatch.setenv("TMPDIR", str(tmp_path))  # who is killed leaves the nodes' logs behind
     processes.start("demo", "python", "-m", "coframe.cli", "demo")
     assert processes.observe(1.0, "/tf:tf2_msgs/msg/TFMessage:volatile")["/tf"]
     assert processes.end("demo", how)[0] == code
     eventually(
-        lambda: not processes.observe(0.5, "/tf:tf2_msgs/msg/TFMessage:volatile")["/tf"], lambda: "silence on /tf"
+        lambda: not processes.observe(0.5, "/tf:tf2_msgs/msg/TFMessage:volatile", patience=2.0)["/tf"],
+        lambda: "silence on /tf",
     )
 
 

@@ -1,5 +1,7 @@
 import threading
 
+import pytest
+
 import coframe
 from coframe.messages import find
 
@@ -64,3 +66,27 @@ def test_the_buffer_fills_and_knows_its_publishers(domain_id, eventually):
         ros.buffer.lookup("map", "odom", timeout="10s")
         eventually(lambda: any(frame.authority == "/one" for frame in ros.buffer.frames()))
     assert ros.buffer.can_transform("map", "odom"), "what was heard stays"
+
+
+def test_arguments_that_cannot_be_meant(domain_id):
+    with coframe.connect("one", domain=domain_id) as ros:
+        for arguments in ((STRING, "/chatter"), ("/chatter", "std_msgs/msg/String"), ("/chatter", STRING())):
+            with pytest.raises(TypeError):
+                ros.publisher(*arguments)
+            with pytest.raises(TypeError):
+                ros.subscribe(*arguments)
+        with pytest.raises(TypeError, match="must be a function, not 3"):
+            ros.subscribe("/chatter", STRING, 3)
+        publisher = ros.publisher("/chatter", STRING, 10)
+        with pytest.raises(TypeError, match="carries String, not Int32"):
+            publisher.publish(find("std_msgs/msg/Int32")())
+        assert ros.subscribe("/chatter", STRING, qos=3).receive("1ms") is None
+
+
+def test_a_closed_connection_makes_nothing_more(domain_id):
+    with coframe.connect("one", domain=domain_id), coframe.connect("two", domain=domain_id) as ros:
+        ros.close()
+        with pytest.raises(coframe.WireError, match="The connection of two is closed"):
+            ros.publisher("/chatter", STRING)
+        with pytest.raises(coframe.WireError, match="The connection of two is closed"):
+            ros.subscribe("/chatter", STRING)

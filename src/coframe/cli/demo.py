@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections import Counter
 from typing import Annotated
 
 import typer
@@ -70,11 +71,21 @@ def demo(
             return Group(
                 tree_table(ros.buffer, "base_link", wide=console.width >= 100),
                 Text(str(clouds)),
+                *(Text(warning, style="red") for warning in _others(ros, nodes)),
                 Text(state, style="dim", no_wrap=True),
             )
 
         with Live(get_renderable=picture, console=console, refresh_per_second=1 / REFRESH, transient=False):
             _watch(ros.buffer, nodes, start, duration)
+
+
+def _others(ros: coframe.Connection, nodes: Launcher) -> list[str]:
+    """A warning where nodes of the same names run beside ours: two sources, and the arm flickers."""
+    counts = Counter(name for _, name in ros.participant.nodes())
+    twice = [name for name in nodes.names if counts[name] > 1]
+    if not twice:
+        return []
+    return [f"another {', '.join(twice)} in this domain: stop it, or choose another domain with --domain"]
 
 
 def _watch(buffer: coframe.Buffer, nodes: Launcher, start: float, duration: float | None) -> None:

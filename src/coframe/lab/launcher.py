@@ -109,7 +109,7 @@ class Launcher:
         arguments = ("--ros-args", *command.arguments) if command.arguments else ()
         with self._log(command.name).open("wb") as log:
             return subprocess.Popen(  # noqa: S603 - our own modules in our own Python
-                [sys.executable, "-m", "coframe.lab.leash", module, *arguments],
+                [sys.executable, "-m", "coframe.lab.run_node", module, *arguments],
                 stdin=subprocess.PIPE,
                 stdout=log,
                 stderr=log,

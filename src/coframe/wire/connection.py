@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from coframe import _core
 from coframe.buffer import Buffer
+from coframe.errors import WireError
+from coframe.time import duration_ns
 from coframe.wire.participant import Participant
 from coframe.wire.qos import DEFAULT, QoS
 
@@ -32,8 +34,9 @@ _NS = 1_000_000_000
 class MessagePublisher(Generic[M]):
     """Publishes messages of one class. Made by `Connection.publisher`."""
 
-    def __init__(self, publisher: Publisher) -> None:
+    def __init__(self, publisher: Publisher, message_type: type[M]) -> None:
         self._publisher = publisher
+        self._message_type = message_type
 
     @property
     def matched(self) -> int:
@@ -44,8 +47,12 @@ class MessagePublisher(Generic[M]):
         """Sends a message.
 
         Raises:
+            TypeError: it is of another class than the publisher.
             WireError: the connection is closed, or a reliable subscription does not keep up.
         """
+        if not isinstance(message, self._message_type):
+            wanted = self._message_type.__name__
+            raise TypeError(f"{self._publisher.topic} carries {wanted}, not {type(message).__name__}")
         from coframe.messages.codec import serialize  # noqa: PLC0415 - `import coframe` stays cheap
 
         self._publisher.write(serialize(message))
@@ -83,15 +90,18 @@ class MessageSubscription(Generic[M]):
         """How many publishers have been found."""
         return self._subscription.matched
 
-    def receive(self, timeout: float | None = None) -> M | None:
-        """The next message; None if there is none within `timeout` seconds, or when the subscription has closed.
+    def receive(self, timeout: float | str | None = None) -> M | None:
+        """The next message; None if there is none within `timeout`, or when the subscription has closed.
+
+        Args:
+            timeout: seconds, or text such as "100ms"; None waits for ever.
 
         Raises:
             DecodeError: a publisher has sent something else than it announced.
         """
         from coframe.messages.codec import deserialize  # noqa: PLC0415 - `import coframe` stays cheap
 
-        deadline = None if timeout is None else time.monotonic_ns() + int(timeout * _NS)
+        deadline = None if timeout is None else time.monotonic_ns() + _patience_ns(timeout)
         while True:
             # One by one: what cannot be decoded must not take others along.
             for sample in self._subscription.take(1):
@@ -157,22 +167,32 @@ class Connection:
             self.participant.close()
             raise
 
-    def publisher(self, topic: str, message_type: type[M], qos: QoS | None = None) -> MessagePublisher[M]:
-        """A publisher on a topic; the name is relative to the namespace unless it begins with a slash."""
-        native = self.participant.publisher(self.node, self._qualified(topic), message_type, qos or DEFAULT)
-        return MessagePublisher(native)
+    def publisher(self, topic: str, message_type: type[M], qos: QoS | int | None = None) -> MessagePublisher[M]:
+        """A publisher on a topic; the name is relative to the namespace unless it begins with a slash.
+
+        `qos` may be a number, as in rclpy: how many messages are kept.
+        """
+        self._check(topic, message_type)
+        native = self.participant.publisher(self.node, self._qualified(topic), message_type, _qos(qos))
+        return MessagePublisher(native, message_type)
 
     def subscribe(
         self,
         topic: str,
         message_type: type[M],
         callback: Callable[[M], None] | None = None,
-        qos: QoS | None = None,
+        qos: QoS | int | None = None,
     ) -> MessageSubscription[M]:
-        """A subscription to a topic; the name is relative to the namespace unless it begins with a slash."""
+        """A subscription to a topic; the name is relative to the namespace unless it begins with a slash.
+
+        `qos` may be a number, as in rclpy: how many messages are kept.
+        """
+        self._check(topic, message_type)
+        if callback is not None and not callable(callback):
+            raise TypeError(f"the callback must be a function, not {callback!r}")
         event = _core.Event()
         native = self.participant.subscription(
-            self.node, self._qualified(topic), message_type, qos or DEFAULT, on_data=event
+            self.node, self._qualified(topic), message_type, _qos(qos), on_data=event
         )
         subscription = MessageSubscription(native, message_type, event, callback)
         self._subscriptions.append(subscription)
@@ -197,8 +217,29 @@ class Connection:
     ) -> None:
         self.close()
 
+    def _check(self, topic: Any, message_type: Any) -> None:
+        if self._closed:
+            raise WireError(f"The connection of {self.node.name} is closed.", hint="Make a new one: coframe.connect().")
+        if not isinstance(topic, str):
+            raise TypeError(f"the topic's name comes first, then the message class; got {topic!r}")
+        if not isinstance(message_type, type) or not hasattr(message_type, "ROS_TYPE"):
+            raise TypeError(
+                f"expected a message class, such as geometry_msgs.msg.PoseStamped, not {message_type!r}; "
+                "coframe.messages.find() finds one by its ROS name"
+            )
+
     def _qualified(self, topic: str) -> str:
         return topic if topic.startswith("/") else f"{self.node.namespace.rstrip('/')}/{topic}"
+
+
+def _patience_ns(timeout: float | str) -> int:
+    return duration_ns(timeout) if isinstance(timeout, str) else int(timeout * _NS)
+
+
+def _qos(qos: QoS | int | None) -> QoS:
+    if qos is None:
+        return DEFAULT
+    return QoS(depth=qos) if isinstance(qos, int) else qos
 
 
 def connect(

@@ -24,7 +24,7 @@ class Duration:
     __slots__ = ("_nanoseconds",)
 
     def __init__(self, *, seconds: float = 0, nanoseconds: float = 0) -> None:
-        total = int(seconds * S_TO_NS) + int(nanoseconds)
+        total = int(number(seconds) * S_TO_NS) + int(number(nanoseconds))
         if not -INT64_LIMIT <= total < INT64_LIMIT:
             raise OverflowError("Total nanoseconds value is too large to store in C duration.")
         self._nanoseconds = total
@@ -86,6 +86,17 @@ class Duration:
         if not isinstance(msg, builtin_interfaces.msg.Duration):
             raise TypeError("Must pass a builtin_interfaces.msg.Duration object")
         return cls(seconds=msg.sec, nanoseconds=msg.nanosec)
+
+
+def number(value: float) -> float:
+    """Returns a number as it is.
+
+    Raises:
+        TypeError: It is a text, of which `* S_TO_NS` would make a thousand million copies.
+    """
+    if isinstance(value, str):
+        raise TypeError(f"expected a number, got the text {value!r}: float(...) reads one")
+    return value
 
 
 Infinite: Final = Duration(nanoseconds=INT64_LIMIT - 1)

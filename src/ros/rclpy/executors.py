@@ -137,9 +137,12 @@ class Executor(ABC):
             RuntimeError: The node belongs to another context.
         """
         if node.context is not self._context:
-            raise RuntimeError(
-                f"node '{node.get_name()}' and the executor are of different contexts: make both with the same context="
+            reason = (
+                "and the executor are of different contexts: make both with the same context="
+                if node.context.ok()
+                else "has ended with rclpy.shutdown(): make a new one after rclpy.init()"
             )
+            raise RuntimeError(f"node '{node.get_name()}' {reason}")
         with self._lock:
             if node in self._nodes:
                 return False

@@ -126,6 +126,15 @@ class Node(NodeParameters, NodeGraph):
             self.destroy_node()  # nobody else could
             raise
 
+    if not TYPE_CHECKING:  # a type checker would take every misspelt attribute for one of these
+
+        def __getattr__(self, name: str) -> Any:
+            if name.startswith(("_Node__", "_NodeParameters__")):
+                raise AttributeError(
+                    f"{type(self).__name__} is no node yet: its __init__ must call super().__init__('its_name') first"
+                )
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+
     # Names
 
     def get_name(self) -> str:
@@ -270,6 +279,7 @@ class Node(NodeParameters, NodeGraph):
             NoTypeSupportImportedException: `msg_type` is no message class.
         """
         check_is_valid_msg_type(msg_type)
+        _check_callback(callback)
         qos = qos_from(qos_profile)
         self.__check_alive()
         name = self.resolve_topic_name(topic)
@@ -332,6 +342,7 @@ class Node(NodeParameters, NodeGraph):
             NoTypeSupportImportedException: `srv_type` is no service class.
         """
         check_is_valid_srv_type(srv_type)
+        _check_callback(callback)
         self.__check_alive()
         name, qos, graph_node = self.resolve_service_name(srv_name), qos_profile._to_wire(), self._graph_node
         wakeup = self.context._wakeup.event
@@ -344,7 +355,7 @@ class Node(NodeParameters, NodeGraph):
     def create_timer(
         self,
         timer_period_sec: float,
-        callback: Callable[[], Any] | None,
+        callback: Callable[[], Any],
         callback_group: CallbackGroup | None = None,
         clock: Clock | None = None,
     ) -> Timer:
@@ -356,6 +367,7 @@ class Node(NodeParameters, NodeGraph):
             callback_group: None: the node's default group.
             clock: Of its period; None: the node's clock.
         """
+        _check_callback(callback)
         self.__check_alive()
         period_ns = int(float(timer_period_sec) * S_TO_NS)
         group = self.__group(callback_group)
@@ -489,6 +501,11 @@ class Node(NodeParameters, NodeGraph):
             for kind in (Timer, Subscription, GuardCondition, Client, Service)
             for entity in self.__entities[kind]
         )
+
+
+def _check_callback(callback: object) -> None:
+    if not callable(callback):
+        raise TypeError(f"the callback must be a function, not {callback!r}: give it without () behind its name")
 
 
 def _no_executor() -> None:

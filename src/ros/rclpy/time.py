@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, overload
 import builtin_interfaces.msg
 from rclpy._clock_type import ClockType
 from rclpy.constants import S_TO_NS
-from rclpy.duration import INT64_LIMIT, Duration
+from rclpy.duration import INT64_LIMIT, Duration, number
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -36,9 +36,9 @@ class Time:
     ) -> None:
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")
-        if seconds < 0:
+        if number(seconds) < 0:
             raise ValueError("Seconds value must not be negative")
-        if nanoseconds < 0:
+        if number(nanoseconds) < 0:
             raise ValueError("Nanoseconds value must not be negative")
         total = int(seconds * S_TO_NS) + int(nanoseconds)
         if total >= INT64_LIMIT:

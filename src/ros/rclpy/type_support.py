@@ -29,3 +29,5 @@ def _check(some_type: Any, folder: str, expected: str) -> None:
     name = getattr(some_type, "ROS_TYPE", "")
     if f"/{folder}/" not in name and not (folder == "msg" and name):
         raise NoTypeSupportImportedException(f"expected {expected}, got {some_type!r}")
+    if not isinstance(some_type, type):
+        raise NoTypeSupportImportedException(f"expected the class {type(some_type).__name__}, got an object of it")

@@ -18,7 +18,10 @@ def nanoseconds(value: Any, what: str) -> int:
     try:
         return index(value.nanoseconds)
     except AttributeError:
-        raise TypeError(f"{what} must have sec and nanosec, or nanoseconds.") from None
+        kind = "Duration" if what == "duration" else "Time"
+        advice = f"{type(value).__name__} does not: give rclpy's {kind}(seconds=...)"
+        latest = "" if kind == "Duration" else ", or Time() for the latest"
+        raise TypeError(f"{what} must have sec and nanosec, or nanoseconds. {advice}{latest}.") from None
 
 
 def text(value: Any, position: int) -> str:

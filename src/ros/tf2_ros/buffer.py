@@ -216,9 +216,16 @@ def clear_on_time_jump(buffer: Buffer, clock: Clock) -> Any:
 
 
 def _wait(timeout: Duration) -> int | None:
-    """Nanoseconds to wait; None for not at all. Comparing first refuses a float, as rclpy's Duration does."""
-    return timeout.nanoseconds if timeout != _NO_WAIT else None
+    """Nanoseconds to wait; None for not at all."""
+    return _nanoseconds(timeout) or None
 
 
 def _limit(timeout: Duration | None) -> int | None:
-    return None if timeout is None else timeout.nanoseconds
+    return None if timeout is None else _nanoseconds(timeout)
+
+
+def _nanoseconds(timeout: Duration) -> int:
+    if not isinstance(timeout, Duration):
+        given = timeout if isinstance(timeout, (int, float)) else "..."
+        raise TypeError(f"timeout must be an rclpy Duration, not {type(timeout).__name__}: Duration(seconds={given})")
+    return timeout.nanoseconds

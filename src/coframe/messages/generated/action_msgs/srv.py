@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence
 from coframe.messages.message import Message, Service
@@ -61,5 +61,5 @@ class CancelGoal(Service):
     """Service action_msgs/srv/CancelGoal."""
 
     ROS_TYPE = "action_msgs/srv/CancelGoal"
-    Request = CancelGoal_Request
-    Response = CancelGoal_Response
+    Request: TypeAlias = CancelGoal_Request
+    Response: TypeAlias = CancelGoal_Response

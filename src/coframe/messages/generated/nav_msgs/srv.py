@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedString
 from coframe.messages.message import Message, Service
@@ -188,29 +188,29 @@ class GetMap(Service):
     """Service nav_msgs/srv/GetMap."""
 
     ROS_TYPE = "nav_msgs/srv/GetMap"
-    Request = GetMap_Request
-    Response = GetMap_Response
+    Request: TypeAlias = GetMap_Request
+    Response: TypeAlias = GetMap_Response
 
 
 class GetPlan(Service):
     """Service nav_msgs/srv/GetPlan."""
 
     ROS_TYPE = "nav_msgs/srv/GetPlan"
-    Request = GetPlan_Request
-    Response = GetPlan_Response
+    Request: TypeAlias = GetPlan_Request
+    Response: TypeAlias = GetPlan_Response
 
 
 class LoadMap(Service):
     """Service nav_msgs/srv/LoadMap."""
 
     ROS_TYPE = "nav_msgs/srv/LoadMap"
-    Request = LoadMap_Request
-    Response = LoadMap_Response
+    Request: TypeAlias = LoadMap_Request
+    Response: TypeAlias = LoadMap_Response
 
 
 class SetMap(Service):
     """Service nav_msgs/srv/SetMap."""
 
     ROS_TYPE = "nav_msgs/srv/SetMap"
-    Request = SetMap_Request
-    Response = SetMap_Response
+    Request: TypeAlias = SetMap_Request
+    Response: TypeAlias = SetMap_Response

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from array import array
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence, UnboundedString
 from coframe.messages.message import Message, Service
@@ -264,45 +264,45 @@ class DescribeParameters(Service):
     """Service rcl_interfaces/srv/DescribeParameters."""
 
     ROS_TYPE = "rcl_interfaces/srv/DescribeParameters"
-    Request = DescribeParameters_Request
-    Response = DescribeParameters_Response
+    Request: TypeAlias = DescribeParameters_Request
+    Response: TypeAlias = DescribeParameters_Response
 
 
 class GetParameterTypes(Service):
     """Service rcl_interfaces/srv/GetParameterTypes."""
 
     ROS_TYPE = "rcl_interfaces/srv/GetParameterTypes"
-    Request = GetParameterTypes_Request
-    Response = GetParameterTypes_Response
+    Request: TypeAlias = GetParameterTypes_Request
+    Response: TypeAlias = GetParameterTypes_Response
 
 
 class GetParameters(Service):
     """Service rcl_interfaces/srv/GetParameters."""
 
     ROS_TYPE = "rcl_interfaces/srv/GetParameters"
-    Request = GetParameters_Request
-    Response = GetParameters_Response
+    Request: TypeAlias = GetParameters_Request
+    Response: TypeAlias = GetParameters_Response
 
 
 class ListParameters(Service):
     """Service rcl_interfaces/srv/ListParameters."""
 
     ROS_TYPE = "rcl_interfaces/srv/ListParameters"
-    Request = ListParameters_Request
-    Response = ListParameters_Response
+    Request: TypeAlias = ListParameters_Request
+    Response: TypeAlias = ListParameters_Response
 
 
 class SetParameters(Service):
     """Service rcl_interfaces/srv/SetParameters."""
 
     ROS_TYPE = "rcl_interfaces/srv/SetParameters"
-    Request = SetParameters_Request
-    Response = SetParameters_Response
+    Request: TypeAlias = SetParameters_Request
+    Response: TypeAlias = SetParameters_Response
 
 
 class SetParametersAtomically(Service):
     """Service rcl_interfaces/srv/SetParametersAtomically."""
 
     ROS_TYPE = "rcl_interfaces/srv/SetParametersAtomically"
-    Request = SetParametersAtomically_Request
-    Response = SetParametersAtomically_Response
+    Request: TypeAlias = SetParametersAtomically_Request
+    Response: TypeAlias = SetParametersAtomically_Response

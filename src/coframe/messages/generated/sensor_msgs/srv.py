@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedString
 from coframe.messages.message import Message, Service
@@ -57,5 +57,5 @@ class SetCameraInfo(Service):
     """Service sensor_msgs/srv/SetCameraInfo."""
 
     ROS_TYPE = "sensor_msgs/srv/SetCameraInfo"
-    Request = SetCameraInfo_Request
-    Response = SetCameraInfo_Response
+    Request: TypeAlias = SetCameraInfo_Request
+    Response: TypeAlias = SetCameraInfo_Response

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, UnboundedString
 from coframe.messages.message import Message, Service
@@ -127,21 +127,21 @@ class Empty(Service):
     """Service std_srvs/srv/Empty."""
 
     ROS_TYPE = "std_srvs/srv/Empty"
-    Request = Empty_Request
-    Response = Empty_Response
+    Request: TypeAlias = Empty_Request
+    Response: TypeAlias = Empty_Response
 
 
 class SetBool(Service):
     """Service std_srvs/srv/SetBool."""
 
     ROS_TYPE = "std_srvs/srv/SetBool"
-    Request = SetBool_Request
-    Response = SetBool_Response
+    Request: TypeAlias = SetBool_Request
+    Response: TypeAlias = SetBool_Response
 
 
 class Trigger(Service):
     """Service std_srvs/srv/Trigger."""
 
     ROS_TYPE = "std_srvs/srv/Trigger"
-    Request = Trigger_Request
-    Response = Trigger_Response
+    Request: TypeAlias = Trigger_Request
+    Response: TypeAlias = Trigger_Response

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedString
 from coframe.messages.message import Action, Message, Service
@@ -208,31 +208,31 @@ class LookupTransform_SendGoal(Service):
     """Service tf2_msgs/action/LookupTransform_SendGoal."""
 
     ROS_TYPE = "tf2_msgs/action/LookupTransform_SendGoal"
-    Request = LookupTransform_SendGoal_Request
-    Response = LookupTransform_SendGoal_Response
+    Request: TypeAlias = LookupTransform_SendGoal_Request
+    Response: TypeAlias = LookupTransform_SendGoal_Response
 
 
 class LookupTransform_GetResult(Service):
     """Service tf2_msgs/action/LookupTransform_GetResult."""
 
     ROS_TYPE = "tf2_msgs/action/LookupTransform_GetResult"
-    Request = LookupTransform_GetResult_Request
-    Response = LookupTransform_GetResult_Response
+    Request: TypeAlias = LookupTransform_GetResult_Request
+    Response: TypeAlias = LookupTransform_GetResult_Response
 
 
 class LookupTransform(Action):
     """Action tf2_msgs/action/LookupTransform."""
 
     ROS_TYPE = "tf2_msgs/action/LookupTransform"
-    Goal = LookupTransform_Goal
-    Result = LookupTransform_Result
-    Feedback = LookupTransform_Feedback
+    Goal: TypeAlias = LookupTransform_Goal
+    Result: TypeAlias = LookupTransform_Result
+    Feedback: TypeAlias = LookupTransform_Feedback
 
     class Impl:
         """The services and messages that carry the action."""
 
-        SendGoalService = LookupTransform_SendGoal
-        GetResultService = LookupTransform_GetResult
-        FeedbackMessage = LookupTransform_FeedbackMessage
-        CancelGoalService = CancelGoal
-        GoalStatusMessage = GoalStatusArray
+        SendGoalService: TypeAlias = LookupTransform_SendGoal
+        GetResultService: TypeAlias = LookupTransform_GetResult
+        FeedbackMessage: TypeAlias = LookupTransform_FeedbackMessage
+        CancelGoalService: TypeAlias = CancelGoal
+        GoalStatusMessage: TypeAlias = GoalStatusArray

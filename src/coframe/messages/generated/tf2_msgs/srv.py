@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import UnboundedString
 from coframe.messages.message import Message, Service
@@ -49,5 +49,5 @@ class FrameGraph(Service):
     """Service tf2_msgs/srv/FrameGraph."""
 
     ROS_TYPE = "tf2_msgs/srv/FrameGraph"
-    Request = FrameGraph_Request
-    Response = FrameGraph_Response
+    Request: TypeAlias = FrameGraph_Request
+    Response: TypeAlias = FrameGraph_Response

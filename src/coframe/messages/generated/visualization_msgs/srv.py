@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence
 from coframe.messages.message import Message, Service
@@ -53,5 +53,5 @@ class GetInteractiveMarkers(Service):
     """Service visualization_msgs/srv/GetInteractiveMarkers."""
 
     ROS_TYPE = "visualization_msgs/srv/GetInteractiveMarkers"
-    Request = GetInteractiveMarkers_Request
-    Response = GetInteractiveMarkers_Response
+    Request: TypeAlias = GetInteractiveMarkers_Request
+    Response: TypeAlias = GetInteractiveMarkers_Response

@@ -1,0 +1,348 @@
+"""Runs the conformance cases of tf2's semantics against coframe, or against any other implementation.
+
+    python conformance/run.py                                   all cases, against coframe.Buffer
+    python conformance/run.py interpolation reparenting         two rules
+    python conformance/run.py --adapter "node my_adapter.js"    another implementation, by JSON lines
+
+The format of the cases and of the JSON lines is described in README.md beside this file.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import json
+import shlex
+import subprocess
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from pathlib import Path
+from typing import Any
+
+CASES = Path(__file__).with_name("cases")
+DEFAULT_CACHE = "10"
+DEFAULT_TOLERANCE = 1e-12
+NANOSECONDS_PER_SECOND = 1_000_000_000
+
+Step = dict[str, Any]
+Answer = dict[str, Any]
+Adapter = Callable[[Step], Answer]
+"""An implementation under test: takes a step, `{"op": "new", "cache": "10"}` first, and gives its answer."""
+
+STEP_DEFAULTS: dict[str, Step] = {
+    "set": {"stamp": "0", "translation": [0, 0, 0], "rotation": [0, 0, 0, 1], "authority": "test"},
+    "set_static": {"stamp": "0", "translation": [0, 0, 0], "rotation": [0, 0, 0, 1], "authority": "test"},
+    "lookup": {"stamp": "0"},
+    "can_transform": {"stamp": "0"},
+    "all_frames_as_dot": {"now": "0"},
+}
+EXPECTED_DEFAULTS: dict[str, Answer] = {
+    "set": {"accepted": True, "log": []},
+    "set_static": {"accepted": True, "log": []},
+}
+
+
+@dataclass(frozen=True)
+class Case:
+    """One case: what it shows, the steps to run, and where the rule is told."""
+
+    id: str
+    rule: str
+    shows: str
+    reference: str
+    cache: str
+    steps: tuple[Step, ...]
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A step whose answer is not the expected one; `step` counts the case's steps from 0."""
+
+    step: int
+    asked: Step
+    expected: Answer
+    found: Answer
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a case; `unsupported` says why it could not be run, or is empty."""
+
+    case: Case
+    differences: tuple[Difference, ...]
+    unsupported: str = ""
+
+
+def nanoseconds(seconds: str) -> int:
+    """Exact nanoseconds of a stamp as the cases write it: "1.5" is 1500000000."""
+    return int(Decimal(seconds) * NANOSECONDS_PER_SECOND)
+
+
+def seconds(stamp: int) -> str:
+    """The other way round: 1500000000 is "1.5"."""
+    return format(Decimal(stamp).scaleb(-9).normalize(), "f")
+
+
+def load_cases(folder: Path = CASES) -> list[Case]:
+    """All cases of a folder, in the order of the files' names; scenes and repetitions are written out."""
+    return [case for path in sorted(folder.glob("*.json")) for case in _cases_of(json.loads(path.read_text("utf-8")))]
+
+
+def run_case(case: Case, adapter: Adapter) -> Outcome:
+    """Runs all steps of a case and compares every answer."""
+    adapter({"op": "new", "cache": case.cache})
+    differences = []
+    for number, step in enumerate(case.steps):
+        asked = {key: value for key, value in step.items() if key != "expect"}
+        found = adapter(asked)
+        if "unsupported" in found:
+            return Outcome(case, (), found["unsupported"])
+        expected = step.get("expect", EXPECTED_DEFAULTS.get(step["op"], {}))
+        if not matches(expected, found):
+            differences.append(Difference(number, asked, expected, found))
+    return Outcome(case, tuple(differences))
+
+
+def matches(expected: Answer, found: Answer) -> bool:
+    """Whether an answer is the expected one. What the case does not tell is not compared."""
+    if "raises" in found and "raises" not in expected:
+        return False
+    tolerance = expected.get("tolerance", DEFAULT_TOLERANCE)
+    return all(_same(key, value, found.get(key), tolerance) for key, value in expected.items() if key != "tolerance")
+
+
+class CoframeAdapter:
+    """coframe.Buffer under test."""
+
+    def __init__(self) -> None:
+        import coframe  # noqa: PLC0415 - other implementations are tested where there is no coframe
+
+        self._coframe = coframe
+        self._buffer = coframe.Buffer()
+
+    def __call__(self, step: Step) -> Answer:
+        """The answer to one step."""
+        try:
+            answer: Answer = getattr(self, "_" + step["op"])(step)
+        except self._coframe.TransformException as error:
+            return {"raises": type(error).__name__, "text": str(error)}
+        return answer
+
+    def _new(self, step: Step) -> Answer:
+        self._buffer = self._coframe.Buffer(nanoseconds(step["cache"]))
+        return {}
+
+    def _set(self, step: Step, *, static: bool = False) -> Answer:
+        x, y, z, qx, qy, qz, qw = (float(value) for value in (*step["translation"], *step["rotation"]))
+        facts = (step["parent"], step["child"], nanoseconds(step["stamp"]), x, y, z, qx, qy, qz, qw)
+        refusals = self._buffer.set_values(*facts, static, step["authority"])
+        log = self._coframe._core.insert_texts(refusals, *facts, step["authority"])  # noqa: SLF001 - tf2's log lines
+        return {"accepted": refusals == 0, "log": [list(line) for line in log]}
+
+    def _set_static(self, step: Step) -> Answer:
+        return self._set(step, static=True)
+
+    def _clear(self, _: Step) -> Answer:
+        self._buffer.clear()
+        return {}
+
+    def _lookup(self, step: Step) -> Answer:
+        return _pose(self._buffer.lookup(*_query(step)))
+
+    def _lookup_full(self, step: Step) -> Answer:
+        return _pose(self._buffer.lookup_full(*_full_query(step)))
+
+    def _can_transform(self, step: Step) -> Answer:
+        text = self._buffer.why_not(*_query(step))
+        return {"possible": self._buffer.can_transform(*_query(step)), "text": text}
+
+    def _can_transform_full(self, step: Step) -> Answer:
+        text = self._buffer.why_not_full(*_full_query(step))
+        return {"possible": self._buffer.can_transform_full(*_full_query(step)), "text": text}
+
+    def _latest_common_time(self, step: Step) -> Answer:
+        return {"stamp": seconds(self._buffer.latest_common_time(step["target"], step["source"]))}
+
+    def _chain(self, step: Step) -> Answer:
+        return {"names": self._buffer.chain(*_full_query(step))}
+
+    def _frame_names(self, _: Step) -> Answer:
+        return {"names": self._buffer.frame_names()}
+
+    def _frame_exists(self, step: Step) -> Answer:
+        return {"exists": self._buffer.frame_exists(step["name"])}
+
+    def _all_frames_as_string(self, _: Step) -> Answer:
+        return {"text": self._buffer.all_frames_as_string()}
+
+    def _all_frames_as_yaml(self, _: Step) -> Answer:
+        return {"text": self._buffer.all_frames_as_yaml()}
+
+    def _all_frames_as_dot(self, step: Step) -> Answer:
+        return {"text": self._buffer.all_frames_as_dot(nanoseconds(step["now"]))}
+
+
+class AdapterError(RuntimeError):
+    """The program under test does not answer."""
+
+
+class ProcessAdapter:
+    """Another implementation under test: a program that answers each line of JSON with a line of JSON."""
+
+    def __init__(self, command: Sequence[str]) -> None:
+        self._command = command
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8")  # noqa: S603
+
+    def __call__(self, step: Step) -> Answer:
+        """The answer to one step."""
+        stdin, stdout = self._process.stdin, self._process.stdout
+        assert stdin is not None
+        assert stdout is not None
+        try:
+            stdin.write(json.dumps(step) + "\n")
+            stdin.flush()
+            line = stdout.readline()
+        except BrokenPipeError:
+            line = ""
+        if not line:
+            raise AdapterError(f"the adapter {shlex.join(self._command)} has ended; the last step was {step}")
+        answer: Answer = json.loads(line)
+        return answer
+
+    def close(self) -> None:
+        """Closes the program's input, which ends it."""
+        with contextlib.suppress(BrokenPipeError):
+            self._process.communicate()
+
+
+def _cases_of(file: dict[str, Any]) -> Iterator[Case]:
+    for case in file["cases"]:
+        steps = [*file.get("scenes", {}).get(case.get("scene"), []), *case["steps"]]
+        yield Case(
+            id=case["id"],
+            rule=file["rule"],
+            shows=case["shows"],
+            reference=case["reference"],
+            cache=case.get("cache", DEFAULT_CACHE),
+            steps=tuple({**STEP_DEFAULTS.get(step["op"], {}), **step} for each in steps for step in _repeated(each)),
+        )
+
+
+def _repeated(step: Step) -> Iterator[Step]:
+    """A step with "for": [first, last] as one step a number, which takes the place of {i}; {i+1} is the next one."""
+    step = dict(step)
+    if "for" not in step:
+        yield step
+        return
+    first, last = step.pop("for")
+    text = json.dumps(step)
+    for i in range(first, last + 1):
+        yield json.loads(text.replace("{i}", str(i)).replace("{i+1}", str(i + 1)))
+
+
+def _same(key: str, expected: Any, found: Any, tolerance: float) -> bool:
+    if key in {"accepted", "log"} and found is None:
+        return True  # an implementation that keeps this for itself
+    if key == "stamp":
+        return found is not None and nanoseconds(expected) == nanoseconds(found)
+    if key in {"translation", "rotation"}:
+        return found is not None and all(
+            _close(float(a), float(b), tolerance) for a, b in zip(expected, found, strict=True)
+        )
+    if key == "log":
+        return _same_log(expected, found)
+    if key == "text":
+        return _same_text(expected, found)
+    return bool(expected == found)
+
+
+def _close(expected: float, found: float, tolerance: float) -> bool:
+    return expected == found or abs(expected - found) <= tolerance
+
+
+def _same_log(expected: list[list[Any]], found: list[list[str]]) -> bool:
+    return len(expected) == len(found) and all(
+        level == found_level and _same_text(text, found_text)
+        for (level, text), (found_level, found_text) in zip(expected, found, strict=True)
+    )
+
+
+def _same_text(expected: str | dict[str, str], found: str | None) -> bool:
+    if isinstance(expected, dict):
+        return found is not None and found.startswith(expected["begins"])
+    return expected == found
+
+
+def _query(step: Step) -> tuple[str, str, int]:
+    return step["target"], step["source"], nanoseconds(step["stamp"])
+
+
+def _full_query(step: Step) -> tuple[str, int, str, int, str]:
+    return (
+        step["target"],
+        nanoseconds(step["target_stamp"]),
+        step["source"],
+        nanoseconds(step["source_stamp"]),
+        step["fixed"],
+    )
+
+
+def _pose(transform: Any) -> Answer:
+    values = transform.values
+    return {"translation": list(values[:3]), "rotation": list(values[3:]), "stamp": seconds(transform.stamp)}
+
+
+def _run(cases: list[Case], command: str | None) -> list[Outcome]:
+    if command is None:
+        adapter = CoframeAdapter()
+        return [run_case(case, adapter) for case in cases]
+    process = ProcessAdapter(shlex.split(command))
+    try:
+        return [run_case(case, process) for case in cases]
+    finally:
+        process.close()
+
+
+def _report(outcomes: list[Outcome]) -> None:
+    for outcome in outcomes:
+        for difference in outcome.differences:
+            print(f"FAILED {outcome.case.id} ({outcome.case.reference}): {outcome.case.shows}")
+            print(f"  step {difference.step}  {json.dumps(difference.asked, ensure_ascii=False)}")
+            print(f"  expected {json.dumps(difference.expected, ensure_ascii=False)}")
+            print(f"  found    {json.dumps(difference.found, ensure_ascii=False)}")
+    total = Counter(outcome.case.rule for outcome in outcomes)
+    failed = Counter(outcome.case.rule for outcome in outcomes if outcome.differences)
+    unsupported = Counter(outcome.case.rule for outcome in outcomes if outcome.unsupported)
+    print(f"{'rule':24}{'passed':>8}{'failed':>8}{'unsupported':>13}")
+    for rule in total:
+        passed = total[rule] - failed[rule] - unsupported[rule]
+        print(f"{rule:24}{passed:>8}{failed[rule]:>8}{unsupported[rule]:>13}")
+    passed = total.total() - failed.total() - unsupported.total()
+    print(f"{'all':24}{passed:>8}{failed.total():>8}{unsupported.total():>13}")
+
+
+def main() -> int:
+    """The command line; 0 when all cases pass."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("rules", nargs="*", metavar="rule", help="only these rules or case ids; default: all")
+    parser.add_argument("--adapter", metavar="COMMAND", help="a program that speaks the JSON lines; default: coframe")
+    options = parser.parse_args()
+    cases = load_cases()
+    chosen = [case for case in cases if not options.rules or {case.rule, case.id} & set(options.rules)]
+    unknown = set(options.rules) - {name for case in cases for name in (case.rule, case.id)}
+    if unknown:
+        rules = ", ".join(dict.fromkeys(case.rule for case in cases))
+        parser.error(f"no rule and no case is named {', '.join(sorted(unknown))}; the rules are: {rules}")
+    try:
+        outcomes = _run(chosen, options.adapter)
+    except AdapterError as error:
+        parser.error(str(error))
+    _report(outcomes)
+    return int(any(outcome.differences for outcome in outcomes))
+
+
+if __name__ == "__main__":
+    sys.exit(main())

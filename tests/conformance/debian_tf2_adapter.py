@@ -1,0 +1,144 @@
+"""Debian's real tf2 (ROS 1) behind the JSON lines of the conformance cases; runs in Debian's own Python.
+
+Its log goes to the process's standard error by C++; every insertion reads what it has made of it.
+"""
+
+import json
+import os
+import sys
+import tempfile
+from decimal import Decimal
+from pathlib import Path
+
+import genpy
+
+import tf2_py
+from geometry_msgs.msg import TransformStamped
+
+LEVELS = {"Error": "error", "Warning": "warning"}
+
+
+class UnsupportedError(Exception):
+    """The Python binding of ROS 1 cannot carry it."""
+
+
+def split(text):
+    nanoseconds = int(Decimal(text) * 1_000_000_000)
+    if not 0 <= nanoseconds < 2**31 * 1_000_000_000:
+        raise UnsupportedError(f"ROS 1's Python binding ends the process at the stamp {text}")
+    return divmod(nanoseconds, 1_000_000_000)
+
+
+def when(text):
+    return genpy.Time(*split(text))
+
+
+def message(step):
+    m = TransformStamped()
+    m.header.frame_id, m.child_frame_id, m.header.stamp = step["parent"], step["child"], when(step["stamp"])
+    t, r = m.transform.translation, m.transform.rotation
+    t.x, t.y, t.z = map(float, step["translation"])
+    r.x, r.y, r.z, r.w = map(float, step["rotation"])
+    return m
+
+
+class Log:
+    """What C++ writes to standard error."""
+
+    def __init__(self):
+        descriptor, path = tempfile.mkstemp()
+        Path(path).unlink()
+        self.file = os.fdopen(descriptor, "w+b")
+        sys.stderr = os.fdopen(os.dup(2), "w")  # Python's own words still go where they belong
+        os.dup2(self.file.fileno(), 2)
+
+    def lines(self):
+        self.file.seek(0)
+        text = self.file.read().decode()
+        self.file.seek(0)
+        self.file.truncate()
+        found = []
+        for line in text.splitlines():
+            level, colon, rest = line.partition(":")
+            if colon and level in LEVELS:
+                found.append([LEVELS[level], rest.lstrip()])
+            elif not line.startswith("         at line "):
+                found[-1][1] += "\n" + line
+        return found
+
+
+LOG = Log()
+
+
+def insert(insert_into, step):
+    LOG.lines()  # what other calls have written is not compared
+    insert_into(message(step), step["authority"])
+    log = LOG.lines()
+    return {"accepted": not log, "log": log}
+
+
+def pose(m):
+    t, r = m.transform.translation, m.transform.rotation
+    stamp = format(Decimal(m.header.stamp.to_nsec()).scaleb(-9), "f")
+    return {"translation": [t.x, t.y, t.z], "rotation": [r.x, r.y, r.z, r.w], "stamp": stamp}
+
+
+def possible(answer):
+    return {"possible": bool(answer[0]), "text": answer[1]}
+
+
+def legs(step):
+    return (
+        step["target"],
+        when(step["target_stamp"]),
+        step["source"],
+        when(step["source_stamp"]),
+        step["fixed"],
+    )
+
+
+def query(step):
+    return step["target"], step["source"], when(step["stamp"])
+
+
+def common_time(time):
+    return {"stamp": format(Decimal(time.to_nsec()).scaleb(-9), "f")}
+
+
+OPERATIONS = {
+    "set": lambda buffer, step: insert(buffer.set_transform, step),
+    "set_static": lambda buffer, step: insert(buffer.set_transform_static, step),
+    "clear": lambda buffer, _: buffer.clear() or {},
+    "lookup": lambda buffer, step: pose(buffer.lookup_transform_core(*query(step))),
+    "lookup_full": lambda buffer, step: pose(buffer.lookup_transform_full_core(*legs(step))),
+    "can_transform": lambda buffer, step: possible(buffer.can_transform_core(*query(step))),
+    "can_transform_full": lambda buffer, step: possible(buffer.can_transform_full_core(*legs(step))),
+    "latest_common_time": lambda buffer, step: common_time(
+        buffer.get_latest_common_time(step["target"], step["source"])
+    ),
+    "chain": lambda buffer, step: {"names": buffer._chain(*legs(step))},
+    "frame_names": lambda buffer, _: {"names": buffer._getFrameStrings()},
+    "frame_exists": lambda buffer, step: {"exists": bool(buffer._frameExists(step["name"]))},
+    "all_frames_as_string": lambda buffer, _: {"text": buffer.all_frames_as_string()},
+    "all_frames_as_yaml": lambda buffer, _: {"text": buffer.all_frames_as_yaml()},
+    "all_frames_as_dot": lambda buffer, step: {"text": buffer._allFramesAsDot(when(step["now"]))},
+}
+
+
+def answer(buffer, step):
+    try:
+        return OPERATIONS[step["op"]](buffer, step)
+    except tf2_py.TransformException as error:
+        return {"raises": type(error).__name__.rpartition(".")[2], "text": str(error)}
+    except UnsupportedError as error:
+        return {"unsupported": str(error)}
+
+
+buffer = None
+for line in sys.stdin:
+    step = json.loads(line)
+    if step["op"] == "new":
+        buffer = tf2_py.BufferCore(genpy.Duration(*split(step["cache"])))
+        print("{}", flush=True)
+    else:
+        print(json.dumps(answer(buffer, step)), flush=True)

@@ -1,0 +1,49 @@
+"""What mypy tells a user's program, and so what editors know."""
+
+import subprocess
+import sys
+import textwrap
+
+import pytest
+
+pytest.importorskip("mypy", reason="the type checker")
+
+PROGRAM = """
+    import rclpy
+    from geometry_msgs.msg import PointStamped
+    from rclpy.duration import Duration
+    from rclpy.node import Node
+    from rclpy.time import Time
+    from std_srvs.srv import SetBool
+    from tf2_geometry_msgs import do_transform_point
+    from tf2_ros import Buffer, TransformException, TransformListener
+
+    class Program(Node):
+        def __init__(self) -> None:
+            super().__init__("program")
+            self.buffer = Buffer()
+            self.listener = TransformListener(self.buffer, self)
+            self.create_service(SetBool, "switch", self.switch)
+
+        def switch(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+            response.success = request.data
+            response.message = request.data  # wrong
+            return response
+
+        def look(self) -> PointStamped:
+            transform = self.buffer.lookup_transform("a", "b", Time(), timeout=Duration(seconds=0.1))
+            transform.transform.tranlation.x = 1.0  # wrong
+            self.buffer.lookup_transform("a", "b", 0)  # wrong
+            self.serch()  # wrong
+            return do_transform_point(PointStamped(), transform)
+"""
+
+
+def test_mypy_finds_the_mistakes_and_nothing_else(tmp_path):
+    source = textwrap.dedent(PROGRAM).strip()
+    (tmp_path / "program.py").write_text(source)
+    wrong = [number for number, line in enumerate(source.splitlines(), 1) if line.endswith("# wrong")]
+    command = [sys.executable, "-m", "mypy", "--strict", "--no-error-summary", "program.py"]
+    result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=110, check=False)
+    found = [int(line.split(":")[1]) for line in result.stdout.splitlines() if ": error:" in line]
+    assert found == wrong, result.stdout + result.stderr
