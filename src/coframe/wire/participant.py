@@ -292,9 +292,7 @@ class Participant:
         """For readers whose buffer checks the bytes, and counts what is malformed."""
         with self._lock:
             if name not in self._tf_topics:
-                self._tf_topics[name] = _create(
-                    lambda: _core.create_unchecked_topic(self._native.entity, name, type_name), name
-                )
+                self._tf_topics[name] = types.create_unchecked_topic(self._native.entity, name, type_name)
             return self._tf_topics[name]
 
     def _describe(self, endpoints: dict[int, DdsEndpoint]) -> list[Endpoint]:

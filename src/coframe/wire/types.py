@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+from coframe import _core
 from coframe.errors import WireError
 from coframe.wire import names
 from coframe.wire.discovery_info import MAX_NAME
@@ -78,8 +79,24 @@ def create_topic(participant: int, name: str, data_type: Any) -> int:
     data_type.__idl__.fill_type_data()
     topic: int = _clayer.ddspy_topic_create(participant, name, data_type, None, None)
     if topic < 0:
-        raise WireError(f"DDS refuses the topic {name} (code {topic}).", hint="Check the topic's name.")
+        raise _refused(name, f"code {topic}")
     return topic
+
+
+def create_unchecked_topic(participant: int, name: str, type_name: str) -> int:
+    """A DDS topic whose readers are given any bytes that come under the type's name, and check them: its number.
+
+    Raises:
+        WireError: DDS refuses.
+    """
+    try:
+        return _core.create_unchecked_topic(participant, name, type_name)
+    except _core.DdsError as error:
+        raise _refused(name, str(error)) from error
+
+
+def _refused(name: str, why: str) -> WireError:
+    return WireError(f"DDS refuses the topic {name} ({why}).", hint="Check the topic's name.")
 
 
 def _field_type(slot: Any, where: str) -> Any:
