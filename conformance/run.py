@@ -59,7 +59,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Difference:
-    """A step whose answer is not the expected one; `step` counts the case's steps from 0."""
+    """A step whose answer is not the expected one; `step` counts from 0, the scene's and repeated ones, too."""
 
     step: int
     asked: Step
@@ -194,7 +194,10 @@ class ProcessAdapter:
 
     def __init__(self, command: Sequence[str]) -> None:
         self._command = command
-        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8")  # noqa: S603
+        try:
+            self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8")  # noqa: S603
+        except OSError as error:
+            raise AdapterError(f"the adapter {shlex.join(command)} cannot be started: {error.strerror}") from None
 
     def __call__(self, step: Step) -> Answer:
         """The answer to one step."""
@@ -209,7 +212,10 @@ class ProcessAdapter:
             line = ""
         if not line:
             raise AdapterError(f"the adapter {shlex.join(self._command)} has ended; the last step was {step}")
-        answer: Answer = json.loads(line)
+        try:
+            answer: Answer = json.loads(line)
+        except ValueError:
+            raise AdapterError(f"the adapter answers {line.strip()!r} to {step}, which is no JSON") from None
         return answer
 
     def close(self) -> None:
@@ -249,8 +255,10 @@ def _same(key: str, expected: Any, found: Any, tolerance: float) -> bool:
     if key == "stamp":
         return found is not None and nanoseconds(expected) == nanoseconds(found)
     if key in {"translation", "rotation"}:
-        return found is not None and all(
-            _close(float(a), float(b), tolerance) for a, b in zip(expected, found, strict=True)
+        return (
+            found is not None
+            and len(expected) == len(found)
+            and all(_close(float(a), float(b), tolerance) for a, b in zip(expected, found, strict=True))
         )
     if key == "log":
         return _same_log(expected, found)

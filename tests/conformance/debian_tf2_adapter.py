@@ -25,7 +25,7 @@ class UnsupportedError(Exception):
 def split(text):
     nanoseconds = int(Decimal(text) * 1_000_000_000)
     if not 0 <= nanoseconds < 2**31 * 1_000_000_000:
-        raise UnsupportedError(f"ROS 1's Python binding ends the process at the stamp {text}")
+        raise UnsupportedError(f"ROS 1 cannot take the stamp {text}")
     return divmod(nanoseconds, 1_000_000_000)
 
 
