@@ -27,8 +27,13 @@ std::string_view text(nb::handle name) {
 }
 
 std::int64_t to_int64(nb::handle number) {
-  const long long value = PyLong_AsLongLong(number.ptr());
-  if (value == -1 && PyErr_Occurred()) throw nb::python_error();
+  int overflow;
+  const long long value = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+  if (overflow != 0) {
+    PyErr_Format(PyExc_OverflowError, "%R does not fit 64-bit nanoseconds, which reach from 1677 to 2262",
+                 number.ptr());
+  }
+  if (PyErr_Occurred()) throw nb::python_error();
   return value;
 }
 
@@ -209,7 +214,10 @@ nb::object py_latest_common_time(BufferObject& self, nb::handle target, nb::hand
   const bool ok = resolve(buffer, leg.target_name, Argument::target_frame, leg.target_id, failure) &&
                   resolve(buffer, leg.source_name, Argument::source_frame, leg.source_id, failure) &&
                   buffer.latest_common_time(leg.target_id, leg.source_id, stamp, failure);
-  if (!ok) return raise_failure({std::move(failure), self.core, nb::borrow(target), nb::borrow(source), Speaker::latest_common_time});
+  if (!ok) {
+    return raise_failure(
+        {std::move(failure), self.core, nb::borrow(target), nb::borrow(source), Speaker::latest_common_time});
+  }
   return nb::int_(stamp);
 }
 
@@ -320,21 +328,23 @@ FrameId NameCache::find(PyObject* name, const Buffer& buffer) {
 
 void define_buffer(nb::module_& module) {
   using nb::arg;
+  // None is let through: what a frame name or a stamp must be is said by the functions themselves.
+  const auto any = [](const char* name) { return nb::arg(name).none(); };
   nb::class_<BufferObject>(module, "Buffer", "The native buffer; coframe.Buffer is the public class on top of it.",
                            nb::is_weak_referenceable())
       .def(nb::init<Stamp>(), arg("cache_ns"))
       .def_prop_ro("cache_ns", [](const BufferObject& self) { return self.core->cache_length(); })
-      .def("lookup", &py_lookup, arg("target"), arg("source"), arg("stamp") = nb::none(), nb::kw_only(),
+      .def("lookup", &py_lookup, any("target"), any("source"), arg("stamp") = nb::none(), nb::kw_only(),
            arg("timeout") = nb::none())
-      .def("lookup_full", &py_lookup_full, arg("target"), arg("target_stamp").none(), arg("source"),
-           arg("source_stamp").none(), arg("fixed"), nb::kw_only(), arg("timeout") = nb::none())
+      .def("lookup_full", &py_lookup_full, any("target"), any("target_stamp"), any("source"),
+           any("source_stamp"), any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
       .def(
           "can_transform",
           [](BufferObject& self, nb::handle target, nb::handle source, nb::handle stamp, nb::handle timeout) {
             Failure failure;
             return can_transform(self, target, source, stamp, timeout, failure);
           },
-          arg("target"), arg("source"), arg("stamp") = nb::none(), nb::kw_only(), arg("timeout") = nb::none())
+          any("target"), any("source"), arg("stamp") = nb::none(), nb::kw_only(), arg("timeout") = nb::none())
       .def(
           "can_transform_full",
           [](BufferObject& self, nb::handle target, nb::handle target_stamp, nb::handle source,
@@ -342,15 +352,15 @@ void define_buffer(nb::module_& module) {
             Failure failure;
             return can_transform_full(self, target, target_stamp, source, source_stamp, fixed, timeout, failure);
           },
-          arg("target"), arg("target_stamp").none(), arg("source"), arg("source_stamp").none(), arg("fixed"),
+          any("target"), any("target_stamp"), any("source"), any("source_stamp"), any("fixed"),
           nb::kw_only(), arg("timeout") = nb::none())
-      .def("why_not", &why_not, arg("target"), arg("source"), arg("stamp") = nb::none())
-      .def("why_not_full", &why_not_full, arg("target"), arg("target_stamp").none(), arg("source"),
-           arg("source_stamp").none(), arg("fixed"))
-      .def("latest_common_time", &py_latest_common_time, arg("target"), arg("source"))
-      .def("chain", &py_chain, arg("target"), arg("target_stamp").none(), arg("source"), arg("source_stamp").none(),
-           arg("fixed"))
-      .def("set_values", &set_values, arg("parent"), arg("child"), arg("stamp"), arg("x"), arg("y"), arg("z"),
+      .def("why_not", &why_not, any("target"), any("source"), arg("stamp") = nb::none())
+      .def("why_not_full", &why_not_full, any("target"), any("target_stamp"), any("source"),
+           any("source_stamp"), any("fixed"))
+      .def("latest_common_time", &py_latest_common_time, any("target"), any("source"))
+      .def("chain", &py_chain, any("target"), any("target_stamp"), any("source"), any("source_stamp"),
+           any("fixed"))
+      .def("set_values", &set_values, any("parent"), any("child"), arg("stamp"), arg("x"), arg("y"), arg("z"),
            arg("qx"), arg("qy"), arg("qz"), arg("qw"), arg("static"), arg("authority"))
       .def("ingest", &ingest, arg("cdr"), nb::kw_only(), arg("static") = false,
            arg("authority") = "no recorded authority")

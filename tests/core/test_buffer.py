@@ -283,8 +283,16 @@ def test_stamps_in_float_seconds_are_refused(buffer):
 
 
 def test_frame_names_must_be_text(buffer):
-    with pytest.raises(TypeError, match="must be str, not int"):
-        buffer.lookup("odom", 7)
+    for wrong in (7, None):
+        with pytest.raises(TypeError, match=f"a frame name must be str, not {type(wrong).__name__}"):
+            buffer.lookup("odom", wrong)
+        with pytest.raises(TypeError, match=f"a frame name must be str, not {type(wrong).__name__}"):
+            buffer.can_transform(wrong, "odom")
+
+
+def test_stamps_beyond_64_bits_are_refused(buffer):
+    with pytest.raises(OverflowError, match="does not fit 64-bit nanoseconds"):
+        buffer.lookup("odom", "base", 2**70)
 
 
 def test_set_checks_the_frames_a_transform_names():
