@@ -214,9 +214,10 @@ def test_a_process_ends_well_although_threads_publish(child):
 
 def test_a_forked_child_ends_well_and_leaves_its_parent_in_the_graph(child, participant, eventually):
     parent = child("""
-        import os, signal, sys
+        import os, signal, sys, warnings
         import coframe
         from coframe.messages import find
+        warnings.simplefilter("ignore", DeprecationWarning)  # Python 3.12 warns of what this test is about
         with coframe.connect("parent") as ros:
             string = find("std_msgs/msg/String")
             publisher, subscription = ros.publisher("/s", string), ros.subscribe("/s", string)
