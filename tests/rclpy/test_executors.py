@@ -184,6 +184,7 @@ def test_shutdown_under_a_running_callback_ends_the_spin(node, executor):
 
     node.create_guard_condition(work).trigger()
     executor.spin()
+    assert not node.context.ok()
 
 
 def test_timers_go_on_when_something_due_is_gone(node, executor):

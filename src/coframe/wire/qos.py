@@ -27,17 +27,9 @@ class QoS:
 
 
 DEFAULT = QoS()
-SYSTEM = QoS(depth=1)
 SENSOR = QoS(depth=5, reliable=False)
 TF = QoS(depth=100)
 TF_STATIC_WRITER = QoS(depth=1, transient_local=True)
 # The topic has no key: with a depth of 1 a reader keeps the message of one broadcaster only.
 TF_STATIC_READER = QoS(depth=100, transient_local=True)
-LATCHED = QoS(depth=1, transient_local=True)
-SERVICES = QoS(depth=10)
-PARAMETERS = QoS(depth=1000)
-PARAMETER_EVENTS = QoS(depth=1000)
-ROSOUT = QoS(depth=1000, transient_local=True)
-CLOCK = QoS(depth=1, reliable=False)
 GRAPH_WRITER = QoS(depth=1, transient_local=True)
-GRAPH_READER = QoS(transient_local=True, keep_all=True)
