@@ -109,6 +109,7 @@ class Client:
             self._sequence += 1
             header = RequestHeader(self._identity, self._sequence)
             self._pending[header.sequence] = future
+        future._add_waiter(partial(self._forget, header.sequence))
         self._requests.write(_request_header.join(header, codec.serialize(request)))
         return future
 
@@ -118,6 +119,11 @@ class Client:
             for sequence, pending in list(self._pending.items()):
                 if pending is future:
                     del self._pending[sequence]
+
+    def _forget(self, sequence: int) -> None:
+        """A request that was given up is not kept for an answer that may never come."""
+        with self._lock:
+            self._pending.pop(sequence, None)
 
     def service_is_ready(self) -> bool:
         """Whether somebody serves it."""
