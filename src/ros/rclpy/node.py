@@ -341,6 +341,17 @@ class Node(NodeParameters, NodeGraph):
             InvalidServiceNameException: The name breaks a rule.
             NoTypeSupportImportedException: `srv_type` is no service class.
         """
+        return self._create_service(Service, srv_type, srv_name, callback, qos_profile, callback_group)
+
+    def _create_service(
+        self,
+        kind: type[Service],
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        qos_profile: QoSProfile,
+        callback_group: CallbackGroup | None,
+    ) -> Service:
         check_is_valid_srv_type(srv_type)
         _check_callback(callback)
         self.__check_alive()
@@ -350,7 +361,7 @@ class Node(NodeParameters, NodeGraph):
         replies = self._wire.publisher(graph_node, name, srv_type.Response, qos, kind="reply")
         requests = self._wire.subscription(graph_node, name, srv_type.Request, qos, on_data=wakeup, kind="request")
         group = self.__group(callback_group)
-        return self.__add(Service(requests, replies, srv_type, name, callback, group, qos_profile))
+        return self.__add(kind(requests, replies, srv_type, name, callback, group, qos_profile))
 
     def create_timer(
         self,
@@ -476,7 +487,7 @@ class Node(NodeParameters, NodeGraph):
 
     def __add(self, entity: EntityT) -> EntityT:
         with self.__lock:
-            self.__entities[type(entity)].append(entity)
+            self.__entities_like(entity).append(entity)
             self.__collect_executables()
         group = getattr(entity, "callback_group", None)
         if group is not None:
@@ -486,13 +497,16 @@ class Node(NodeParameters, NodeGraph):
 
     def __remove(self, entity: Any) -> bool:
         with self.__lock:
-            entities = self.__entities.get(type(entity), [])
+            entities = self.__entities_like(entity)
             if entity not in entities:
                 return False
             entities.remove(entity)
             self.__collect_executables()
         entity.destroy()
         return True
+
+    def __entities_like(self, entity: Any) -> list[Any]:
+        return next((entities for kind, entities in self.__entities.items() if isinstance(entity, kind)), [])
 
     def __collect_executables(self) -> None:
         """Executors read the tuple without a lock."""
