@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from rclpy.context import Context
-    from rclpy.executors import Executable, Executor
+    from rclpy.executors import Executable, Executor, SilentInput
 
 EntityT = TypeVar("EntityT")
 
@@ -106,6 +106,7 @@ class Node(NodeParameters, NodeGraph):
 
         self._wire = self.__context._join_graph()
         self._graph_node = self._wire.add_node(self.__names.namespace, self.__names.node_name)
+        self._silent_inputs: list[SilentInput] = []
         self.__rosout: RosoutPublisher | None = None
         if enable_rosout and arguments.logging.rosout:
             self.__rosout = RosoutPublisher(self._wire, self._graph_node, self.__logger.name)
@@ -466,6 +467,10 @@ class Node(NodeParameters, NodeGraph):
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.get_fully_qualified_name()}>"
+
+    def _adopt(self, entity: EntityT) -> EntityT:
+        """Makes a publisher or subscription that tf2_ros made one of the node's: listed, and ended with it."""
+        return self.__add(entity)
 
     def _executables(self) -> tuple[Executable, ...]:
         """What an executor has to look at."""
