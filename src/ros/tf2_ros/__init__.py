@@ -19,6 +19,7 @@ from typing import Any, Dict, List, NoReturn, Optional, Tuple, Type, TypeVar, Un
 import builtin_interfaces
 import rclpy
 import tf2_py as tf2
+import tf2_ros
 from geometry_msgs.msg import (
     PointStamped,
     PoseStamped,
@@ -47,8 +48,9 @@ from tf2_py import (
     LookupException,
     TimeoutException,
     TransformException,
+    add_dll_directories_from_env,
 )
-from tf2_ros.buffer import Buffer
+from tf2_ros.buffer import Buffer, FrameGraphSrvRequest, FrameGraphSrvResponse
 from tf2_ros.buffer_interface import (
     BufferInterface,
     ConvertRegistration,
@@ -83,6 +85,8 @@ __all__ = [
     "Duration",
     "ExtrapolationException",
     "FrameGraph",
+    "FrameGraphSrvRequest",
+    "FrameGraphSrvResponse",
     "Future",
     "Header",
     "HistoryPolicy",
@@ -125,12 +129,14 @@ __all__ = [
     "TypeVar",
     "Union",
     "Vector3Stamped",
+    "add_dll_directories_from_env",
     "builtin_interfaces",
     "convert",
     "deepcopy",
     "rclpy",
     "sleep",
     "tf2",
+    "tf2_ros",
     "threading",
     "warnings",
 ]

@@ -1,9 +1,13 @@
 """What every tf2 buffer can do with stamped data, and the two registries of types it can do it with."""
 
-from collections.abc import Callable
+# What is not used here is here because upstream leaks it.
 from copy import deepcopy
-from typing import Any, ClassVar, NoReturn, TypeVar
+from typing import Any, Callable, ClassVar, Dict, NoReturn, Optional, Tuple, Type, TypeVar, Union  # noqa: F401, UP035
 
+import builtin_interfaces  # noqa: F401
+import rclpy  # noqa: F401
+import tf2_py as tf2  # noqa: F401
+import tf2_ros  # noqa: F401
 from builtin_interfaces.msg import Time as TimeMessage
 from geometry_msgs.msg import (
     PointStamped,
