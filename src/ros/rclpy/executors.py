@@ -9,6 +9,7 @@ import inspect
 import os
 import threading
 import time
+import weakref
 from abc import ABC, abstractmethod
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
@@ -93,6 +94,8 @@ class Executor(ABC):
         self._lock = threading.RLock()
         self._tasks: deque[Task[Any]] = deque()
         self._due: deque[tuple[Task[Any] | Executable, Node | None]] = deque()
+        self._turns: weakref.WeakKeyDictionary[Executable, int] = weakref.WeakKeyDictionary()
+        self._turn = 0
         self._is_shutdown = False
         self._is_spinning = False
         self._running_in: list[int] = []
@@ -362,6 +365,7 @@ class Executor(ABC):
         while self._tasks:
             self._due.append((self._tasks.popleft(), None))
         next_ns: int | None = None
+        due: list[tuple[Executable, Node]] = []
         for node in nodes:
             for entity in node._executables():
                 remaining = entity._remaining_ns()
@@ -370,7 +374,11 @@ class Executor(ABC):
                 if remaining > 0:
                     next_ns = remaining if next_ns is None else min(next_ns, remaining)
                 elif self.can_execute(entity):
-                    self._due.append((entity, node))
+                    due.append((entity, node))
+        if len(due) > 1:
+            # Who is always due must not keep the others of its callback group from ever running.
+            due.sort(key=lambda work: self._turns.get(work[0], 0))
+        self._due.extend(due)
         return next_ns
 
     def _begin(self, due: Task[Any] | Executable, node: Node | None, allowed: list[Node]) -> Work | None:
@@ -378,6 +386,8 @@ class Executor(ABC):
             return due, None, None
         if node not in allowed or not due.callback_group.beginning_execution(due):
             return None
+        self._turn += 1
+        self._turns[due] = self._turn
         call = None
         try:
             call = due._take()
