@@ -64,6 +64,7 @@ from tf2_ros.buffer_interface import (
     TypeException,
     convert,
 )
+from tf2_ros.message_filter import FilterFailureReason, FilterStatistics, MessageFilter
 from tf2_ros.static_transform_broadcaster import DEFAULT_STATIC_TF_TOPIC, StaticTransformBroadcaster
 from tf2_ros.static_transform_listener import StaticTransformListener
 from tf2_ros.transform_broadcaster import DEFAULT_TF_TOPIC, TransformBroadcaster
@@ -84,6 +85,8 @@ __all__ = [
     "DurabilityPolicy",
     "Duration",
     "ExtrapolationException",
+    "FilterFailureReason",
+    "FilterStatistics",
     "FrameGraph",
     "FrameGraphSrvRequest",
     "FrameGraphSrvResponse",
@@ -95,6 +98,7 @@ __all__ = [
     "List",
     "LookupException",
     "LookupTransform",
+    "MessageFilter",
     "MsgStamped",
     "NoReturn",
     "Node",
