@@ -666,7 +666,26 @@ def test_destroyed_with_messages_that_wait(buffer, insert, node, executor):
     kept.filter.add(point(1))
     executor.spin_once(timeout_sec=0)
     assert (kept.passed, kept.dropped) == ([], [])
-    assert kept.filter.statistics.cleared == 1
+    assert kept.filter.statistics == (1, 0, dict.fromkeys(Reason, 0), 1, 0)
+
+
+def test_the_buffer_waits_for_nobody_who_is_gone():
+    buffer = OwnWaits()
+    kept = Kept(buffer, queue_size=1)
+    kept.filter.add(point(1))
+    kept.filter.add(point(2))
+    kept.filter.set_target_frame("map")
+    kept.filter.clear()
+    assert [future.cancelled() for future in buffer.futures] == [True] * 3
+    begin_to_wait = buffer.wait_for_transform_async
+
+    def meanwhile(*query, timeout=None):
+        kept.filter.clear()
+        return begin_to_wait(*query, timeout=timeout)
+
+    buffer.wait_for_transform_async = meanwhile
+    kept.filter.add(point(3))
+    assert buffer.futures[3].cancelled()
 
 
 def test_a_node_may_end_first(buffer, insert, node):
