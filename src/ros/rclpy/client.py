@@ -180,7 +180,7 @@ class Client:
         future._set_executor(self._executor())
         try:
             result = convert(codec.deserialize(cdr, self.srv_type.Response))
-        except (ValueError, RuntimeError) as error:
+        except ValueError as error:
             future.set_exception(error)
         else:
             future.set_result(result)

@@ -27,6 +27,7 @@ from geometry_msgs.msg import (
     TransformStamped,
     Vector3Stamped,
 )
+from rclpy.action import ActionClient
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock, JumpThreshold, TimeJump
 from rclpy.duration import Duration
@@ -51,6 +52,7 @@ from tf2_py import (
     add_dll_directories_from_env,
 )
 from tf2_ros.buffer import Buffer, FrameGraphSrvRequest, FrameGraphSrvResponse
+from tf2_ros.buffer_client import BufferClient
 from tf2_ros.buffer_interface import (
     BufferInterface,
     ConvertRegistration,
@@ -64,6 +66,7 @@ from tf2_ros.buffer_interface import (
     TypeException,
     convert,
 )
+from tf2_ros.buffer_server import BufferServer
 from tf2_ros.message_filter import FilterFailureReason, FilterStatistics, MessageFilter
 from tf2_ros.static_transform_broadcaster import DEFAULT_STATIC_TF_TOPIC, StaticTransformBroadcaster
 from tf2_ros.static_transform_listener import StaticTransformListener
@@ -73,10 +76,13 @@ from tf2_ros.transform_listener import TransformListener
 __all__ = [
     "DEFAULT_STATIC_TF_TOPIC",
     "DEFAULT_TF_TOPIC",
+    "ActionClient",
     "Any",
     "Buffer",
+    "BufferClient",
     "BufferCore",
     "BufferInterface",
+    "BufferServer",
     "Callable",
     "Clock",
     "ConnectivityException",
