@@ -28,12 +28,12 @@ _WARNING_PERIOD = 10 * _convert.NANOSECONDS_PER_SECOND
 
 
 class _Lack(NamedTuple):
-    """A transform that a message needs and the buffer has not."""
+    """A transform that a message needs and the buffer has not; with a reason if it will never have it."""
 
     target: str
     time: TimeMessage
     error: TransformException
-    is_hopeless: FilterFailureReason | None
+    reason: FilterFailureReason | None
 
 
 class MessageFilter:
@@ -229,8 +229,8 @@ class MessageFilter:
             for elder in self._queue.elders(waiting):
                 self._settle(elder)
             self._release(waiting)
-        elif lack.is_hopeless is not None:
-            self._drop(waiting, lack.is_hopeless, _explain(lack.error))
+        elif lack.reason is not None:
+            self._drop(waiting, lack.reason, _explain(lack.error))
         else:
             self._wait_for(lack, waiting)
 
@@ -243,7 +243,7 @@ class MessageFilter:
         lack = self._lack(waiting)
         if lack is None:
             self._release(waiting)
-        elif (reason := otherwise if lack.is_hopeless is None else lack.is_hopeless) is not None:
+        elif (reason := lack.reason or otherwise) is not None:
             self._drop(waiting, reason, _explain(lack.error))
 
     def _make_room(self) -> None:
@@ -262,7 +262,7 @@ class MessageFilter:
                     self._buffer.lookup_transform_core(target, waiting.frame, when)
                 except TransformException as error:
                     lack = _Lack(target, when, error, _hopeless(error))
-                    if lack.is_hopeless is not None:
+                    if lack.reason is not None:
                         return lack
                     first = first or lack
         return first
