@@ -3,7 +3,6 @@
 import gc
 import threading
 import time
-import warnings
 
 import pytest
 
@@ -225,22 +224,6 @@ def test_stamped():
     point = PointStamped()
     assert tf2_ros.Stamped(point, Time(seconds=3).to_msg(), "a") is point
     assert (point.header.frame_id, point.header.stamp.sec) == ("a", 3)
-
-
-def test_names_that_upstream_leaks():
-    leaked = """
-        TransformStamped PointStamped PoseStamped PoseWithCovarianceStamped Vector3Stamped PointCloud2 Header TFMessage
-        Time Duration Node Future QoSProfile DurabilityPolicy HistoryPolicy ReentrantCallbackGroup Clock FrameGraph
-        SingleThreadedExecutor LookupTransform Thread sleep deepcopy threading warnings builtin_interfaces rclpy tf2
-        MsgStamped PyKDLType TransformableObject TransformableObjectType JumpThreshold TimeJump DEFAULT_TF_TOPIC
-        DEFAULT_STATIC_TF_TOPIC TransformException StaticTransformListener
-    """
-    assert [name for name in leaked.split() if not hasattr(tf2_ros, name)] == []
-    assert tf2_ros.warnings is warnings
-    namespace = {}
-    exec("from tf2_ros import *", namespace)
-    assert namespace["Buffer"] is tf2_ros.Buffer
-    assert namespace["TransformStamped"] is tf2_ros.TransformStamped
 
 
 def test_numbers_for_times_are_refused_with_what_to_write_instead():

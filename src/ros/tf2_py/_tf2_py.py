@@ -175,7 +175,7 @@ class BufferCore:
         point = (float(x), float(y), float(z))
         return lookup_velocity(
             self._buffer,
-            Tracked(_convert.text(tracking_frame, 1), point, _convert.text(reference_point_frame, 7)),
+            Tracked(_convert.text(tracking_frame, 1), point, _convert.text(reference_point_frame, 5)),
             _convert.text(observation_frame, 2),
             _convert.text(reference_frame, 3),
             stamp=_convert.nanoseconds(time, "time"),

@@ -11,10 +11,12 @@ import pytest
 
 import rclpy
 import tf2_ros
+from rclpy.clock import ClockType
 from rclpy.duration import Duration
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+from rclpy.service import Service
 from rclpy.subscription import Subscription
 from rclpy.time import Time
 from std_msgs.msg import String
@@ -199,6 +201,16 @@ def test_attributes_of_a_listener(buffer, node, listener):
     listener.unregister()
     assert list(node.subscriptions) == []
     listener.unregister()
+
+
+def test_attributes_of_a_buffer(node):
+    buffer = tf2_ros.Buffer(node=node)
+    assert isinstance(buffer.srv, Service)
+    assert buffer.srv.srv_name == "/tf2_frames"
+    assert buffer.clock is node.get_clock()
+    alone = tf2_ros.Buffer()
+    assert not hasattr(alone, "srv")
+    assert alone.clock.clock_type == ClockType.SYSTEM_TIME
 
 
 def test_a_subscription_of_a_listener_can_be_destroyed(

@@ -19,14 +19,15 @@ NAMES = {
     "tf2_py._tf2_py": f"BufferCore {EXCEPTIONS}",
     "tf2_ros": f"""
         {EXCEPTIONS} BufferCore Buffer BufferInterface TransformListener TransformBroadcaster StaticTransformBroadcaster
-        StaticTransformListener TransformRegistration ConvertRegistration TypeException NotImplementedException Stamped
+        StaticTransformListener BufferClient ActionClient TransformRegistration ConvertRegistration TypeException
+        NotImplementedException Stamped
         convert MsgStamped PyKDLType TransformableObject TransformableObjectType TransformStamped PointStamped
         PoseStamped PoseWithCovarianceStamped Vector3Stamped PointCloud2 Header TFMessage FrameGraph LookupTransform
         FrameGraphSrvRequest FrameGraphSrvResponse Time Duration Clock Node Future QoSProfile DurabilityPolicy
         HistoryPolicy ReentrantCallbackGroup SingleThreadedExecutor JumpThreshold TimeJump Thread sleep deepcopy
         threading warnings builtin_interfaces rclpy tf2 tf2_ros Any Callable Dict List NoReturn Optional Tuple Type
         TypeVar Union DEFAULT_TF_TOPIC DEFAULT_STATIC_TF_TOPIC add_dll_directories_from_env
-        buffer buffer_interface transform_listener transform_broadcaster static_transform_broadcaster
+        buffer buffer_client buffer_interface transform_listener transform_broadcaster static_transform_broadcaster
         static_transform_listener
     """,
     "tf2_ros.buffer": """
@@ -40,6 +41,7 @@ NAMES = {
         PoseWithCovarianceStamped TransformStamped Vector3Stamped PointCloud2 Header Time Duration deepcopy rclpy tf2
         tf2_ros builtin_interfaces Any Callable Optional Tuple Type TypeVar Union
     """,
+    "tf2_ros.buffer_client": "BufferClient BufferInterface ActionClient LookupTransform Duration Time TransformStamped",
     "tf2_ros.transform_listener": """
         TransformListener Buffer ReentrantCallbackGroup SingleThreadedExecutor Node DurabilityPolicy HistoryPolicy
         QoSProfile TFMessage Thread rclpy tf2 Optional Union
@@ -136,6 +138,13 @@ SIGNATURES = {
     "tf2_ros.BufferInterface.lookup_transform_full": f"{FIVE}, timeout=",
     "tf2_ros.BufferInterface.can_transform": "target_frame, source_frame, time, timeout=",
     "tf2_ros.BufferInterface.can_transform_full": f"{FIVE}, timeout=",
+    "tf2_ros.BufferClient": "node, ns, check_frequency=, timeout_padding=",
+    "tf2_ros.BufferClient.lookup_transform": "target_frame, source_frame, time, timeout=",
+    "tf2_ros.BufferClient.lookup_transform_full": f"{FIVE}, timeout=",
+    "tf2_ros.BufferClient.can_transform": "target_frame, source_frame, time, timeout=",
+    "tf2_ros.BufferClient.can_transform_full": f"{FIVE}, timeout=",
+    "tf2_ros.BufferClient.transform": "object_stamped, target_frame, timeout=, new_type=",
+    "tf2_ros.BufferClient.destroy": "",
     "tf2_ros.TransformListener": f"buffer, node, *, {LISTENER}",
     "tf2_ros.TransformListener.unregister": "",
     "tf2_ros.TransformListener.callback": "data",
