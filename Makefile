@@ -5,7 +5,7 @@ STAMP := $(VENV)/.ready
 NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp') CMakeLists.txt
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test test-slow lint typecheck format conformance bench generate clean
+.PHONY: help setup build demo test test-slow test-long sanitize lint typecheck format conformance bench generate clean
 
 help: ## what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -28,6 +28,9 @@ test: $(STAMP) ## the test suite (under 6 minutes)
 
 test-slow: $(STAMP) ## the tests that take minutes
 	$(BIN)/python -m pytest -m slow $(ARGS)
+
+test-long: $(STAMP) ## ten million random operations beside the real tf2, a new seed each time
+	$(BIN)/python -m pytest -m long -rP $(ARGS)
 
 conformance: $(STAMP) ## tf2's semantics, case by case
 	@$(BIN)/python conformance/run.py $(ARGS)

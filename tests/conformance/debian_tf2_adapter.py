@@ -1,21 +1,17 @@
 """Debian's real tf2 (ROS 1) behind the JSON lines of the conformance cases; runs in Debian's own Python.
 
-Its log goes to the process's standard error by C++; every insertion reads what it has made of it.
+Every insertion tells what it has made of the log.
 """
 
 import json
-import os
 import sys
-import tempfile
 from decimal import Decimal
-from pathlib import Path
 
 import genpy
+from debian_tf2_log import Log
 
 import tf2_py
 from geometry_msgs.msg import TransformStamped
-
-LEVELS = {"Error": "error", "Warning": "warning"}
 
 
 class UnsupportedError(Exception):
@@ -40,31 +36,6 @@ def message(step):
     t.x, t.y, t.z = map(float, step["translation"])
     r.x, r.y, r.z, r.w = map(float, step["rotation"])
     return m
-
-
-class Log:
-    """What C++ writes to standard error."""
-
-    def __init__(self):
-        descriptor, path = tempfile.mkstemp()
-        Path(path).unlink()
-        self.file = os.fdopen(descriptor, "w+b")
-        sys.stderr = os.fdopen(os.dup(2), "w")  # Python's own words still go where they belong
-        os.dup2(self.file.fileno(), 2)
-
-    def lines(self):
-        self.file.seek(0)
-        text = self.file.read().decode()
-        self.file.seek(0)
-        self.file.truncate()
-        found = []
-        for line in text.splitlines():
-            level, colon, rest = line.partition(":")
-            if colon and level in LEVELS:
-                found.append([LEVELS[level], rest.lstrip()])
-            elif not line.startswith("         at line "):
-                found[-1][1] += "\n" + line
-        return found
 
 
 LOG = Log()

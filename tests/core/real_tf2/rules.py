@@ -1,0 +1,110 @@
+"""The list of differences between ROS 1 and ROS 2, applied: which rule explains that two answers are not the same?
+
+The list is data: ros1_rules.json, and the wordings of ../../conformance/ros1_differences.json. Its parts:
+
+    insertions  what becomes of an insertion into equal histories, told in the words of histories.py
+    adapted     what ROS 1 is told or asked otherwise, and the sign of quaternions
+    logs        what is logged of such insertions
+    words       texts that ROS 1 puts otherwise, wherever they occur
+    numbers     numbers in texts that are not printed alike
+    answers     whole answers, ours and ROS 1's, to certain questions; ROS 1's may refer to groups in ours
+"""
+
+import json
+import re
+from pathlib import Path
+
+_FOLDER = Path(__file__).parent
+_RULES = json.loads((_FOLDER / "ros1_rules.json").read_text("utf-8"))
+_SHARED = json.loads((_FOLDER.parents[1] / "conformance" / "ros1_differences.json").read_text("utf-8"))
+_WORDS = [(re.compile(rule["ros1"]), rule["ros2"], rule["reason"]) for rule in (*_SHARED["texts"], *_RULES["words"])]
+LOGS = _RULES["logs"]
+ADAPTED = {name: rule["reason"] for name, rule in _RULES["adapted"].items()}
+REASONS = [
+    *(reason for *_, reason in _WORDS),
+    *(rule["reason"] for rule in (*_RULES["insertions"], *_RULES["numbers"], *_RULES["answers"])),
+    *ADAPTED.values(),
+]
+
+TOLERANCE = 1e-11  # metres, and of quaternions of unit length
+
+
+def explain_insertion(ours, theirs):
+    """Why an insertion into equal histories comes to something else in ROS 1."""
+    for rule in _RULES["insertions"]:
+        if re.search(rule["ros2"], ours) and re.search(rule["ros1"], theirs):
+            return rule["reason"]
+    raise LookupError(f"no rule explains that ROS 2 says {ours!r} where ROS 1 says {theirs!r}")
+
+
+def explain(operation, ours, theirs):
+    """Why ROS 1's answer is not ours: rules; none where it is the same, and None where no rule explains it."""
+    if ours == theirs:
+        return []
+    if ours[0] == "pose" or theirs[0] == "pose":
+        return _explain_pose(ours, theirs)
+    used = []
+    our_text, their_text = _text(ours, str), _text(theirs, lambda text: _in_our_words(text, used))
+    for rule in _RULES["numbers"]:
+        aligned = _with_our_numbers(rule, our_text, their_text)
+        if aligned != their_text:
+            used.append(rule["reason"])
+        their_text = aligned
+    if our_text == their_text:
+        return used
+    for rule in _RULES["answers"]:
+        asked = re.fullmatch(rule["asked"], json.dumps(operation, ensure_ascii=False))
+        if asked and re.fullmatch(_pattern(rule, asked.groupdict()), f"{our_text}\0{their_text}"):
+            return [*used, rule["reason"]]
+    return None
+
+
+def is_close(expected, found):
+    """Whether a pose is the one that it has to be, its quaternion with the same sign."""
+    return expected[:2] == found[:2] and _close(expected[2], found[2])
+
+
+def _explain_pose(ours, theirs):
+    if ours[:2] != theirs[:2]:
+        return None
+    if _close(ours[2], theirs[2]):
+        return []
+    return [ADAPTED["sign"]] if _close(ours[2], (*theirs[2][:3], *(-x for x in theirs[2][3:]))) else None
+
+
+def _close(ours, theirs):
+    return all(abs(a - b) <= TOLERANCE for a, b in zip(ours, theirs, strict=True))
+
+
+def _text(answer, say):
+    """An answer as one text; `say` puts what tf2 has said."""
+    if answer[0] == "log":
+        return "\n".join(f"{level}: {say(line)}" for level, line in answer[1])
+    *head, last = answer
+    return ": ".join((*map(str, head), say(str(last))))
+
+
+def _in_our_words(text, used):
+    for pattern, ours, reason in _WORDS:
+        text, count = pattern.subn(ours, text)
+        if count:
+            used.append(reason)
+    return text
+
+
+def _with_our_numbers(rule, ours, theirs):
+    """Their text with the numbers of ours in the rule's places, where they are the same within its tolerance."""
+    numbers = iter(re.findall(rule["number"], ours))
+
+    def ours_if_close(match):
+        number = next(numbers, "nan")
+        allowed = rule["tolerance"] + rule.get("relative", 0) * float(number)
+        return match[0].replace(match[1], number) if abs(float(number) - float(match[1])) <= allowed else match[0]
+
+    return re.sub(rule["number"], ours_if_close, theirs)
+
+
+def _pattern(rule, names):
+    """Of both answers in one, ours first; {target} is the name that was asked for."""
+    pattern = f"(?:{rule['ros2']})\0(?:{rule['ros1']})"
+    return re.sub(r"\{(\w+)\}", lambda match: re.escape(names.get(match[1], match[0])), pattern)
