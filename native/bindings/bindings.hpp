@@ -14,7 +14,9 @@ namespace coframe::bindings {
 namespace nb = nanobind;
 
 void define_transform(nb::module_& module);
+void define_arguments(nb::module_& module);
 void define_buffer(nb::module_& module);
+void define_waiting(nb::module_& module);
 void define_failure(nb::module_& module);
 void define_event(nb::module_& module);
 void define_wire(nb::module_& module);
