@@ -49,7 +49,7 @@ void define_transform(nb::module_& module) {
       .def_prop_ro(
           "source", [](const TransformObject& self) { return self.source; },
           nb::sig("def source(self) -> str | None"), "The frame that the values are of, or None.")
-      .def_prop_ro("extrapolated", [](const TransformObject& self) { return self.beyond; },
+      .def_prop_ro("beyond", [](const TransformObject& self) { return self.beyond; },
                    "How many nanoseconds beyond the data of a link it was extrapolated; 0: not at all.")
       .def_prop_ro("batch", [](const TransformObject& self) { return self.batch; },
                    "None, or (translations, quaternions, stamps) as arrays.");

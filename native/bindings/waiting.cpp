@@ -3,6 +3,7 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
+#include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
 #include "bindings/arguments.hpp"
@@ -75,15 +76,13 @@ void define_waiting(nb::module_& module) {
       .def(nb::init<>())
       .def("put", &Mailbox::put, arg("token"), "Leaves a token from Python.")
       .def_prop_ro("empty", &Mailbox::empty)
+      .def("take", &Mailbox::take, "The tokens that have come.")
       .def(
-          "take",
+          "wait",
           [](Mailbox& self, std::int64_t timeout_ns) {
-            std::vector<Token> tokens;
-            if (timeout_ns == 0 || !self.empty()) return self.take(0);
-            wait_with_signals(timeout_ns, [&](std::int64_t slice) { return !(tokens = self.take(slice)).empty(); });
-            return tokens;
+            return wait_with_signals(timeout_ns, [&](std::int64_t slice) { return self.wait_for(slice); });
           },
-          arg("timeout_ns"), "The tokens that have come; waits up to timeout_ns (negative: for ever) for the first.");
+          arg("timeout_ns"), "Waits, without the GIL, until there are some (True) or the time (negative: for ever) is over.");
   nb::class_<WaitObject>(module, "Wait", "A look-up that waits for its answer.")
       .def("answer", &WaitObject::answer, "The transform, or None while there is none.")
       .def("cancel", &WaitObject::cancel, "Waits no more.");

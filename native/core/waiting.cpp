@@ -48,15 +48,15 @@ void Mailbox::put(Token token) {
   arrived_.notify_one();
 }
 
-std::vector<Token> Mailbox::take(std::int64_t timeout_ns) {
-  std::unique_lock lock(mutex_);
-  if (timeout_ns > 0) {
-    arrived_.wait_for(lock, std::chrono::nanoseconds(timeout_ns), [this] { return !tokens_.empty(); });
-  }
-  std::vector<Token> taken(tokens_.begin(), tokens_.end());
-  tokens_.clear();
+std::vector<Token> Mailbox::take() {
+  const std::lock_guard lock(mutex_);
   count_.store(0);
-  return taken;
+  return std::exchange(tokens_, {});
+}
+
+bool Mailbox::wait_for(std::int64_t timeout_ns) {
+  std::unique_lock lock(mutex_);
+  return arrived_.wait_for(lock, std::chrono::nanoseconds(timeout_ns), [this] { return !tokens_.empty(); });
 }
 
 Wait::Wait(const Question& question, std::shared_ptr<Mailbox> mailbox, Token token)

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -26,15 +25,17 @@ using Token = std::uint64_t;
 class Mailbox {
  public:
   void put(Token token);
-  // What has come; waits up to `timeout_ns` for the first.
-  std::vector<Token> take(std::int64_t timeout_ns);
+  // What has come.
+  std::vector<Token> take();
+  // Waits until something has come; false when `timeout_ns` passed without.
+  bool wait_for(std::int64_t timeout_ns);
   bool empty() const { return count_.load() == 0; }
 
  private:
   std::atomic<std::size_t> count_{0};
   std::mutex mutex_;
   std::condition_variable arrived_;
-  std::deque<Token> tokens_;
+  std::vector<Token> tokens_;
 };
 
 // Where a wait sits: which insertion may help it.

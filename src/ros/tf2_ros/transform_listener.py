@@ -143,8 +143,6 @@ class TransformListener:
     def _listen(self, *, static: bool) -> Any:
         topic, qos = self._topics[static], self._qos[static]
         if self._is_plain():
-            if isinstance(self._buffer, Buffer):
-                self._buffer._waits.feed_natively()
             return NativeSubscription(self.node, topic, qos, self._buffer, static=static)
         callback = self.static_callback if static else self.callback
         return self.node.create_subscription(TFMessage, topic, callback, qos, callback_group=self.group)
