@@ -42,62 +42,85 @@ bool repeats(const History::View& samples, std::size_t end, Stamp stamp, const S
 
 }  // namespace
 
-const Chunk& History::View::chunk(std::size_t i) const {
-  return *directory_->chunks[(begin_ + i) / Chunk::kSize & directory_->mask].load(std::memory_order_acquire);
+inline const Chunk& History::View::chunk_of(std::uint64_t number) const {
+  return *directory_->chunks[number / Chunk::kSize & directory_->mask].load(std::memory_order_acquire);
+}
+
+Stamp History::View::stamp_of(std::uint64_t number) const {
+  return chunk_of(number).stamps[number % Chunk::kSize];
+}
+
+const SharedSample& History::View::sample_of(std::uint64_t number) const {
+  return is_static() ? *fixed_ : chunk_of(number).samples[number % Chunk::kSize];
 }
 
 Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
-  const auto take = [&](std::size_t i) {
-    const Sample found = sample(i);
+  const auto take = [&](const SharedSample& shared) {
+    const Sample found = shared.load();
     pose = found.pose;
     parent = found.parent;
     return Found::ok;
   };
   if (empty()) return Found::empty;
-  const std::size_t back = size() - 1;
-  if (is_static() || stamp == 0) return take(back);
-  const Stamp last = time(back);
-  if (stamp == last) return take(back);
-  if (back == 0) return Found::only_other;
+  if (is_static()) return take(*fixed_);
+  const std::uint64_t back = end_ - 1;
+  const Stamp last = stamp_of(back);
+  if (stamp == last || stamp == 0) return take(sample_of(back));
+  if (back == begin_) return Found::only_other;
   if (stamp > last) return Found::too_new;
-  const Stamp first = time(0);
-  if (stamp == first) return take(0);
-  if (stamp < first) return Found::too_old;
-
-  const std::size_t next = std::clamp<std::size_t>(first_after(stamp), 1, back);
-  const Stamp start = time(next - 1);
-  const Sample older = sample(next - 1);
+  std::uint64_t next = back;  // most look-ups are near the newest
+  Stamp start = stamp_of(back - 1);
+  if (start >= stamp) {
+    const Stamp first = stamp_of(begin_);
+    if (stamp == first) return take(sample_of(begin_));
+    if (stamp < first) return Found::too_old;
+    if (start > stamp) {
+      next = search(stamp, first, last);
+      start = stamp_of(next - 1);
+    }
+  }
+  const Sample older = sample_of(next - 1).load();
   parent = older.parent;
-  if (start == stamp || parent_at(next) != older.parent) {
+  if (start == stamp) {
+    pose = older.pose;
+    return Found::ok;
+  }
+  const Sample newer = sample_of(next).load();
+  if (newer.parent != older.parent) {
     pose = older.pose;
   } else {
-    interpolate(older.pose, sample(next).pose, share_of(stamp, start, time(next)), pose);
+    interpolate(older.pose, newer.pose, share_of(stamp, start, stamp_of(next)), pose);
   }
   return Found::ok;
 }
 
-// Rates are nearly constant, so a straight line through both ends lands close, and doubling steps from there find the
-// rest.
 std::size_t History::View::first_after(Stamp stamp) const {
-  const std::size_t count = size();
-  if (count == 0 || time(count - 1) <= stamp) return count;
-  const Stamp first = time(0);
-  if (stamp < first) return 0;
-  std::size_t low = 0, high = count - 1;  // time(low) <= stamp < time(high)
-  const auto guess = static_cast<std::size_t>(share_of(stamp, first, time(high)) * static_cast<double>(high));
-  std::size_t step = 1;
-  if (time(guess) <= stamp) {
-    for (low = guess; low + step < high && time(low + step) <= stamp; step *= 2) low += step;
+  if (empty()) return 0;
+  const Stamp last = stamp_of(end_ - 1);
+  if (last <= stamp) return size();
+  const Stamp first = stamp_of(begin_);
+  return stamp < first ? 0 : static_cast<std::size_t>(search(stamp, first, last) - begin_);
+}
+
+// The first sample newer than `stamp`, for first <= stamp < last. Rates are nearly constant, so a straight line through
+// both ends lands close, and doubling steps from there find the rest.
+std::uint64_t History::View::search(Stamp stamp, Stamp first, Stamp last) const {
+  std::uint64_t low = begin_, high = end_ - 1;  // stamp_of(low) <= stamp < stamp_of(high)
+  const auto offset = static_cast<std::uint64_t>(share_of(stamp, first, last) * static_cast<double>(high - low));
+  const std::uint64_t guess = std::min(low + offset, high);
+  std::uint64_t step = 1;
+  if (stamp_of(guess) <= stamp) {
+    for (low = guess; high - low > step && stamp_of(low + step) <= stamp; step *= 2) low += step;
     high = std::min(low + step, high);
   } else {
-    for (high = guess; high > step && time(high - step) > stamp; step *= 2) high -= step;
-    low = high > step ? high - step : 0;
+    for (high = guess; high - low > step && stamp_of(high - step) > stamp; step *= 2) high -= step;
+    low = high - low > step ? high - step : low;
   }
   while (high - low > 1) {
-    const std::size_t middle = low + (high - low) / 2;
-    (time(middle) <= stamp ? low : high) = middle;
+    const std::uint64_t middle = low + (high - low) / 2;
+    (stamp_of(middle) <= stamp ? low : high) = middle;
   }
-  return high;
+  return std::max(high, begin_ + 1);
 }
 
 History::Directory::Directory(std::uint64_t size) : mask(size - 1), chunks(new std::atomic<Chunk*>[size]) {

@@ -45,9 +45,9 @@ class History {
     bool empty() const { return end_ <= begin_; }
     std::size_t size() const { return empty() ? 0 : static_cast<std::size_t>(end_ - begin_); }
 
-    Stamp time(std::size_t i) const { return chunk(i).stamps[(begin_ + i) % Chunk::kSize]; }
-    Sample sample(std::size_t i) const { return shared(i).load(); }
-    FrameId parent_at(std::size_t i) const { return shared(i).parent(); }
+    Stamp time(std::size_t i) const { return stamp_of(begin_ + i); }
+    Sample sample(std::size_t i) const { return sample_of(begin_ + i).load(); }
+    FrameId parent_at(std::size_t i) const { return sample_of(begin_ + i).parent(); }
     // Stamps of both ends; 0 for a static or empty history, as tf2 has it.
     Stamp oldest() const { return is_static() || empty() ? 0 : time(0); }
     Stamp newest() const { return is_static() || empty() ? 0 : time(size() - 1); }
@@ -61,10 +61,11 @@ class History {
 
    private:
     friend class History;
-    const Chunk& chunk(std::size_t i) const;
-    const SharedSample& shared(std::size_t i) const {
-      return is_static() ? *fixed_ : chunk(i).samples[(begin_ + i) % Chunk::kSize];
-    }
+    // By their number in the history's life.
+    const Chunk& chunk_of(std::uint64_t number) const;
+    Stamp stamp_of(std::uint64_t number) const;
+    const SharedSample& sample_of(std::uint64_t number) const;
+    std::uint64_t search(Stamp stamp, Stamp first, Stamp last) const;
 
     const Directory* directory_;
     const SharedSample* fixed_;
