@@ -291,9 +291,7 @@ class Watch:
     def cancel(self) -> None:
         """Notes no more."""
 
-def wait(
-    buffer: Buffer, mailbox: Mailbox, token: int, target: str, source: str, stamp: StampLike | None
-) -> Wait:
+def wait(buffer: Buffer, mailbox: Mailbox, token: int, target: str, source: str, stamp: StampLike | None) -> Wait:
     """A look-up whose token is put into the mailbox once it has its answer."""
 
 def wait_full(

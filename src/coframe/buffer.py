@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import ArrayLike
+    from typing_extensions import Self
 
     from coframe.time import DurationLike, StampLike
     from coframe.transform import Transform
@@ -98,14 +99,14 @@ class EdgeInfo(NamedTuple):
 class Subscription:
     """Changes that somebody wants to hear of; usable as a context manager."""
 
-    def __init__(self, cancel: Callable[[], None]) -> None:
+    def __init__(self, cancel: Callable[[], object]) -> None:
         self._cancel = cancel
 
     def close(self) -> None:
         """Ends it; doing so twice does no harm. A call that has begun goes on."""
         self._cancel()
 
-    def __enter__(self) -> Subscription:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -237,9 +238,7 @@ class Buffer(_core.Buffer):
         missing = self.lookup_rows(target, source, *arrays, on_error == "nan", extrapolate, hold)
         if missing == 0 and times.size and np.isnan(translations).all():
             self.lookup(target, source, int(np.asarray(stamps_of(stamps)).flat[0]), extrapolate=extrapolate, hold=hold)
-        return batch_of(
-            translations, quaternions, target, source, times, beyond if extrapolate is not None else None
-        )
+        return batch_of(translations, quaternions, target, source, times, beyond if extrapolate is not None else None)
 
     def wait(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None

@@ -1,4 +1,4 @@
-"""A thread that carries out in Python what native code has noticed: waits that have their answer, edges that changed."""
+"""A thread that carries out in Python what native code has noticed: waits that were answered, edges that changed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 # Begins a native wait or watch that puts the token into the mailbox.
 StartWait = Callable[[_core.Mailbox, int], _core.Wait]
 StartWatch = Callable[[_core.Mailbox, int], _core.Watch]
-Cancel = Callable[[], None]
+Cancel = Callable[[], object]
 
 _WAKE_UP = 0  # a token that stands for nothing
 _FOR_EVER = -1
@@ -175,5 +175,5 @@ def _run(reference: weakref.ref[Dispatcher], mailbox: _core.Mailbox) -> None:
 def _call(callback: Callable[[Any], object], argument: Any) -> None:
     try:
         callback(argument)
-    except Exception:
+    except Exception:  # noqa: BLE001 - of the user's; the next ones are to be called as well
         _log.exception("a callback of a buffer failed")

@@ -140,7 +140,7 @@ class TestRemoveFrame:
     def test_frames_and_their_links_are_gone(self, buffer):
         assert buffer.remove_frame("base")
         assert buffer.frame_names() == ["odom", "lidar"]
-        with pytest.raises(coframe.LookupException, match='"base" passed to .* does not exist'):
+        with pytest.raises(coframe.LookupException, match=r'"base" passed to .* does not exist'):
             buffer.lookup("odom", "base")
         with pytest.raises(coframe.ConnectivityException):
             buffer.lookup("odom", "lidar")
@@ -212,8 +212,13 @@ class TestSnapshot:
                 stamps = [max(stamp - 10**9 * k, 1) for k in range(20)]
                 questions = [(f"frame{k % 3}", s) for k, s in enumerate(stamps)]
                 copy = buffer.snapshot()
-                snapshots.append((copy, questions, [copy.why_not("odom", f, s) or copy.lookup("odom", f, s).values
-                                                    for f, s in questions]))
+                snapshots.append(
+                    (
+                        copy,
+                        questions,
+                        [copy.why_not("odom", f, s) or copy.lookup("odom", f, s).values for f, s in questions],
+                    )
+                )
         for copy, questions, answers in snapshots:
             assert [copy.why_not("odom", f, s) or copy.lookup("odom", f, s).values for f, s in questions] == answers
 
@@ -261,7 +266,7 @@ class TestChanges:
 
         buffer.on_change(on_change)
         fresh = threading.Event()
-        buffer.on_change(lambda edge: fresh.set(), child="new")
+        buffer.on_change(lambda _: fresh.set(), child="new")
         buffer.set("odom", "base", coframe.Transform(), 12 * SECOND)
         buffer.set("base", "new", coframe.Transform(), 12 * SECOND)
         assert done.wait(10)

@@ -23,7 +23,7 @@ class _WaitFuture(Future[TransformStamped]):
 
     def __init__(self) -> None:
         super().__init__()
-        self._end_wait: Callable[[], None] = lambda: None
+        self._end_wait: Callable[[], object] = lambda: None
 
     def cancel(self) -> None:
         super().cancel()

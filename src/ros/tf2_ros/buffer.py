@@ -4,6 +4,7 @@ from typing import Any
 
 import tf2_py as tf2
 from builtin_interfaces.msg import Time as TimeMessage
+from coframe import _core
 from geometry_msgs.msg import TransformStamped
 from rclpy.clock import Clock, JumpThreshold, TimeJump
 from rclpy.duration import Duration
@@ -16,8 +17,6 @@ from tf2_py import _convert
 from tf2_py._message import transform_stamped
 from tf2_ros import _waits
 from tf2_ros.buffer_interface import BufferInterface
-
-from coframe import _core
 
 _NO_WAIT = Duration()
 
