@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from coframe import _core, quaternion
+from coframe.covariance import transform_covariance
 from coframe.errors import FrameMismatchException, InvalidArgumentException
 from coframe.time import stamp_ns
 
@@ -205,6 +206,27 @@ class Transform(_core.Transform):
             other.source,
             _common_stamp(mine, others),
         )
+
+    def transform_pose(
+        self, pose: Transform, covariance: ArrayLike, *, own_covariance: ArrayLike | None = None
+    ) -> tuple[Transform, Array]:
+        """A pose in ``source`` and how sure it is, as both are in ``target``.
+
+        Args:
+            pose: In ``source``; a pose is the transform from the thing's own frame.
+            covariance: Of the pose, as in ROS's PoseWithCovariance: (..., 6, 6) or (..., 36), over x, y, z (m) and
+                turns about the fixed axes x, y, z (rad) of ``source``.
+            own_covariance: How sure this transform itself is, over the axes of ``target``; None: exactly known, as in
+                tf2.
+
+        Returns:
+            ``self @ pose``, and its covariance over the axes of ``target``, in the shape that was given. First order.
+
+        Raises:
+            FrameMismatchException: The pose is not in ``source``.
+            ValueError: A covariance of another shape.
+        """
+        return self @ pose, transform_covariance(self, pose, covariance, own_covariance)
 
     def _any_stamp(self) -> Any:
         return self.stamp if self.batch is None else self.stamps
