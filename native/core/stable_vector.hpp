@@ -21,8 +21,8 @@ class StableVector {
   std::size_t size() const { return size_.load(std::memory_order_acquire); }
 
   // For an index below a size() that was read before.
-  T& operator[](std::size_t index) { return *find(index); }
-  const T& operator[](std::size_t index) const { return *find(index); }
+  T& operator[](std::size_t index) { return at(index); }
+  const T& operator[](std::size_t index) const { return at(index); }
 
   // For an index from anywhere: nullptr where nothing was ever appended.
   T* find(std::size_t index) const {
@@ -49,6 +49,10 @@ class StableVector {
   static constexpr std::size_t kFirst = 32;  // elements of the first segment; each next one has twice as many
   static constexpr std::size_t kSegments = 27;
 
+  T& at(std::size_t index) const {
+    const std::size_t number = segment_of(index);
+    return segments_[number].load(std::memory_order_acquire)[index - first_of(number)];
+  }
   static std::size_t segment_of(std::size_t index) { return std::bit_width(index / kFirst + 1) - 1; }
   static std::size_t first_of(std::size_t segment) { return kFirst * ((std::size_t{1} << segment) - 1); }
 
