@@ -18,7 +18,7 @@ behind its text, where they apply, and ``hint``: what to do next.
 from __future__ import annotations
 
 import difflib
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe import _core
 
@@ -82,8 +82,23 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
         return error
 
     @property
+    def args(self) -> tuple[Any, ...]:
+        """What the exception was made of: its text, as a tuple."""
+        return self._own_args if self._failure is None else (str(self),)
+
+    @args.setter
+    def args(self, args: tuple[Any, ...]) -> None:
+        Exception.args.__set__(self, args)  # type: ignore[attr-defined]
+
+    @property
+    def _own_args(self) -> tuple[Any, ...]:
+        own: tuple[Any, ...] = Exception.args.__get__(self)  # type: ignore[attr-defined]
+        return own
+
+    @property
     def _failure(self) -> Failure | None:
-        return self.args[0] if self.args and isinstance(self.args[0], _core.Failure) else None
+        own = self._own_args
+        return own[0] if own and isinstance(own[0], _core.Failure) else None
 
     @property
     def _facts(self) -> Failure | _Facts:
@@ -130,7 +145,10 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
 
     def __reduce__(self) -> tuple[object, ...]:
         facts = {name: getattr(self, name) for name in _Facts._fields}
-        return _restore, (type(self), str(self), facts)
+        kind = type(self)
+        # By name: tf2_py calls the module of tf2's exceptions `tf2`, as tf2 does, where pickle would not find them.
+        is_ours = globals().get(kind.__name__) is kind
+        return _restore, (kind.__name__ if is_ours else kind, str(self), facts)
 
 
 class LookupException(TransformException):
@@ -181,8 +199,9 @@ class DecodeError(ValueError):
         self.hint = hint
 
 
-def _restore(kind: type[TransformException], text: str, facts: dict[str, object]) -> TransformException:
-    return kind.telling(text, **facts)  # type: ignore[arg-type]
+def _restore(kind: str | type[TransformException], text: str, facts: dict[str, object]) -> TransformException:
+    chosen: type[TransformException] = globals()[kind] if isinstance(kind, str) else kind
+    return chosen.telling(text, **facts)  # type: ignore[arg-type]
 
 
 def _hint(failure: Failure) -> str:

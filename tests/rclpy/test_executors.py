@@ -346,6 +346,16 @@ def test_one_group_is_one_at_a_time(node, wait_until):
     assert not any(overlaps)
 
 
+@pytest.mark.usefixtures("spinning")
+def test_who_is_always_due_leaves_the_others_of_its_group_their_turn(node, wait_until):
+    calls = []
+    node.create_timer(0.0, lambda: time.sleep(0.001))
+    guard = node.create_guard_condition(lambda: calls.append(1))
+    for count in (1, 2, 3):
+        guard.trigger()
+        wait_until(lambda count=count: len(calls) == count)
+
+
 def test_exceptions_of_pool_threads_reach_the_spinner(node, pool):
     node.create_timer(0.0, lambda: 1 / 0)
     with pytest.raises(ZeroDivisionError):

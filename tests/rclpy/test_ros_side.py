@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -22,6 +23,15 @@ def test_half_a_ros_before_ours_is_refused(tmp_path):
     assert ros_side.foreign_packages(tuple(path)) == {"geometry_msgs": str(tmp_path)}
     with pytest.raises(ImportError, match=r"tf2_ros is being imported, but geometry_msgs would .* a complete ROS 2"):
         ros_side.check("tf2_ros", path)
+
+
+def test_the_documentation_quotes_it(tmp_path):
+    (tmp_path / "geometry_msgs").mkdir()
+    (tmp_path / "geometry_msgs" / "__init__.py").touch()
+    with pytest.raises(ImportError) as caught:
+        ros_side.check("tf2_ros", [str(tmp_path), str(ros_side.ours())])
+    page = (Path(__file__).parents[2] / "docs" / "migration.md").read_text()
+    assert f"ImportError: {caught.value}".replace(str(tmp_path), "/opt/ros/humble/lib/python3.10/site-packages") in page
 
 
 def test_what_comes_after_ours_does_not_matter(tmp_path):

@@ -83,6 +83,26 @@ def test_blocking_call_inside_a_callback(make_node, wait_until):
     pool.shutdown(timeout_sec=10)
 
 
+def test_blocking_call_inside_a_callback_of_a_single_threaded_executor(make_node, executor):
+    server = make_node("server")
+    server.create_service(SetBool, "switch", answer)
+    serving = SingleThreadedExecutor(context=server.context)
+    serving.add_node(server)
+    thread = threading.Thread(target=serving.spin)
+    thread.start()
+    node = executor.get_nodes()[0]
+    client = node.create_client(SetBool, "switch")
+    assert client.wait_for_service(timeout_sec=10)
+    results = []
+    node.create_guard_condition(
+        lambda: results.append(client.call(SetBool.Request(data=True), timeout_sec=10))
+    ).trigger()
+    executor.spin_once(timeout_sec=10)
+    serving.shutdown()
+    thread.join()
+    assert results[0].success
+
+
 def test_await_inside_a_callback(node, executor):
     inner = MutuallyExclusiveCallbackGroup()
     node.create_service(SetBool, "inner", answer, callback_group=inner)

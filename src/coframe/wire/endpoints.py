@@ -203,6 +203,15 @@ class TfReader(WireEndpoint):
         self._naming = threading.Lock()
         super().__init__(native, node, topic, dds_type, qos)
 
+    def pending(self) -> bool:
+        """Whether messages may be waiting, as for a `Subscription`: never, they are in the buffer already."""
+        return False
+
+    def take(self, limit: int = 100) -> list[Sample]:
+        """The messages that wait, as for a `Subscription`: none."""
+        del limit
+        return []
+
     def name_writers(self, graph: Graph) -> None:
         """Lets the buffer note the publishing nodes, as far as the graph tells them."""
         if self._named is None or self._closed:

@@ -25,12 +25,17 @@ class StaticTopic:
         self._lock = threading.Lock()
         self._publisher: Publisher | None = None
         self._members: list[StaticWriter] = []
-        self._transforms: dict[str, Any] = {}  # TransformStamped by child
+        self._transforms: dict[str, tuple[StaticWriter, Any]] = {}  # by child: who said it last, TransformStamped
 
     @property
     def closed(self) -> bool:
         """Whether the last member has left."""
         return self._publisher is None or self._publisher.closed
+
+    @property
+    def matched(self) -> int:
+        """How many readers have been found."""
+        return 0 if self._publisher is None else self._publisher.matched
 
     def join(self, node: GraphNode) -> StaticWriter:
         """Another member, of `node`."""
@@ -46,8 +51,14 @@ class StaticTopic:
             self._members.append(member)
             return member
 
-    def send(self, transforms: Iterable[Any]) -> None:
-        """Adds the transforms and sends all; a later one for the same child replaces the earlier."""
+    def send(self, member: StaticWriter, transforms: Iterable[Any], *, nothing_else: bool) -> None:
+        """Takes in transforms of `member` and sends those of all; a later one for the same child replaces the earlier.
+
+        Args:
+            member: Whose they are.
+            transforms: TransformStamped messages.
+            nothing_else: What `member` said before and does not say now is no longer sent.
+        """
         from coframe.messages.codec import serialize  # noqa: PLC0415 - importing coframe.wire stays cheap
         from coframe.messages.registry import find  # noqa: PLC0415
 
@@ -57,9 +68,15 @@ class StaticTopic:
                     f"The writer of static transforms on {self._topic} is closed.",
                     hint="Send before closing the node.",
                 )
-            for transform in transforms:
-                self._transforms[transform.child_frame_id] = copy.deepcopy(transform)
-            message = find("tf2_msgs/msg/TFMessage")(transforms=list(self._transforms.values()))
+            new = {transform.child_frame_id: (member, copy.deepcopy(transform)) for transform in transforms}
+            if nothing_else:
+                self._transforms = {
+                    child: (owner, known)
+                    for child, (owner, known) in self._transforms.items()
+                    if owner is not member or child in new
+                }
+            self._transforms |= new
+            message = find("tf2_msgs/msg/TFMessage")(transforms=[known for _, known in self._transforms.values()])
             self._publisher.write(serialize(message))
 
     def leave(self, member: StaticWriter) -> None:
@@ -78,6 +95,11 @@ class StaticWriter:
         self.node = node
         self._shared = shared
 
+    @property
+    def matched(self) -> int:
+        """How many readers have been found."""
+        return self._shared.matched
+
     def send(self, transforms: Iterable[Any]) -> None:
         """Sends TransformStamped messages, along with all that this process has sent on the topic before.
 
@@ -86,7 +108,21 @@ class StaticWriter:
         Raises:
             WireError: the last share has been given back.
         """
-        self._shared.send(transforms)
+        self._shared.send(self, transforms, nothing_else=False)
+
+    def write(self, cdr: bytes) -> None:
+        """Sends a serialised TFMessage, along with what the others in this process have sent, as `Publisher.write`.
+
+        The message is all that this writer has to say: what it does not repeat, late joiners are no longer told.
+
+        Raises:
+            WireError: the last share has been given back.
+        """
+        from coframe.messages.codec import deserialize  # noqa: PLC0415 - importing coframe.wire stays cheap
+        from coframe.messages.registry import find  # noqa: PLC0415
+
+        message = deserialize(cdr, find("tf2_msgs/msg/TFMessage"))
+        self._shared.send(self, message.transforms, nothing_else=True)
 
     def close(self) -> None:
         """Gives the share back; what was sent stays until the last share is given back."""

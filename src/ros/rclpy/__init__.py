@@ -19,6 +19,7 @@ ros_side.check(__name__)
 
 # Users reach the modules as attributes: rclpy.time.Time after `import rclpy`.
 from rclpy import (
+    action,
     callback_groups,
     client,
     clock,
@@ -84,6 +85,7 @@ __all__ = [
     "Parameter",
     "SignalHandlerOptions",
     "SingleThreadedExecutor",
+    "action",
     "callback_groups",
     "client",
     "clock",

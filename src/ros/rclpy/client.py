@@ -20,7 +20,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.task import Future
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from coframe.wire import Participant
     from coframe.wire import Publisher as WirePublisher
@@ -61,13 +61,13 @@ class Client:
         self._identity = int.from_bytes(os.urandom(8), "little")
         self._lock = threading.Lock()
         self._sequence = 0
-        self._pending: dict[int, Future[Any]] = {}
+        self._pending: dict[int, tuple[Future[Any], Callable[[Any], Any]]] = {}
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
         """Sends a request and waits for the response.
 
-        Somebody else must spin the node meanwhile: called from a callback, another thread of a MultiThreadedExecutor
-        and another callback group.
+        Nobody needs to spin the node meanwhile: this works in any callback, as long as another executor runs the
+        service.
 
         Args:
             request: The request.
@@ -79,11 +79,8 @@ class Client:
         Raises:
             TypeError: It is no request of the service's type.
         """
-        event = Event()
         future = self.call_async(request)
-        future._add_waiter(event.set)
-        with self.context._setting_at_shutdown(event):
-            event.wait(None if timeout_sec is None else int(timeout_sec * S_TO_NS))
+        take_responses_until([self], future, timeout_sec)
         if not future.done():
             self.remove_pending_request(future)
             return None
@@ -103,21 +100,31 @@ class Client:
         """
         if not isinstance(request, self.srv_type.Request):
             raise TypeError(f"Expected {self.srv_type.Request}, got {type(request)}")
+        return self._send(request, _unchanged)
+
+    def _send(self, request: Any, convert: Callable[[Any], Any]) -> Future[Any]:
+        """Sends a request; the future brings what `convert` makes of the response."""
         self._alive()
         future: Future[Any] = Future()
         with self._lock:
             self._sequence += 1
             header = RequestHeader(self._identity, self._sequence)
-            self._pending[header.sequence] = future
+            self._pending[header.sequence] = future, convert
+        future._add_waiter(partial(self._forget, header.sequence))
         self._requests.write(_request_header.join(header, codec.serialize(request)))
         return future
 
     def remove_pending_request(self, future: Future[Any]) -> None:
         """Forgets a request; its response will be dropped."""
         with self._lock:
-            for sequence, pending in list(self._pending.items()):
+            for sequence, (pending, _) in list(self._pending.items()):
                 if pending is future:
                     del self._pending[sequence]
+
+    def _forget(self, sequence: int) -> None:
+        """A request that was given up is not kept for an answer that may never come."""
+        with self._lock:
+            self._pending.pop(sequence, None)
 
     def service_is_ready(self) -> bool:
         """Whether somebody serves it."""
@@ -133,19 +140,7 @@ class Client:
         Returns:
             Whether somebody does; False also when the context was shut down.
         """
-        deadline = None if timeout_sec is None else time.monotonic_ns() + int(timeout_sec * S_TO_NS)
-        event = Event()
-        self._participant.watch_graph(event)
-        try:
-            with self.context._setting_at_shutdown(event):
-                while self.context.ok() and not self.service_is_ready():
-                    remaining = _MATCH_SLICE_NS if deadline is None else deadline - time.monotonic_ns()
-                    if remaining <= 0:
-                        return False
-                    event.wait(min(remaining, _MATCH_SLICE_NS))
-        finally:
-            self._participant.unwatch_graph(event)
-        return self.context.ok()
+        return wait_until_ready(self.context, self._participant, self.service_is_ready, timeout_sec)
 
     def destroy(self) -> None:
         """Ends it; better use `Node.destroy_client`."""
@@ -171,16 +166,79 @@ class Client:
             if parts is None or parts[0].client != self._identity:
                 continue
             with self._lock:
-                future = self._pending.pop(parts[0].sequence, None)
-            if future is not None:
-                return partial(self._deliver, future, parts[1])
+                pending = self._pending.pop(parts[0].sequence, None)
+            if pending is not None:
+                return partial(self._deliver, *pending, parts[1])
         return None
 
-    def _deliver(self, future: Future[Any], cdr: bytes) -> None:
+    def _take_all(self) -> None:
+        while self._remaining_ns() is not None:
+            if (deliver := self._take()) is not None:
+                deliver()
+
+    def _deliver(self, future: Future[Any], convert: Callable[[Any], Any], cdr: bytes) -> None:
         future._set_executor(self._executor())
         try:
-            response = codec.deserialize(cdr, self.srv_type.Response)
+            result = convert(codec.deserialize(cdr, self.srv_type.Response))
         except ValueError as error:
             future.set_exception(error)
         else:
-            future.set_result(response)
+            future.set_result(result)
+
+
+def take_responses_until(clients: Sequence[Client], future: Future[Any], timeout_sec: float | None) -> None:
+    """Takes the responses to some clients in this thread, so that nobody needs to spin, until a future is over.
+
+    Args:
+        clients: The clients, of one context.
+        future: What to wait for.
+        timeout_sec: Longest wait in seconds; None: until the context's shutdown.
+    """
+    context = clients[0].context
+    deadline = _deadline(timeout_sec)
+    future._add_waiter(context._wakeup.set)
+    while context.ok():
+        seen = context._wakeup.count
+        for client in clients:
+            client._take_all()
+        remaining = None if deadline is None else deadline - time.monotonic_ns()
+        if future._is_over() or (remaining is not None and remaining <= 0):
+            return
+        context._wakeup.wait(seen, remaining)
+
+
+def wait_until_ready(
+    context: Context, participant: Participant, is_ready: Callable[[], bool], timeout_sec: float | None
+) -> bool:
+    """Waits until the other side of some endpoints is there.
+
+    Args:
+        context: Its shutdown ends the wait.
+        participant: Tells when the graph changes.
+        is_ready: Whether the other side is there.
+        timeout_sec: Longest wait in seconds; None: as long as it takes.
+
+    Returns:
+        Whether it is; False also when the context was shut down.
+    """
+    deadline = _deadline(timeout_sec)
+    event = Event()
+    participant.watch_graph(event)
+    try:
+        with context._setting_at_shutdown(event):
+            while context.ok() and not is_ready():
+                remaining = _MATCH_SLICE_NS if deadline is None else deadline - time.monotonic_ns()
+                if remaining <= 0:
+                    return False
+                event.wait(min(remaining, _MATCH_SLICE_NS))
+    finally:
+        participant.unwatch_graph(event)
+    return context.ok()
+
+
+def _deadline(timeout_sec: float | None) -> int | None:
+    return None if timeout_sec is None else time.monotonic_ns() + int(timeout_sec * S_TO_NS)
+
+
+def _unchanged(response: Any) -> Any:
+    return response

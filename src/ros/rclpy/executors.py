@@ -9,6 +9,7 @@ import inspect
 import os
 import threading
 import time
+import weakref
 from abc import ABC, abstractmethod
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
     from rclpy.context import Context
     from rclpy.node import Node
 
+# How often `spin_once` looks for what comes in silently: nothing wakes it for that.
+_SILENT_INPUT_PERIOD_NS: Final = 5_000_000
 # What a callback meets when the context is shut down under it.
 _ERRORS_OF_THE_END: Final = (NotInitializedException, RCLError, ROSInterruptException)
 
@@ -64,6 +67,17 @@ class Executable(Protocol):
         """Takes what is due away and returns the call to make; None if another thread was faster."""
 
 
+class SilentInput(Protocol):
+    """What comes in without a callback, such as transforms, which go into a buffer natively.
+
+    `spin()` lets it. `spin_once()` returns for each message, as it would for one with a callback: programs loop over
+    it and look at their buffer in between.
+    """
+
+    def _take_one(self) -> bool:
+        """Whether a message has come in that no `spin_once` has returned for; the next call tells of the next one."""
+
+
 Work = tuple["Task[Any]", "Executable | None", "Node | None"]
 
 
@@ -80,7 +94,10 @@ class Executor(ABC):
         self._lock = threading.RLock()
         self._tasks: deque[Task[Any]] = deque()
         self._due: deque[tuple[Task[Any] | Executable, Node | None]] = deque()
+        self._turns: weakref.WeakKeyDictionary[Executable, int] = weakref.WeakKeyDictionary()
+        self._turn = 0
         self._is_shutdown = False
+        self._is_spinning = False
         self._running_in: list[int] = []
         self._is_idle = threading.Condition()
 
@@ -172,11 +189,14 @@ class Executor(ABC):
 
     def spin(self) -> None:
         """Runs callbacks until the context or the executor is shut down."""
+        self._is_spinning = True
         try:
             while self._context.ok() and not self._is_shutdown:
                 self.spin_once()
         except ExternalShutdownException:
             pass
+        finally:
+            self._is_spinning = False
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Waits for one callback and runs it.
@@ -187,7 +207,7 @@ class Executor(ABC):
         Raises:
             ExternalShutdownException: The context was shut down.
         """
-        self._spin_once_unless(lambda: False, timeout_sec)
+        self._spin_once_unless(lambda: False, timeout_sec, heeds_silence=not self._is_spinning)
 
     def spin_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
         """Runs callbacks until the future is over.
@@ -238,6 +258,16 @@ class Executor(ABC):
             TimeoutException: Nothing was due in time.
             ConditionReachedException: The condition holds.
         """
+        return self._wait_for_work(timeout_sec, nodes, condition, heeds_silence=False)
+
+    def _wait_for_work(
+        self,
+        timeout_sec: float | None,
+        nodes: Iterable[Node] | None,
+        condition: Callable[[], bool],
+        *,
+        heeds_silence: bool,
+    ) -> Work:
         deadline = _deadline(timeout_sec)
         wakeup = self._context._wakeup
         while True:
@@ -251,6 +281,11 @@ class Executor(ABC):
             work, next_ns = self._next_work(nodes)
             if work is not None:
                 return work
+            silent_inputs = self._silent_inputs() if heeds_silence else []
+            if any(entrance._take_one() for entrance in silent_inputs):
+                raise ConditionReachedException
+            if silent_inputs:
+                next_ns = _SILENT_INPUT_PERIOD_NS if next_ns is None else min(next_ns, _SILENT_INPUT_PERIOD_NS)
             if deadline is not None:
                 remaining = deadline - time.monotonic_ns()
                 if remaining <= 0:
@@ -281,9 +316,14 @@ class Executor(ABC):
         self._tasks.append(task)
         self.wake()
 
-    def _spin_once_unless(self, condition: Callable[[], bool], timeout_sec: float | None) -> None:
+    def _silent_inputs(self) -> list[SilentInput]:
+        return [entrance for node in self.get_nodes() for entrance in node._silent_inputs]
+
+    def _spin_once_unless(
+        self, condition: Callable[[], bool], timeout_sec: float | None, *, heeds_silence: bool = False
+    ) -> None:
         try:
-            task, _, _ = self.wait_for_ready_callbacks(timeout_sec, condition=condition)
+            task, _, _ = self._wait_for_work(timeout_sec, None, condition, heeds_silence=heeds_silence)
         except (ShutdownException, TimeoutException, ConditionReachedException):
             return
         self._run(task)
@@ -325,6 +365,7 @@ class Executor(ABC):
         while self._tasks:
             self._due.append((self._tasks.popleft(), None))
         next_ns: int | None = None
+        due: list[tuple[Executable, Node]] = []
         for node in nodes:
             for entity in node._executables():
                 remaining = entity._remaining_ns()
@@ -333,7 +374,11 @@ class Executor(ABC):
                 if remaining > 0:
                     next_ns = remaining if next_ns is None else min(next_ns, remaining)
                 elif self.can_execute(entity):
-                    self._due.append((entity, node))
+                    due.append((entity, node))
+        if len(due) > 1:
+            # Who is always due must not keep the others of its callback group from ever running.
+            due.sort(key=lambda work: self._turns.get(work[0], 0))
+        self._due.extend(due)
         return next_ns
 
     def _begin(self, due: Task[Any] | Executable, node: Node | None, allowed: list[Node]) -> Work | None:
@@ -341,6 +386,8 @@ class Executor(ABC):
             return due, None, None
         if node not in allowed or not due.callback_group.beginning_execution(due):
             return None
+        self._turn += 1
+        self._turns[due] = self._turn
         call = None
         try:
             call = due._take()
@@ -388,17 +435,22 @@ class MultiThreadedExecutor(Executor):
         self._pool.shutdown(wait=False)
         return has_ended
 
-    def wait_for_ready_callbacks(
+    def _wait_for_work(
         self,
-        timeout_sec: float | None = None,
-        nodes: Iterable[Node] | None = None,
-        condition: Callable[[], bool] = lambda: False,
+        timeout_sec: float | None,
+        nodes: Iterable[Node] | None,
+        condition: Callable[[], bool],
+        *,
+        heeds_silence: bool,
     ) -> Work:
-        """Waits for the next callback that is due; also ends when one that ran has failed."""
-        return super().wait_for_ready_callbacks(timeout_sec, nodes, lambda: bool(self._failed) or condition())
+        """Also ends when a callback that ran in the pool has failed."""
+        ends = lambda: bool(self._failed) or condition()  # noqa: E731 - too short for a name of its own
+        return super()._wait_for_work(timeout_sec, nodes, ends, heeds_silence=heeds_silence)
 
-    def _spin_once_unless(self, condition: Callable[[], bool], timeout_sec: float | None) -> None:
-        super()._spin_once_unless(condition, timeout_sec)
+    def _spin_once_unless(
+        self, condition: Callable[[], bool], timeout_sec: float | None, *, heeds_silence: bool = False
+    ) -> None:
+        super()._spin_once_unless(condition, timeout_sec, heeds_silence=heeds_silence)
         if self._failed:
             self._raise_error_of(self._failed.popleft())
 

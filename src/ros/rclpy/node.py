@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from rclpy.context import Context
-    from rclpy.executors import Executable, Executor
+    from rclpy.executors import Executable, Executor, SilentInput
 
 EntityT = TypeVar("EntityT")
 
@@ -106,6 +106,7 @@ class Node(NodeParameters, NodeGraph):
 
         self._wire = self.__context._join_graph()
         self._graph_node = self._wire.add_node(self.__names.namespace, self.__names.node_name)
+        self._silent_inputs: list[SilentInput] = []
         self.__rosout: RosoutPublisher | None = None
         if enable_rosout and arguments.logging.rosout:
             self.__rosout = RosoutPublisher(self._wire, self._graph_node, self.__logger.name)
@@ -341,6 +342,17 @@ class Node(NodeParameters, NodeGraph):
             InvalidServiceNameException: The name breaks a rule.
             NoTypeSupportImportedException: `srv_type` is no service class.
         """
+        return self._create_service(Service, srv_type, srv_name, callback, qos_profile, callback_group)
+
+    def _create_service(
+        self,
+        kind: type[Service],
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        qos_profile: QoSProfile,
+        callback_group: CallbackGroup | None,
+    ) -> Service:
         check_is_valid_srv_type(srv_type)
         _check_callback(callback)
         self.__check_alive()
@@ -350,7 +362,7 @@ class Node(NodeParameters, NodeGraph):
         replies = self._wire.publisher(graph_node, name, srv_type.Response, qos, kind="reply")
         requests = self._wire.subscription(graph_node, name, srv_type.Request, qos, on_data=wakeup, kind="request")
         group = self.__group(callback_group)
-        return self.__add(Service(requests, replies, srv_type, name, callback, group, qos_profile))
+        return self.__add(kind(requests, replies, srv_type, name, callback, group, qos_profile))
 
     def create_timer(
         self,
@@ -456,6 +468,10 @@ class Node(NodeParameters, NodeGraph):
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.get_fully_qualified_name()}>"
 
+    def _adopt(self, entity: EntityT) -> EntityT:
+        """Makes a publisher or subscription that tf2_ros made one of the node's: listed, and ended with it."""
+        return self.__add(entity)
+
     def _executables(self) -> tuple[Executable, ...]:
         """What an executor has to look at."""
         return self.__executables
@@ -476,7 +492,7 @@ class Node(NodeParameters, NodeGraph):
 
     def __add(self, entity: EntityT) -> EntityT:
         with self.__lock:
-            self.__entities[type(entity)].append(entity)
+            self.__entities_like(entity).append(entity)
             self.__collect_executables()
         group = getattr(entity, "callback_group", None)
         if group is not None:
@@ -486,13 +502,16 @@ class Node(NodeParameters, NodeGraph):
 
     def __remove(self, entity: Any) -> bool:
         with self.__lock:
-            entities = self.__entities.get(type(entity), [])
+            entities = self.__entities_like(entity)
             if entity not in entities:
                 return False
             entities.remove(entity)
             self.__collect_executables()
         entity.destroy()
         return True
+
+    def __entities_like(self, entity: Any) -> list[Any]:
+        return next((entities for kind, entities in self.__entities.items() if isinstance(entity, kind)), [])
 
     def __collect_executables(self) -> None:
         """Executors read the tuple without a lock."""

@@ -12,6 +12,7 @@ from rclpy.exceptions import InvalidHandle, RCLError
 
 if TYPE_CHECKING:
     from coframe.wire import Publisher as WirePublisher
+    from coframe.wire import StaticWriter
     from rclpy.context import Context
     from rclpy.qos import QoSProfile
 
@@ -20,9 +21,14 @@ class Publisher:
     """Sends messages to a topic; made by `Node.create_publisher`."""
 
     def __init__(
-        self, wire: WirePublisher, msg_type: type[Any], topic: str, qos_profile: QoSProfile, context: Context
+        self,
+        wire: WirePublisher | StaticWriter,
+        msg_type: type[Any],
+        topic: str,
+        qos_profile: QoSProfile,
+        context: Context,
     ) -> None:
-        self._wire: WirePublisher | None = wire
+        self._wire: WirePublisher | StaticWriter | None = wire
         self._context = context
         self.msg_type = msg_type
         self.topic = topic
@@ -69,7 +75,7 @@ class Publisher:
             self._wire.close()
             self._wire = None
 
-    def _alive(self) -> WirePublisher:
+    def _alive(self) -> WirePublisher | StaticWriter:
         if self._wire is None:
             raise InvalidHandle(f"cannot use Publisher of '{self.topic}' because destruction was requested")
         return self._wire

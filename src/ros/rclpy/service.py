@@ -87,3 +87,13 @@ class Service:
         if inspect.iscoroutine(response):
             response = await response
         self.send_response(response, header)
+
+
+class DeferredService(Service):
+    """A service of rclpy's own whose callback answers when it likes.
+
+    It is called with the request and its header, and answers by `send_response`; several may wait meanwhile.
+    """
+
+    def _answer(self, header: RequestHeader, cdr: bytes) -> Any:
+        return self.callback(codec.deserialize(cdr, self.srv_type.Request), header)

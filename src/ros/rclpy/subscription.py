@@ -12,7 +12,7 @@ from coframe.messages import codec
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.wire import Sample
+    from coframe.wire import Sample, TfReader
     from coframe.wire import Subscription as WireSubscription
     from rclpy.callback_groups import CallbackGroup
     from rclpy.qos import QoSProfile
@@ -26,7 +26,7 @@ class Subscription:
 
     def __init__(
         self,
-        wire: WireSubscription,
+        wire: WireSubscription | TfReader,
         msg_type: type[Any],
         topic: str,
         callback: Callable[..., Any],
@@ -34,7 +34,7 @@ class Subscription:
         qos_profile: QoSProfile,
         raw: bool,
     ) -> None:
-        self._wire: WireSubscription | None = wire
+        self._wire: WireSubscription | TfReader | None = wire
         self._wants_info = _takes_info(callback)
         self.msg_type = msg_type
         self.topic = topic

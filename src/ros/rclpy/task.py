@@ -10,7 +10,10 @@ import sys
 import threading
 import traceback
 import weakref
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
+
+from rclpy import _asyncio
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine, Generator
@@ -21,7 +24,11 @@ T = TypeVar("T")
 
 
 class Future(Generic[T]):
-    """A result to come; can be awaited in a coroutine that an executor runs.
+    """A result to come; can be awaited in coroutines that an executor or asyncio runs.
+
+    An asyncio task that awaits it sleeps until the result is there, from whatever thread. Cancelling the task cancels
+    the future, and a future that was cancelled raises `asyncio.CancelledError` there, as asyncio's own futures do; an
+    executor's coroutine gets None instead.
 
     Args:
         executor: Runs the done callbacks; None: they run at once, in the thread that sets the result.
@@ -45,7 +52,12 @@ class Future(Generic[T]):
 
     def __await__(self) -> Generator[Any, None, T | None]:
         while not self._is_over():
-            yield self
+            if (loop := _asyncio.awaiting_loop()) is not None:
+                yield from _asyncio.until_over(self, loop)
+            else:
+                yield self
+        if self._cancelled and _asyncio.awaiting_loop() is not None:
+            raise _asyncio.cancelled_error()
         return self.result()
 
     def cancel(self) -> None:
@@ -119,6 +131,11 @@ class Future(Generic[T]):
                 return
         wake()
 
+    def _remove_waiter(self, wake: Callable[[], object]) -> None:
+        """Forgets a waiter; one that has been called is no error."""
+        with self._lock, suppress(ValueError):
+            self._waiters.remove(wake)
+
     def _announce(self) -> None:
         with self._lock:
             callbacks, self._callbacks = self._callbacks, []
@@ -165,10 +182,12 @@ class Task(Future[T]):
             return
         self._executing = True
         try:
-            awaited = self._step()
+            awaited = None if self._is_over() else self._step()
         finally:
             self._executing = False
             self._execution_lock.release()
+        if self._cancelled:
+            self._close()
         if awaited is not None and not self._is_over():
             awaited._add_waiter(self._continue)
         elif not self._is_over():
@@ -181,8 +200,16 @@ class Task(Future[T]):
     def cancel(self) -> None:
         """Gives it up; a coroutine is closed."""
         super().cancel()
-        if inspect.iscoroutine(self._handler) and not self._executing:
-            self._handler.close()
+        if self._cancelled:
+            self._close()
+
+    def _close(self) -> None:
+        """Closes the coroutine; one that is running is closed after its step, by the thread that runs it."""
+        if inspect.iscoroutine(self._handler) and self._execution_lock.acquire(blocking=False):
+            try:
+                self._handler.close()
+            finally:
+                self._execution_lock.release()
 
     def _step(self) -> Future[Any] | None:
         """Runs once; returns the future that a coroutine awaits."""
@@ -194,7 +221,7 @@ class Task(Future[T]):
                     return None
                 self.set_result(result)
             else:
-                awaited = self._handler.send(None)
+                awaited = _asyncio.step(self._handler)
                 return awaited if isinstance(awaited, Future) else None
         except StopIteration as stop:
             self.set_result(stop.value)

@@ -1,4 +1,4 @@
-"""Telling message and service types from anything else."""
+"""Telling message, service and action types from anything else."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def check_is_valid_msg_type(msg_type: Any) -> None:
     Raises:
         NoTypeSupportImportedException: It is not.
     """
-    _check(msg_type, "msg", "a message type such as std_msgs.msg.String")
+    _check(msg_type, "SLOT_TYPES", "a message type such as std_msgs.msg.String")
 
 
 def check_is_valid_srv_type(srv_type: Any) -> None:
@@ -22,12 +22,20 @@ def check_is_valid_srv_type(srv_type: Any) -> None:
     Raises:
         NoTypeSupportImportedException: It is not.
     """
-    _check(srv_type, "srv", "a service type such as std_srvs.srv.SetBool")
+    _check(srv_type, "Request", "a service type such as std_srvs.srv.SetBool")
 
 
-def _check(some_type: Any, folder: str, expected: str) -> None:
-    name = getattr(some_type, "ROS_TYPE", "")
-    if f"/{folder}/" not in name and not (folder == "msg" and name):
+def check_is_valid_action_type(action_type: Any) -> None:
+    """Returns if it is an action class.
+
+    Raises:
+        NoTypeSupportImportedException: It is not.
+    """
+    _check(action_type, "Goal", "an action type such as tf2_msgs.action.LookupTransform")
+
+
+def _check(some_type: Any, part: str, expected: str) -> None:
+    if not (hasattr(some_type, "ROS_TYPE") and hasattr(some_type, part)):
         raise NoTypeSupportImportedException(f"expected {expected}, got {some_type!r}")
     if not isinstance(some_type, type):
         raise NoTypeSupportImportedException(f"expected the class {type(some_type).__name__}, got an object of it")

@@ -1,19 +1,22 @@
 """Geometry messages seen from another frame."""
 
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, Optional, Tuple  # noqa: F401, UP035 - leaked upstream
 
 import numpy as np
 from numpy.typing import NDArray
 
 import tf2_ros
+from coframe import quaternion as quaternions
 from geometry_msgs.msg import (
     Point32,
     PointStamped,
     PolygonStamped,
     Pose,
+    PoseArray,
     PoseStamped,
     PoseWithCovarianceStamped,
+    QuaternionStamped,
     TransformStamped,
     Vector3Stamped,
 )
@@ -101,6 +104,39 @@ def do_transform_polygon_stamped(polygon: PolygonStamped, transform: TransformSt
     return result
 
 
+def do_transform_quaternion_stamped(quaternion: QuaternionStamped, transform: TransformStamped) -> QuaternionStamped:
+    """An orientation, seen from the transform's frame, as C++ has it too; normalised, and w is not negative."""
+    result = QuaternionStamped(header=transform.header)
+    told = result.quaternion
+    told.x, told.y, told.z, told.w = _turn_orientations([quaternion.quaternion], transform)[0]
+    return result
+
+
+def do_transform_pose_array(poses: PoseArray, transform: TransformStamped) -> PoseArray:
+    """Poses, seen from the transform's frame."""
+    positions = np.array([_xyz(pose.position) for pose in poses.poses]).reshape(-1, 3)
+    moved = positions @ _rotation(transform.transform).T + _xyz(transform.transform.translation)
+    turned = _turn_orientations([pose.orientation for pose in poses.poses], transform)
+    result = PoseArray(header=transform.header)
+    result.poses = [Pose() for _ in poses.poses]
+    for pose, position, orientation in zip(result.poses, moved.tolist(), turned, strict=True):
+        pose.position.x, pose.position.y, pose.position.z = position
+        pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w = orientation
+    return result
+
+
+def _turn_orientations(orientations: list[Any], transform: TransformStamped) -> list[list[float]]:
+    """Quaternions (x, y, z, w) of messages, rotated; any length will do, and a zero quaternion is the identity."""
+    given = [[q.x, q.y, q.z, q.w] for q in (transform.transform.rotation, *orientations)]
+    unit = np.array(given, dtype=np.float64)
+    squared = np.einsum("ij,ij->i", unit, unit)
+    unit[squared < np.finfo(np.float64).eps] = (0.0, 0.0, 0.0, 1.0)
+    unit /= np.linalg.norm(unit, axis=1, keepdims=True)
+    turned = quaternions.multiply(unit[0], unit[1:])
+    rows: list[list[float]] = np.where(turned[:, 3:] < 0.0, -turned, turned).tolist()
+    return rows
+
+
 def _xyz(vector: Any) -> Array:
     return np.array([vector.x, vector.y, vector.z], dtype=np.float64)
 
@@ -180,6 +216,8 @@ def _register() -> None:
     transforms.add(PoseStamped, do_transform_pose_stamped)
     transforms.add(PoseWithCovarianceStamped, do_transform_pose_with_covariance_stamped)
     transforms.add(PolygonStamped, do_transform_polygon_stamped)
+    transforms.add(QuaternionStamped, do_transform_quaternion_stamped)
+    transforms.add(PoseArray, do_transform_pose_array)
     conversions = tf2_ros.ConvertRegistration()
     for stamped in (Vector3Stamped, PoseStamped, PointStamped):
         conversions.add_to_msg(stamped, to_msg_msg)

@@ -1,7 +1,7 @@
-"""The core's answers as messages.
+"""The core's answers as messages and times.
 
-The numbers go straight into the messages' slots: they need no checking, and a stamp that is too late for a message's
-32-bit seconds is still an answer.
+The numbers go straight into the slots: they need no checking. A stamp that is too late for a message's 32-bit seconds
+is still an answer, and so is one before the epoch, which the constructor of rclpy's `Time` refuses.
 """
 
 # ruff: noqa: SLF001
@@ -9,6 +9,7 @@ The numbers go straight into the messages' slots: they need no checking, and a s
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
+from rclpy.time import Time
 from tf2_py._convert import NANOSECONDS_PER_SECOND
 
 Pose = tuple[float, float, float, float, float, float, float]
@@ -24,4 +25,11 @@ def transform_stamped(target: str, source: str, stamp: int, pose: Pose) -> Trans
     header._frame_id = target
     slots._child_frame_id = source
     translation._x, translation._y, translation._z, rotation._x, rotation._y, rotation._z, rotation._w = pose
+    return result
+
+
+def any_time(nanoseconds: int) -> Time:
+    """The `Time` of a stamp, also of a negative one."""
+    result = Time()
+    result._nanoseconds = nanoseconds
     return result

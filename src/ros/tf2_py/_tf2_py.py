@@ -17,7 +17,7 @@ from geometry_msgs.msg import TransformStamped
 from rclpy.duration import Duration
 from rclpy.time import Time
 from tf2_py import _convert
-from tf2_py._message import transform_stamped
+from tf2_py._message import any_time, transform_stamped
 from tf2_py._velocity import Tracked, Vector, lookup_velocity
 
 __all__ = [
@@ -30,6 +30,17 @@ __all__ = [
     "TransformException",
 ]
 
+# tf2's native module calls itself so, and tracebacks of programs that use tf2 read `tf2.LookupException: ...`.
+for _exception in (
+    TransformException,
+    LookupException,
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    TimeoutException,
+):
+    _exception.__module__ = "tf2"
+
 _TEN_SECONDS = Duration(seconds=10)
 _NO_TIME = Time()
 
@@ -40,6 +51,8 @@ class BufferCore:
     Names, arguments and texts are those of ROS 2's `tf2_py.BufferCore`; times and durations are rclpy's or
     messages. Time zero asks for the latest. Look-ups raise `TransformException`'s children.
     """
+
+    __module__ = "_tf2"  # likewise
 
     # console_bridge's prefixes, as Humble writes them to stderr.
     _LOG_PREFIX: ClassVar[dict[str, str]] = {"error": "Error:   ", "warning": "Warning: "}
@@ -125,9 +138,12 @@ class BufferCore:
         return transform_stamped(query[0], query[2], found.stamp or 0, found.values)
 
     def get_latest_common_time(self, target_frame: str, source_frame: str, /) -> Time:
-        """The newest time at which every moving link between the frames is known; 0 if none moves."""
-        latest = self._buffer.latest_common_time(_convert.text(target_frame, 1), _convert.text(source_frame, 2))
-        return Time(nanoseconds=latest)
+        """The newest time at which every moving link between the frames is known; 0 if none moves.
+
+        Raises:
+            TransformException: There is none; `LookupException` for a frame that nobody has mentioned.
+        """
+        return any_time(self._buffer.latest_common_time(_convert.text(target_frame, 1), _convert.text(source_frame, 2)))
 
     def lookupVelocityCore(
         self, tracking_frame: str, observation_frame: str, time: Any, averaging_interval: Any

@@ -19,6 +19,7 @@ from typing import Any, Dict, List, NoReturn, Optional, Tuple, Type, TypeVar, Un
 import builtin_interfaces
 import rclpy
 import tf2_py as tf2
+import tf2_ros
 from geometry_msgs.msg import (
     PointStamped,
     PoseStamped,
@@ -26,6 +27,7 @@ from geometry_msgs.msg import (
     TransformStamped,
     Vector3Stamped,
 )
+from rclpy.action import ActionClient
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.clock import Clock, JumpThreshold, TimeJump
 from rclpy.duration import Duration
@@ -47,8 +49,10 @@ from tf2_py import (
     LookupException,
     TimeoutException,
     TransformException,
+    add_dll_directories_from_env,
 )
-from tf2_ros.buffer import Buffer
+from tf2_ros.buffer import Buffer, FrameGraphSrvRequest, FrameGraphSrvResponse
+from tf2_ros.buffer_client import BufferClient
 from tf2_ros.buffer_interface import (
     BufferInterface,
     ConvertRegistration,
@@ -62,6 +66,8 @@ from tf2_ros.buffer_interface import (
     TypeException,
     convert,
 )
+from tf2_ros.buffer_server import BufferServer
+from tf2_ros.message_filter import FilterFailureReason, FilterStatistics, MessageFilter
 from tf2_ros.static_transform_broadcaster import DEFAULT_STATIC_TF_TOPIC, StaticTransformBroadcaster
 from tf2_ros.static_transform_listener import StaticTransformListener
 from tf2_ros.transform_broadcaster import DEFAULT_TF_TOPIC, TransformBroadcaster
@@ -70,10 +76,13 @@ from tf2_ros.transform_listener import TransformListener
 __all__ = [
     "DEFAULT_STATIC_TF_TOPIC",
     "DEFAULT_TF_TOPIC",
+    "ActionClient",
     "Any",
     "Buffer",
+    "BufferClient",
     "BufferCore",
     "BufferInterface",
+    "BufferServer",
     "Callable",
     "Clock",
     "ConnectivityException",
@@ -82,7 +91,11 @@ __all__ = [
     "DurabilityPolicy",
     "Duration",
     "ExtrapolationException",
+    "FilterFailureReason",
+    "FilterStatistics",
     "FrameGraph",
+    "FrameGraphSrvRequest",
+    "FrameGraphSrvResponse",
     "Future",
     "Header",
     "HistoryPolicy",
@@ -91,6 +104,7 @@ __all__ = [
     "List",
     "LookupException",
     "LookupTransform",
+    "MessageFilter",
     "MsgStamped",
     "NoReturn",
     "Node",
@@ -125,12 +139,14 @@ __all__ = [
     "TypeVar",
     "Union",
     "Vector3Stamped",
+    "add_dll_directories_from_env",
     "builtin_interfaces",
     "convert",
     "deepcopy",
     "rclpy",
     "sleep",
     "tf2",
+    "tf2_ros",
     "threading",
     "warnings",
 ]

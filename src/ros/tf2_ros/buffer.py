@@ -1,8 +1,15 @@
 """The buffer of transforms that nodes look up in."""
 
-from typing import Any
+# What is not used here is here because upstream leaks it.
+import threading  # noqa: F401
+from copy import deepcopy  # noqa: F401
+from time import sleep  # noqa: F401
+from typing import Any, Callable, List, Optional, Tuple, TypeVar, Union  # noqa: F401, UP035
 
+import builtin_interfaces  # noqa: F401
+import rclpy  # noqa: F401
 import tf2_py as tf2
+import tf2_ros  # noqa: F401
 from builtin_interfaces.msg import Time as TimeMessage
 from coframe import _core
 from geometry_msgs.msg import TransformStamped
@@ -17,6 +24,9 @@ from tf2_py import _convert
 from tf2_py._message import transform_stamped
 from tf2_ros import _waits
 from tf2_ros.buffer_interface import BufferInterface
+
+FrameGraphSrvRequest = TypeVar("FrameGraphSrvRequest")
+FrameGraphSrvResponse = TypeVar("FrameGraphSrvResponse")
 
 _NO_WAIT = Duration()
 

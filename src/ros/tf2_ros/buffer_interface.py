@@ -1,9 +1,13 @@
 """What every tf2 buffer can do with stamped data, and the two registries of types it can do it with."""
 
-from collections.abc import Callable
+# What is not used here is here because upstream leaks it.
 from copy import deepcopy
-from typing import Any, ClassVar, NoReturn, TypeVar
+from typing import Any, Callable, ClassVar, Dict, NoReturn, Optional, Tuple, Type, TypeVar, Union  # noqa: F401, UP035
 
+import builtin_interfaces  # noqa: F401
+import rclpy  # noqa: F401
+import tf2_py as tf2  # noqa: F401
+import tf2_ros  # noqa: F401
 from builtin_interfaces.msg import Time as TimeMessage
 from geometry_msgs.msg import (
     PointStamped,
@@ -152,15 +156,15 @@ class NotImplementedException(Exception):
 class TransformRegistration:
     """Type of stamped data -> function(data, transform) -> data in the other frame; one table for everyone."""
 
-    _transforms: ClassVar[dict[type, Callable[[Any, TransformStamped], Any]]] = {}
+    __type_map: ClassVar[dict[type, Callable[[Any, TransformStamped], Any]]] = {}
 
     def print_me(self) -> None:
         """Print the table."""
-        print(self._transforms)  # noqa: T201 - printing is what it is for
+        print(self.__type_map)  # noqa: T201 - printing is what it is for
 
     def add(self, key: type, callback: Callable[[Any, TransformStamped], Any]) -> None:
         """Register how data of type `key` are transformed."""
-        self._transforms[key] = callback
+        self.__type_map[key] = callback
 
     def get(self, key: type) -> Callable[[Any, TransformStamped], Any]:
         """The function for a type.
@@ -168,39 +172,39 @@ class TransformRegistration:
         Raises:
             TypeException: The type was not registered.
         """
-        return _registered(self._transforms, key)
+        return _registered(self.__type_map, key)
 
 
 class ConvertRegistration:
     """Type -> functions to and from messages, and direct converters between two types; one table for everyone."""
 
-    _to_msg: ClassVar[dict[type, Callable[[Any], Any]]] = {}
-    _from_msg: ClassVar[dict[type, Callable[[Any], Any]]] = {}
-    _convert: ClassVar[dict[tuple[type, type], Callable[[Any], Any]]] = {}
+    __to_msg_map: ClassVar[dict[type, Callable[[Any], Any]]] = {}
+    __from_msg_map: ClassVar[dict[type, Callable[[Any], Any]]] = {}
+    __convert_map: ClassVar[dict[tuple[type, type], Callable[[Any], Any]]] = {}
 
     def add_from_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
         """Register how a message becomes a `key`."""
-        self._from_msg[key] = callback
+        self.__from_msg_map[key] = callback
 
     def add_to_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
         """Register how a `key` becomes a message."""
-        self._to_msg[key] = callback
+        self.__to_msg_map[key] = callback
 
     def add_convert(self, key: tuple[type, type], callback: Callable[[Any], Any]) -> None:
         """Register how the first type of `key` becomes the second, without a message between."""
-        self._convert[key] = callback
+        self.__convert_map[key] = callback
 
     def get_from_msg(self, key: type) -> Callable[[Any], Any]:
         """The function from a message; raises `TypeException` if there is none."""
-        return _registered(self._from_msg, key)
+        return _registered(self.__from_msg_map, key)
 
     def get_to_msg(self, key: type) -> Callable[[Any], Any]:
         """The function to a message; raises `TypeException` if there is none."""
-        return _registered(self._to_msg, key)
+        return _registered(self.__to_msg_map, key)
 
     def get_convert(self, key: tuple[type, type]) -> Callable[[Any], Any]:
         """The direct converter; raises `TypeException` if there is none."""
-        return _registered(self._convert, key)
+        return _registered(self.__convert_map, key)
 
 
 _Key = TypeVar("_Key")
@@ -226,5 +230,6 @@ def convert(a: Any, b_type: type) -> Any:
     except TypeException:
         if type(a) is b_type:
             return deepcopy(a)
-        return registry.get_from_msg(b_type)(registry.get_to_msg(type(a))(a))
+        to_msg = registry.get_to_msg(type(a))
+        return registry.get_from_msg(b_type)(to_msg(a))
     return direct(a)

@@ -1,51 +1,31 @@
 """Sending transforms that hold for ever."""
 
+# ruff: noqa: SLF001 - rclpy's nodes let this broadcaster in, so that those of a process share one DDS writer
+
 from collections.abc import Iterable
 from copy import deepcopy
+from typing import List, Optional, Union  # noqa: F401, UP035 - leaked upstream
 
 from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
+from rclpy.publisher import Publisher
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, qos_from
 from tf2_msgs.msg import TFMessage
 from tf2_ros.transform_broadcaster import as_list
 
 DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 
 
-class StaticPublisher:
-    """Publishes on the static writer that this process has on a topic.
-
-    What is published there joins what any broadcaster of the process published before: a depth-1 subscription hears
-    one message only, so it has to hold everything.
-
-    Attributes:
-        topic_name: The topic, fully qualified.
-    """
-
-    def __init__(self, node: Node, topic: str) -> None:
-        self.topic_name = node.resolve_topic_name(topic)
-        self._node = node
-        self._writer = node._wire.static_broadcaster(node._graph_node, self.topic_name)  # noqa: SLF001 - same house
-
-    def publish(self, msg: TFMessage) -> None:
-        """Publish static transforms, together with the earlier ones of this process."""
-        self._writer.send(msg.transforms)
-
-    def get_subscription_count(self) -> int:
-        """How many subscriptions the topic has."""
-        return self._node.count_subscribers(self.topic_name)
-
-    def destroy(self) -> None:
-        """Leave the topic; what was published stays as long as another broadcaster of the process is there."""
-        self._writer.close()
-
-
 class StaticTransformBroadcaster:
     """Publishes static transforms on `/tf_static`, all it ever sent in every message.
 
+    A late subscription hears a writer's last message only. By default all broadcasters of the process share one writer,
+    and what one of them publishes goes out together with what the others did.
+
     Attributes:
         pub_tf: The publisher.
-        net_message: What was sent so far; one transform per child frame.
+        net_message: What was sent so far; one transform per child frame. Taking one out and publishing the rest with
+            `pub_tf` ends it for those who come later.
     """
 
     def __init__(
@@ -59,12 +39,9 @@ class StaticTransformBroadcaster:
                 reliable and transient-local with a depth of 1.
             tf_static_topic: Topic to publish on.
         """
-        self.pub_tf = (
-            StaticPublisher(node, tf_static_topic)
-            if qos is None
-            else node.create_publisher(TFMessage, tf_static_topic, qos)
-        )
+        self.pub_tf = _shared_publisher(node, tf_static_topic) if qos is None else _own(node, tf_static_topic, qos)
         self.net_message = TFMessage()
+        self._child_frame_ids: set[str] = set()
 
     def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:
         """Publish one transform or several together with all earlier ones; the last word on a child frame holds."""
@@ -72,4 +49,16 @@ class StaticTransformBroadcaster:
         # Copies: callers fill the same message again for their next frame.
         transforms.update((new.child_frame_id, deepcopy(new)) for new in as_list(transform))
         self.net_message.transforms = list(transforms.values())
+        self._child_frame_ids = set(transforms)
         self.pub_tf.publish(self.net_message)
+
+
+def _shared_publisher(node: Node, topic: str) -> Publisher:
+    qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
+    name = node.resolve_topic_name(topic)
+    writer = node._wire.static_broadcaster(node._graph_node, name)
+    return node._adopt(Publisher(writer, TFMessage, name, qos, node.context))
+
+
+def _own(node: Node, topic: str, qos: QoSProfile | int) -> Publisher:
+    return node.create_publisher(TFMessage, topic, qos_from(qos))

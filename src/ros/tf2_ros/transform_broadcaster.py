@@ -1,6 +1,7 @@
 """Sending transforms that change over time."""
 
 from collections.abc import Iterable
+from typing import List, Optional, Union  # noqa: F401, UP035 - leaked upstream
 
 from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node

@@ -2,8 +2,8 @@
 
 # ruff: noqa: SLF001 - rclpy's nodes and tf2's buffers let this listener in, so that Python need not run
 
-import threading
-from typing import Any
+from threading import Thread
+from typing import Any, Optional, Union  # noqa: F401 - leaked upstream
 
 import rclpy
 import tf2_py as tf2
@@ -11,6 +11,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, qos_from
+from rclpy.subscription import Subscription
 from tf2_msgs.msg import TFMessage
 from tf2_ros.buffer import Buffer, clear_on_time_jump
 from tf2_ros.static_transform_broadcaster import DEFAULT_STATIC_TF_TOPIC
@@ -18,35 +19,6 @@ from tf2_ros.transform_broadcaster import DEFAULT_TF_TOPIC
 
 _AUTHORITY = "default_authority"
 _STATIC_QOS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
-
-
-class NativeSubscription:
-    """A subscription whose messages go into a buffer without passing through Python.
-
-    Attributes:
-        topic_name: The topic, fully qualified.
-        qos_profile: What was asked for.
-    """
-
-    def __init__(self, node: Node, topic: str, qos: QoSProfile, buffer: tf2.BufferCore, *, static: bool) -> None:
-        self.topic_name = node.resolve_topic_name(topic)
-        self.qos_profile = qos
-        self._reader = node._wire.tf_reader(
-            node._graph_node,
-            self.topic_name,
-            buffer._buffer,
-            static=static,
-            qos=qos._to_wire(),
-            authority=_AUTHORITY,
-        )
-
-    def get_publisher_count(self) -> int:
-        """How many publishers were found."""
-        return int(self._reader.matched)
-
-    def destroy(self) -> None:
-        """Leave the topic; doing so twice does no harm."""
-        self._reader.close()
 
 
 class TransformListener:
@@ -60,8 +32,9 @@ class TransformListener:
         node: The node that subscribes.
         tf_sub: The subscription to `/tf`; None if only static transforms are listened to.
         tf_static_sub: The subscription to `/tf_static`.
-        group: The callback group of subscriptions that go through Python.
-        executor: Spins the node in `dedicated_listener_thread`, if asked for with `spin_thread`.
+        group: The callback group of both.
+        executor: Spins the node, if asked for with `spin_thread`; not there otherwise.
+        dedicated_listener_thread: The thread that does; not there otherwise.
     """
 
     def __init__(
@@ -90,39 +63,45 @@ class TransformListener:
         """
         self.node = node if node is not None else _hidden_node(self)
         self.group = ReentrantCallbackGroup()
-        self._buffer = buffer
-        self._topics = {True: tf_static_topic} if static_only else {False: tf_topic, True: tf_static_topic}
-        self._qos = {
+        self.__buffer = buffer
+        self.__topics = {True: tf_static_topic} if static_only else {False: tf_topic, True: tf_static_topic}
+        self.__qos = {
             False: qos_from(100 if qos is None else qos),
             True: qos_from(_STATIC_QOS if static_qos is None else static_qos),
         }
-        self._subscribe()
+        self.__arrivals: _Arrivals | None = None
+        self.__subscribe()
         # A buffer without a node of its own knows no simulated time; this listener's node does.
-        self._jump_handle = None
+        self.__jump_handle = None
         if isinstance(buffer, Buffer) and buffer.clock is not self.node.get_clock():
-            self._jump_handle = clear_on_time_jump(buffer, self.node.get_clock())
+            self.__jump_handle = clear_on_time_jump(buffer, self.node.get_clock())
         if spin_thread:
             self.executor = SingleThreadedExecutor(context=self.node.context)
-            self.dedicated_listener_thread = threading.Thread(target=self._spin, daemon=True)
+            self.dedicated_listener_thread = Thread(target=self.__spin, daemon=True)
             self.dedicated_listener_thread.start()
 
     @property
     def buffer(self) -> tf2.BufferCore:
-        """The buffer to fill; another one may be put in its place."""
-        return self._buffer
+        """The buffer to fill; another one may be put in its place, and is told the static transforms anew."""
+        return self.__buffer
 
     @buffer.setter
     def buffer(self, buffer: tf2.BufferCore) -> None:
-        self._buffer = buffer
-        self._unsubscribe()
-        self._subscribe()
+        self.__buffer = buffer
+        if self.__is_listening:
+            former = (self.tf_sub, self.tf_static_sub)
+            # The new subscriptions first, so that nothing falls in between.
+            self.__subscribe()
+            self.__end(former)
 
     def unregister(self) -> None:
         """Stop listening; doing so twice does no harm."""
-        self._unsubscribe()
-        if self._jump_handle is not None:
-            self._jump_handle.unregister()
-            self._jump_handle = None
+        self.__is_listening = False
+        self.__end((self.tf_sub, self.tf_static_sub))
+        self.__count_arrivals(None)
+        if self.__jump_handle is not None:
+            self.__jump_handle.unregister()
+            self.__jump_handle = None
         if hasattr(self, "executor"):
             self.executor.shutdown()
 
@@ -136,38 +115,60 @@ class TransformListener:
         for transform in data.transforms:
             self.buffer.set_transform_static(transform, _AUTHORITY)
 
-    def _subscribe(self) -> None:
-        self.tf_sub = self._listen(static=False) if False in self._topics else None
-        self.tf_static_sub = self._listen(static=True)
+    def __subscribe(self) -> None:
+        self.__is_listening = True
+        is_plain = self.__is_plain()
+        listen = self.__listen_natively if is_plain else self.__listen
+        self.__count_arrivals(_Arrivals(self.__buffer) if is_plain else None)
+        self.tf_sub = listen(static=False) if False in self.__topics else None
+        self.tf_static_sub = listen(static=True)
 
-    def _listen(self, *, static: bool) -> Any:
-        topic, qos = self._topics[static], self._qos[static]
-        if self._is_plain():
-            return NativeSubscription(self.node, topic, qos, self._buffer, static=static)
+    def __listen(self, *, static: bool) -> Subscription:
         callback = self.static_callback if static else self.callback
-        return self.node.create_subscription(TFMessage, topic, callback, qos, callback_group=self.group)
+        return self.node.create_subscription(
+            TFMessage, self.__topics[static], callback, self.__qos[static], callback_group=self.group
+        )
 
-    def _unsubscribe(self) -> None:
-        for subscription in (self.tf_sub, self.tf_static_sub):
-            if isinstance(subscription, NativeSubscription):
-                subscription.destroy()
-            elif subscription is not None:
+    def __listen_natively(self, *, static: bool) -> Subscription:
+        """A subscription whose messages go into the buffer without passing through Python."""
+        topic, qos = self.node.resolve_topic_name(self.__topics[static]), self.__qos[static]
+        reader = self.node._wire.tf_reader(
+            self.node._graph_node,
+            topic,
+            self.__buffer._buffer,
+            static=static,
+            qos=qos._to_wire(),
+            authority=_AUTHORITY,
+        )
+        callback = self.static_callback if static else self.callback
+        return self.node._adopt(Subscription(reader, TFMessage, topic, callback, self.group, qos, raw=False))
+
+    def __end(self, subscriptions: tuple[Subscription | None, ...]) -> None:
+        for subscription in subscriptions:
+            if subscription is not None:
                 self.node.destroy_subscription(subscription)
-        self.tf_sub = self.tf_static_sub = None
 
-    def _is_plain(self) -> bool:
+    def __count_arrivals(self, arrivals: "_Arrivals | None") -> None:
+        if self.__arrivals is not None:
+            self.node._silent_inputs.remove(self.__arrivals)
+        if arrivals is not None:
+            self.node._silent_inputs.append(arrivals)
+        self.__arrivals = arrivals
+
+    def __is_plain(self) -> bool:
         """Whether nobody wants to see the transforms on their way into the buffer."""
         ours: type[Any] = type(self)
-        theirs: type[Any] = type(self._buffer)
+        theirs: type[Any] = type(self.__buffer)
         return (
             ours.callback is TransformListener.callback
             and ours.static_callback is TransformListener.static_callback
             and issubclass(theirs, tf2.BufferCore)
             and theirs.set_transform in {Buffer.set_transform, tf2.BufferCore.set_transform}
             and theirs.set_transform_static in {Buffer.set_transform_static, tf2.BufferCore.set_transform_static}
+            and vars(self.__buffer).keys().isdisjoint({"set_transform", "set_transform_static"})
         )
 
-    def _spin(self) -> None:
+    def __spin(self) -> None:
         try:
             self.executor.add_node(self.node)
             self.executor.spin()
@@ -175,6 +176,28 @@ class TransformListener:
             pass
         finally:
             self.executor.remove_node(self.node)
+
+
+class _Arrivals:
+    """The messages that a buffer is given natively, told to `spin_once`, one by one."""
+
+    # More would not wait for an executor either.
+    _DEPTH = 100
+
+    def __init__(self, buffer: tf2.BufferCore) -> None:
+        self._buffer = buffer._buffer
+        self._told = self._count()
+
+    def _count(self) -> int:
+        return self._buffer.statistics["messages"]
+
+    def _take_one(self) -> bool:
+        count = self._count()
+        self._told = max(self._told, count - self._DEPTH)
+        if self._told == count:
+            return False
+        self._told += 1
+        return True
 
 
 def _hidden_node(listener: TransformListener) -> Node:

@@ -1,6 +1,6 @@
-"""Sensor messages in tf2: point clouds seen from another frame.
+"""Sensor messages in tf2: point clouds, laser scans and inertial measurements seen from another frame.
 
-Importing this package teaches `tf2_ros.Buffer.transform` the type `PointCloud2`.
+Importing this package teaches `tf2_ros.Buffer.transform` the types `PointCloud2`, `LaserScan` and `Imu`.
 """
 
 from coframe import ros_side
@@ -8,6 +8,8 @@ from coframe import ros_side
 ros_side.check(__name__)
 
 
+from tf2_sensor_msgs.imu import do_transform_imu
+from tf2_sensor_msgs.laser_scan import do_transform_laser_scan
 from tf2_sensor_msgs.tf2_sensor_msgs import do_transform_cloud, transform_points
 
-__all__ = ["do_transform_cloud", "transform_points"]
+__all__ = ["do_transform_cloud", "do_transform_imu", "do_transform_laser_scan", "transform_points"]

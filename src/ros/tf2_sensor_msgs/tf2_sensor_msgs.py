@@ -15,6 +15,9 @@ from tf2_geometry_msgs.tf2_geometry_msgs import _get_mat_from_quat
 
 Array = NDArray[np.float64]
 
+_POSITION = ("x", "y", "z")
+_NORMAL = ("normal_x", "normal_y", "normal_z")
+
 
 def to_msg_msg(msg: PointCloud2) -> PointCloud2:
     """The message itself: it needs no conversion."""
@@ -45,19 +48,22 @@ def transform_points(point_cloud: NDArray[Any], transform: Transform) -> Array:
 def do_transform_cloud(cloud: PointCloud2, transform: Transform | TransformStamped) -> PointCloud2:
     """A point cloud, seen from the transform's frame.
 
-    Fields other than x, y and z, the cloud's stamp and its layout stay as they are; the argument is not touched.
+    Normals, the fields normal_x, normal_y and normal_z, are rotated along, as C++ does it since Humble's 0.25.14. Other
+    fields, the cloud's stamp and its layout stay as they are; the argument is not touched.
 
     Args:
         cloud: A cloud with the fields x, y and z.
         transform: Its frame becomes the result's if it is stamped.
+
+    Raises:
+        AssertionError: The cloud lacks x, y or z.
     """
     header = Header(stamp=cloud.header.stamp, frame_id=cloud.header.frame_id)
     if isinstance(transform, TransformStamped):
         header.frame_id = transform.header.frame_id
         transform = transform.transform
-    assert {"x", "y", "z"} <= {field.name for field in cloud.fields}, (
-        "Point cloud needs the fields x, y, and z for the transformation"
-    )
+    names = {field.name for field in cloud.fields}
+    assert names.issuperset(_POSITION), "Point cloud needs the fields x, y, and z for the transformation"
     result = PointCloud2(
         header=header,
         height=cloud.height,
@@ -70,10 +76,17 @@ def do_transform_cloud(cloud: PointCloud2, transform: Transform | TransformStamp
     )
     result.data = array("B", bytes(cloud.data))
     points = as_structured(result)
-    moved = transform_points(np.stack([points[axis].ravel() for axis in "xyz"], axis=1), transform)
-    for column, axis in enumerate("xyz"):
-        points[axis] = moved[:, column].reshape(points.shape)
+    _move(points, _POSITION, transform)
+    if names.issuperset(_NORMAL):
+        _move(points, _NORMAL, Transform(rotation=transform.rotation))
     return result
+
+
+def _move(points: NDArray[Any], fields: tuple[str, str, str], transform: Transform) -> None:
+    """Transforms three fields of structured points, in place."""
+    moved = transform_points(np.stack([points[field].ravel() for field in fields], axis=1), transform)
+    for column, field in enumerate(fields):
+        points[field] = moved[:, column].reshape(points.shape)
 
 
 def _register() -> None:

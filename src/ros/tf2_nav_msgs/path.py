@@ -1,0 +1,37 @@
+"""Paths seen from another frame."""
+
+import tf2_ros
+from geometry_msgs.msg import PoseStamped, TransformStamped
+from nav_msgs.msg import Path
+from std_msgs.msg import Header
+from tf2_geometry_msgs import do_transform_pose
+
+
+def do_transform_path(path: Path, transform: TransformStamped) -> Path:
+    """A path, seen from the transform's frame at the time of its own header; the header is the transform's.
+
+    The poses move together, as one thing: each keeps the stamp of its header, which says when the robot shall be
+    there, and gets the path's new frame.
+
+    Raises:
+        InvalidArgumentException: A pose is in another frame than the path.
+    """
+    frame = path.header.frame_id
+    result = Path(header=transform.header)
+    for number, pose in enumerate(path.poses):
+        if pose.header.frame_id not in {"", frame}:
+            raise tf2_ros.InvalidArgumentException(
+                f"pose {number} of the path is in frame {pose.header.frame_id!r}, but the path is in {frame!r}: "
+                "transform the poses one by one with Buffer.transform()"
+            )
+    result.poses = [
+        PoseStamped(
+            header=Header(stamp=pose.header.stamp, frame_id=transform.header.frame_id),
+            pose=do_transform_pose(pose.pose, transform),
+        )
+        for pose in path.poses
+    ]
+    return result
+
+
+tf2_ros.TransformRegistration().add(Path, do_transform_path)

@@ -1,0 +1,320 @@
+"""A node that listens to itself, in the manner of upstream's own tests: through upstream's names only.
+
+Upstream needs one `spin_once` for each message, and so do these; none of them has a timeout, and all must return.
+"""
+
+import gc
+import threading
+import weakref
+
+import pytest
+
+import rclpy
+import tf2_ros
+from rclpy.duration import Duration
+from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+from rclpy.subscription import Subscription
+from rclpy.time import Time
+from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
+
+ENOUGH = Duration(seconds=20)
+
+
+@pytest.fixture
+def node(domain_id):
+    rclpy.init(domain_id=domain_id)
+    node = rclpy.create_node("test_listener_and_broadcaster")
+    yield node
+    node.destroy_node()
+    rclpy.shutdown()
+
+
+@pytest.fixture
+def buffer():
+    return tf2_ros.Buffer()
+
+
+@pytest.fixture
+def listener(buffer, node):
+    return tf2_ros.TransformListener(buffer=buffer, node=node, spin_thread=False)
+
+
+@pytest.fixture
+def broadcaster(node):
+    return tf2_ros.TransformBroadcaster(node)
+
+
+@pytest.fixture
+def static_broadcaster(node):
+    return tf2_ros.StaticTransformBroadcaster(node)
+
+
+@pytest.mark.usefixtures("listener")
+def test_one_spin_once_brings_one_transform(buffer, node, broadcaster, stamped):
+    sent = stamped("foo", "bar", 0.3, (1.0, 2.0, 3.0))
+    broadcaster.sendTransform(sent)
+    rclpy.spin_once(node)
+    assert buffer.lookup_transform("foo", "bar", Time(seconds=0.3)) == sent
+
+
+def test_spin_once_returns_for_each_message(node, listener, broadcaster, static_broadcaster, stamped):
+    for seconds in (1.0, 2.0, 3.0):
+        broadcaster.sendTransform(stamped("foo", "bar", seconds))
+    static_broadcaster.sendTransform(stamped("bar", "sensor"))
+    for _ in range(4):
+        rclpy.spin_once(node)
+    assert listener.buffer.can_transform("foo", "sensor", Time(seconds=2))
+
+
+@pytest.mark.usefixtures("listener")
+@pytest.mark.parametrize("kind", [SingleThreadedExecutor, MultiThreadedExecutor])
+def test_spin_once_waits_for_a_transform(buffer, node, broadcaster, stamped, kind):
+    executor = kind()
+    executor.add_node(node)
+    sender = threading.Timer(0.05, lambda: broadcaster.sendTransform(stamped("foo", "bar", 1.0)))
+    sender.start()
+    executor.spin_once()
+    assert buffer.can_transform("foo", "bar", Time())
+    sender.join()
+    executor.shutdown()
+
+
+@pytest.mark.usefixtures("listener")
+def test_other_callbacks_come_first(node, broadcaster, stamped):
+    """A flood of transforms keeps no timer from running."""
+    ticks = []
+    node.create_timer(0.001, lambda: ticks.append(1))
+    for number in range(50):
+        broadcaster.sendTransform(stamped("foo", "bar", 1.0 + number))
+        rclpy.spin_once(node)
+        rclpy.spin_once(node)
+    assert len(ticks) > 10
+
+
+def test_one_spin_once_delivers_a_message_of_the_same_process(node):
+    heard = []
+    node.create_subscription(String, "chatter", heard.append, 10)
+    publisher = node.create_publisher(String, "chatter", 10)
+    for text in ("one", "two"):
+        publisher.publish(String(data=text))
+        rclpy.spin_once(node)
+        assert heard[-1].data == text
+
+
+def test_a_fresh_buffer_for_each_test(node, listener, broadcaster, static_broadcaster, stamped):
+    """What upstream's set-up does, while the listener lives on."""
+    for number in range(3):
+        listener.buffer = tf2_ros.Buffer()
+        broadcaster.sendTransform(stamped("foo", f"bar{number}", 1.0))
+        rclpy.spin_once(node)
+        assert listener.buffer.can_transform("foo", f"bar{number}", Time(seconds=1))
+        assert not listener.buffer.can_transform("foo", f"bar{number - 1}", Time())
+    static_broadcaster.sendTransform(stamped("foo", "bar", 0.0, (1.0, 0.0, 0.0)))
+    rclpy.spin_once(node)
+    assert listener.buffer.lookup_transform("foo", "bar", Time()).transform.translation.x == 1.0
+
+
+def test_the_former_buffer_hears_no_more(buffer, listener, broadcaster, stamped):
+    listener.buffer = tf2_ros.Buffer()
+    broadcaster.sendTransform(stamped("foo", "bar", 1.0))
+    assert listener.buffer.can_transform("foo", "bar", Time(), ENOUGH)
+    assert not buffer.can_transform("foo", "bar", Time())
+
+
+@pytest.mark.usefixtures("listener")
+def test_extrapolation(buffer, node, broadcaster, stamped):
+    for seconds in (0.3, 0.2):
+        broadcaster.sendTransform(stamped("foo", "bar", seconds))
+        rclpy.spin_once(node)
+    with pytest.raises(tf2_ros.ExtrapolationException, match="extrapolation into the past"):
+        buffer.lookup_transform("foo", "bar", Time(seconds=0.1))
+    with pytest.raises(tf2_ros.ExtrapolationException, match="extrapolation into the future"):
+        buffer.lookup_transform("foo", "bar", Time(seconds=0.4))
+
+
+def test_nobody_keeps_the_listener(buffer, node, broadcaster, stamped):
+    listener = weakref.ref(tf2_ros.TransformListener(buffer, node))
+    gc.collect()
+    broadcaster.sendTransform(stamped("foo", "bar", 1.0))
+    rclpy.spin_once(node)
+    assert buffer.can_transform("foo", "bar", Time())
+    assert listener() is not None, "upstream, the node's subscriptions hold it"
+
+
+def test_a_buffer_that_sets_transforms_its_own_way(node, broadcaster, static_broadcaster, stamped):
+    class Renaming(tf2_ros.Buffer):
+        def set_transform(self, transform, authority):
+            assert authority == "default_authority"
+            transform.header.frame_id = f"robot1/{transform.header.frame_id}"
+            super().set_transform(transform, authority)
+
+    buffer = Renaming()
+    tf2_ros.TransformListener(buffer, node)
+    broadcaster.sendTransform(stamped("foo", "bar", 1.0))
+    rclpy.spin_once(node)
+    assert buffer.can_transform("robot1/foo", "bar", Time())
+    static_broadcaster.sendTransform(stamped("bar", "sensor"))
+    rclpy.spin_once(node)
+    assert buffer.can_transform("robot1/foo", "sensor", Time())
+
+
+def test_a_buffer_whose_method_was_replaced(node, broadcaster, stamped, monkeypatch):
+    buffer, seen = tf2_ros.Buffer(), []
+    monkeypatch.setattr(buffer, "set_transform", lambda *arguments: seen.append(arguments))
+    tf2_ros.TransformListener(buffer, node)
+    broadcaster.sendTransform(stamped("foo", "bar", 1.0))
+    rclpy.spin_once(node)
+    assert seen == [(stamped("foo", "bar", 1.0), "default_authority")]
+
+
+def test_a_listener_that_looks_at_messages(buffer, node, broadcaster, stamped):
+    class Counting(tf2_ros.TransformListener):
+        count = 0
+
+        def callback(self, data):
+            self.count += len(data.transforms)
+            super().callback(data)
+
+    listener = Counting(buffer, node)
+    broadcaster.sendTransform([stamped("foo", "bar", 1.0), stamped("bar", "baz", 1.0)])
+    rclpy.spin_once(node)
+    assert listener.count == 2
+    assert buffer.can_transform("foo", "baz", Time())
+
+
+def test_attributes_of_a_listener(buffer, node, listener):
+    assert listener.buffer is buffer
+    assert listener.node is node
+    for subscription, topic in ((listener.tf_sub, "/tf"), (listener.tf_static_sub, "/tf_static")):
+        assert isinstance(subscription, Subscription)
+        assert (subscription.topic_name, subscription.msg_type) == (topic, TFMessage)
+        assert subscription.callback_group is listener.group
+        assert subscription.qos_profile.depth == 100
+        assert subscription in list(node.subscriptions)
+    assert not hasattr(listener, "executor")
+    assert not hasattr(listener, "dedicated_listener_thread")
+    listener.unregister()
+    assert list(node.subscriptions) == []
+    listener.unregister()
+
+
+def test_a_subscription_of_a_listener_can_be_destroyed(
+    buffer, node, listener, broadcaster, static_broadcaster, stamped
+):
+    assert node.destroy_subscription(listener.tf_sub)
+    broadcaster.sendTransform(stamped("foo", "bar", 1.0))
+    static_broadcaster.sendTransform(stamped("bar", "sensor"))
+    assert buffer.can_transform("bar", "sensor", Time(), ENOUGH)
+    assert not buffer.can_transform("foo", "bar", Time())
+
+
+def test_a_thread_of_its_own(buffer, node):
+    listener = tf2_ros.TransformListener(buffer, node, spin_thread=True)
+    assert isinstance(listener.executor, SingleThreadedExecutor)
+    ticked = threading.Event()
+    node.create_timer(0.01, ticked.set)
+    assert ticked.wait(20.0)
+    assert listener.dedicated_listener_thread.is_alive()
+    listener.unregister()
+    listener.dedicated_listener_thread.join(20.0)
+    assert not listener.dedicated_listener_thread.is_alive()
+
+
+def test_attributes_of_broadcasters(node, broadcaster, static_broadcaster, stamped):
+    assert isinstance(broadcaster.pub_tf, Publisher)
+    assert (broadcaster.pub_tf.topic_name, broadcaster.pub_tf.qos_profile.depth) == ("/tf", 100)
+    assert isinstance(static_broadcaster.pub_tf, Publisher)
+    assert (static_broadcaster.pub_tf.topic_name, static_broadcaster.pub_tf.qos_profile.depth) == ("/tf_static", 1)
+    assert {broadcaster.pub_tf, static_broadcaster.pub_tf} <= set(node.publishers)
+    static_broadcaster.sendTransform([stamped("foo", "bar"), stamped("foo", "baz")])
+    assert [transform.child_frame_id for transform in static_broadcaster.net_message.transforms] == ["bar", "baz"]
+    assert static_broadcaster._child_frame_ids == {"bar", "baz"}
+    with pytest.raises(TypeError, match="Expected"):
+        static_broadcaster.pub_tf.publish(String())
+    assert node.destroy_publisher(static_broadcaster.pub_tf)
+
+
+@pytest.mark.usefixtures("listener")
+def test_transforms_come_as_one_or_as_many(buffer, node, broadcaster, stamped):
+    for transforms in (
+        stamped("foo", "one", 1.0),
+        [stamped("foo", "two", 1.0)],
+        (stamped("foo", "three", 1.0), stamped("foo", "four", 1.0)),
+        (stamped("foo", child, 1.0) for child in ("five", "six")),
+    ):
+        broadcaster.sendTransform(transforms)
+        rclpy.spin_once(node)
+    assert {"one", "two", "three", "four", "five", "six"} <= set(buffer._getFrameStrings())
+
+
+def heard_late(node):
+    buffer = tf2_ros.Buffer()
+    tf2_ros.TransformListener(buffer, node)
+    rclpy.spin_once(node)
+    return set(buffer._getFrameStrings())
+
+
+def test_a_static_transform_is_taken_back_by_way_of_net_message(node, static_broadcaster, stamped):
+    other = tf2_ros.StaticTransformBroadcaster(node)
+    other.sendTransform(stamped("foo", "others"))
+    static_broadcaster.sendTransform([stamped("foo", "bar"), stamped("foo", "baz")])
+    assert heard_late(node) == {"foo", "others", "bar", "baz"}
+    static_broadcaster.net_message.transforms = static_broadcaster.net_message.transforms[1:]
+    static_broadcaster.pub_tf.publish(static_broadcaster.net_message)
+    assert heard_late(node) == {"foo", "others", "baz"}
+    static_broadcaster.sendTransform(stamped("foo", "new"))
+    assert heard_late(node) == {"foo", "others", "baz", "new"}
+
+
+def test_a_static_broadcaster_of_ones_own(node, stamped):
+    """As people subclass Jazzy's to update transforms that were sent."""
+
+    class Updating(tf2_ros.StaticTransformBroadcaster):
+        def sendTransform(self, transform):  # noqa: N802 - upstream's name
+            if transform.child_frame_id in self._child_frame_ids:
+                self.net_message.transforms = [
+                    transform if known.child_frame_id == transform.child_frame_id else known
+                    for known in self.net_message.transforms
+                ]
+                self.pub_tf.publish(self.net_message)
+            else:
+                super().sendTransform(transform)
+
+    broadcaster = Updating(node)
+    for x in (1.0, 2.0):
+        broadcaster.sendTransform(stamped("foo", "bar", translation=(x, 0.0, 0.0)))
+    buffer = tf2_ros.Buffer()
+    tf2_ros.TransformListener(buffer, node)
+    rclpy.spin_once(node)
+    assert buffer.lookup_transform("foo", "bar", Time()).transform.translation.x == 2.0
+
+
+def test_a_node_as_programs_write_it(domain_id, stamped):
+    """Listener, broadcaster and timer in one class, spun until shut down from a callback."""
+
+    class Robot(Node):
+        def __init__(self):
+            super().__init__("robot")
+            self.tf_buffer = tf2_ros.Buffer()
+            self.tf_listener = tf2_ros.TransformListener(self.tf_buffer, self)
+            self.tf_broadcaster = tf2_ros.TransformBroadcaster(self)
+            self.found = None
+            self.create_timer(0.01, self.on_timer)
+
+        def on_timer(self):
+            try:
+                self.found = self.tf_buffer.lookup_transform("foo", "bar", Time())
+            except tf2_ros.TransformException as error:
+                self.get_logger().debug(f"Could not transform: {error}")
+                self.tf_broadcaster.sendTransform(stamped("foo", "bar", 1.0))
+            else:
+                rclpy.shutdown()
+
+    rclpy.init(domain_id=domain_id)
+    robot = Robot()
+    rclpy.spin(robot)
+    assert robot.found.child_frame_id == "bar"
+    robot.destroy_node()
