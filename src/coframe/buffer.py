@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import sys
 import time as system_time
@@ -261,6 +260,8 @@ class Buffer(_core.Buffer):
         Raises:
             TimeoutException: The transform did not become possible in time; ``__cause__`` says what was missing.
         """
+        import asyncio  # noqa: PLC0415 - takes as long to import as all else here, and few need it
+
         loop = asyncio.get_running_loop()
         future: asyncio.Future[Transform | None] = loop.create_future()
 
