@@ -14,12 +14,14 @@ namespace coframe::bindings {
 namespace nb = nanobind;
 
 void define_transform(nb::module_& module);
+void define_arguments(nb::module_& module);
 void define_buffer(nb::module_& module);
+void define_waiting(nb::module_& module);
 void define_failure(nb::module_& module);
 void define_event(nb::module_& module);
 void define_wire(nb::module_& module);
 
-// Python's signal handlers run only in between: a wait that may be long is cut into slices of this length.
+// Python's signal handlers run only in between: a long wait of the main thread is cut into slices of this length.
 inline constexpr std::int64_t kSignalSliceNs = 50'000'000;
 
 // Calls `wait(slice_ns)` without the GIL until it returns true or `timeout_ns` (negative: for ever) is over.
@@ -27,21 +29,24 @@ inline constexpr std::int64_t kSignalSliceNs = 50'000'000;
 template <class Wait>
 bool wait_with_signals(std::int64_t timeout_ns, Wait&& wait) {
   using clock = std::chrono::steady_clock;
+  constexpr std::int64_t kLong = 3'600'000'000'000;
   const auto start = clock::now();
   const auto left = [&]() -> std::int64_t {
+    if (timeout_ns < 0) return kLong;
     const auto elapsed = std::chrono::duration_cast<std::chrono::nanoseconds>(clock::now() - start).count();
-    return std::max<std::int64_t>(timeout_ns - elapsed, 0);
+    return std::clamp<std::int64_t>(timeout_ns - elapsed, 0, kLong);
   };
-  for (std::int64_t slice = kSignalSliceNs;;) {
-    if (timeout_ns >= 0) slice = std::min(kSignalSliceNs, left());
+  // Python's signal handlers run in the main thread only: the others need not come back for the GIL in between.
+  const std::int64_t longest = is_main_thread() ? kSignalSliceNs : kLong;
+  for (;;) {
     bool done;
     {
       WithoutGil release;
-      done = wait(slice);
+      done = wait(std::min(longest, left()));
     }
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
     // `wait` may also end early in vain: only the clock says when the time is over.
-    if (done || (timeout_ns >= 0 && left() == 0)) return done;
+    if (done || left() == 0) return done;
   }
 }
 

@@ -58,10 +58,9 @@ nb::object frame_name(const FailureObject& object, FrameId frame, const nb::obje
 nb::object edge(const FailureObject& object) {
   if (!has_edge(object.failure.code)) return nb::none();
   const FrameId child = object.failure.edge;
-  // No Python object is made under the buffer's lock: that may run finalizers, which may ask the buffer.
   const auto [parent, name] = object.buffer->read([&](const Tree& tree) {
-    const History* history = tree.history(child);
-    return std::pair(history ? tree.name(history->parent()) : std::string(), tree.name(child));
+    const History::View history = tree.history(child);
+    return std::pair(history.exists() ? tree.name(history.parent()) : std::string(), tree.name(child));
   });
   return nb::make_tuple(parent, name);
 }

@@ -21,6 +21,7 @@ constexpr auto kPatience = std::chrono::seconds(1);
 std::atomic<bool> ending = false;
 std::atomic<int> crossing = 0;  // threads on their way into Python, or called from C++ inside it
 std::thread::id last_thread;    // runs the rest of the exit; set before `ending`
+std::atomic<unsigned long> main_thread = 0;
 
 // The counter goes up before `ending` is read, `ending` is set before the counter is read: one side sees the other.
 bool may_cross() {
@@ -62,11 +63,17 @@ CallingPython::CallingPython() {
 
 CallingPython::~CallingPython() { crossing.fetch_sub(1); }
 
+bool is_main_thread() { return PyThread_get_thread_ident() == main_thread.load(std::memory_order_relaxed); }
+
 void guard_exit() {
+  main_thread.store(nb::cast<unsigned long>(nb::module_::import_("threading").attr("main_thread")().attr("ident")));
   // Exit handlers run last in, first out: those of who imports this module still find all threads at work.
   nb::module_::import_("atexit").attr("register")(nb::cpp_function(&end));
 #ifndef _WIN32
-  pthread_atfork(nullptr, nullptr, [] { crossing.store(0); });  // a child has none of the other threads
+  pthread_atfork(nullptr, nullptr, [] {
+    crossing.store(0);  // a child has none of the other threads
+    main_thread.store(PyThread_get_thread_ident());
+  });
 #endif
 }
 

@@ -28,6 +28,9 @@ class CallingPython {
   ~CallingPython();
 };
 
+// Whether this is the thread in which Python runs signal handlers.
+bool is_main_thread();
+
 // Registers with `atexit` what makes the scopes above safe; to be called once, while the module is imported.
 void guard_exit();
 

@@ -8,7 +8,9 @@ NB_MODULE(_core, module) {
   module.doc() = "The native core of coframe. Private: use `import coframe`.";
   define_transform(module);
   define_failure(module);
+  define_arguments(module);
   define_buffer(module);
+  define_waiting(module);
   define_event(module);
   define_wire(module);
 }

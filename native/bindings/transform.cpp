@@ -25,10 +25,10 @@ void initialise(TransformObject* self, double x, double y, double z, double qx, 
 
 }  // namespace
 
-nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::handle source) {
+nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::handle source, Stamp beyond) {
   nb::object instance = nb::inst_alloc(transform_class);
   new (nb::inst_ptr<TransformObject>(instance))
-      TransformObject{pose, stamp, true, nb::borrow(target), nb::borrow(source), nb::none()};
+      TransformObject{pose, stamp, true, nb::borrow(target), nb::borrow(source), nb::none(), beyond};
   nb::inst_mark_ready(instance);
   return instance;
 }
@@ -49,6 +49,8 @@ void define_transform(nb::module_& module) {
       .def_prop_ro(
           "source", [](const TransformObject& self) { return self.source; },
           nb::sig("def source(self) -> str | None"), "The frame that the values are of, or None.")
+      .def_prop_ro("beyond", [](const TransformObject& self) { return self.beyond; },
+                   "How many nanoseconds beyond the data of a link it was extrapolated; 0: not at all.")
       .def_prop_ro("batch", [](const TransformObject& self) { return self.batch; },
                    "None, or (translations, quaternions, stamps) as arrays.");
   module.def(

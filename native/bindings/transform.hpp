@@ -16,9 +16,10 @@ struct TransformObject {
   bool has_stamp = false;
   nb::object target, source;  // str or None
   nb::object batch;           // None, or (translations, quaternions, stamps) as arrays
+  Stamp beyond = 0;           // nanoseconds beyond the data that it was extrapolated
 };
 
 // An instance of the registered Python class.
-nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::handle source);
+nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::handle source, Stamp beyond = 0);
 
 }  // namespace coframe::bindings

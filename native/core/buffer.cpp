@@ -1,25 +1,69 @@
 #include "core/buffer.hpp"
 
-#include <chrono>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 #include "core/dump.hpp"
 
 namespace coframe {
 
+namespace {
+
+bool fail_name(ErrorCode code, Argument argument, std::string_view name, Failure& failure) {
+  failure = Failure{};
+  failure.code = code;
+  failure.argument = argument;
+  failure.name = name;
+  return false;
+}
+
+// Mean, standard deviation and longest of the intervals between neighbouring samples.
+void measure_intervals(const History::View& samples, EdgeSummary& edge) {
+  edge.mean_interval = edge.interval_deviation = edge.longest_interval = 0.0;
+  if (samples.is_static() || samples.size() < 2) return;
+  const double count = static_cast<double>(samples.size() - 1);
+  const auto interval = [&](std::size_t i) { return static_cast<double>(samples.time(i) - samples.time(i - 1)); };
+  edge.mean_interval = static_cast<double>(samples.newest() - samples.oldest()) / count;
+  double squares = 0.0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double difference = interval(i) - edge.mean_interval;
+    squares += difference * difference;
+    edge.longest_interval = std::max(edge.longest_interval, interval(i));
+  }
+  edge.interval_deviation = std::sqrt(squares / count);
+}
+
+FrameSummary summary_of(const Tree& tree, FrameId id) {
+  const Frame& frame = tree.frame(id);
+  const History::View history = tree.history(id);
+  if (history.empty()) return {frame.name, "", "", false, 0, 0, 0, 0.0};
+  return {frame.name,       tree.name(history.parent()), tree.authority_name(frame.authority),
+          history.is_static(), history.size(),              history.oldest(),
+          history.newest(), history.is_static() ? 0.0 : average_rate(history)};
+}
+
+}  // namespace
+
 unsigned Buffer::insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
                         bool is_static, std::string_view authority) {
-  unsigned refusals;
+  Inserted inserted;
   {
-    WriteLock lock(mutex_);
-    refusals = tree_.insert(parent, child, stamp, values, is_static, tree_.authority(authority));
-    count(refusals);
+    const std::lock_guard lock(writing_);
+    if (frozen()) {
+      ++counts_.refused;
+      return kFrozen;
+    }
+    inserted = tree_.insert(parent, child, stamp, values, is_static, tree_.authority(authority));
+    count(inserted.refusals);
   }
-  notify();
-  return refusals;
+  announce(&inserted, 1);
+  return inserted.refusals;
 }
 
 TransformStream Buffer::open_stream(bool is_static, std::string_view authority) {
-  WriteLock lock(mutex_);
+  const std::lock_guard lock(writing_);
   TransformStream stream;
   stream.is_static = is_static;
   stream.authority = tree_.authority(authority);
@@ -27,7 +71,7 @@ TransformStream Buffer::open_stream(bool is_static, std::string_view authority) 
 }
 
 void Buffer::rename(TransformStream& stream, std::string_view authority) {
-  WriteLock lock(mutex_);
+  const std::lock_guard lock(writing_);
   const AuthorityId before = stream.authority;
   stream.authority = tree_.authority(authority);
   for (const TransformStream::Names& names : stream.expected) {
@@ -38,35 +82,52 @@ void Buffer::rename(TransformStream& stream, std::string_view authority) {
 DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size,
                              std::size_t& stored) {
   stored = 0;
+  stream.inserted.clear();
   const DecodeFailure failure = decode_tf_message(data, size, stream.decoded);
   {
-    WriteLock lock(mutex_);
+    const std::lock_guard lock(writing_);
     ++counts_.messages;
     if (failure.reason) ++counts_.malformed;
-    for (std::size_t i = 0; i < stream.decoded.size(); ++i) stored += store(stream, i, stream.decoded[i]);
+    for (std::size_t i = 0; i < stream.decoded.size(); ++i) {
+      const Inserted inserted = store(stream, i, stream.decoded[i]);
+      if (!count(inserted.refusals)) continue;
+      ++stored;
+      stream.inserted.push_back(inserted);
+    }
   }
-  if (stored > 0) notify();
-  if (stream.decoded.capacity() > TransformStream::kMaxRemembered) stream.decoded = {};
+  if (stored > 0) announce(stream.inserted.data(), stored);
+  if (stream.decoded.capacity() > TransformStream::kMaxRemembered) {
+    stream.decoded = {};
+    stream.inserted = {};
+  }
   return failure;
 }
 
-bool Buffer::store(TransformStream& stream, std::size_t index, const TransformView& view) {
+Inserted Buffer::store(TransformStream& stream, std::size_t index, const TransformView& view) {
+  Inserted refused;
+  if (frozen()) {
+    refused.refusals = kFrozen;
+    return refused;
+  }
   if (index < stream.expected.size()) {
     const TransformStream::Names& names = stream.expected[index];
     if (names.child == view.child && names.parent == view.parent) {
-      return count(tree_.insert(names.parent_id, names.child_id, view.stamp, view.values, stream.is_static,
-                                stream.authority));
+      return tree_.insert(names.parent_id, names.child_id, view.stamp, view.values, stream.is_static,
+                          stream.authority);
     }
   }
-  if (!is_utf8(view.parent) || !is_utf8(view.child)) return count(kNoChildFrame);
-  const unsigned refusals =
+  if (!is_utf8(view.parent) || !is_utf8(view.child)) {
+    refused.refusals = kNoChildFrame;
+    return refused;
+  }
+  const Inserted inserted =
       tree_.insert(view.parent, view.child, view.stamp, view.values, stream.is_static, stream.authority);
-  if (refusals == 0 && index < TransformStream::kMaxRemembered) {
+  if (inserted.refusals == 0 && index < TransformStream::kMaxRemembered) {
     if (stream.expected.size() <= index) stream.expected.resize(index + 1);
     stream.expected[index] = {std::string(view.parent), std::string(view.child),
                               tree_.find(without_slash(view.parent)), tree_.find(without_slash(view.child))};
   }
-  return count(refusals);
+  return inserted;
 }
 
 // True for a stored transform.
@@ -77,107 +138,203 @@ bool Buffer::count(unsigned refusals) {
 
 void Buffer::clear() {
   {
-    WriteLock lock(mutex_);
+    const std::lock_guard lock(writing_);
+    if (frozen()) return;
     tree_.clear();
   }
-  notify();
+  announce(nullptr, 0);
 }
 
-FrameId Buffer::find(std::string_view name) const {
-  ReadLock lock(mutex_);
-  return tree_.find(name);
+bool Buffer::remove_frame(std::string_view name) {
+  Inserted removed;
+  {
+    const std::lock_guard lock(writing_);
+    const FrameId frame = tree_.find(name);
+    if (frame == 0 || frozen()) return false;
+    tree_.remove(frame);
+    removed.rewired = true;
+  }
+  announce(&removed, 1);
+  return true;
 }
 
-std::string Buffer::name(FrameId frame) const {
-  ReadLock lock(mutex_);
-  return tree_.name(frame);
+std::shared_ptr<Buffer> Buffer::snapshot() const {
+  const std::lock_guard lock(writing_);
+  std::shared_ptr<Buffer> copy(new Buffer(tree_));
+  copy->counts_ = counts_;
+  return copy;
 }
 
 bool Buffer::lookup(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const {
-  ReadLock lock(mutex_);
-  return coframe::lookup(tree_, paths_, target, source, stamp, pose, failure);
+  const Stamp asked = stamp;
+  const PathLease paths(paths_);
+  const std::uint64_t changes = changes_.load(std::memory_order_relaxed);
+  const auto look = [&] {
+    return consistent([&] {
+      stamp = asked;
+      return coframe::lookup(tree_, paths.get(), target, source, stamp, pose, failure);
+    });
+  };
+  if (look()) return true;
+  // A sample at the latest common time may be dropped between the choice of that time and the look at the sample.
+  return asked == 0 && failure.code == ErrorCode::too_old && changes != changes_.load() && look();
 }
 
 bool Buffer::lookup_full(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed,
                          Pose& pose, Failure& failure) const {
-  ReadLock lock(mutex_);
-  Pose step;
-  if (!coframe::lookup(tree_, paths_, fixed, source, source_stamp, pose, failure)) return false;
-  if (!coframe::lookup(tree_, paths_, target, fixed, target_stamp, step, failure)) return false;
-  compose(step, pose);
-  canonicalise(pose.q);
-  return true;
+  const Stamp target_asked = target_stamp;
+  const PathLease paths(paths_);
+  return consistent([&] {
+    Pose step;
+    Stamp source_time = source_stamp;
+    target_stamp = target_asked;
+    if (!coframe::lookup(tree_, paths.get(), fixed, source, source_time, pose, failure)) return false;
+    if (!coframe::lookup(tree_, paths.get(), target, fixed, target_stamp, step, failure)) return false;
+    compose(step, pose);
+    canonicalise(pose.q);
+    return true;
+  });
 }
 
-bool Buffer::latest_common_time(FrameId target, FrameId source, Stamp& stamp, Failure& failure) const {
-  ReadLock lock(mutex_);
-  return coframe::latest_common_time(tree_, target, source, stamp, failure);
+bool Buffer::extrapolate(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
+                         Failure& failure) const {
+  const Stamp asked = stamp;
+  return consistent([&] {
+    stamp = asked;
+    return coframe::lookup(tree_, extrapolation, target, source, stamp, pose, failure);
+  });
+}
+
+// A frame's number, or a failure that says what is wrong with its name.
+bool Buffer::resolve(std::string_view name, Argument argument, FrameId& frame, Failure& failure) const {
+  if (name.empty()) return fail_name(ErrorCode::empty_name, argument, name, failure);
+  if (name.front() == '/') return fail_name(ErrorCode::leading_slash, argument, name, failure);
+  if (frame == 0 || !knows(frame)) frame = find(name);
+  return frame != 0 || fail_name(ErrorCode::unknown_frame, argument, name, failure);
+}
+
+bool Buffer::resolve_both(Question& question, Failure& failure) const {
+  return resolve(question.target, Argument::target_frame, question.target_id, failure) &&
+         resolve(question.source, Argument::source_frame, question.source_id, failure);
+}
+
+bool Buffer::answer(Question& question, Answer& answer, Failure& failure, Extrapolation* extrapolation) const {
+  answer.stamp = question.stamp;
+  if (!question.travels && question.target == question.source) {  // also for a frame that nobody knows
+    answer.pose = Pose{};
+    const FrameId frame = find(question.target);
+    return frame == 0 || lookup(frame, frame, answer.stamp, answer.pose, failure);
+  }
+  if (!resolve_both(question, failure)) return false;
+  const FrameId target = question.target_id, source = question.source_id;
+  if (extrapolation) return extrapolate(*extrapolation, target, source, answer.stamp, answer.pose, failure);
+  if (!question.travels) return lookup(target, source, answer.stamp, answer.pose, failure);
+  return resolve(question.fixed, Argument::fixed_frame, question.fixed_id, failure) &&
+         lookup_full(target, answer.stamp, source, question.source_stamp, question.fixed_id, answer.pose, failure);
+}
+
+std::size_t Buffer::answer_many(Question& question, Extrapolation* extrapolation, Batch& batch,
+                                Failure& failure) const {
+  std::size_t first = batch.count;
+  for (std::size_t row = 0; row < batch.count; ++row) {
+    Answer one;
+    Failure missing;
+    question.stamp = batch.stamps[row];
+    const bool ok = answer(question, one, missing, extrapolation);
+    if (!ok && first == batch.count) {
+      first = row;
+      failure = std::move(missing);
+      if (!batch.nan_for_none) return first;
+    }
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    for (int i = 0; i < 3; ++i) batch.translations[3 * row + i] = ok ? one.pose.p[i] : kNan;
+    for (int i = 0; i < 4; ++i) batch.quaternions[4 * row + i] = ok ? one.pose.q[i] : kNan;
+    batch.stamps[row] = one.stamp;
+    batch.beyond[row] = ok && extrapolation ? extrapolation->furthest : 0;
+  }
+  return first;
+}
+
+bool Buffer::can_answer(Question& question, Failure& failure) const {
+  Answer ignored;
+  if (!question.travels) return answer(question, ignored, failure);
+  if (!resolve_both(question, failure)) return false;
+  if (!resolve(question.fixed, Argument::fixed_frame, question.fixed_id, failure)) return false;
+  Stamp target_stamp = question.stamp, source_stamp = question.source_stamp;
+  return lookup(question.target_id, question.fixed_id, target_stamp, ignored.pose, failure) &&
+         lookup(question.fixed_id, question.source_id, source_stamp, ignored.pose, failure);
+}
+
+bool Buffer::latest_common_time(Question& question, Stamp& stamp, Failure& failure) const {
+  return resolve_both(question, failure) && consistent([&] {
+           return coframe::latest_common_time(tree_, question.target_id, question.source_id, stamp, failure);
+         });
 }
 
 bool Buffer::chain(FrameId target, FrameId source, Stamp stamp, std::vector<FrameId>& frames,
                    Failure& failure) const {
-  ReadLock lock(mutex_);
-  return coframe::chain(tree_, target, source, stamp, frames, failure);
+  return consistent([&] { return coframe::chain(tree_, target, source, stamp, frames, failure); });
 }
 
 std::vector<FrameSummary> Buffer::frames() const {
-  ReadLock lock(mutex_);
-  std::vector<FrameSummary> all;
-  for (FrameId id = 1; id < tree_.frame_count(); ++id) {
-    const Frame& frame = tree_.frame(id);
-    const History* history = frame.history.get();
-    if (!history || history->empty()) {
-      all.push_back({frame.name, "", "", false, 0, 0, 0, 0.0});
-      continue;
+  return consistent([this] {
+    std::vector<FrameSummary> all;
+    for (FrameId id = 1; id < tree_.frame_count(); ++id) {
+      if (tree_.frame(id).known) all.push_back(summary_of(tree_, id));
     }
-    all.push_back({frame.name, tree_.name(history->parent()), tree_.authority_name(frame.authority),
-                   history->is_static(), history->size(), history->oldest(), history->newest(),
-                   history->is_static() ? 0.0 : average_rate(*history)});
+    return all;
+  });
+}
+
+std::vector<EdgeSummary> Buffer::edges() const {
+  std::vector<EdgeSummary> all;
+  for (FrameId id = 1; id < tree_.frame_count(); ++id) {
+    const EdgeSummary edge = consistent([&] {
+      const Frame::Counts& counts = tree_.frame(id).counts;
+      EdgeSummary one{summary_of(tree_, id), 0.0,          0.0,        0.0,        counts.stored, counts.late,
+                      counts.repeated,       counts.old, counts.self, counts.nan, counts.quaternion};
+      measure_intervals(tree_.history(id), one);
+      return one;
+    });
+    const bool has_something_to_tell = edge.frame.samples + edge.stored + edge.old + edge.self + edge.nan > 0;
+    if (tree_.frame(id).known && has_something_to_tell) all.push_back(edge);
   }
   return all;
 }
 
 std::vector<std::string> Buffer::frame_names() const {
-  ReadLock lock(mutex_);
   std::vector<std::string> names;
-  for (FrameId id = 1; id < tree_.frame_count(); ++id) names.push_back(tree_.name(id));
+  for (FrameId id = 1; id < tree_.frame_count(); ++id) {
+    if (tree_.frame(id).known) names.push_back(tree_.name(id));
+  }
   return names;
 }
 
 std::string Buffer::encode(bool is_static) const {
-  ReadLock lock(mutex_);
-  std::vector<TransformView> views;
-  for (FrameId id = 1; id < tree_.frame_count(); ++id) {
-    const History* history = tree_.history(id);
-    if (!history || history->empty() || history->is_static() != is_static) continue;
-    const Pose& pose = history->sample(history->size() - 1).pose;
-    views.push_back({tree_.name(history->parent()), tree_.name(id), history->newest(),
-                     {{pose.p[0], pose.p[1], pose.p[2]}, {pose.q[0], pose.q[1], pose.q[2], pose.q[3]}}});
-  }
-  return encode_tf_message(views);
+  return consistent([&] {
+    std::vector<TransformView> views;
+    for (FrameId id = 1; id < tree_.frame_count(); ++id) {
+      const History::View history = tree_.history(id);
+      if (history.empty() || history.is_static() != is_static) continue;
+      const Sample sample = history.sample(history.size() - 1);
+      const Pose& pose = sample.pose;
+      views.push_back({tree_.name(sample.parent), tree_.name(id), history.newest(),
+                       {{pose.p[0], pose.p[1], pose.p[2]}, {pose.q[0], pose.q[1], pose.q[2], pose.q[3]}}});
+    }
+    return encode_tf_message(views);
+  });
 }
 
 Counts Buffer::counts() const {
-  ReadLock lock(mutex_);
+  const std::lock_guard lock(writing_);
   return counts_;
 }
 
-// The order matters: a waiter announces itself before it reads changes_, a writer raises changes_ before it looks
-// for waiters; so one of the two always sees the other.
-void Buffer::notify() {
+// A full barrier between the data and the look for those who wait; they have one between their name and their look at
+// the data.
+void Buffer::announce(const Inserted* inserted, std::size_t count) {
   changes_.fetch_add(1);
-  if (waiting_.load() == 0) return;
-  std::lock_guard lock(wait_mutex_);
-  changed_.notify_all();
-}
-
-bool Buffer::wait_for_change(std::uint64_t seen, std::int64_t timeout_ns) const {
-  std::unique_lock lock(wait_mutex_);
-  waiting_.fetch_add(1);
-  const bool changed = changed_.wait_for(lock, std::chrono::nanoseconds(timeout_ns),
-                                         [&] { return changes_.load() != seen; });
-  waiting_.fetch_sub(1);
-  return changed;
+  for (std::size_t i = 0; i < count; ++i) waiting_room_.tell(inserted[i]);
 }
 
 }  // namespace coframe

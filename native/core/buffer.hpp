@@ -1,52 +1,22 @@
-// The tree for many threads: one short critical section a call, waiting without polling, counts of what came in.
+// The tree for many threads: one writes at a time, readers take no lock; waiting without polling, counts of what came in.
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
-#include <functional>
 #include <mutex>
 
 #include "core/cdr.hpp"
 #include "core/lookup.hpp"
+#include "core/question.hpp"
 #include "core/tree.hpp"
+#include "core/waiting.hpp"
 
 namespace coframe {
-
-// A mutex under which a reader steps aside once for writers that wait, so that busy readers cannot starve the wire,
-// nor busy writers the readers. Who waits sleeps: a writer that is not running must not make readers spin.
-class TreeMutex {
- public:
-  void lock_for_writing() {
-    if (mutex_.try_lock()) return;
-    writers_waiting_.fetch_add(1);
-    mutex_.lock();
-    writers_waiting_.fetch_sub(1);
-    turns_.fetch_add(1);
-    turns_.notify_all();
-  }
-  void lock_for_reading() {
-    if (writers_waiting_.load(std::memory_order_relaxed) > 0) step_aside();
-    mutex_.lock();
-  }
-  void unlock() { mutex_.unlock(); }
-
- private:
-  // The turn is read before the writers are looked for: who still waits then will raise it.
-  void step_aside() {
-    const std::uint32_t turn = turns_.load();
-    if (writers_waiting_.load() > 0) turns_.wait(turn);
-  }
-
-  std::mutex mutex_;
-  std::atomic<int> writers_waiting_{0};
-  std::atomic<std::uint32_t> turns_{0};  // of writers that had to wait
-};
 
 struct Counts {
   std::uint64_t messages = 0;   // TFMessages taken in as bytes
   std::uint64_t malformed = 0;  // of those, not decodable
   std::uint64_t stored = 0;     // transforms
-  std::uint64_t refused = 0;    // transforms with bad names or values
+  std::uint64_t refused = 0;    // transforms with bad names or values, or for a frozen buffer
   std::uint64_t old = 0;        // transforms older than the cache
 };
 
@@ -63,6 +33,7 @@ struct TransformStream {
   AuthorityId authority = 0;
   std::vector<Names> expected;
   std::vector<TransformView> decoded;
+  std::vector<Inserted> inserted;
 };
 
 struct FrameSummary {
@@ -73,12 +44,22 @@ struct FrameSummary {
   double rate;
 };
 
+// What is known of the link between a frame and its parent. Spans of time are nanoseconds.
+struct EdgeSummary {
+  FrameSummary frame;
+  double mean_interval, interval_deviation, longest_interval;  // between neighbouring samples; 0 where there are none
+  std::uint64_t stored, late, repeated, old, self, nan, quaternion;
+};
+
 class Buffer {
  public:
   explicit Buffer(Stamp cache_length) : tree_(cache_length) {}
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
 
   Stamp cache_length() const { return tree_.cache_length(); }
 
+  // 0, or why it was refused (Refusal bits).
   unsigned insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
                   bool is_static, std::string_view authority);
   TransformStream open_stream(bool is_static, std::string_view authority);
@@ -86,58 +67,83 @@ class Buffer {
   void rename(TransformStream& stream, std::string_view authority);
   DecodeFailure ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
   void clear();
+  // Forgets a frame with its link to its parent and those of its children to it; false if nobody knows it.
+  bool remove_frame(std::string_view name);
 
-  FrameId find(std::string_view name) const;
-  std::string name(FrameId frame) const;
+  // What is in here now, as a frozen buffer of its own; the samples are shared, not copied.
+  std::shared_ptr<Buffer> snapshot() const;
+  // From now on nothing is taken in, nor forgotten.
+  void freeze() { frozen_.store(true); }
+  bool frozen() const { return frozen_.load(); }
+
+  FrameId find(std::string_view name) const { return tree_.find(name); }
+  // Whether a number that find() once gave still stands for a frame.
+  bool knows(FrameId frame) const { return tree_.frame(frame).known; }
+  const std::string& name(FrameId frame) const { return tree_.name(frame); }
+
   bool lookup(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
-  // The two legs are answered under one lock: `stamp` is the target leg's, in and out.
+  // The two legs are answered together: `stamp` is the target leg's, in and out.
   bool lookup_full(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed, Pose& pose,
                    Failure& failure) const;
-  bool latest_common_time(FrameId target, FrameId source, Stamp& stamp, Failure& failure) const;
+  // By name; notes the numbers of the frames in the question. With `extrapolation` also beyond the data, as far as it
+  // allows; it learns how far that was.
+  bool answer(Question& question, Answer& answer, Failure& failure, Extrapolation* extrapolation = nullptr) const;
+  // Returns the first row that has no answer, and `failure` says why; batch.count if there is none.
+  std::size_t answer_many(Question& question, Extrapolation* extrapolation, Batch& batch, Failure& failure) const;
+  // Whether answer() would: where it travels in time, the target's leg is asked for first here, as in tf2.
+  bool can_answer(Question& question, Failure& failure) const;
+  bool latest_common_time(Question& question, Stamp& stamp, Failure& failure) const;
   bool chain(FrameId target, FrameId source, Stamp stamp, std::vector<FrameId>& frames, Failure& failure) const;
 
   std::vector<FrameSummary> frames() const;
+  std::vector<EdgeSummary> edges() const;
   std::vector<std::string> frame_names() const;
   // The newest sample of every static or every dynamic frame, as a TFMessage's CDR.
   std::string encode(bool is_static) const;
   Counts counts() const;
-  // Runs `read` on the tree while nobody writes.
+  // Runs `read` on the tree such that it sees one state of it; it may be run several times.
   template <class Read>
   auto read(Read&& read) const {
-    ReadLock lock(mutex_);
-    return read(tree_);
+    return consistent([&] { return read(tree_); });
   }
 
-  // Counts the insertions; a change of it is worth a new try.
+  WaitingRoom& waiting_room() { return waiting_room_; }
+  // Counts what changed the tree.
   std::uint64_t changes() const { return changes_.load(); }
-  // Waits until changes() differs from `seen`; false when `timeout_ns` passed without.
-  bool wait_for_change(std::uint64_t seen, std::int64_t timeout_ns) const;
 
  private:
-  struct ReadLock {
-    explicit ReadLock(TreeMutex& mutex) : mutex(mutex) { mutex.lock_for_reading(); }
-    ~ReadLock() { mutex.unlock(); }
-    TreeMutex& mutex;
-  };
-  struct WriteLock {
-    explicit WriteLock(TreeMutex& mutex) : mutex(mutex) { mutex.lock_for_writing(); }
-    ~WriteLock() { mutex.unlock(); }
-    TreeMutex& mutex;
-  };
+  explicit Buffer(const Tree& tree) : tree_(tree), frozen_(true) {}
 
-  bool store(TransformStream& stream, std::size_t index, const TransformView& view);
+  // Readers try again while writers change what they read. After so many times in vain they lock the writers out.
+  static constexpr int kAttempts = 200;
+  template <class Read>
+  auto consistent(Read&& read) const {
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+      const std::uint64_t revision = tree_.revision().start_reading();
+      auto result = read();
+      if (tree_.revision().unchanged(revision)) return result;
+    }
+    const std::lock_guard lock(writing_);
+    return read();
+  }
+
+  bool extrapolate(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
+                   Failure& failure) const;
+  bool resolve_both(Question& question, Failure& failure) const;
+  bool resolve(std::string_view name, Argument argument, FrameId& frame, Failure& failure) const;
+  Inserted store(TransformStream& stream, std::size_t index, const TransformView& view);
   bool count(unsigned refusals);
-  void notify();
+  void announce(const Inserted* inserted, std::size_t count);
 
-  mutable TreeMutex mutex_;
+  mutable std::mutex writing_;
   Tree tree_;
   mutable PathCache paths_;
-  Counts counts_;
-
+  Counts counts_;  // guarded by writing_
+  std::atomic<bool> frozen_{false};
+  WaitingRoom waiting_room_{tree_, [this](Question& question, Answer& answer, Failure& failure) {
+                              return this->answer(question, answer, failure);
+                            }};
   std::atomic<std::uint64_t> changes_{0};
-  mutable std::atomic<int> waiting_{0};
-  mutable std::mutex wait_mutex_;
-  mutable std::condition_variable changed_;
 };
 
 }  // namespace coframe

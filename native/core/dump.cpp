@@ -15,13 +15,13 @@ std::string fixed(double value, int decimals) {
   return std::string(text, static_cast<std::size_t>(std::snprintf(text, sizeof text, "%.*f", decimals, value)));
 }
 
-double span(const History& history) { return seconds(history.newest()) - seconds(history.oldest()); }
+double span(const History::View& history) { return seconds(history.newest()) - seconds(history.oldest()); }
 
 template <class Visit>
 void for_each_link(const Tree& tree, Visit&& visit) {
   for (FrameId id = 1; id < tree.frame_count(); ++id) {
-    const History* history = tree.history(id);
-    if (history && !history->empty()) visit(id, *history);
+    const History::View history = tree.history(id);
+    if (!history.empty()) visit(id, history);
   }
 }
 
@@ -67,23 +67,23 @@ std::string dot_id(const std::string& name) {
 
 }  // namespace
 
-double average_rate(const History& history) {
+double average_rate(const History::View& history) {
   return static_cast<double>(history.size()) / std::max(span(history), 0.0001);
 }
 
 std::string frames_as_string(const Tree& tree) {
   std::string text;
   for (FrameId id = 1; id < tree.frame_count(); ++id) {
-    const History* history = tree.history(id);
-    if (!history) continue;
-    text += "Frame " + tree.name(id) + " exists with parent " + tree.name(history->parent()) + ".\n";
+    const History::View history = tree.history(id);
+    if (!history.exists()) continue;
+    text += "Frame " + tree.name(id) + " exists with parent " + tree.name(history.parent()) + ".\n";
   }
   return text;
 }
 
 std::string frames_as_yaml(const Tree& tree) {
   std::string text;
-  for_each_link(tree, [&](FrameId id, const History& history) {
+  for_each_link(tree, [&](FrameId id, const History::View& history) {
     text += yaml_key(tree.name(id)) + ": \n";
     text += "  parent: " + yaml_value(tree.name(history.parent())) + "\n";
     text += "  broadcaster: " + yaml_value(tree.authority_name(tree.frame(id).authority)) + "\n";
@@ -98,7 +98,7 @@ std::string frames_as_yaml(const Tree& tree) {
 std::string frames_as_dot(const Tree& tree, Stamp now) {
   std::string text = "digraph G {\n";
   if (tree.frame_count() == 1) return text + "\"no tf data recieved\"}";
-  for_each_link(tree, [&](FrameId id, const History& history) {
+  for_each_link(tree, [&](FrameId id, const History::View& history) {
     text += dot_id(tree.name(history.parent())) + " -> " + dot_id(tree.name(id)) + "[label=\"";
     text += "Broadcaster: " + tree.authority_name(tree.frame(id).authority) + "\\n";
     text += "Average rate: " + fixed(average_rate(history), 3) + " Hz\\n";
@@ -108,8 +108,9 @@ std::string frames_as_dot(const Tree& tree, Stamp now) {
   });
   // The legend hangs on every frame without a parent; on emptied ones, as in tf2, even without a time to tell.
   for (FrameId id = 1; id < tree.frame_count(); ++id) {
-    const History* history = tree.history(id);
-    if (history ? !history->empty() : now == 0) continue;
+    if (!tree.frame(id).known) continue;
+    const History::View history = tree.history(id);
+    if (history.exists() ? !history.empty() : now == 0) continue;
     text += "edge [style=invis];\n subgraph cluster_legend { style=bold; color=black; label =\"view_frames Result\";\n";
     if (now != 0) text += "\"Recorded at time: " + fixed(seconds(now), 6) + "\"[ shape=plaintext ] ;\n ";
     text += "}->" + dot_id(tree.name(id)) + ";\n";

@@ -13,6 +13,6 @@ std::string frames_as_yaml(const Tree& tree);
 std::string frames_as_dot(const Tree& tree, Stamp now);
 
 // Samples per second as tf2 computes it: n over the span, which is at least 100 microseconds.
-double average_rate(const History& history);
+double average_rate(const History::View& history);
 
 }  // namespace coframe

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "core/dump.hpp"
 #include "core/tree.hpp"
 
 namespace coframe {
@@ -57,7 +58,7 @@ std::string tree_text(const Failure& failure, const Tree& tree) {
            "' because they are not part of the same tree.Tf has two or more unconnected trees.";
   }
   if (failure.code == ErrorCode::loop) {
-    return "The tf tree is invalid because it contains a loop.\n" + failure.name + "\n";
+    return "The tf tree is invalid because it contains a loop.\n" + frames_as_string(tree) + "\n";
   }
   return extrapolation_head(failure) + ", when looking up transform from frame [" + tree.name(failure.source) +
          "] to frame [" + tree.name(failure.target) + "]";

@@ -34,7 +34,7 @@ struct Failure {
   FrameId edge = 0;                          // the child frame of the link without a sample at `requested`
   Stamp requested = 0;
   Stamp earliest = 0, latest = 0;  // what that link has
-  std::string name;                // the invalid name; for a loop, the tree as text
+  std::string name;                // the invalid or unknown name
 };
 
 // "lookupTransform argument target_frame", as tf2's messages name an argument of `function`.
@@ -55,6 +55,7 @@ enum Refusal : unsigned {
   kNan = 1u << 3,
   kDenormalisedQuaternion = 1u << 4,
   kOldData = 1u << 5,
+  kFrozen = 1u << 6,  // not tf2's: the buffer takes nothing any more
 };
 
 }  // namespace coframe

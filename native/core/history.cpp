@@ -18,118 +18,291 @@ Stamp minus(Stamp stamp, Stamp length) {
   return stamp < std::numeric_limits<Stamp>::min() + length ? std::numeric_limits<Stamp>::min() : stamp - length;
 }
 
-// How far `stamp` lies on the way from `start` to `end`, for start <= stamp <= end, start < end.
+// How far `stamp` lies on the way from `start` to `end`, for start <= stamp <= end; between 0 and 1 for any numbers,
+// as those that are being changed may not be in order.
 double share_of(Stamp stamp, Stamp start, Stamp end) {
   const auto part = static_cast<std::uint64_t>(stamp) - static_cast<std::uint64_t>(start);
   const auto whole = static_cast<std::uint64_t>(end) - static_cast<std::uint64_t>(start);
-  return static_cast<double>(part) / static_cast<double>(whole);
+  return whole == 0 ? 0.0 : std::min(1.0, static_cast<double>(part) / static_cast<double>(whole));
 }
 
-}  // namespace
-
-bool History::insert(Stamp stamp, const Sample& sample) {
-  if (is_static_) {
-    fixed_ = sample;
-    size_ = 1;
-    return true;
-  }
-  if (!empty() && cache_length_ != kKeepAll) {
-    const Stamp window_start = minus(newest(), cache_length_);
-    drop_older_than(window_start);
-    if (stamp < window_start) return false;
-  }
-  const std::size_t position = empty() || newest() <= stamp ? size_ : first_after(stamp);
-  if (repeats(position, stamp, sample)) return true;
-  if (!empty() && sample.parent != parent()) one_parent_ = false;
-  append_slot();
-  for (std::size_t i = size_ - 1; i > position; --i) {
-    time_slot(i) = time_slot(i - 1);
-    sample_slot(i) = sample_slot(i - 1);
-  }
-  time_slot(position) = stamp;
-  sample_slot(position) = sample;
-  return true;
-}
-
-void History::clear() {
-  if (is_static_) return;
-  chunks_.clear();
-  head_ = size_ = 0;
-  one_parent_ = true;
-}
-
-Found History::at(Stamp stamp, Pose& pose, FrameId& parent) const {
-  if (empty()) return Found::empty;
-  if (is_static_ || stamp == 0) return take(size_ - 1, pose, parent);
-  const Stamp last = newest();
-  if (stamp == last) return take(size_ - 1, pose, parent);
-  if (size_ == 1) return Found::only_other;
-  if (stamp > last) return Found::too_new;
-  const Stamp first = oldest();
-  if (stamp == first) return take(0, pose, parent);
-  if (stamp < first) return Found::too_old;
-
-  const std::size_t next = first_after(stamp);
-  const Sample& older = sample(next - 1);
-  const Sample& newer = sample(next);
-  const Stamp start = time(next - 1);
-  if (start == stamp || older.parent != newer.parent) return take(next - 1, pose, parent);
-  parent = older.parent;
-  interpolate(older.pose, newer.pose, share_of(stamp, start, time(next)), pose);
-  return Found::ok;
-}
-
-void History::append_slot() {
-  if (slot(size_) == chunks_.size() * kChunk) chunks_.push_back(std::make_unique<Chunk>());
-  ++size_;
-}
-
-void History::drop_older_than(Stamp stamp) {
-  while (!empty() && time(0) < stamp) {
-    --size_;
-    if (++head_ == kChunk) {
-      chunks_.erase(chunks_.begin());
-      head_ = 0;
-    }
-  }
+// Fills what no chunk was ever put into.
+Chunk* no_chunk() {
+  static Chunk chunk;
+  return &chunk;
 }
 
 // True when one of the samples at `stamp`, which end before index `end`, is exactly `sample`.
-bool History::repeats(std::size_t end, Stamp stamp, const Sample& sample) const {
-  for (std::size_t i = end; i > 0 && time(i - 1) == stamp; --i) {
-    if (same(this->sample(i - 1), sample)) return true;
+bool repeats(const History::View& samples, std::size_t end, Stamp stamp, const Sample& sample) {
+  for (std::size_t i = end; i > 0 && samples.time(i - 1) == stamp; --i) {
+    if (same(samples.sample(i - 1), sample)) return true;
   }
   return false;
 }
 
-// Index of the first sample newer than `stamp`; the caller knows that there is one. Rates are nearly constant, so
-// a straight line through both ends lands close, and doubling steps from there find the rest.
-std::size_t History::first_after(Stamp stamp) const {
-  const Stamp first = time(0);
-  if (stamp < first) return 0;
-  const double share = share_of(stamp, first, newest());
-  std::size_t low = 0, high = size_ - 1;  // time(low) <= stamp < time(high)
-  const std::size_t guess = std::min(static_cast<std::size_t>(share * static_cast<double>(high)), high);
-  std::size_t step = 1;
-  if (time(guess) <= stamp) {
-    for (low = guess; low + step < high && time(low + step) <= stamp; step *= 2) low += step;
-    high = std::min(low + step, high);
-  } else {
-    for (high = guess; high > step && time(high - step) > stamp; step *= 2) high -= step;
-    low = high > step ? high - step : 0;
-  }
-  while (high - low > 1) {
-    const std::size_t middle = low + (high - low) / 2;
-    (time(middle) <= stamp ? low : high) = middle;
-  }
-  return high;
+}  // namespace
+
+inline const Chunk& History::View::chunk_of(std::uint64_t number) const {
+  return *directory_->chunks[number / Chunk::kSize & directory_->mask].load(std::memory_order_acquire);
 }
 
-Found History::take(std::size_t i, Pose& pose, FrameId& parent) const {
-  const Sample& found = sample(i);
-  pose = found.pose;
-  parent = found.parent;
+Stamp History::View::stamp_of(std::uint64_t number) const {
+  return chunk_of(number).stamps[number % Chunk::kSize];
+}
+
+const SharedSample& History::View::sample_of(std::uint64_t number) const {
+  return is_static() ? *fixed_ : chunk_of(number).samples[number % Chunk::kSize];
+}
+
+Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
+  const auto take = [&](const SharedSample& shared) {
+    const Sample found = shared.load();
+    pose = found.pose;
+    parent = found.parent;
+    return Found::ok;
+  };
+  if (empty()) return Found::empty;
+  if (is_static()) return take(*fixed_);
+  const std::uint64_t back = end_ - 1;
+  const Stamp last = stamp_of(back);
+  if (stamp == last || stamp == 0) return take(sample_of(back));
+  if (back == begin_) return Found::only_other;
+  if (stamp > last) return Found::too_new;
+  std::uint64_t next = back;  // most look-ups are near the newest
+  Stamp start = stamp_of(back - 1);
+  if (start >= stamp) {
+    const Stamp first = stamp_of(begin_);
+    if (stamp == first) return take(sample_of(begin_));
+    if (stamp < first) return Found::too_old;
+    if (start > stamp) {
+      next = search(stamp, first, last);
+      start = stamp_of(next - 1);
+    }
+  }
+  const Sample older = sample_of(next - 1).load();
+  parent = older.parent;
+  if (start == stamp) {
+    pose = older.pose;
+    return Found::ok;
+  }
+  const Sample newer = sample_of(next).load();
+  if (newer.parent != older.parent) {
+    pose = older.pose;
+  } else {
+    interpolate(older.pose, newer.pose, share_of(stamp, start, stamp_of(next)), pose);
+  }
   return Found::ok;
+}
+
+std::size_t History::View::first_after(Stamp stamp) const {
+  if (empty()) return 0;
+  const Stamp last = stamp_of(end_ - 1);
+  if (last <= stamp) return size();
+  const Stamp first = stamp_of(begin_);
+  return stamp < first ? 0 : static_cast<std::size_t>(search(stamp, first, last) - begin_);
+}
+
+// The first sample newer than `stamp`, for first <= stamp < last. Rates are nearly constant, so a straight line through
+// both ends lands close, and doubling steps from there find the rest.
+std::uint64_t History::View::search(Stamp stamp, Stamp first, Stamp last) const {
+  std::uint64_t low = begin_, high = end_ - 1;  // stamp_of(low) <= stamp < stamp_of(high)
+  const auto offset = static_cast<std::uint64_t>(share_of(stamp, first, last) * static_cast<double>(high - low));
+  const std::uint64_t guess = std::min(low + offset, high);
+  std::uint64_t step = 1;
+  if (stamp_of(guess) <= stamp) {
+    for (low = guess; high - low > step && stamp_of(low + step) <= stamp; step *= 2) low += step;
+    high = std::min(low + step, high);
+  } else {
+    for (high = guess; high - low > step && stamp_of(high - step) > stamp; step *= 2) high -= step;
+    low = high - low > step ? high - step : low;
+  }
+  while (high - low > 1) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    (stamp_of(middle) <= stamp ? low : high) = middle;
+  }
+  return std::max(high, begin_ + 1);
+}
+
+History::Directory::Directory(std::uint64_t size) : mask(size - 1), chunks(new std::atomic<Chunk*>[size]) {
+  for (std::uint64_t i = 0; i < size; ++i) chunks[i].store(no_chunk(), std::memory_order_relaxed);
+}
+
+History::History() { grow(); }
+
+History::~History() = default;
+
+// The beginning before the end: samples that are dropped in between still stand where they were.
+History::View History::view() const {
+  View view;
+  view.kind_ = kind_;
+  view.fixed_ = &fixed_;
+  view.begin_ = begin_.load(std::memory_order_acquire);
+  view.end_ = end_.load(std::memory_order_acquire);
+  view.directory_ = directory_.load(std::memory_order_acquire);
+  return view;
+}
+
+bool History::mentions(FrameId parent) const {
+  const View samples = view();
+  if (one_parent_) return !samples.empty() && samples.parent() == parent;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (samples.parent_at(i) == parent) return true;
+  }
+  return false;
+}
+
+Insertion History::insert(const HistoryContext& context, Stamp stamp, const Sample& sample) {
+  if (kind_ == HistoryKind::fixed) return insert_fixed(context, sample);
+  if (!view().empty() && context.cache_length != kKeepAll) {
+    const Stamp window_start = minus(view().newest(), context.cache_length);
+    drop_older_than(context.pool, window_start);
+    if (stamp < window_start) return Insertion::refused_as_old;
+  }
+  const View samples = view();
+  const std::size_t position = samples.first_after(stamp);
+  if (repeats(samples, position, stamp, sample)) return Insertion::repeated;
+  if (!samples.empty() && sample.parent != samples.parent()) one_parent_ = false;
+  if (position == samples.size()) {
+    append(context, stamp, sample);
+    return Insertion::appended;
+  }
+  put_at(context, position, stamp, sample);
+  return Insertion::put_before_newer;
+}
+
+Insertion History::insert_fixed(const HistoryContext& context, const Sample& sample) {
+  if (!view().empty() && same(fixed_.load(), sample)) return Insertion::repeated;
+  const Revision::Change change(context.revision);
+  fixed_.store(sample);
+  end_.store(begin_ + 1, std::memory_order_release);
+  return Insertion::appended;
+}
+
+void History::reset(const HistoryContext& context, HistoryKind kind) {
+  const Revision::Change change(context.revision);
+  drop_all(context.pool);
+  kind_ = kind;
+}
+
+void History::clear(const HistoryContext& context) {
+  if (kind_ != HistoryKind::dynamic) return;
+  const Revision::Change change(context.revision);
+  drop_all(context.pool);
+}
+
+void History::share(const History& other) {
+  const View samples = other.view();
+  kind_ = other.kind_.get();
+  one_parent_ = other.one_parent_.get();
+  fixed_.store(other.fixed_.load());
+  begin_ = samples.begin_;
+  end_ = samples.end_;
+  if (samples.empty() || samples.is_static()) return;
+  auto copy = std::make_unique<Directory>(samples.directory_->mask + 1);
+  for (std::uint64_t n = samples.begin_ / Chunk::kSize; n <= (samples.end_ - 1) / Chunk::kSize; ++n) {
+    Chunk* chunk = other.chunk_at(n * Chunk::kSize);
+    chunk->holders.fetch_add(1, std::memory_order_relaxed);
+    copy->chunks[n & copy->mask].store(chunk, std::memory_order_relaxed);
+  }
+  directories_.push_back(std::move(copy));
+  directory_ = directories_.back().get();
+}
+
+void History::release(ChunkPool& pool) { drop_all(pool); }
+
+void History::append(const HistoryContext& context, Stamp stamp, const Sample& sample) {
+  const std::uint64_t index = end_;
+  if (index % Chunk::kSize == 0) add_chunk(context);
+  put(index, stamp, sample);
+  end_.store(index + 1, std::memory_order_release);
+}
+
+// Everything from the position on moves by one: seldom, and mostly by few.
+void History::put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample) {
+  const std::uint64_t first = begin_ + position;
+  std::uint64_t last = end_;
+  if (last % Chunk::kSize == 0) add_chunk(context);
+  const Revision::Change change(context.revision);
+  own_chunks(context.pool, first, last + 1);
+  for (; last > first; --last) {
+    const Chunk& from = *chunk_at(last - 1);
+    const std::size_t i = (last - 1) % Chunk::kSize;
+    put(last, from.stamps[i], from.samples[i].load());
+  }
+  put(first, stamp, sample);
+  end_.store(end_ + 1, std::memory_order_release);
+}
+
+void History::add_chunk(const HistoryContext& context) {
+  const std::uint64_t number = end_ / Chunk::kSize;
+  const Revision::Change change(context.revision);
+  if (number - begin_ / Chunk::kSize > directory_.load()->mask) grow();
+  const Directory& directory = *directory_;
+  directory.chunks[number & directory.mask].store(context.pool.take(), std::memory_order_release);
+}
+
+// Chunks that a snapshot also has are copied before they change.
+void History::own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end) {
+  for (std::uint64_t n = first / Chunk::kSize; n <= (end - 1) / Chunk::kSize; ++n) {
+    Chunk* shared = chunk_at(n * Chunk::kSize);
+    if (shared->holders.load(std::memory_order_acquire) == 1) continue;
+    Chunk* own = pool.take();
+    for (std::size_t i = 0; i < Chunk::kSize; ++i) {
+      own->stamps[i] = shared->stamps[i].get();
+      own->samples[i].store(shared->samples[i].load());
+    }
+    const Directory& directory = *directory_;
+    directory.chunks[n & directory.mask].store(own, std::memory_order_release);
+    pool.release(shared);
+  }
+}
+
+void History::drop_older_than(ChunkPool& pool, Stamp stamp) {
+  const View samples = view();
+  std::size_t count = 0;
+  while (count < samples.size() && samples.time(count) < stamp) ++count;
+  if (count == 0) return;
+  const std::uint64_t begin = begin_ + count;
+  const std::uint64_t first = begin_ / Chunk::kSize;
+  begin_.store(begin, std::memory_order_release);
+  for (std::uint64_t n = first; n < begin / Chunk::kSize; ++n) pool.release(chunk_at(n * Chunk::kSize));
+}
+
+// What comes next starts a chunk of its own.
+void History::drop_all(ChunkPool& pool) {
+  const std::uint64_t end = end_;
+  if (kind_ == HistoryKind::dynamic && end > begin_) {
+    for (std::uint64_t n = begin_ / Chunk::kSize; n <= (end - 1) / Chunk::kSize; ++n) {
+      pool.release(chunk_at(n * Chunk::kSize));
+    }
+  }
+  const std::uint64_t next = (end + Chunk::kSize - 1) / Chunk::kSize * Chunk::kSize;
+  begin_.store(next, std::memory_order_release);
+  end_.store(next, std::memory_order_release);
+  one_parent_ = true;
+}
+
+Chunk* History::chunk_at(std::uint64_t index) const {
+  const Directory& directory = *directory_;
+  return directory.chunks[index / Chunk::kSize & directory.mask].load(std::memory_order_relaxed);
+}
+
+void History::put(std::uint64_t index, Stamp stamp, const Sample& sample) {
+  Chunk& chunk = *chunk_at(index);
+  chunk.stamps[index % Chunk::kSize] = stamp;
+  chunk.samples[index % Chunk::kSize].store(sample);
+}
+
+void History::grow() {
+  const Directory* old = directory_;
+  auto larger = std::make_unique<Directory>(old ? 2 * (old->mask + 1) : 2);
+  if (old) {
+    for (std::uint64_t n = begin_ / Chunk::kSize, i = 0; i <= old->mask; ++n, ++i) {
+      larger->chunks[n & larger->mask].store(old->chunks[n & old->mask].load(), std::memory_order_relaxed);
+    }
+  }
+  directories_.push_back(std::move(larger));
+  directory_.store(directories_.back().get(), std::memory_order_release);
 }
 
 }  // namespace coframe

@@ -1,85 +1,129 @@
-// The samples of one frame in time order, in chunks, searched and not walked. tf2's TimeCache and StaticCache.
+// The samples of one frame in time order, searched and not walked. tf2's TimeCache and StaticCache. One thread writes,
+// any number read without a lock: what they get is good if the tree's revision did not change meanwhile.
 #pragma once
 
-#include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "core/chunks.hpp"
 #include "core/pose.hpp"
+#include "core/relaxed.hpp"
+#include "core/revision.hpp"
 
 namespace coframe {
 
-using FrameId = std::uint32_t;      // 0 is tf2's NO_PARENT
-using AuthorityId = std::uint32_t;  // 0 is "no recorded authority"
-using Stamp = std::int64_t;         // nanoseconds; 0 asks for the latest
-
 inline constexpr Stamp kKeepAll = -1;  // a cache length without end
-
-// One cache line: a pose and the frame it is told in.
-struct alignas(64) Sample {
-  Pose pose;
-  FrameId parent = 0;
-};
-static_assert(sizeof(Sample) == 64);
 
 // What a sample's search came to.
 enum class Found { ok, empty, only_other, too_new, too_old };
 
+// What became of a sample that was to be stored.
+enum class Insertion { appended, put_before_newer, repeated, refused_as_old };
+
+// A frame without history is the root of a tree: nobody has told where it is.
+enum class HistoryKind : std::uint8_t { none, dynamic, fixed };
+
+// What all histories of a tree share.
+struct HistoryContext {
+  Stamp cache_length;
+  ChunkPool& pool;
+  Revision& revision;
+};
+
 class History {
+  struct Directory;
+
  public:
-  History(bool is_static, Stamp cache_length) : is_static_(is_static), cache_length_(cache_length) {}
+  // What a reader sees: the samples that were there when it began. Appended ones do not show.
+  class View {
+   public:
+    bool exists() const { return kind_ != HistoryKind::none; }
+    bool is_static() const { return kind_ == HistoryKind::fixed; }
+    bool empty() const { return end_ <= begin_; }
+    std::size_t size() const { return empty() ? 0 : static_cast<std::size_t>(end_ - begin_); }
 
-  bool is_static() const { return is_static_; }
-  std::size_t size() const { return size_; }
-  bool empty() const { return size_ == 0; }
+    Stamp time(std::size_t i) const { return stamp_of(begin_ + i); }
+    Sample sample(std::size_t i) const { return sample_of(begin_ + i).load(); }
+    FrameId parent_at(std::size_t i) const { return sample_of(begin_ + i).parent(); }
+    // Stamps of both ends; 0 for a static or empty history, as tf2 has it.
+    Stamp oldest() const { return is_static() || empty() ? 0 : time(0); }
+    Stamp newest() const { return is_static() || empty() ? 0 : time(size() - 1); }
+    // The frame the newest sample is told in; 0 when empty.
+    FrameId parent() const { return empty() ? 0 : parent_at(size() - 1); }
 
-  Stamp time(std::size_t i) const { return chunks_[slot(i) / kChunk]->stamps[slot(i) % kChunk]; }
-  const Sample& sample(std::size_t i) const {
-    return is_static_ ? fixed_ : chunks_[slot(i) / kChunk]->samples[slot(i) % kChunk];
-  }
-  // Stamps of both ends; 0 for a static or empty history, as tf2 has it.
-  Stamp oldest() const { return is_static_ || empty() ? 0 : time(0); }
-  Stamp newest() const { return is_static_ || empty() ? 0 : time(size_ - 1); }
-  // The frame the newest sample is told in; 0 when empty.
-  FrameId parent() const { return empty() ? 0 : sample(size_ - 1).parent; }
+    // The pose at `stamp` and the frame it is told in. No extrapolation, ever.
+    Found at(Stamp stamp, Pose& pose, FrameId& parent) const;
+    // Index of the first sample newer than `stamp`; size() if there is none.
+    std::size_t first_after(Stamp stamp) const;
+
+   private:
+    friend class History;
+    // By their number in the history's life.
+    const Chunk& chunk_of(std::uint64_t number) const;
+    Stamp stamp_of(std::uint64_t number) const;
+    const SharedSample& sample_of(std::uint64_t number) const;
+    std::uint64_t search(Stamp stamp, Stamp first, Stamp last) const;
+
+    const Directory* directory_;
+    const SharedSample* fixed_;
+    std::uint64_t begin_, end_;
+    HistoryKind kind_;
+  };
+
+  History();
+  History(const History&) = delete;
+  History& operator=(const History&) = delete;
+  ~History();
+
+  View view() const;
   // True while every sample has the same parent: paths through this history may then be remembered.
   bool one_parent() const { return one_parent_; }
 
-  // Stores a sample as tf2 does: prunes by the newest stamp before this one, refuses what is older than the cache
-  // length (false), takes an exact repetition silently, puts equal stamps behind each other.
-  bool insert(Stamp stamp, const Sample& sample);
-  // Forgets all samples of a dynamic history; static ones stay.
-  void clear();
+  // Whether a sample is told in that frame.
+  bool mentions(FrameId parent) const;
 
-  // The pose at `stamp` and the frame it is told in. No extrapolation, ever.
-  Found at(Stamp stamp, Pose& pose, FrameId& parent) const;
+  // The rest is for the one writer.
+
+  // Stores a sample as tf2 does: prunes by the newest stamp before this one, refuses what is older than the cache
+  // length, takes an exact repetition silently, puts equal stamps behind each other. Not for HistoryKind::none.
+  Insertion insert(const HistoryContext& context, Stamp stamp, const Sample& sample);
+  // Starts anew as another kind.
+  void reset(const HistoryContext& context, HistoryKind kind);
+  // Forgets all samples of a dynamic history; a static one stays.
+  void clear(const HistoryContext& context);
+  // Becomes what `other` is at this moment; the chunks are shared.
+  void share(const History& other);
+  void release(ChunkPool& pool);
 
  private:
-  // Large enough that inserting seldom allocates, small enough for a tree of a thousand frames.
-  static constexpr std::size_t kChunk = 256;
-  struct Chunk {
-    std::array<Stamp, kChunk> stamps;
-    std::array<Sample, kChunk> samples;
+  // Chunk n of the history's life lies at n modulo the size.
+  struct Directory {
+    explicit Directory(std::uint64_t size);
+    std::uint64_t mask;
+    std::unique_ptr<std::atomic<Chunk*>[]> chunks;
   };
 
-  std::size_t slot(std::size_t i) const { return head_ + i; }
-  Stamp& time_slot(std::size_t i) { return chunks_[slot(i) / kChunk]->stamps[slot(i) % kChunk]; }
-  Sample& sample_slot(std::size_t i) { return chunks_[slot(i) / kChunk]->samples[slot(i) % kChunk]; }
-  void append_slot();
-  void drop_older_than(Stamp stamp);
-  bool repeats(std::size_t end, Stamp stamp, const Sample& sample) const;
-  std::size_t first_after(Stamp stamp) const;
-  Found take(std::size_t i, Pose& pose, FrameId& parent) const;
+  Insertion insert_fixed(const HistoryContext& context, const Sample& sample);
+  void append(const HistoryContext& context, Stamp stamp, const Sample& sample);
+  void put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample);
+  void add_chunk(const HistoryContext& context);
+  void own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end);
+  void drop_older_than(ChunkPool& pool, Stamp stamp);
+  void drop_all(ChunkPool& pool);
+  Chunk* chunk_at(std::uint64_t index) const;
+  void put(std::uint64_t index, Stamp stamp, const Sample& sample);
+  void grow();
 
-  std::vector<std::unique_ptr<Chunk>> chunks_;
-  Sample fixed_;  // the one sample of a static history
-  std::size_t head_ = 0;  // slots before the first sample in the first chunk
-  std::size_t size_ = 0;
-  bool is_static_;
-  bool one_parent_ = true;
-  Stamp cache_length_;
+  std::atomic<const Directory*> directory_{nullptr};
+  std::atomic<std::uint64_t> begin_{0};  // samples are numbered through the history's life
+  std::atomic<std::uint64_t> end_{0};
+  Relaxed<HistoryKind> kind_{HistoryKind::none};
+  Relaxed<bool> one_parent_{true};
+  SharedSample fixed_;  // the one sample of a static history
+  std::vector<std::unique_ptr<Directory>> directories_;  // the last is in use; readers may still be in the others
 };
 
 }  // namespace coframe

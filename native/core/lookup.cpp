@@ -4,30 +4,26 @@
 #include <limits>
 #include <optional>
 
-#include "core/dump.hpp"
-
 namespace coframe {
 
 namespace {
 
-constexpr int kMaxDepth = 1000;  // tf2's MAX_GRAPH_DEPTH
 constexpr Stamp kNoTime = std::numeric_limits<Stamp>::max();
 
-bool fail_loop(const Tree& tree, FrameId target, FrameId source, Failure& failure) {
+bool fail_loop(FrameId target, FrameId source, Failure& failure) {
   failure = Failure{};
   failure.code = ErrorCode::loop;
   failure.target = target;
   failure.source = source;
-  failure.name = frames_as_string(tree);
   return false;
 }
 
 // The frame above which nobody says anything, by the newest data.
 FrameId root_of(const Tree& tree, FrameId frame) {
   for (int depth = 0; depth <= kMaxDepth; ++depth) {
-    const History* history = tree.history(frame);
-    if (!history || history->empty()) break;
-    frame = history->parent();
+    const History::View history = tree.history(frame);
+    if (history.empty()) break;
+    frame = history.parent();
   }
   return frame;
 }
@@ -43,7 +39,7 @@ bool fail_not_connected(const Tree& tree, FrameId target, FrameId source, Stamp 
   return false;
 }
 
-Failure missing_sample(const History& history, Found found, FrameId edge, FrameId target, FrameId source,
+Failure missing_sample(const History::View& history, Found found, FrameId edge, FrameId target, FrameId source,
                        Stamp stamp) {
   Failure failure;
   switch (found) {
@@ -69,9 +65,18 @@ struct Walk {
   std::vector<FrameId>* down = nullptr;  // frames from the target, if wanted
 };
 
+// The samples as they are.
+struct Exact {
+  Found at(const History::View& samples, Stamp stamp, Pose& pose, FrameId& parent) const {
+    return samples.at(stamp, pose, parent);
+  }
+};
+
 // tf2's walkToTopParent: first from the source as far as data reach, then from the target to that frame. Which of
 // several possible errors is told depends on this order.
-bool walk_tree(const Tree& tree, FrameId target, FrameId source, Stamp stamp, Walk& walk, Failure& failure) {
+template <class Method>
+bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source, Stamp stamp, Walk& walk,
+               Failure& failure) {
   Pose step;
   FrameId parent = 0;
   FrameId top = source;
@@ -80,30 +85,30 @@ bool walk_tree(const Tree& tree, FrameId target, FrameId source, Stamp stamp, Wa
   for (FrameId frame = source;; frame = parent) {
     top = frame;
     if (walk.up) walk.up->push_back(frame);
-    const History* history = tree.history(frame);
-    if (!history) break;
-    const Found found = history->at(stamp, step, parent);
+    const History::View history = tree.history(frame);
+    if (!history.exists()) break;
+    const Found found = method.at(history, stamp, step, parent);
     if (found != Found::ok) {
-      gap = missing_sample(*history, found, frame, target, source, stamp);
+      gap = missing_sample(history, found, frame, target, source, stamp);
       break;
     }
     if (frame == target) return true;
     compose(step, walk.source_pose);
-    if (++depth > kMaxDepth) return fail_loop(tree, target, source, failure);
+    if (++depth > kMaxDepth) return fail_loop(target, source, failure);
   }
 
   depth = 0;
   for (FrameId frame = target; frame != top; frame = parent) {
     if (walk.down) walk.down->push_back(frame);
-    const History* history = tree.history(frame);
-    if (!history) {
+    const History::View history = tree.history(frame);
+    if (!history.exists()) {
       if (!gap) return fail_not_connected(tree, target, source, stamp, failure);
       failure = std::move(*gap);
       return false;
     }
-    const Found found = history->at(stamp, step, parent);
+    const Found found = method.at(history, stamp, step, parent);
     if (found != Found::ok) {
-      failure = missing_sample(*history, found, frame, target, source, stamp);
+      failure = missing_sample(history, found, frame, target, source, stamp);
       return false;
     }
     if (frame == source) {  // the source lies on the target's way up: only this side counts
@@ -112,26 +117,29 @@ bool walk_tree(const Tree& tree, FrameId target, FrameId source, Stamp stamp, Wa
       return true;
     }
     compose(step, walk.target_pose);
-    if (++depth > kMaxDepth) return fail_loop(tree, target, source, failure);
+    if (++depth > kMaxDepth) return fail_loop(target, source, failure);
   }
   return true;
 }
 
-bool walk_pose(const Tree& tree, FrameId target, FrameId source, Stamp stamp, Pose& pose, Failure& failure) {
+template <class Method>
+bool walk_pose(const Tree& tree, Method& method, FrameId target, FrameId source, Stamp stamp, Pose& pose,
+               Failure& failure) {
   Walk walk;
-  if (!walk_tree(tree, target, source, stamp, walk, failure)) return false;
+  if (!walk_tree(tree, method, target, source, stamp, walk, failure)) return false;
   pose = walk.source_pose;
   compose_inverse(walk.target_pose, pose);
   return true;
 }
 
-// Along a remembered path; false where a link has no sample, and the slow walk has to say what that means.
+// Along a remembered path; false where a link has no sample, or one of another parent, and the slow walk has to say
+// what that means.
 bool path_pose(const std::vector<PathCache::Step>& steps, Stamp stamp, Pose& pose) {
   pose = Pose{};
   Pose step;
   FrameId parent;
   for (const PathCache::Step& link : steps) {
-    if (link.history->at(stamp, step, parent) != Found::ok) return false;
+    if (link.history->view().at(stamp, step, parent) != Found::ok || parent != link.parent) return false;
     if (link.down) {
       compose_inverse(step, pose);
     } else {
@@ -148,63 +156,23 @@ void keep_earlier(Stamp stamp, Stamp& common) {
 
 Stamp path_common_time(const std::vector<PathCache::Step>& steps) {
   Stamp common = kNoTime;
-  for (const PathCache::Step& link : steps) keep_earlier(link.history->newest(), common);
+  for (const PathCache::Step& link : steps) keep_earlier(link.history->view().newest(), common);
   return common == kNoTime ? 0 : common;
+}
+
+// A frame seen from itself, at its newest stamp if at none.
+bool identity(const Tree& tree, FrameId frame, Stamp& stamp, Pose& pose) {
+  if (stamp == 0) stamp = tree.history(frame).newest();
+  pose = Pose{};
+  return true;
 }
 
 }  // namespace
 
-const PathCache::Path* PathCache::find(const Tree& tree, FrameId target, FrameId source) {
-  const std::uint64_t key = (static_cast<std::uint64_t>(target) << 32) | source;
-  auto found = paths_.find(key);
-  if (found != paths_.end() && found->second.version == tree.version()) {
-    return found->second.usable ? &found->second : nullptr;
-  }
-  if (paths_.size() >= kMaxEntries || steps_ >= kMaxSteps) {
-    paths_.clear();
-    steps_ = 0;
-    found = paths_.end();
-  }
-  Path& path = found != paths_.end() ? found->second : paths_[key];
-  steps_ -= path.steps.size();
-  walk(tree, target, source, path);
-  steps_ += path.steps.size();
-  path.version = tree.version();
-  return path.usable ? &path : nullptr;
-}
-
-void PathCache::walk(const Tree& tree, FrameId target, FrameId source, Path& path) {
-  path.usable = false;
-  path.steps.clear();
-  const auto climb = [&tree](FrameId frame, std::vector<FrameId>& frames) {
-    for (;;) {
-      frames.push_back(frame);
-      const History* history = tree.history(frame);
-      if (!history) return true;
-      if (history->empty() || !history->one_parent() || frames.size() > kMaxDepth) return false;
-      frame = history->parent();
-    }
-  };
-  std::vector<FrameId> up, down;
-  if (!climb(source, up) || !climb(target, down) || up.back() != down.back()) return;
-  while (up.size() > 1 && down.size() > 1 && up[up.size() - 2] == down[down.size() - 2]) {
-    up.pop_back();
-    down.pop_back();
-  }
-  for (std::size_t i = 0; i + 1 < up.size(); ++i) path.steps.push_back({tree.history(up[i]), false});
-  for (std::size_t i = down.size() - 1; i > 0; --i) path.steps.push_back({tree.history(down[i - 1]), true});
-  path.usable = true;
-}
-
-bool lookup(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
+bool lookup(const Tree& tree, PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
             Failure& failure) {
-  if (target == source) {
-    const History* history = tree.history(target);
-    if (stamp == 0 && history) stamp = history->newest();
-    pose = Pose{};
-    return true;
-  }
-  if (const PathCache::Path* path = paths.find(tree, target, source)) {
+  if (target == source) return identity(tree, target, stamp, pose);
+  if (const PathCache::Path* path = paths ? paths->find(tree, target, source) : nullptr) {
     const Stamp when = stamp != 0 ? stamp : path_common_time(path->steps);
     if (path_pose(path->steps, when, pose)) {
       stamp = when;
@@ -213,7 +181,18 @@ bool lookup(const Tree& tree, PathCache& paths, FrameId target, FrameId source, 
     }
   }
   if (stamp == 0 && !latest_common_time(tree, target, source, stamp, failure)) return false;
-  if (!walk_pose(tree, target, source, stamp, pose, failure)) return false;
+  Exact exact;
+  if (!walk_pose(tree, exact, target, source, stamp, pose, failure)) return false;
+  canonicalise(pose.q);
+  return true;
+}
+
+bool lookup(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
+            Failure& failure) {
+  extrapolation.furthest = 0;
+  if (target == source) return identity(tree, target, stamp, pose);
+  if (stamp == 0 && !latest_common_time(tree, target, source, stamp, failure)) return false;
+  if (!walk_pose(tree, extrapolation, target, source, stamp, pose, failure)) return false;
   canonicalise(pose.q);
   return true;
 }
@@ -221,7 +200,7 @@ bool lookup(const Tree& tree, PathCache& paths, FrameId target, FrameId source, 
 bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp& stamp, Failure& failure) {
   stamp = 0;
   if (target == source) {
-    if (const History* history = tree.history(source)) stamp = history->newest();
+    stamp = tree.history(source).newest();
     return true;
   }
   struct Link {
@@ -236,28 +215,28 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
   };
   int depth = 0;
   for (FrameId frame = source;;) {
-    const History* history = tree.history(frame);
-    if (!history || history->empty()) break;
-    keep_earlier(history->newest(), common);
-    frame = history->parent();
-    links.push_back({history->newest(), frame});
+    const History::View history = tree.history(frame);
+    if (history.empty()) break;
+    keep_earlier(history.newest(), common);
+    frame = history.parent();
+    links.push_back({history.newest(), frame});
     if (frame == target) return answer();
-    if (++depth > kMaxDepth) return fail_loop(tree, target, source, failure);
+    if (++depth > kMaxDepth) return fail_loop(target, source, failure);
   }
   common = kNoTime;
   depth = 0;
   for (FrameId frame = target;;) {
-    const History* history = tree.history(frame);
-    if (!history || history->empty()) return fail_not_connected(tree, target, source, 0, failure);
-    keep_earlier(history->newest(), common);
-    frame = history->parent();
+    const History::View history = tree.history(frame);
+    if (history.empty()) return fail_not_connected(tree, target, source, 0, failure);
+    keep_earlier(history.newest(), common);
+    frame = history.parent();
     const auto meeting = std::find_if(links.begin(), links.end(), [&](const Link& l) { return l.parent == frame; });
     if (meeting != links.end()) {
       for (auto link = links.begin(); link <= meeting; ++link) keep_earlier(link->newest, common);
       return answer();
     }
     if (frame == source) return answer();
-    if (++depth > kMaxDepth) return fail_loop(tree, target, source, failure);
+    if (++depth > kMaxDepth) return fail_loop(target, source, failure);
   }
 }
 
@@ -270,7 +249,8 @@ bool chain(const Tree& tree, FrameId target, FrameId source, Stamp stamp, std::v
   Walk walk;
   walk.up = &frames;
   walk.down = &down;
-  if (!walk_tree(tree, target, source, stamp, walk, failure)) return false;
+  Exact exact;
+  if (!walk_tree(tree, exact, target, source, stamp, walk, failure)) return false;
   frames.insert(frames.end(), down.rbegin(), down.rend());
   return true;
 }

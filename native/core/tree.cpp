@@ -37,83 +37,170 @@ unsigned check_values(const Pose& pose) {
 
 }  // namespace
 
-Tree::Tree(Stamp cache_length) : cache_length_(cache_length) {
-  frames_.emplace_back().name = "NO_PARENT";
-  frame_ids_.emplace("NO_PARENT", 0);
-  authorities_.emplace_back("no recorded authority");
+void Frame::Counts::add(Insertion outcome) {
+  switch (outcome) {
+    case Insertion::repeated: repeated.add(1); break;
+    case Insertion::refused_as_old: old.add(1); break;
+    case Insertion::put_before_newer: late.add(1); [[fallthrough]];
+    case Insertion::appended: stored.add(1); break;
+  }
+}
+
+void Frame::Counts::refuse(unsigned refusals) {
+  if (refusals & kSelfTransform) self.add(1);
+  if (refusals & kNan) nan.add(1);
+  if (refusals & kDenormalisedQuaternion) quaternion.add(1);
+}
+
+void Frame::Counts::copy(const Counts& other) {
+  stored = other.stored.get();
+  late = other.late.get();
+  repeated = other.repeated.get();
+  old = other.old.get();
+  self = other.self.get();
+  nan = other.nan.get();
+  quaternion = other.quaternion.get();
+}
+
+Tree::Tree(Stamp cache_length) : cache_length_(cache_length), pool_(std::make_shared<ChunkPool>()) {
+  frames_.append([](Frame& frame) { frame.name = "NO_PARENT"; });
+  frame_numbers_.add("NO_PARENT", 0);
+  authorities_.append([](std::string& name) { name = "no recorded authority"; });
+}
+
+Tree::Tree(const Tree& other) : cache_length_(other.cache_length_), pool_(other.pool_) {
+  for (FrameId id = 0; id < other.frame_count(); ++id) {
+    const Frame& theirs = other.frame(id);
+    frames_.append([&](Frame& frame) {
+      frame.name = theirs.name;
+      frame.history.share(theirs.history);
+      frame.authority = theirs.authority.get();
+      frame.known = theirs.known.get();
+      frame.counts.copy(theirs.counts);
+    });
+    frame_numbers_.add(theirs.name, id);
+  }
+  for (AuthorityId id = 0; id < other.authorities_.size(); ++id) {
+    authorities_.append([&](std::string& name) { name = other.authorities_[id]; });
+    authority_numbers_.add(other.authorities_[id], id);
+  }
+}
+
+Tree::~Tree() {
+  for (FrameId id = 0; id < frame_count(); ++id) frames_[id].history.release(*pool_);
+}
+
+std::uint32_t Tree::find_number(std::string_view name) const {
+  return frame_numbers_.find(name, [this](FrameId id) { return std::string_view(frames_[id].name); });
 }
 
 FrameId Tree::find(std::string_view name) const {
-  const auto found = frame_ids_.find(name);
-  return found == frame_ids_.end() ? 0 : found->second;
+  const std::uint32_t id = find_number(name);
+  return id == NameTable::kNone || !frames_[id].known ? 0 : id;
 }
 
-FrameId Tree::find_or_add(std::string_view name) {
-  const auto found = frame_ids_.find(name);
-  if (found != frame_ids_.end()) return found->second;
-  const auto id = static_cast<FrameId>(frames_.size());
-  frames_.emplace_back().name = name;
-  frame_ids_.emplace(name, id);
+FrameId Tree::find_or_add(std::string_view name, bool& is_new) {
+  std::uint32_t id = find_number(name);
+  if (id == NameTable::kNone) {
+    id = static_cast<FrameId>(frames_.append([&](Frame& frame) { frame.name = name; }));
+    frame_numbers_.add(name, id);
+  }
+  if (id != 0 && !frames_[id].known) {
+    frames_[id].known = true;
+    is_new = true;
+  }
   return id;
 }
 
 AuthorityId Tree::authority(std::string_view name) {
-  const auto found = authority_ids_.find(name);
-  if (found != authority_ids_.end()) return found->second;
-  const auto id = static_cast<AuthorityId>(authorities_.size());
-  authorities_.emplace_back(name);
-  authority_ids_.emplace(name, id);
+  const std::uint32_t found =
+      authority_numbers_.find(name, [this](AuthorityId id) { return std::string_view(authorities_[id]); });
+  if (found != NameTable::kNone) return found;
+  const auto id = static_cast<AuthorityId>(authorities_.append([&](std::string& text) { text = name; }));
+  authority_numbers_.add(name, id);
   return id;
 }
 
-unsigned Tree::insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
+Inserted Tree::insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
                       bool is_static, AuthorityId authority) {
   parent = without_slash(parent);
   child = without_slash(child);
   const Pose pose = canonical_pose(values);
-  unsigned refusals = check_values(pose);
-  if (parent == child) refusals |= kSelfTransform;
-  if (child.empty()) refusals |= kNoChildFrame;
-  if (parent.empty()) refusals |= kNoParentFrame;
-  if (refusals != 0) return refusals;
-  const FrameId child_id = find_or_add(child);  // the child first: tf2's order of creation
-  const FrameId parent_id = find_or_add(parent);
-  return store(parent_id, child_id, stamp, pose, is_static, authority);
+  Inserted inserted;
+  inserted.refusals = check_values(pose);
+  if (parent == child) inserted.refusals |= kSelfTransform;
+  if (child.empty()) inserted.refusals |= kNoChildFrame;
+  if (parent.empty()) inserted.refusals |= kNoParentFrame;
+  if (inserted.refusals != 0) {
+    if (const FrameId id = find(child)) frames_[id].counts.refuse(inserted.refusals);
+    return inserted;
+  }
+  const FrameId child_id = find_or_add(child, inserted.new_names);  // the child first: tf2's order of creation
+  const FrameId parent_id = find_or_add(parent, inserted.new_names);
+  store(parent_id, child_id, stamp, pose, is_static, authority, inserted);
+  return inserted;
 }
 
-unsigned Tree::insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
+Inserted Tree::insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
                       AuthorityId authority) {
   const Pose pose = canonical_pose(values);
-  const unsigned refusals = check_values(pose);
-  return refusals != 0 ? refusals : store(parent, child, stamp, pose, is_static, authority);
+  Inserted inserted;
+  inserted.refusals = check_values(pose);
+  if (inserted.refusals != 0) {
+    frames_[child].counts.refuse(inserted.refusals);
+    return inserted;
+  }
+  for (const FrameId id : {child, parent}) {
+    if (id != 0 && !frames_[id].known) {  // it was removed in between
+      frames_[id].known = true;
+      inserted.new_names = true;
+    }
+  }
+  store(parent, child, stamp, pose, is_static, authority, inserted);
+  return inserted;
 }
 
-unsigned Tree::store(FrameId parent, FrameId child, Stamp stamp, const Pose& pose, bool is_static,
-                     AuthorityId authority) {
-  History& history = history_of(child, is_static);
-  const FrameId parent_before = history.parent();
+void Tree::store(FrameId parent, FrameId child, Stamp stamp, const Pose& pose, bool is_static, AuthorityId authority,
+                 Inserted& inserted) {
+  Frame& frame = frames_[child];
+  History& history = frame.history;
+  prepare(history, is_static, inserted);
+  const FrameId parent_before = history.view().parent();
   const bool one_parent_before = history.one_parent();
-  if (!history.insert(stamp, Sample{pose, parent})) return kOldData;
-  if (history.parent() != parent_before || history.one_parent() != one_parent_before) ++version_;
-  frames_[child].authority = authority;
-  return 0;
+  const Insertion outcome = history.insert(context(), stamp, Sample{pose, parent});
+  frame.counts.add(outcome);
+  if (outcome == Insertion::refused_as_old) {
+    inserted.refusals = kOldData;
+    return;
+  }
+  const FrameId parent_now = history.view().parent();
+  if (parent_now != parent_before && parent_before != 0) inserted.rewired = true;
+  if (parent_now != parent_before || history.one_parent() != one_parent_before) raise_version();
+  frame.authority = authority;
+  inserted.child = child;
 }
 
 // A frame that changes between static and dynamic starts anew, as in tf2.
-History& Tree::history_of(FrameId child, bool is_static) {
-  std::unique_ptr<History>& history = frames_[child].history;
-  if (!history || history->is_static() != is_static) {
-    history = std::make_unique<History>(is_static, cache_length_);
-    ++version_;
-  }
-  return *history;
+void Tree::prepare(History& history, bool is_static, Inserted& inserted) {
+  const History::View before = history.view();
+  if (before.exists() && before.is_static() == is_static) return;
+  inserted.rewired = before.exists();
+  history.reset(context(), is_static ? HistoryKind::fixed : HistoryKind::dynamic);
+  raise_version();
 }
 
 void Tree::clear() {
-  for (Frame& frame : frames_) {
-    if (frame.history) frame.history->clear();
+  for (FrameId id = 0; id < frame_count(); ++id) frames_[id].history.clear(context());
+  raise_version();
+}
+
+void Tree::remove(FrameId frame) {
+  frames_[frame].known = false;
+  frames_[frame].history.reset(context(), HistoryKind::none);
+  for (FrameId id = 0; id < frame_count(); ++id) {
+    if (frames_[id].history.mentions(frame)) frames_[id].history.reset(context(), HistoryKind::none);
   }
-  ++version_;
+  raise_version();
 }
 
 std::vector<LogLine> refusal_texts(unsigned refusals, std::string_view parent, std::string_view child, Stamp stamp,

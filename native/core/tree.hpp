@@ -1,21 +1,43 @@
-// Frames by name and by number, each with its history. Not thread-safe: Buffer is.
+// Frames by name and by number, each with its history. One thread writes (Buffer sees to that), any number read without
+// a lock; what they read is good if revision() did not change meanwhile.
 #pragma once
 
-#include <deque>
+#include <array>
 #include <memory>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "core/history.hpp"
+#include "core/name_table.hpp"
+#include "core/stable_vector.hpp"
 
 namespace coframe {
 
+using AuthorityId = std::uint32_t;  // 0 is "no recorded authority"
+
+inline constexpr int kMaxDepth = 1000;  // tf2's MAX_GRAPH_DEPTH
+
 struct Frame {
+  // What became of the samples that were told of it, since the buffer exists.
+  struct Counts {
+    Relaxed<std::uint64_t> stored;
+    Relaxed<std::uint64_t> late;      // of these, put before newer ones
+    Relaxed<std::uint64_t> repeated;  // exact repetitions, which change nothing
+    Relaxed<std::uint64_t> old;       // refused as older than the cache
+    Relaxed<std::uint64_t> self, nan, quaternion;  // refused for these reasons
+
+    void add(Insertion outcome);
+    void refuse(unsigned refusals);
+    void copy(const Counts& other);
+  };
+
   std::string name;
-  std::unique_ptr<History> history;  // none for the root of a tree
-  AuthorityId authority = 0;
+  History history;  // of kind none: the root of a tree
+  Relaxed<AuthorityId> authority;
+  Relaxed<bool> known{false};  // false again once it was removed
+  Counts counts;
+  std::atomic<std::uint32_t> watchers{0};  // who wants to hear of insertions; see WaitingRoom
 };
 
 struct TransformValues {
@@ -29,53 +51,74 @@ inline std::string_view without_slash(std::string_view name) {
   return name;
 }
 
+// What an insertion has done.
+struct Inserted {
+  unsigned refusals = 0;  // Refusal bits
+  FrameId child = 0;      // where something was stored
+  bool new_names = false;
+  bool rewired = false;  // a frame that had a parent has another, or changed between static and dynamic
+};
+
 class Tree {
  public:
   explicit Tree(Stamp cache_length);
+  // Becomes what `other` is at this moment; the samples are shared.
+  Tree(const Tree& other);
+  Tree& operator=(const Tree&) = delete;
+  ~Tree();
 
   // 0 when there is no such frame. "NO_PARENT" is a frame of that name in tf2 as well, and has the number 0.
   FrameId find(std::string_view name) const;
-  FrameId find_or_add(std::string_view name);
   std::size_t frame_count() const { return frames_.size(); }  // with NO_PARENT
   const std::string& name(FrameId id) const { return frames_[id].name; }
-  const History* history(FrameId id) const { return frames_[id].history.get(); }
+  History::View history(FrameId id) const {
+    const Frame* frame = frames_.find(id);
+    return (frame ? frame : frames_.find(0))->history.view();
+  }
   const Frame& frame(FrameId id) const { return frames_[id]; }
+  Frame& frame(FrameId id) { return frames_[id]; }
+
+  const std::string& authority_name(AuthorityId id) const { return authorities_[id]; }
+  Stamp cache_length() const { return cache_length_; }
+  const Revision& revision() const { return revision_; }
+  // Changes whenever a path that was found before may run differently.
+  std::uint64_t version() const { return version_.load(std::memory_order_acquire); }
+
+  // The rest is for the one writer.
 
   AuthorityId authority(std::string_view name);
   // For a frame whose newest transform came from `from`.
   void change_authority(FrameId id, AuthorityId from, AuthorityId to) {
     if (frames_[id].authority == from) frames_[id].authority = to;
   }
-  const std::string& authority_name(AuthorityId id) const { return authorities_[id]; }
 
-  // Checks as tf2's setTransform does and stores; 0 or the reasons for refusal (Refusal bits).
-  unsigned insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
+  // Checks as tf2's setTransform does and stores.
+  Inserted insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
                   bool is_static, AuthorityId authority);
-  // The part of insert() behind the names; for callers who know the numbers.
-  unsigned insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
+  // The part of insert() behind the names; for callers who know the numbers of two different frames.
+  Inserted insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
                   AuthorityId authority);
   void clear();
-
-  Stamp cache_length() const { return cache_length_; }
-  // Changes whenever a path that was found before may run differently.
-  std::uint64_t version() const { return version_; }
+  // Forgets a frame, its link to its parent and those of its children to it.
+  void remove(FrameId frame);
 
  private:
-  struct Hash {
-    using is_transparent = void;
-    std::size_t operator()(std::string_view text) const { return std::hash<std::string_view>{}(text); }
-  };
-  using Names = std::unordered_map<std::string, std::uint32_t, Hash, std::equal_to<>>;
-
-  History& history_of(FrameId child, bool is_static);
-  unsigned store(FrameId parent, FrameId child, Stamp stamp, const Pose& pose, bool is_static, AuthorityId authority);
+  FrameId find_or_add(std::string_view name, bool& is_new);
+  std::uint32_t find_number(std::string_view name) const;
+  void prepare(History& history, bool is_static, Inserted& inserted);
+  void store(FrameId parent, FrameId child, Stamp stamp, const Pose& pose, bool is_static, AuthorityId authority,
+             Inserted& inserted);
+  void raise_version() { version_.fetch_add(1, std::memory_order_release); }
+  HistoryContext context() { return {cache_length_, *pool_, revision_}; }
 
   Stamp cache_length_;
-  std::deque<Frame> frames_;
-  Names frame_ids_;
-  std::vector<std::string> authorities_;
-  Names authority_ids_;
-  std::uint64_t version_ = 1;
+  std::shared_ptr<ChunkPool> pool_;  // with the snapshots
+  Revision revision_;
+  StableVector<Frame> frames_;
+  NameTable frame_numbers_;
+  StableVector<std::string> authorities_;
+  NameTable authority_numbers_;
+  std::atomic<std::uint64_t> version_{1};
 };
 
 // The lines that tf2 logs for a refused transform; `pose` as it was checked.

@@ -1,6 +1,6 @@
 """ROS 2's transform system (tf2) for Python: any frame, any time, on any machine."""
 
-from coframe.buffer import Buffer, FrameInfo
+from coframe.buffer import Buffer, EdgeInfo, FrameInfo, Subscription
 from coframe.errors import (
     ConnectivityException,
     DecodeError,
@@ -22,11 +22,13 @@ __all__ = [
     "Connection",
     "ConnectivityException",
     "DecodeError",
+    "EdgeInfo",
     "ExtrapolationException",
     "FrameInfo",
     "FrameMismatchException",
     "InvalidArgumentException",
     "LookupException",
+    "Subscription",
     "TimeoutException",
     "Transform",
     "TransformException",

@@ -40,8 +40,12 @@ class Transform:
         """The frame that the values are of, or None."""
 
     @property
+    def beyond(self) -> int:
+        """How many nanoseconds beyond the data of a link it was extrapolated; 0: not at all."""
+
+    @property
     def batch(self) -> Any:
-        """None, or (translations, quaternions, stamps) as arrays."""
+        """None, or (translations, quaternions, stamps, extrapolated) as arrays; the last two may be None."""
 
 class Failure:
     """The facts of a failed look-up; str() gives tf2's text."""
@@ -76,7 +80,14 @@ class Buffer:
         """How far back dynamic transforms are kept, in nanoseconds; negative: everything."""
 
     def lookup(
-        self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
+        self,
+        target: str,
+        source: str,
+        stamp: StampLike | None = None,
+        *,
+        timeout: DurationLike | None = None,
+        extrapolate: DurationLike | None = None,
+        hold: bool = False,
     ) -> PublicTransform:
         """The transform that takes coordinates in `source` to coordinates in `target` at `stamp`.
 
@@ -85,6 +96,9 @@ class Buffer:
             source: The frame that is asked about.
             stamp: Nanoseconds or a Time; 0 or None is the latest time at which all links have data.
             timeout: How long to wait for it, without the GIL; None and 0 do not wait.
+            extrapolate: How far beyond the samples of a link it may be guessed, once waiting has not helped; None: not
+                at all, as tf2. The answer's ``extrapolated`` tells how far it was.
+            hold: Guess that the frame stands still there, instead of keeping the twist that it last had.
 
         Raises:
             LookupException: A frame that nobody has mentioned.
@@ -106,6 +120,24 @@ class Buffer:
         """Time travel: `source` as it was at `source_stamp`, seen from `target` at `target_stamp`.
 
         `fixed` is the frame that is taken not to move between the two times. Raises as lookup().
+        """
+
+    def lookup_rows(
+        self,
+        target: str,
+        source: str,
+        stamps: Any,
+        translations: Any,
+        quaternions: Any,
+        beyond: Any,
+        nan_for_none: bool,
+        extrapolate: DurationLike | None = None,
+        hold: bool = False,
+    ) -> int:
+        """lookup() for each of the `stamps`, which become those of the answers; the arrays are written to.
+
+        Returns:
+            The first row without an answer, which raises unless NaN stands for it; the number of rows if there is none.
         """
 
     def can_transform(
@@ -176,7 +208,33 @@ class Buffer:
     def clear(self) -> None:
         """Forgets all dynamic samples; frames stay known, and static transforms stay, as in tf2."""
 
+    def remove_frame(self, name: str) -> bool:
+        """Forgets a frame with its link to its parent and those of its children to it, also static ones.
+
+        Returns:
+            False if nobody has mentioned it.
+        """
+
+    def freeze(self) -> None:
+        """From now on nothing is taken in, and nothing is forgotten."""
+
+    @property
+    def frozen(self) -> bool:
+        """Whether it takes nothing in any more."""
+
+    def become_snapshot(self, other: Buffer) -> None:
+        """Becomes what `other` is now, frozen; for a buffer that nobody uses yet."""
+
     def frame_tuples(self) -> list[tuple[str, str, bool, int, int, int, float, str]]: ...
+    def edge_tuples(
+        self,
+    ) -> list[
+        tuple[
+            tuple[str, str, bool, int, int, int, float, str],
+            tuple[float, float, float],
+            tuple[int, int, int, int, int, int, int],
+        ]
+    ]: ...
     def frame_names(self) -> list[str]:
         """All frames in the order in which they were first mentioned (a child before its parent)."""
 
@@ -200,8 +258,56 @@ class Buffer:
     def changes(self) -> int:
         """A counter that rises with every insertion."""
 
-    def wait_for_change(self, seen: int, timeout_ns: int) -> int:
-        """Waits, without the GIL, until `changes` differs from `seen` or time is over (negative: never); returns it."""
+class Mailbox:
+    """Where waits and watches leave their token when something has happened."""
+
+    def __init__(self) -> None: ...
+    def put(self, token: int) -> None:
+        """Leaves a token from Python."""
+
+    @property
+    def empty(self) -> bool: ...
+    def take(self) -> list[int]:
+        """The tokens that have come."""
+
+    def wait(self, timeout_ns: int) -> bool:
+        """Waits, without the GIL, until there are some (True) or the time (negative: for ever) is over."""
+
+class Wait:
+    """A look-up that waits for its answer."""
+
+    def answer(self) -> PublicTransform | None:
+        """The transform, or None while there is none."""
+
+    def cancel(self) -> None:
+        """Waits no more."""
+
+class Watch:
+    """Notes which edges change."""
+
+    def take(self) -> list[str]:
+        """The child frames of the edges that have changed since the last call."""
+
+    def cancel(self) -> None:
+        """Notes no more."""
+
+def wait(buffer: Buffer, mailbox: Mailbox, token: int, target: str, source: str, stamp: StampLike | None) -> Wait:
+    """A look-up whose token is put into the mailbox once it has its answer."""
+
+def wait_full(
+    buffer: Buffer,
+    mailbox: Mailbox,
+    token: int,
+    target: str,
+    target_stamp: StampLike | None,
+    source: str,
+    source_stamp: StampLike | None,
+    fixed: str,
+) -> Wait:
+    """The same for lookup_full."""
+
+def watch(buffer: Buffer, mailbox: Mailbox, token: int, child: str) -> Watch:
+    """Puts the token into the mailbox when the edge from `child` to its parent changes; "": any edge."""
 
 class Event:
     """A flag that DDS threads and Python set, and one thread waits for without the GIL."""

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from coframe import _core, quaternion
+from coframe.covariance import transform_covariance
 from coframe.errors import FrameMismatchException, InvalidArgumentException
 from coframe.time import stamp_ns
 
@@ -24,6 +25,7 @@ Array = NDArray[np.float64]
 _MATRIX_TOLERANCE = 1e-5
 # Quaternions between these lengths have squares that a float64 holds to full precision.
 _SHORT, _LONG = 1e-140, 1e140
+_IDENTITY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 class Transform(_core.Transform):
@@ -73,7 +75,7 @@ class Transform(_core.Transform):
         shape = np.broadcast_shapes(t.shape[:-1], q.shape[:-1])
         stamps = _stamps(stamp, shape)
         # A copy: the caller's array may change, a transform does not.
-        batch = (np.broadcast_to(t.copy(), (*shape, 3)), np.broadcast_to(q, (*shape, 4)), stamps)
+        batch = (np.broadcast_to(t.copy(), (*shape, 3)), np.broadcast_to(q, (*shape, 4)), stamps, None)
         super().__init__(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, target, source, None, batch)
 
     @classmethod
@@ -132,6 +134,15 @@ class Transform(_core.Transform):
         return None if self.batch is None else self.batch[2]
 
     @property
+    def extrapolated(self) -> int | NDArray[np.int64]:
+        """How many nanoseconds beyond the data of a link the look-up went; 0: not at all. Of a batch ``self.shape``."""
+        if self.batch is None:
+            return self.beyond
+        if self.batch[3] is None:
+            return np.zeros(self.shape, dtype=np.int64)
+        return np.asarray(self.batch[3])
+
+    @property
     def rotation(self) -> Array:
         """Rotation matrices, shape (3, 3), of a batch (..., 3, 3)."""
         return quaternion.to_matrix(self.quaternion)
@@ -158,13 +169,7 @@ class Transform(_core.Transform):
     def inverse(self) -> Transform:
         """The same relation from the other end: target and source change places."""
         q = quaternion.inverse(self.quaternion)
-        return Transform(
-            -quaternion.rotate(q, self.translation),
-            q,
-            target=self.source,
-            source=self.target,
-            stamp=self._any_stamp(),
-        )
+        return _derived(-quaternion.rotate(q, self.translation), q, self.source, self.target, self._any_stamp())
 
     @overload
     def __matmul__(self, other: Transform) -> Transform: ...
@@ -193,13 +198,35 @@ class Transform(_core.Transform):
                 hint="The inner frames must be the same; is one of the two the wrong way round (inverse())?",
             )
         mine, others = self._any_stamp(), other._any_stamp()
-        return Transform(
+        q = quaternion.multiply(self.quaternion, other.quaternion)
+        return _derived(
             quaternion.rotate(self.quaternion, other.translation) + self.translation,
-            quaternion.multiply(self.quaternion, other.quaternion),
-            target=self.target,
-            source=other.source,
-            stamp=_common_stamp(mine, others),
+            q / np.linalg.norm(q, axis=-1, keepdims=True),
+            self.target,
+            other.source,
+            _common_stamp(mine, others),
         )
+
+    def transform_pose(
+        self, pose: Transform, covariance: ArrayLike, *, own_covariance: ArrayLike | None = None
+    ) -> tuple[Transform, Array]:
+        """A pose in ``source`` and how sure it is, as both are in ``target``.
+
+        Args:
+            pose: In ``source``; a pose is the transform from the thing's own frame.
+            covariance: Of the pose, as in ROS's PoseWithCovariance: (..., 6, 6) or (..., 36), over x, y, z (m) and
+                turns about the fixed axes x, y, z (rad) of ``source``.
+            own_covariance: How sure this transform itself is, over the axes of ``target``; None: exactly known, as in
+                tf2.
+
+        Returns:
+            ``self @ pose``, and its covariance over the axes of ``target``, in the shape that was given. First order.
+
+        Raises:
+            FrameMismatchException: The pose is not in ``source``.
+            ValueError: A covariance of another shape.
+        """
+        return self @ pose, transform_covariance(self, pose, covariance, own_covariance)
 
     def _any_stamp(self) -> Any:
         return self.stamp if self.batch is None else self.stamps
@@ -238,7 +265,7 @@ class Transform(_core.Transform):
         picked = np.arange(int(np.prod(self.shape))).reshape(self.shape)[index]
         flat_t, flat_q = self.translation.reshape(-1, 3), self.quaternion.reshape(-1, 4)
         stamp = None if self.stamps is None else self.stamps.reshape(-1)[picked]
-        return Transform(flat_t[picked], flat_q[picked], target=self.target, source=self.source, stamp=stamp)
+        return _derived(flat_t[picked], flat_q[picked], self.target, self.source, stamp)
 
     def __iter__(self) -> Iterator[Transform]:
         return (self[i] for i in range(len(self)))
@@ -252,6 +279,29 @@ class Transform(_core.Transform):
 
     def __reduce__(self) -> tuple[object, ...]:
         return _rebuild, (self.values, self.target, self.source, self.stamp, self.batch)
+
+
+def batch_of(
+    translation: Array,
+    quaternion: Array,
+    target: str | None,
+    source: str | None,
+    stamps: NDArray[np.int64] | None,
+    beyond: NDArray[np.int64] | None = None,
+) -> Transform:
+    """A batch around arrays (..., 3) and (..., 4) that nobody else writes to; rows of NaN stand for no answer."""
+    return _rebuild(_IDENTITY, target, source, None, (translation, quaternion, stamps, beyond))
+
+
+def _derived(translation: Array, quaternion: Array, target: str | None, source: str | None, stamp: Any) -> Transform:
+    """From values that come from transforms: unit quaternions, and NaN only where a row of a batch had none."""
+    shape = np.broadcast_shapes(translation.shape[:-1], quaternion.shape[:-1])
+    if shape:
+        t, q = np.broadcast_to(translation, (*shape, 3)), np.broadcast_to(quaternion, (*shape, 4))
+        return batch_of(t, q, target, source, _stamps(stamp, shape))
+    x, y, z = translation.tolist()
+    qx, qy, qz, qw = quaternion.tolist()
+    return _rebuild((x, y, z, qx, qy, qz, qw), target, source, None if stamp is None else int(stamp), None)
 
 
 def _rebuild(
@@ -307,15 +357,25 @@ def _normalised(q: Array) -> Array:
     return unit
 
 
+def stamps_of(stamps: Any) -> NDArray[np.int64]:
+    """Nanoseconds from an array of int64 or datetime64.
+
+    Raises:
+        TypeError: It is something else; floats of seconds above all.
+        ValueError: One of them is NaT.
+    """
+    array = np.asarray(stamps)
+    if array.dtype.kind == "M":
+        if np.isnat(array).any():
+            raise ValueError("NaT is not a point in time")
+        array = array.astype("datetime64[ns]").astype(np.int64)
+    if array.dtype.kind not in "iu" and array.size:
+        raise TypeError(f"stamps must be int64 nanoseconds or datetime64, not {array.dtype}")
+    return array.astype(np.int64)
+
+
 def _stamps(stamp: Any, shape: tuple[int, ...]) -> NDArray[np.int64] | None:
-    if stamp is None:
-        return None
-    stamps = np.asarray(stamp)
-    if stamps.dtype.kind == "M":
-        stamps = stamps.astype("datetime64[ns]").astype(np.int64)
-    if stamps.dtype.kind not in "iu":
-        raise TypeError(f"stamps must be int64 nanoseconds or datetime64, not {stamps.dtype}")
-    return np.broadcast_to(stamps.astype(np.int64), shape)
+    return None if stamp is None else np.broadcast_to(stamps_of(stamp), shape)
 
 
 def _common_stamp(a: Any, b: Any) -> Any:

@@ -121,7 +121,6 @@ def test_a_future_of_a_known_transform_is_done_at_once(buffer, stamped):
 
 def test_a_future_completes_when_data_come_in_natively(buffer):
     future = buffer.wait_for_transform_async("a", "b", Time(seconds=1))
-    buffer._waits.feed_natively()  # as a TransformListener says
     done = _core.Event()
     future.add_done_callback(lambda _: done.set())
     # Past everything of Python's, as a reader on the wire does.
@@ -144,14 +143,13 @@ def test_cancelled_futures_are_forgotten(buffer, stamped):
     future.cancel()
     buffer.set_transform(stamped("a", "b", 1.0), "me")
     assert not future.done()
-    assert buffer._waits._pending == []
+    assert buffer._buffer.dispatcher.is_idle
 
 
 def test_the_waiting_thread_ends_with_the_waits(buffer, stamped):
+    before = set(threading.enumerate())
     buffer.wait_for_transform_async("a", "b", Time())
-    assert buffer._waits._watcher is None
-    buffer._waits.feed_natively()
-    watcher = buffer._waits._watcher
+    (watcher,) = set(threading.enumerate()) - before
     assert watcher.daemon
     buffer.set_transform(stamped("a", "b", 1.0), "me")
     watcher.join(10.0)
@@ -159,10 +157,10 @@ def test_the_waiting_thread_ends_with_the_waits(buffer, stamped):
 
 
 def test_a_dropped_buffer_takes_its_thread_along():
+    before = set(threading.enumerate())
     buffer = tf2_ros.Buffer()
-    buffer._waits.feed_natively()
     buffer.wait_for_transform_async("a", "b", Time())
-    watcher = buffer._waits._watcher
+    (watcher,) = set(threading.enumerate()) - before
     del buffer
     deadline = time.monotonic() + 10.0
     while watcher.is_alive() and time.monotonic() < deadline:

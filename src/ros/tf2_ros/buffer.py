@@ -11,6 +11,7 @@ import rclpy  # noqa: F401
 import tf2_py as tf2
 import tf2_ros  # noqa: F401
 from builtin_interfaces.msg import Time as TimeMessage
+from coframe import _core
 from geometry_msgs.msg import TransformStamped
 from rclpy.clock import Clock, JumpThreshold, TimeJump
 from rclpy.duration import Duration
@@ -20,7 +21,8 @@ from rclpy.task import Future
 from rclpy.time import Time
 from tf2_msgs.srv import FrameGraph
 from tf2_py import _convert
-from tf2_ros._waits import Waits
+from tf2_py._message import transform_stamped
+from tf2_ros import _waits
 from tf2_ros.buffer_interface import BufferInterface
 
 FrameGraphSrvRequest = TypeVar("FrameGraphSrvRequest")
@@ -48,7 +50,6 @@ class Buffer(tf2.BufferCore, BufferInterface):
         else:
             tf2.BufferCore.__init__(self, cache_time)
         BufferInterface.__init__(self)
-        self._waits = Waits(self._buffer)
         if node is None:
             self.clock = Clock()
         else:
@@ -74,8 +75,8 @@ class Buffer(tf2.BufferCore, BufferInterface):
             transform: The transform.
             authority: Who says so.
         """
-        super().set_transform(transform, authority)
-        self._waits.settle()
+        with self._buffer.dispatcher.inserting():
+            super().set_transform(transform, authority)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
         """Add a transform that holds at every time.
@@ -84,8 +85,8 @@ class Buffer(tf2.BufferCore, BufferInterface):
             transform: The transform.
             authority: Who says so.
         """
-        super().set_transform_static(transform, authority)
-        self._waits.settle()
+        with self._buffer.dispatcher.inserting():
+            super().set_transform_static(transform, authority)
 
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage, timeout: Duration = _NO_WAIT
@@ -202,7 +203,13 @@ class Buffer(tf2.BufferCore, BufferInterface):
         """A future of the transform; with a timeout it raises what the look-up raises when the time is over."""
         target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
         stamp = _convert.nanoseconds(time, "time")
-        return self._waits.add(lambda: self._lookup(target, source, stamp), _limit(timeout))
+        return _waits.wait(
+            self._buffer.dispatcher,
+            lambda mailbox, token: _core.wait(self._buffer, mailbox, token, target, source, stamp),
+            lambda found: transform_stamped(target, source, found.stamp or 0, found.values),
+            lambda: self._lookup(target, source, stamp),
+            _limit(timeout),
+        )
 
     def wait_for_transform_full_async(
         self,
@@ -216,7 +223,13 @@ class Buffer(tf2.BufferCore, BufferInterface):
     ) -> Future[TransformStamped]:
         """The same between two times."""
         query = _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
-        return self._waits.add(lambda: self._lookup_full(query), _limit(timeout))
+        return _waits.wait(
+            self._buffer.dispatcher,
+            lambda mailbox, token: _core.wait_full(self._buffer, mailbox, token, *query),
+            lambda found: transform_stamped(query[0], query[2], found.stamp or 0, found.values),
+            lambda: self._lookup_full(query),
+            _limit(timeout),
+        )
 
 
 def clear_on_time_jump(buffer: Buffer, clock: Clock) -> Any:

@@ -131,8 +131,6 @@ class TransformListener:
 
     def __listen_natively(self, *, static: bool) -> Subscription:
         """A subscription whose messages go into the buffer without passing through Python."""
-        if isinstance(self.__buffer, Buffer):
-            self.__buffer._waits.feed_natively()
         topic, qos = self.node.resolve_topic_name(self.__topics[static]), self.__qos[static]
         reader = self.node._wire.tf_reader(
             self.node._graph_node,

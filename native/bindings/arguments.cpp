@@ -1,0 +1,87 @@
+#include "bindings/arguments.hpp"
+
+#include "bindings/bindings.hpp"
+
+namespace coframe::bindings {
+
+namespace {
+
+nb::handle time_module;  // coframe.time: what is neither int nor None is converted there
+
+std::int64_t to_int64(nb::handle number) {
+  int overflow;
+  const long long value = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+  if (overflow != 0) {
+    PyErr_Format(PyExc_OverflowError, "%R does not fit 64-bit nanoseconds, which reach from 1677 to 2262",
+                 number.ptr());
+  }
+  if (PyErr_Occurred()) throw nb::python_error();
+  return value;
+}
+
+}  // namespace
+
+std::string_view text(nb::handle name) {
+  if (!PyUnicode_Check(name.ptr())) {
+    PyErr_Format(PyExc_TypeError, "a frame name must be str, not %s", Py_TYPE(name.ptr())->tp_name);
+    throw nb::python_error();
+  }
+  Py_ssize_t size;
+  const char* data = PyUnicode_AsUTF8AndSize(name.ptr(), &size);
+  if (!data) throw nb::python_error();
+  return {data, static_cast<std::size_t>(size)};
+}
+
+Stamp to_stamp(nb::handle stamp) {
+  if (stamp.is_none()) return 0;
+  if (PyLong_CheckExact(stamp.ptr())) return to_int64(stamp);
+  const CallingPython call;
+  return to_int64(time_module.attr("stamp_ns")(stamp));
+}
+
+std::int64_t to_duration(nb::handle duration) {
+  if (duration.is_none()) return 0;
+  const CallingPython call;
+  return to_int64(time_module.attr("duration_ns")(duration));
+}
+
+Question question_of(BufferObject& buffer, nb::handle target, nb::handle source, nb::handle stamp) {
+  Question question;
+  question.target_id = buffer.names.find(target.ptr(), *buffer.core);
+  question.source_id = buffer.names.find(source.ptr(), *buffer.core);
+  question.target = text(target);
+  question.source = text(source);
+  question.stamp = to_stamp(stamp);
+  return question;
+}
+
+Question full_question_of(BufferObject& buffer, nb::handle target, nb::handle target_stamp, nb::handle source,
+                          nb::handle source_stamp, nb::handle fixed) {
+  Question question = question_of(buffer, target, source, target_stamp);
+  question.travels = true;
+  question.fixed_id = buffer.names.find(fixed.ptr(), *buffer.core);
+  question.fixed = text(fixed);
+  question.source_stamp = to_stamp(source_stamp);
+  return question;
+}
+
+FrameId NameCache::find(PyObject* name, const Buffer& buffer) {
+  Entry& entry = entries_[(reinterpret_cast<std::uintptr_t>(name) >> 4) % entries_.size()];
+  if (entry.name == name) return entry.frame;
+  const FrameId frame = buffer.find(text(name));
+  // Letting go of an instance of a subclass could run any code.
+  if (frame != 0 && PyUnicode_CheckExact(name)) {
+    Py_INCREF(name);
+    Py_XDECREF(std::exchange(entry.name, name));
+    entry.frame = frame;
+  }
+  return frame;
+}
+
+void define_arguments(nb::module_& module) {
+  module.def(
+      "register_time", [](nb::object time) { time_module = time.release(); }, nb::arg("time"),
+      "Stamps and durations that are not int are converted by this module.");
+}
+
+}  // namespace coframe::bindings

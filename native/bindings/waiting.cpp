@@ -1,0 +1,120 @@
+#include "core/waiting.hpp"
+
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+#include <nanobind/stl/unique_ptr.h>
+#include <nanobind/stl/vector.h>
+
+#include "bindings/arguments.hpp"
+#include "bindings/bindings.hpp"
+#include "bindings/transform.hpp"
+
+namespace coframe::bindings {
+
+namespace {
+
+// In the waiting room as long as Python keeps it.
+class WaitObject {
+ public:
+  WaitObject(BufferObject& buffer, const Question& question, std::shared_ptr<Mailbox> mailbox, Token token,
+             nb::handle target, nb::handle source)
+      : buffer_(buffer.core),
+        wait_(std::make_shared<Wait>(question, std::move(mailbox), token)),
+        target_(nb::borrow(target)),
+        source_(nb::borrow(source)) {
+    buffer_->waiting_room().add(wait_);
+  }
+  WaitObject(const WaitObject&) = delete;
+  WaitObject& operator=(const WaitObject&) = delete;
+  ~WaitObject() { cancel(); }
+
+  nb::object answer() const {
+    if (!wait_->answered()) return nb::none();
+    return make_transform(wait_->answer().pose, wait_->answer().stamp, target_, source_);
+  }
+  void cancel() { buffer_->waiting_room().remove(wait_); }
+
+ private:
+  std::shared_ptr<Buffer> buffer_;
+  std::shared_ptr<Wait> wait_;
+  nb::object target_, source_;
+};
+
+class WatchObject {
+ public:
+  WatchObject(BufferObject& buffer, std::string_view child, std::shared_ptr<Mailbox> mailbox, Token token)
+      : buffer_(buffer.core), watch_(std::make_shared<Watch>(child, std::move(mailbox), token)) {
+    buffer_->waiting_room().add(watch_);
+  }
+  WatchObject(const WatchObject&) = delete;
+  WatchObject& operator=(const WatchObject&) = delete;
+  ~WatchObject() { cancel(); }
+
+  std::vector<std::string> take() {
+    std::vector<std::string> names;
+    for (const FrameId frame : watch_->take()) names.push_back(buffer_->name(frame));
+    return names;
+  }
+  void cancel() {
+    if (active_) buffer_->waiting_room().remove(watch_);
+    active_ = false;
+  }
+
+ private:
+  std::shared_ptr<Buffer> buffer_;
+  std::shared_ptr<Watch> watch_;
+  bool active_ = true;  // guarded by the GIL
+};
+
+}  // namespace
+
+void define_waiting(nb::module_& module) {
+  using nb::arg;
+  const auto any = [](const char* name) { return nb::arg(name).none(); };
+  nb::class_<Mailbox>(module, "Mailbox", "Where waits and watches leave their token when something has happened.")
+      .def(nb::init<>())
+      .def("put", &Mailbox::put, arg("token"), "Leaves a token from Python.")
+      .def_prop_ro("empty", &Mailbox::empty)
+      .def("take", &Mailbox::take, "The tokens that have come.")
+      .def(
+          "wait",
+          [](Mailbox& self, std::int64_t timeout_ns) {
+            return wait_with_signals(timeout_ns, [&](std::int64_t slice) { return self.wait_for(slice); });
+          },
+          arg("timeout_ns"), "Waits, without the GIL, until there are some (True) or the time (negative: for ever) is over.");
+  nb::class_<WaitObject>(module, "Wait", "A look-up that waits for its answer.")
+      .def("answer", &WaitObject::answer, "The transform, or None while there is none.")
+      .def("cancel", &WaitObject::cancel, "Waits no more.");
+  nb::class_<WatchObject>(module, "Watch", "Notes which edges change.")
+      .def("take", &WatchObject::take, "The child frames of the edges that have changed since the last call.")
+      .def("cancel", &WatchObject::cancel, "Notes no more.");
+  module.def(
+      "wait",
+      [](BufferObject& buffer, std::shared_ptr<Mailbox> mailbox, Token token, nb::handle target, nb::handle source,
+         nb::handle stamp) {
+        return std::make_unique<WaitObject>(buffer, question_of(buffer, target, source, stamp), std::move(mailbox),
+                                            token, target, source);
+      },
+      arg("buffer"), arg("mailbox"), arg("token"), any("target"), any("source"), any("stamp"),
+      "A look-up whose token is put into the mailbox once it has its answer.");
+  module.def(
+      "wait_full",
+      [](BufferObject& buffer, std::shared_ptr<Mailbox> mailbox, Token token, nb::handle target,
+         nb::handle target_stamp, nb::handle source, nb::handle source_stamp, nb::handle fixed) {
+        return std::make_unique<WaitObject>(
+            buffer, full_question_of(buffer, target, target_stamp, source, source_stamp, fixed), std::move(mailbox),
+            token, target, source);
+      },
+      arg("buffer"), arg("mailbox"), arg("token"), any("target"), any("target_stamp"), any("source"),
+      any("source_stamp"), any("fixed"), "The same for lookup_full.");
+  module.def(
+      "watch",
+      [](BufferObject& buffer, std::shared_ptr<Mailbox> mailbox, Token token, std::string_view child) {
+        return std::make_unique<WatchObject>(buffer, child, std::move(mailbox), token);
+      },
+      arg("buffer"), arg("mailbox"), arg("token"), arg("child"),
+      "Puts the token into the mailbox when the edge from `child` to its parent changes; \"\": any edge.");
+}
+
+}  // namespace coframe::bindings

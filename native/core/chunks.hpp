@@ -1,0 +1,87 @@
+// Where samples lie: blocks of a fixed size, never given back to the system while their pool lives, so that a reader
+// who comes too late reads old or wrong numbers, which its revision tells it, and never foreign memory.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "core/pose.hpp"
+#include "core/relaxed.hpp"
+
+namespace coframe {
+
+using FrameId = std::uint32_t;  // 0 is tf2's NO_PARENT
+using Stamp = std::int64_t;     // nanoseconds; 0 asks for the latest
+
+// A pose and the frame it is told in.
+struct Sample {
+  Pose pose;
+  FrameId parent = 0;
+};
+
+// A sample that readers may read while it is written: a cache line.
+class alignas(64) SharedSample {
+ public:
+  Sample load() const {
+    Sample sample;
+    for (int i = 0; i < 4; ++i) sample.pose.q[i] = numbers_[i];
+    for (int i = 0; i < 3; ++i) sample.pose.p[i] = numbers_[4 + i];
+    sample.parent = parent();
+    return sample;
+  }
+  void store(const Sample& sample) {
+    for (int i = 0; i < 4; ++i) numbers_[i] = sample.pose.q[i];
+    for (int i = 0; i < 3; ++i) numbers_[4 + i] = sample.pose.p[i];
+    parent_.store(sample.parent, std::memory_order_release);
+  }
+  // Who reads a frame's number finds the frame.
+  FrameId parent() const { return parent_.load(std::memory_order_acquire); }
+
+ private:
+  std::array<Relaxed<double>, 7> numbers_;
+  std::atomic<FrameId> parent_{0};
+};
+static_assert(sizeof(SharedSample) == 64);
+
+struct Chunk {
+  // Large enough that inserting seldom needs a new one, small enough for a tree of a thousand frames.
+  static constexpr std::size_t kSize = 256;
+
+  std::array<Relaxed<Stamp>, kSize> stamps;
+  std::array<SharedSample, kSize> samples;
+  std::atomic<std::uint32_t> holders{0};  // histories it is part of: one, and its snapshots
+};
+
+class ChunkPool {
+ public:
+  // Held once. The caller must tell readers (Revision::Change): they may still be reading it as part of another history.
+  Chunk* take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) {
+      all_.push_back(std::make_unique<Chunk>());
+      free_.push_back(all_.back().get());
+    }
+    Chunk* chunk = free_.back();
+    free_.pop_back();
+    chunk->holders.store(1, std::memory_order_relaxed);
+    return chunk;
+  }
+
+  void release(Chunk* chunk) {
+    if (chunk->holders.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
+    const std::lock_guard lock(mutex_);
+    free_.push_back(chunk);
+  }
+
+ private:
+  std::mutex mutex_;  // a snapshot may end in any thread
+  std::vector<std::unique_ptr<Chunk>> all_;
+  std::vector<Chunk*> free_;
+};
+
+}  // namespace coframe

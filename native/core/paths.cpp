@@ -1,0 +1,48 @@
+#include "core/paths.hpp"
+
+namespace coframe {
+
+const PathCache::Path* PathCache::find(const Tree& tree, FrameId target, FrameId source) {
+  if (paths_.empty()) paths_.resize(kEntries);
+  const std::uint64_t frames = (static_cast<std::uint64_t>(target) << 32) | source;
+  Path& path = paths_[(frames * 0x9e3779b97f4a7c15u) >> 53];
+  const std::uint64_t version = tree.version();
+  if (path.frames != frames || path.version != version) {
+    const std::uint64_t revision = tree.revision().start_reading();
+    walk(tree, target, source, path);
+    path.frames = frames;
+    path.version = tree.revision().unchanged(revision) ? version : 0;
+  }
+  return path.usable ? &path : nullptr;
+}
+
+void PathCache::walk(const Tree& tree, FrameId target, FrameId source, Path& path) {
+  struct Link {
+    FrameId frame, parent;
+  };
+  path.usable = false;
+  path.steps.clear();
+  const auto climb = [&tree](FrameId frame, std::vector<Link>& links) {
+    for (;;) {
+      const History::View history = tree.history(frame);
+      links.push_back({frame, history.parent()});
+      if (!history.exists()) return true;
+      if (history.empty() || !tree.frame(frame).history.one_parent() || links.size() > kMaxDepth) return false;
+      frame = history.parent();
+    }
+  };
+  std::vector<Link> up, down;
+  if (!climb(source, up) || !climb(target, down) || up.back().frame != down.back().frame) return;
+  while (up.size() > 1 && down.size() > 1 && up[up.size() - 2].frame == down[down.size() - 2].frame) {
+    up.pop_back();
+    down.pop_back();
+  }
+  const auto add = [&](const Link& link, bool is_down) {
+    path.steps.push_back({&tree.frame(link.frame).history, link.parent, is_down});
+  };
+  for (std::size_t i = 0; i + 1 < up.size(); ++i) add(up[i], false);
+  for (std::size_t i = down.size() - 1; i > 0; --i) add(down[i - 1], true);
+  path.usable = true;
+}
+
+}  // namespace coframe

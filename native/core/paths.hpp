@@ -1,0 +1,57 @@
+// Paths through the tree that were walked once.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <vector>
+
+#include "core/tree.hpp"
+
+namespace coframe {
+
+// Valid for one version of the tree. Used by one thread at a time; see PathLease.
+class PathCache {
+ public:
+  struct Step {
+    const History* history;
+    FrameId parent;  // that all its samples had
+    bool down;       // from parent to child: the pose is to be inverted
+  };
+  struct Path {
+    std::uint64_t frames = 0;   // target and source
+    std::uint64_t version = 0;  // 0: nothing here yet
+    bool usable = false;        // false: not connected, too deep, or a frame on it changed its parent
+    std::vector<Step> steps;
+  };
+
+  // The steps from `source` to `target` as of the newest data, or nullptr where the slow walk must decide.
+  const Path* find(const Tree& tree, FrameId target, FrameId source);
+
+ private:
+  friend class PathLease;
+  // A new path takes the place of another: a program may ask for every pair of a thousand frames.
+  static constexpr std::size_t kEntries = 2048;
+
+  static void walk(const Tree& tree, FrameId target, FrameId source, Path& path);
+
+  std::vector<Path> paths_;
+  std::atomic<bool> in_use_{false};
+};
+
+// The cache for this scope, or nothing where another thread has it: who does not wait walks.
+class PathLease {
+ public:
+  explicit PathLease(PathCache& cache)
+      : cache_(cache.in_use_.exchange(true, std::memory_order_acquire) ? nullptr : &cache) {}
+  PathLease(const PathLease&) = delete;
+  PathLease& operator=(const PathLease&) = delete;
+  ~PathLease() {
+    if (cache_) cache_->in_use_.store(false, std::memory_order_release);
+  }
+  PathCache* get() const { return cache_; }
+
+ private:
+  PathCache* cache_;
+};
+
+}  // namespace coframe

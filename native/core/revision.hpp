@@ -1,0 +1,55 @@
+// How readers learn that what they read was being changed meanwhile (a sequence lock): they take no lock, so that no
+// reader ever holds a writer up.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <thread>
+
+namespace coframe {
+
+class Revision {
+ public:
+  // Waits while a change is under way; what is read from now on is good if unchanged() says so afterwards.
+  std::uint64_t start_reading() const {
+    for (int turn = 0;; ++turn) {
+      const std::uint64_t now = number_.load(std::memory_order_acquire);
+      if (now % 2 == 0) return now;
+      step_back(turn);
+    }
+  }
+  bool unchanged(std::uint64_t since) const {
+    std::atomic_thread_fence(std::memory_order_acquire);
+    return number_.load(std::memory_order_relaxed) == since;
+  }
+
+  // The scope in which the one writer changes what readers may be reading. Not to be nested.
+  class Change {
+   public:
+    explicit Change(Revision& revision) : revision_(revision) {
+      revision_.raise(std::memory_order_relaxed);
+      std::atomic_thread_fence(std::memory_order_release);
+    }
+    Change(const Change&) = delete;
+    Change& operator=(const Change&) = delete;
+    ~Change() { revision_.raise(std::memory_order_release); }
+
+   private:
+    Revision& revision_;
+  };
+
+ private:
+  void raise(std::memory_order order) { number_.store(number_.load(std::memory_order_relaxed) + 1, order); }
+
+  // A writer that was put to sleep in the middle needs the processor to go on.
+  static void step_back(int turn) {
+    if (turn < 50) return;
+    if (turn < 500) return std::this_thread::yield();
+    std::this_thread::sleep_for(std::chrono::microseconds(50));
+  }
+
+  std::atomic<std::uint64_t> number_{0};  // odd while a change is under way
+};
+
+}  // namespace coframe

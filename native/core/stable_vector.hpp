@@ -1,0 +1,63 @@
+// A vector that only grows and whose elements never move: one thread appends, any number read, without a lock.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstddef>
+
+namespace coframe {
+
+template <class T>
+class StableVector {
+ public:
+  StableVector() = default;
+  StableVector(const StableVector&) = delete;
+  StableVector& operator=(const StableVector&) = delete;
+  ~StableVector() {
+    for (auto& segment : segments_) delete[] segment.load();
+  }
+
+  std::size_t size() const { return size_.load(std::memory_order_acquire); }
+
+  // For an index below a size() that was read before.
+  T& operator[](std::size_t index) { return at(index); }
+  const T& operator[](std::size_t index) const { return at(index); }
+
+  // For an index from anywhere: nullptr where nothing was ever appended.
+  T* find(std::size_t index) const {
+    const std::size_t number = segment_of(index);
+    if (number >= kSegments) return nullptr;
+    T* segment = segments_[number].load(std::memory_order_acquire);
+    return segment ? segment + (index - first_of(number)) : nullptr;
+  }
+
+  // A new last element; `prepare` fills it before anybody sees it.
+  template <class Prepare>
+  std::size_t append(Prepare&& prepare) {
+    const std::size_t index = size_.load(std::memory_order_relaxed);
+    const std::size_t number = segment_of(index);
+    if (!segments_[number].load(std::memory_order_relaxed)) {
+      segments_[number].store(new T[kFirst << number], std::memory_order_release);
+    }
+    prepare((*this)[index]);
+    size_.store(index + 1, std::memory_order_release);
+    return index;
+  }
+
+ private:
+  static constexpr std::size_t kFirst = 32;  // elements of the first segment; each next one has twice as many
+  static constexpr std::size_t kSegments = 27;
+
+  T& at(std::size_t index) const {
+    const std::size_t number = segment_of(index);
+    return segments_[number].load(std::memory_order_acquire)[index - first_of(number)];
+  }
+  static std::size_t segment_of(std::size_t index) { return std::bit_width(index / kFirst + 1) - 1; }
+  static std::size_t first_of(std::size_t segment) { return kFirst * ((std::size_t{1} << segment) - 1); }
+
+  std::array<std::atomic<T*>, kSegments> segments_{};
+  std::atomic<std::size_t> size_{0};
+};
+
+}  // namespace coframe

@@ -1,0 +1,245 @@
+#include "core/waiting.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <utility>
+
+namespace coframe {
+
+namespace {
+
+constexpr Stamp kAnyStamp = std::numeric_limits<Stamp>::min();
+
+Seat seat_after(const Failure& failure) {
+  Seat seat;
+  seat.needed = kAnyStamp;
+  switch (failure.code) {
+    case ErrorCode::unknown_frame: seat.name = failure.name; break;
+    case ErrorCode::not_connected: seat.frames = {failure.target_root, failure.source_root}; break;
+    case ErrorCode::too_new: seat.needed = failure.requested; [[fallthrough]];
+    case ErrorCode::too_old:
+    case ErrorCode::no_data: seat.frames = {failure.edge}; break;
+    case ErrorCode::only_other:
+      if (failure.requested > failure.latest) seat.needed = failure.requested;
+      seat.frames = {failure.edge};
+      break;
+    default: break;  // a bad name, a loop: only rewiring may help
+  }
+  return seat;
+}
+
+template <class T>
+void take_out(std::vector<std::shared_ptr<T>>& all, const std::shared_ptr<T>& one) {
+  const auto found = std::find(all.begin(), all.end(), one);
+  if (found == all.end()) return;
+  *found = std::move(all.back());
+  all.pop_back();
+}
+
+}  // namespace
+
+void Mailbox::put(Token token) {
+  {
+    const std::lock_guard lock(mutex_);
+    tokens_.push_back(token);
+    count_.store(tokens_.size());
+  }
+  arrived_.notify_one();
+}
+
+std::vector<Token> Mailbox::take() {
+  const std::lock_guard lock(mutex_);
+  count_.store(0);
+  return std::exchange(tokens_, {});
+}
+
+bool Mailbox::wait_for(std::int64_t timeout_ns) {
+  std::unique_lock lock(mutex_);
+  return arrived_.wait_for(lock, std::chrono::nanoseconds(timeout_ns), [this] { return !tokens_.empty(); });
+}
+
+Wait::Wait(const Question& question, std::shared_ptr<Mailbox> mailbox, Token token)
+    : target_(question.target),
+      source_(question.source),
+      fixed_(question.fixed),
+      question_(question),
+      mailbox_(std::move(mailbox)),
+      token_(token) {
+  question_.target = target_;
+  question_.source = source_;
+  question_.fixed = fixed_;
+}
+
+bool Wait::wait_for(std::int64_t timeout_ns) {
+  std::unique_lock lock(mutex_);
+  return ready_.wait_for(lock, std::chrono::nanoseconds(timeout_ns), [this] { return answered(); });
+}
+
+void Wait::bring(const Answer& answer) {
+  {
+    const std::lock_guard lock(mutex_);
+    answer_ = answer;
+    answered_.store(true, std::memory_order_release);
+    ready_.notify_all();
+  }
+  if (mailbox_) mailbox_->put(token_);
+}
+
+std::vector<FrameId> Watch::take() {
+  const std::lock_guard lock(mutex_);
+  const std::vector<FrameId> taken(changed_.begin(), changed_.end());
+  changed_.clear();
+  return taken;
+}
+
+void Watch::note(FrameId child) {
+  const std::lock_guard lock(mutex_);
+  const bool is_first = changed_.empty();
+  changed_.insert(child);
+  if (is_first) mailbox_->put(token_);
+}
+
+void WaitingRoom::add(const std::shared_ptr<Wait>& wait) {
+  const std::lock_guard lock(mutex_);
+  waits_.emplace(wait.get(), wait);
+  waiting_.fetch_add(1);
+  answer_or_seat(wait);
+}
+
+void WaitingRoom::remove(const std::shared_ptr<Wait>& wait) {
+  const std::lock_guard lock(mutex_);
+  stand_up(wait);
+  if (waits_.erase(wait.get()) != 0) waiting_.fetch_sub(1);
+}
+
+void WaitingRoom::add(const std::shared_ptr<Watch>& watch) {
+  const std::lock_guard lock(mutex_);
+  if (watch->child_.empty()) {
+    watches_of_all_.push_back(watch);
+    watching_all_.fetch_add(1);
+    return;
+  }
+  by_name_[watch->child_].watches.push_back(watch);
+  names_.fetch_add(1);
+  move_in(watch);
+}
+
+void WaitingRoom::remove(const std::shared_ptr<Watch>& watch) {
+  const std::lock_guard lock(mutex_);
+  if (watch->child_.empty()) {
+    take_out(watches_of_all_, watch);
+    watching_all_.fetch_sub(1);
+  } else if (watch->frame_ == 0) {
+    take_out(by_name_[watch->child_].watches, watch);
+    names_.fetch_sub(1);
+  } else {
+    take_out(by_frame_[watch->frame_].watches, watch);
+    tree_.frame(watch->frame_).watchers.fetch_sub(1);
+  }
+}
+
+// From the name to the frame, if there is one by now.
+void WaitingRoom::move_in(const std::shared_ptr<Watch>& watch) {
+  const FrameId frame = tree_.find(watch->child_);
+  if (frame == 0) return;
+  take_out(by_name_[watch->child_].watches, watch);
+  names_.fetch_sub(1);
+  watch->frame_ = frame;
+  by_frame_[frame].watches.push_back(watch);
+  tree_.frame(frame).watchers.fetch_add(1);
+}
+
+void WaitingRoom::tell(const Inserted& inserted) {
+  if (inserted.rewired && waiting_.load() > 0) {
+    const std::lock_guard lock(mutex_);
+    Waits all;
+    for (const auto& entry : waits_) all.push_back(entry.second);
+    try_again(all);
+  }
+  if (inserted.new_names && names_.load() > 0) on_new_names();
+  if (inserted.child == 0) return;
+  if (tree_.frame(inserted.child).watchers.load() > 0 || watching_all_.load() > 0) on_insertion(inserted.child);
+}
+
+void WaitingRoom::on_insertion(FrameId child) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& watch : watches_of_all_) watch->note(child);
+  const auto guests = by_frame_.find(child);
+  if (guests == by_frame_.end()) return;
+  for (const auto& watch : guests->second.watches) watch->note(child);
+  const History::View history = tree_.history(child);
+  Waits helped;
+  for (const auto& wait : guests->second.waits) {
+    if (history.is_static() || history.newest() >= wait->seat_.needed) helped.push_back(wait);
+  }
+  try_again(helped);
+}
+
+void WaitingRoom::on_new_names() {
+  const std::lock_guard lock(mutex_);
+  Waits helped;
+  std::vector<std::shared_ptr<Watch>> watches;
+  for (const auto& [name, guests] : by_name_) {
+    if (tree_.find(name) == 0) continue;
+    helped.insert(helped.end(), guests.waits.begin(), guests.waits.end());
+    watches.insert(watches.end(), guests.watches.begin(), guests.watches.end());
+  }
+  for (const auto& watch : watches) move_in(watch);
+  try_again(helped);
+  std::erase_if(by_name_, [](const auto& entry) { return entry.second.waits.empty() && entry.second.watches.empty(); });
+}
+
+void WaitingRoom::try_again(const Waits& waits) {
+  for (const auto& wait : waits) {
+    stand_up(wait);
+    answer_or_seat(wait);
+  }
+}
+
+// A wait sits down before it asks for the last time, and a writer looks for guests after the data are visible: one of
+// the two always sees the other.
+void WaitingRoom::answer_or_seat(const std::shared_ptr<Wait>& wait) {
+  for (bool seated = false;;) {
+    Answer answer;
+    Failure failure;
+    if (ask_(wait->question_, answer, failure)) {
+      stand_up(wait);
+      if (waits_.erase(wait.get()) != 0) waiting_.fetch_sub(1);
+      wait->bring(answer);
+      return;
+    }
+    Seat seat = seat_after(failure);
+    if (seated && seat == wait->seat_) return;
+    stand_up(wait);
+    sit_down(wait, std::move(seat));
+    seated = true;
+  }
+}
+
+void WaitingRoom::sit_down(const std::shared_ptr<Wait>& wait, Seat seat) {
+  wait->seat_ = std::move(seat);
+  for (const FrameId frame : wait->seat_.frames) {
+    by_frame_[frame].waits.push_back(wait);
+    tree_.frame(frame).watchers.fetch_add(1);
+  }
+  if (!wait->seat_.name.empty()) {
+    by_name_[wait->seat_.name].waits.push_back(wait);
+    names_.fetch_add(1);
+  }
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+}
+
+void WaitingRoom::stand_up(const std::shared_ptr<Wait>& wait) {
+  for (const FrameId frame : wait->seat_.frames) {
+    take_out(by_frame_[frame].waits, wait);
+    tree_.frame(frame).watchers.fetch_sub(1);
+  }
+  if (!wait->seat_.name.empty()) {
+    take_out(by_name_[wait->seat_.name].waits, wait);
+    names_.fetch_sub(1);
+  }
+  wait->seat_ = Seat{};
+}
+
+}  // namespace coframe
