@@ -15,7 +15,7 @@ from real_tf2.rules import explain, is_close
 from real_tf2.scenarios import OPERATIONS_PER_SCENARIO, scenario
 from real_tf2.script import script
 
-DEBIAN_PYTHON = "/usr/bin/python3"
+DEBIAN_PYTHON = ("/usr/bin/python3", "-E")  # whatever PYTHONPATH names is for another Python
 SCENARIOS_PER_BATCH = 20
 
 
@@ -34,13 +34,13 @@ class Debian:
 
     def __init__(self):
         self._process = subprocess.Popen(
-            [DEBIAN_PYTHON, Path(__file__).with_name("debian_side.py")], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+            [*DEBIAN_PYTHON, Path(__file__).with_name("debian_side.py")], stdin=subprocess.PIPE, stdout=subprocess.PIPE
         )
         self._thread = ThreadPoolExecutor(1)
 
     @staticmethod
     def is_there():
-        probe = subprocess.run([DEBIAN_PYTHON, "-c", "import tf2_py"], capture_output=True, check=False)
+        probe = subprocess.run([*DEBIAN_PYTHON, "-c", "import tf2_py"], capture_output=True, check=False)
         return probe.returncode == 0
 
     def ask(self, batch):
