@@ -183,8 +183,10 @@ def test_a_server_that_does_not_answer(make_node, client):
     client.timeout_padding = Duration(seconds=0.05)
     BufferServer(Buffer(), make_node("server"), "tf2_buffer_server")  # nobody spins it
     assert client.action_client.wait_for_server(timeout_sec=10)
+    asked = time.monotonic()
     with pytest.raises(tf2_ros.TimeoutException, match="did not come back in the specified time"):
         client.lookup_transform("map", "robot", Time())
+    assert 0.05 <= time.monotonic() - asked < 5.0
 
 
 def test_a_server_that_dies_while_it_waits(server, connected):

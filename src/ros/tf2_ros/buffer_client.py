@@ -2,10 +2,15 @@
 
 # ruff: noqa: SLF001 - rclpy's action client lets this client wait with a timeout
 
+# What is not used here is here because upstream leaks it.
+import threading  # noqa: F401
 import warnings
-from time import monotonic
+from time import monotonic, sleep  # noqa: F401
 from typing import Any, Final
 
+import builtin_interfaces  # noqa: F401
+import tf2_py as tf2  # noqa: F401
+import tf2_ros  # noqa: F401
 from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Duration as DurationMessage
 from builtin_interfaces.msg import Time as TimeMessage

@@ -274,6 +274,7 @@ class ActionServer:
         self._action_type = action_type
         self._result_timeout = result_timeout
         self._lock = threading.RLock()
+        self._is_destroyed = False
         self._goals: dict[bytes, ServerGoalHandle] = {}
         self._expiries: deque[tuple[float, bytes]] = deque()
         self._to_execute: deque[tuple[Callable[[ServerGoalHandle], Any], ServerGoalHandle]] = deque()
@@ -340,6 +341,7 @@ class ActionServer:
     def destroy(self) -> None:
         """Ends it and forgets its goals; doing so twice is no error."""
         with self._lock:
+            self._is_destroyed = True
             for goal_handle in self._goals.values():
                 goal_handle.destroy()
             self._goals.clear()
@@ -372,11 +374,11 @@ class ActionServer:
         return response is GoalResponse.ACCEPT
 
     def _add(self, request: Any) -> ServerGoalHandle | None:
-        """The new goal; None if meanwhile, in another thread, one with the same identifier was accepted."""
+        """The new goal; None if another thread was faster with one of the same identifier, or with `destroy()`."""
         info = GoalInfo(goal_id=request.goal_id, stamp=self._node.get_clock().now().to_msg())
         goal_handle = ServerGoalHandle(self, info, request.goal)
         with self._lock:
-            if self._goals.setdefault(_key(request.goal_id), goal_handle) is not goal_handle:
+            if self._is_destroyed or self._goals.setdefault(_key(request.goal_id), goal_handle) is not goal_handle:
                 return None
             self._publish_status()
         return goal_handle
@@ -494,9 +496,10 @@ class ActionServer:
     def _publish_feedback(self, goal_handle: ServerGoalHandle, feedback: Any) -> None:
         if not isinstance(feedback, self._action_type.Feedback):
             raise TypeError(f"Expected {self._action_type.Feedback}, got {type(feedback)}")
-        if goal_handle.status != GoalStatus.STATUS_UNKNOWN:
-            message = self._action_type.Impl.FeedbackMessage(goal_id=goal_handle.goal_id, feedback=feedback)
-            self._feedback_publisher.publish(message)
+        message = self._action_type.Impl.FeedbackMessage(goal_id=goal_handle.goal_id, feedback=feedback)
+        with self._lock:
+            if goal_handle.status != GoalStatus.STATUS_UNKNOWN:
+                self._feedback_publisher.publish(message)
 
 
 async def _call(callback: Callable[..., Any], *args: Any) -> Any:
