@@ -8,17 +8,6 @@ namespace {
 
 nb::handle time_module;  // coframe.time: what is neither int nor None is converted there
 
-std::int64_t to_int64(nb::handle number) {
-  int overflow;
-  const long long value = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
-  if (overflow != 0) {
-    PyErr_Format(PyExc_OverflowError, "%R does not fit 64-bit nanoseconds, which reach from 1677 to 2262",
-                 number.ptr());
-  }
-  if (PyErr_Occurred()) throw nb::python_error();
-  return value;
-}
-
 }  // namespace
 
 std::string_view text(nb::handle name) {
@@ -30,6 +19,17 @@ std::string_view text(nb::handle name) {
   const char* data = PyUnicode_AsUTF8AndSize(name.ptr(), &size);
   if (!data) throw nb::python_error();
   return {data, static_cast<std::size_t>(size)};
+}
+
+std::int64_t to_int64(nb::handle number) {
+  int overflow;
+  const long long value = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
+  if (overflow != 0) {
+    PyErr_Format(PyExc_OverflowError, "%R does not fit 64-bit nanoseconds, which reach from 1677 to 2262",
+                 number.ptr());
+  }
+  if (PyErr_Occurred()) throw nb::python_error();
+  return value;
 }
 
 Stamp to_stamp(nb::handle stamp) {
@@ -47,8 +47,8 @@ std::int64_t to_duration(nb::handle duration) {
 
 Question question_of(BufferObject& buffer, nb::handle target, nb::handle source, nb::handle stamp) {
   Question question;
-  question.target_id = buffer.names.find(target.ptr(), *buffer.core);
-  question.source_id = buffer.names.find(source.ptr(), *buffer.core);
+  question.target_id = buffer.frame(target.ptr());
+  question.source_id = buffer.frame(source.ptr());
   question.target = text(target);
   question.source = text(source);
   question.stamp = to_stamp(stamp);
@@ -59,23 +59,20 @@ Question full_question_of(BufferObject& buffer, nb::handle target, nb::handle ta
                           nb::handle source_stamp, nb::handle fixed) {
   Question question = question_of(buffer, target, source, target_stamp);
   question.travels = true;
-  question.fixed_id = buffer.names.find(fixed.ptr(), *buffer.core);
+  question.fixed_id = buffer.frame(fixed.ptr());
   question.fixed = text(fixed);
   question.source_stamp = to_stamp(source_stamp);
   return question;
 }
 
-FrameId NameCache::find(PyObject* name, const Buffer& buffer) {
-  Entry& entry = entries_[(reinterpret_cast<std::uintptr_t>(name) >> 4) % entries_.size()];
-  if (entry.name == name) return entry.frame;
-  const FrameId frame = buffer.find(text(name));
+std::uint32_t IdentityCache::remember(Entry& entry, PyObject* name, std::uint32_t number) {
   // Letting go of an instance of a subclass could run any code.
-  if (frame != 0 && PyUnicode_CheckExact(name)) {
+  if (number != 0 && PyUnicode_CheckExact(name)) {
     Py_INCREF(name);
     Py_XDECREF(std::exchange(entry.name, name));
-    entry.frame = frame;
+    entry.number = number;
   }
-  return frame;
+  return number;
 }
 
 void define_arguments(nb::module_& module) {

@@ -12,10 +12,8 @@ namespace coframe::bindings {
 
 namespace nb = nanobind;
 
-// The UTF-8 of a frame's name, valid as long as the object; TypeError for what is no str.
-std::string_view text(nb::handle name);
-
 // Nanoseconds, by coframe.time for what is no int; None is 0.
+std::int64_t to_int64(nb::handle number);
 Stamp to_stamp(nb::handle stamp);
 std::int64_t to_duration(nb::handle duration);
 

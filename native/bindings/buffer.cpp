@@ -9,12 +9,18 @@
 #include "bindings/arguments.hpp"
 #include "bindings/bindings.hpp"
 #include "bindings/failure.hpp"
+#include "bindings/fast_call.hpp"
 #include "bindings/transform.hpp"
 #include "core/dump.hpp"
 
 namespace coframe::bindings {
 
 namespace {
+
+BufferObject& buffer_of(PyObject* object) {
+  if (!nb::inst_ready(object)) throw nb::type_error("the buffer was not initialised: __init__ was not called");
+  return *nb::inst_ptr<BufferObject>(object);
+}
 
 // Tries now, and then waits without the GIL for the insertion that brings the answer.
 bool answer_within(BufferObject& self, Question& question, std::int64_t timeout_ns, Answer& answer, Failure& failure) {
@@ -44,8 +50,8 @@ Extrapolation extrapolation_of(nb::handle limit, bool hold) {
   return extrapolation;
 }
 
-nb::object py_lookup(BufferObject& self, nb::handle target, nb::handle source, nb::handle stamp, nb::handle timeout,
-                     nb::handle extrapolate, bool hold) {
+nb::object patient_lookup(BufferObject& self, nb::handle target, nb::handle source, nb::handle stamp,
+                          nb::handle timeout, nb::handle extrapolate, bool hold) {
   Question question = question_of(self, target, source, stamp);
   Answer answer;
   Failure failure;
@@ -62,6 +68,45 @@ nb::object py_lookup(BufferObject& self, nb::handle target, nb::handle source, n
   return raise_for(self, std::move(failure), target, source);
 }
 
+// The frames of a plain question, where their names were asked for before; false for all that is not plain.
+bool plain(BufferObject& self, PyObject* target, PyObject* source, PyObject* stamp, FrameId& target_id,
+           FrameId& source_id, Stamp& when) {
+  target_id = self.frame(target);
+  source_id = self.frame(source);
+  if (target_id == 0 || source_id == 0 || target_id == source_id) return false;
+  if (!stamp || stamp == Py_None) {
+    when = 0;
+    return true;
+  }
+  if (!PyLong_CheckExact(stamp)) return false;
+  int overflow;
+  when = PyLong_AsLongLongAndOverflow(stamp, &overflow);
+  return overflow == 0;
+}
+
+nb::handle given(PyObject* object) { return object ? nb::handle(object) : nb::handle(Py_None); }
+
+PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<6> signature("lookup", {"target", "source", "stamp", "timeout", "extrapolate", "hold"}, 2, 3);
+  PyObject* values[6];
+  if (!signature.parse(arguments, count, keywords, values)) return nullptr;
+  return guarded([&] {
+    BufferObject& self = buffer_of(object);
+    FrameId target, source;
+    Stamp stamp;
+    Pose pose;
+    // What can be answered now needs neither patience nor a guess.
+    if (plain(self, values[0], values[1], values[2], target, source, stamp) &&
+        self.core->quick_lookup(self.paths, target, source, stamp, pose)) {
+      return make_transform(pose, stamp, values[0], values[1]).release().ptr();
+    }
+    const bool hold = values[5] && nb::cast<bool>(nb::handle(values[5]));
+    return patient_lookup(self, values[0], values[1], given(values[2]), given(values[3]), given(values[4]), hold)
+        .release()
+        .ptr();
+  });
+}
+
 nb::object py_lookup_full(BufferObject& self, nb::handle target, nb::handle target_stamp, nb::handle source,
                           nb::handle source_stamp, nb::handle fixed, nb::handle timeout) {
   Question question = full_question_of(self, target, target_stamp, source, source_stamp, fixed);
@@ -73,11 +118,23 @@ nb::object py_lookup_full(BufferObject& self, nb::handle target, nb::handle targ
   return make_transform(answer.pose, answer.stamp, target, source);
 }
 
-bool py_can_transform(BufferObject& self, nb::handle target, nb::handle source, nb::handle stamp, nb::handle timeout) {
-  Question question = question_of(self, target, source, stamp);
-  Answer answer;
-  Failure failure;
-  return answer_within(self, question, to_duration(timeout), answer, failure);
+PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<4> signature("can_transform", {"target", "source", "stamp", "timeout"}, 2, 3);
+  PyObject* values[4];
+  if (!signature.parse(arguments, count, keywords, values)) return nullptr;
+  return guarded([&] {
+    BufferObject& self = buffer_of(object);
+    FrameId target, source;
+    Stamp stamp;
+    if (plain(self, values[0], values[1], values[2], target, source, stamp) &&
+        self.core->quick_check(self.paths, target, source, stamp)) {
+      return Py_NewRef(Py_True);
+    }
+    Question question = question_of(self, values[0], values[1], given(values[2]));
+    Answer answer;
+    Failure failure;
+    return PyBool_FromLong(answer_within(self, question, to_duration(given(values[3])), answer, failure));
+  });
 }
 
 bool py_can_transform_full(BufferObject& self, nb::handle target, nb::handle target_stamp, nb::handle source,
@@ -192,9 +249,26 @@ nb::list edge_tuples(const BufferObject& self) {
   return edges;
 }
 
-unsigned set_values(BufferObject& self, nb::handle parent, nb::handle child, Stamp stamp, double x, double y, double z,
-                    double qx, double qy, double qz, double qw, bool is_static, std::string_view authority) {
-  return self.core->insert(text(parent), text(child), stamp, {{x, y, z}, {qx, qy, qz, qw}}, is_static, authority);
+PyObject* py_set_values(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<12> signature(
+      "set_values", {"parent", "child", "stamp", "x", "y", "z", "qx", "qy", "qz", "qw", "static", "authority"}, 12, 12);
+  PyObject* values[12];
+  if (!signature.parse(arguments, count, keywords, values)) return nullptr;
+  return guarded([&]() -> PyObject* {
+    BufferObject& self = buffer_of(object);
+    const FrameId parent = self.frame(values[0]), child = self.frame(values[1]);
+    const AuthorityId authority = self.authority(values[11]);
+    double v[7];
+    for (int i = 0; i < 7; ++i) v[i] = PyFloat_AsDouble(values[3 + i]);
+    const Stamp stamp = to_int64(values[2]);
+    const int is_static = PyObject_IsTrue(values[10]);
+    if (PyErr_Occurred()) return nullptr;
+    const TransformValues transform{{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
+    const bool known = parent != 0 && child != 0 && parent != child;
+    return PyLong_FromUnsignedLong(
+        known ? self.core->insert(parent, child, stamp, transform, is_static != 0, authority)
+              : self.core->insert(text(values[0]), text(values[1]), stamp, transform, is_static != 0, authority));
+  });
 }
 
 nb::list py_insert_texts(unsigned refusals, std::string_view parent, std::string_view child, Stamp stamp, double x,
@@ -248,19 +322,16 @@ void define_buffer(nb::module_& module) {
   using nb::arg;
   // None is let through: what a frame name or a stamp must be is said by the functions themselves.
   const auto any = [](const char* name) { return nb::arg(name).none(); };
-  nb::class_<BufferObject>(module, "Buffer", "The native buffer; coframe.Buffer is the public class on top of it.",
-                           nb::is_weak_referenceable())
+  nb::class_<BufferObject> cls(module, "Buffer", "The native buffer; coframe.Buffer is the public class on top of it.",
+                               nb::is_weak_referenceable());
+  cls
       .def(nb::init<Stamp>(), arg("cache_ns"))
       .def_prop_ro("cache_ns", [](const BufferObject& self) { return self.core->cache_length(); })
-      .def("lookup", &py_lookup, any("target"), any("source"), arg("stamp") = nb::none(), nb::kw_only(),
-           arg("timeout") = nb::none(), arg("extrapolate") = nb::none(), arg("hold") = false)
       .def("lookup_full", &py_lookup_full, any("target"), any("target_stamp"), any("source"),
            any("source_stamp"), any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
       .def("lookup_rows", &lookup_many, any("target"), any("source"), arg("stamps"), arg("translations"),
            arg("quaternions"), arg("beyond"), arg("nan_for_none"), arg("extrapolate") = nb::none(),
            arg("hold") = false)
-      .def("can_transform", &py_can_transform, any("target"), any("source"), arg("stamp") = nb::none(),
-           nb::kw_only(), arg("timeout") = nb::none())
       .def("can_transform_full", &py_can_transform_full, any("target"), any("target_stamp"), any("source"),
            any("source_stamp"), any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
       .def("why_not", &why_not, any("target"), any("source"), arg("stamp") = nb::none())
@@ -269,8 +340,6 @@ void define_buffer(nb::module_& module) {
       .def("latest_common_time", &py_latest_common_time, any("target"), any("source"))
       .def("chain", &py_chain, any("target"), any("target_stamp"), any("source"), any("source_stamp"),
            any("fixed"))
-      .def("set_values", &set_values, any("parent"), any("child"), arg("stamp"), arg("x"), arg("y"), arg("z"),
-           arg("qx"), arg("qy"), arg("qz"), arg("qw"), arg("static"), arg("authority"))
       .def("ingest", &ingest, arg("cdr"), nb::kw_only(), arg("static") = false,
            arg("authority") = "no recorded authority")
       .def("encode", &encode, nb::kw_only(), arg("static"))
@@ -299,6 +368,15 @@ void define_buffer(nb::module_& module) {
           arg("now") = 0)
       .def_prop_ro("statistics", &statistics)
       .def_prop_ro("changes", [](const BufferObject& self) { return self.core->changes(); });
+  add_method(cls, "lookup", &py_lookup,
+             "lookup($self, /, target, source, stamp=None, *, timeout=None, extrapolate=None, hold=False)\n--\n\n"
+             "The transform that takes coordinates in `source` to coordinates in `target` at `stamp`.");
+  add_method(cls, "can_transform", &py_can_transform,
+             "can_transform($self, /, target, source, stamp=None, *, timeout=None)\n--\n\n"
+             "Whether lookup() would succeed, or does within `timeout`.");
+  add_method(cls, "set_values", &py_set_values,
+             "set_values($self, /, parent, child, stamp, x, y, z, qx, qy, qz, qw, static, authority)\n--\n\n"
+             "Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts).");
   module.def("insert_texts", &py_insert_texts, arg("refusals"), arg("parent"), arg("child"), arg("stamp"), arg("x"),
              arg("y"), arg("z"), arg("qx"), arg("qy"), arg("qz"), arg("qw"), arg("authority"),
              "tf2's log lines for a transform that set_values refused: (level, text).");

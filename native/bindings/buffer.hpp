@@ -15,24 +15,34 @@ namespace coframe::bindings {
 
 namespace nb = nanobind;
 
-// Frame numbers by the identity of the `str` object: programs ask with the same literals again and again, and this
-// spares the hash. Guarded by the GIL; a frame's number never changes.
-class NameCache {
+// The UTF-8 of a frame's name, valid as long as the object; TypeError for what is no str.
+std::string_view text(nb::handle name);
+
+// Numbers by the identity of the `str` object that names them: programs ask with the same literals again and again, and
+// this spares the hash. Guarded by the GIL; a number never changes.
+class IdentityCache {
  public:
-  NameCache() = default;
-  NameCache(const NameCache&) = delete;
-  NameCache& operator=(const NameCache&) = delete;
-  ~NameCache() {
+  IdentityCache() = default;
+  IdentityCache(const IdentityCache&) = delete;
+  IdentityCache& operator=(const IdentityCache&) = delete;
+  ~IdentityCache() {
     for (Entry& entry : entries_) Py_XDECREF(entry.name);
   }
 
-  FrameId find(PyObject* name, const Buffer& buffer);
+  // `find` tells the number of a name; 0, there is none yet, is not remembered.
+  template <class Find>
+  std::uint32_t find(PyObject* name, Find&& find) {
+    Entry& entry = entries_[(reinterpret_cast<std::uintptr_t>(name) >> 4) % entries_.size()];
+    return entry.name == name ? entry.number : remember(entry, name, find(text(name)));
+  }
 
  private:
   struct Entry {
     PyObject* name = nullptr;
-    FrameId frame = 0;
+    std::uint32_t number = 0;
   };
+  static std::uint32_t remember(Entry& entry, PyObject* name, std::uint32_t number);
+
   std::array<Entry, 256> entries_{};
 };
 
@@ -40,7 +50,16 @@ struct BufferObject {
   explicit BufferObject(Stamp cache_length) : core(std::make_shared<Buffer>(cache_length)) {}
 
   std::shared_ptr<Buffer> core;  // shared with the wire's readers and with failures
-  NameCache names;
+  // 0 also for a name with a slash in front: look-ups refuse it, insertions take the slash off.
+  FrameId frame(PyObject* name) {
+    return frames.find(name, [this](std::string_view text) { return text.starts_with('/') ? 0 : core->find(text); });
+  }
+  AuthorityId authority(PyObject* name) {
+    return authorities.find(name, [this](std::string_view text) { return core->authority(text); });
+  }
+
+  IdentityCache frames, authorities;
+  PathCache paths;  // guarded by the GIL, unlike the core's own
   std::map<std::pair<bool, std::string>, TransformStream> streams;  // of ingest()
 };
 

@@ -1,8 +1,6 @@
 #include "bindings/transform.hpp"
 
-#include <nanobind/stl/optional.h>
-
-#include <optional>
+#include <new>
 
 #include "bindings/bindings.hpp"
 
@@ -10,52 +8,140 @@ namespace coframe::bindings {
 
 namespace {
 
-nb::handle transform_class;  // owned by the Python module that registers it
+struct TransformObject {
+  PyObject_HEAD
+  Pose pose;
+  Stamp stamp;
+  Stamp beyond;  // nanoseconds beyond the data that it was extrapolated
+  bool has_stamp;
+  PyObject* target;  // str or None
+  PyObject* source;
+  PyObject* batch;  // None, or a tuple of arrays
+};
 
-nb::tuple values(const TransformObject& transform) {
-  const Pose& pose = transform.pose;
-  return nb::make_tuple(pose.p[0], pose.p[1], pose.p[2], pose.q[0], pose.q[1], pose.q[2], pose.q[3]);
+PyTypeObject* transform_class = nullptr;  // the registered one, for as long as the process lives
+
+TransformObject* self_of(PyObject* object) { return reinterpret_cast<TransformObject*>(object); }
+
+PyObject* or_none(PyObject* object) { return Py_NewRef(object ? object : Py_None); }
+
+// Arguments: 7 numbers, target, source, stamp, batch.
+int initialise(PyObject* object, PyObject* arguments, PyObject* keywords) {
+  if (keywords && PyDict_GET_SIZE(keywords) != 0) {
+    PyErr_SetString(PyExc_TypeError, "the values of a transform are given by position");
+    return -1;
+  }
+  double v[7];
+  PyObject *target, *source, *stamp, *batch;
+  if (!PyArg_ParseTuple(arguments, "dddddddOOOO", &v[0], &v[1], &v[2], &v[3], &v[4], &v[5], &v[6], &target, &source,
+                        &stamp, &batch)) {
+    return -1;
+  }
+  const long long nanoseconds = stamp == Py_None ? 0 : PyLong_AsLongLong(stamp);
+  if (nanoseconds == -1 && PyErr_Occurred()) return -1;
+  TransformObject* self = self_of(object);
+  self->pose = Pose{{v[3], v[4], v[5], v[6]}, {v[0], v[1], v[2]}};
+  self->stamp = nanoseconds;
+  self->has_stamp = stamp != Py_None;
+  Py_XSETREF(self->target, Py_NewRef(target));
+  Py_XSETREF(self->source, Py_NewRef(source));
+  Py_XSETREF(self->batch, Py_NewRef(batch));
+  return 0;
 }
 
-void initialise(TransformObject* self, double x, double y, double z, double qx, double qy, double qz, double qw,
-                nb::object target, nb::object source, std::optional<Stamp> stamp, nb::object batch) {
-  new (self) TransformObject{Pose{{qx, qy, qz, qw}, {x, y, z}}, stamp.value_or(0),   stamp.has_value(),
-                             std::move(target),                 std::move(source), std::move(batch)};
+void deallocate(PyObject* object) {
+  TransformObject* self = self_of(object);
+  PyTypeObject* type = Py_TYPE(object);
+  Py_XDECREF(self->target);
+  Py_XDECREF(self->source);
+  Py_XDECREF(self->batch);
+  type->tp_free(object);
+  Py_DECREF(type);
 }
+
+PyObject* values(PyObject* object, void*) {
+  const Pose& pose = self_of(object)->pose;
+  return Py_BuildValue("(ddddddd)", pose.p[0], pose.p[1], pose.p[2], pose.q[0], pose.q[1], pose.q[2], pose.q[3]);
+}
+
+PyObject* stamp(PyObject* object, void*) {
+  const TransformObject* self = self_of(object);
+  return self->has_stamp ? PyLong_FromLongLong(self->stamp) : Py_NewRef(Py_None);
+}
+
+PyObject* beyond(PyObject* object, void*) { return PyLong_FromLongLong(self_of(object)->beyond); }
+PyObject* target(PyObject* object, void*) { return or_none(self_of(object)->target); }
+PyObject* source(PyObject* object, void*) { return or_none(self_of(object)->source); }
+PyObject* batch(PyObject* object, void*) { return or_none(self_of(object)->batch); }
+
+PyGetSetDef properties[] = {
+    {"values", values, nullptr, "(x, y, z, qx, qy, qz, qw) as floats; of a batch: the identity.", nullptr},
+    {"stamp", stamp, nullptr, "Nanoseconds, or None.", nullptr},
+    {"target", target, nullptr, "The frame that the values are told in, or None.", nullptr},
+    {"source", source, nullptr, "The frame that the values are of, or None.", nullptr},
+    {"beyond", beyond, nullptr, "How many nanoseconds beyond the data of a link it was extrapolated.", nullptr},
+    {"batch", batch, nullptr, "None, or (translations, quaternions, stamps, extrapolated) as arrays.", nullptr},
+    {nullptr, nullptr, nullptr, nullptr, nullptr}};
+
+PyType_Slot slots[] = {{Py_tp_doc, const_cast<char*>("One pose with its frames and stamp, or a batch of them.")},
+                       {Py_tp_init, reinterpret_cast<void*>(&initialise)},
+                       {Py_tp_new, reinterpret_cast<void*>(&PyType_GenericNew)},
+                       {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate)},
+                       {Py_tp_getset, properties},
+                       {0, nullptr}};
+
+PyType_Spec spec = {"coframe._core.Transform", sizeof(TransformObject), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE,
+                    slots};
 
 }  // namespace
 
 nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::handle source, Stamp beyond) {
-  nb::object instance = nb::inst_alloc(transform_class);
-  new (nb::inst_ptr<TransformObject>(instance))
-      TransformObject{pose, stamp, true, nb::borrow(target), nb::borrow(source), nb::none(), beyond};
-  nb::inst_mark_ready(instance);
-  return instance;
+  PyObject* object = static_cast<PyObject*>(PyObject_Malloc(static_cast<std::size_t>(transform_class->tp_basicsize)));
+  if (!object) throw std::bad_alloc();
+  PyObject_Init(object, transform_class);
+  TransformObject* self = self_of(object);
+  self->pose = pose;
+  self->stamp = stamp;
+  self->beyond = beyond;
+  self->has_stamp = true;
+  self->target = Py_NewRef(target.ptr());
+  self->source = Py_NewRef(source.ptr());
+  self->batch = Py_NewRef(Py_None);
+  return nb::steal(object);
 }
 
+namespace {
+
+// CPython gives every class of Python's the garbage collector's bookkeeping, and a destructor that looks for what such a
+// class may add. This one adds nothing (__slots__ = ()), and a transform holds nothing that could hold it: both are
+// taken back, before there is an instance, for half of what a look-up costs.
+void make_light(PyTypeObject* type) {
+  type->tp_flags &= ~Py_TPFLAGS_HAVE_GC;
+  type->tp_traverse = nullptr;
+  type->tp_clear = nullptr;
+  type->tp_free = PyObject_Free;
+  type->tp_dealloc = &deallocate;
+  PyType_Modified(type);
+}
+
+}  // namespace
+
 void define_transform(nb::module_& module) {
-  nb::class_<TransformObject>(module, "Transform", "One pose with its frames and stamp, or a batch of them.")
-      .def("__init__", &initialise, nb::arg("x"), nb::arg("y"), nb::arg("z"), nb::arg("qx"), nb::arg("qy"),
-           nb::arg("qz"), nb::arg("qw"), nb::arg("target").none(), nb::arg("source").none(), nb::arg("stamp").none(),
-           nb::arg("batch").none())
-      .def_prop_ro("values", &values, "(x, y, z, qx, qy, qz, qw) as floats; of a batch: the identity.")
-      .def_prop_ro(
-          "stamp",
-          [](const TransformObject& self) { return self.has_stamp ? nb::object(nb::int_(self.stamp)) : nb::none(); },
-          nb::sig("def stamp(self) -> int | None"), "Nanoseconds, or None.")
-      .def_prop_ro(
-          "target", [](const TransformObject& self) { return self.target; },
-          nb::sig("def target(self) -> str | None"), "The frame that the values are told in, or None.")
-      .def_prop_ro(
-          "source", [](const TransformObject& self) { return self.source; },
-          nb::sig("def source(self) -> str | None"), "The frame that the values are of, or None.")
-      .def_prop_ro("beyond", [](const TransformObject& self) { return self.beyond; },
-                   "How many nanoseconds beyond the data of a link it was extrapolated; 0: not at all.")
-      .def_prop_ro("batch", [](const TransformObject& self) { return self.batch; },
-                   "None, or (translations, quaternions, stamps) as arrays.");
+  const nb::object type = nb::steal(PyType_FromSpec(&spec));
+  if (!type.is_valid()) throw nb::python_error();
+  module.attr("Transform") = type;
+  auto* base = reinterpret_cast<PyTypeObject*>(type.inc_ref().ptr());  // for as long as the process lives
   module.def(
-      "register_transform_class", [](nb::type_object cls) { transform_class = cls.release(); }, nb::arg("cls"),
-      "Look-ups return instances of `cls`, a subclass of Transform.");
+      "register_transform_class",
+      [base](nb::type_object cls) {
+        auto* given = reinterpret_cast<PyTypeObject*>(cls.ptr());
+        if (!PyType_IsSubtype(given, base) || given->tp_basicsize != base->tp_basicsize) {
+          throw nb::type_error("the class must be a subclass of Transform with __slots__ = ()");
+        }
+        make_light(given);
+        transform_class = reinterpret_cast<PyTypeObject*>(cls.release().ptr());
+      },
+      nb::arg("cls"), "Look-ups return instances of `cls`, a subclass of Transform with __slots__ = ().");
 }
 
 }  // namespace coframe::bindings

@@ -46,8 +46,8 @@ FrameSummary summary_of(const Tree& tree, FrameId id) {
 
 }  // namespace
 
-unsigned Buffer::insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
-                        bool is_static, std::string_view authority) {
+template <class Insert>
+unsigned Buffer::insert_and_announce(Insert&& insert) {
   Inserted inserted;
   {
     const std::lock_guard lock(writing_);
@@ -55,11 +55,26 @@ unsigned Buffer::insert(std::string_view parent, std::string_view child, Stamp s
       ++counts_.refused;
       return kFrozen;
     }
-    inserted = tree_.insert(parent, child, stamp, values, is_static, tree_.authority(authority));
+    inserted = insert();
     count(inserted.refusals);
   }
   announce(&inserted, 1);
   return inserted.refusals;
+}
+
+unsigned Buffer::insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
+                        bool is_static, AuthorityId authority) {
+  return insert_and_announce([&] { return tree_.insert(parent, child, stamp, values, is_static, authority); });
+}
+
+unsigned Buffer::insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
+                        AuthorityId authority) {
+  return insert_and_announce([&] { return tree_.insert(parent, child, stamp, values, is_static, authority); });
+}
+
+AuthorityId Buffer::authority(std::string_view name) {
+  const std::lock_guard lock(writing_);
+  return tree_.authority(name);
 }
 
 TransformStream Buffer::open_stream(bool is_static, std::string_view authority) {
@@ -178,6 +193,19 @@ bool Buffer::lookup(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Fa
   if (look()) return true;
   // A sample at the latest common time may be dropped between the choice of that time and the look at the sample.
   return asked == 0 && failure.code == ErrorCode::too_old && changes != changes_.load() && look();
+}
+
+bool Buffer::quick_lookup(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const {
+  const std::uint64_t revision = tree_.revision().start_reading();
+  Stamp when = stamp;
+  if (!follow_path(tree_, paths, target, source, when, pose) || !tree_.revision().unchanged(revision)) return false;
+  stamp = when;
+  return true;
+}
+
+bool Buffer::quick_check(PathCache& paths, FrameId target, FrameId source, Stamp stamp) const {
+  const std::uint64_t revision = tree_.revision().start_reading();
+  return check_path(tree_, paths, target, source, stamp) && tree_.revision().unchanged(revision);
 }
 
 bool Buffer::lookup_full(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed,

@@ -61,7 +61,11 @@ class Buffer {
 
   // 0, or why it was refused (Refusal bits).
   unsigned insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
-                  bool is_static, std::string_view authority);
+                  bool is_static, AuthorityId authority);
+  // For who knows the numbers of two different frames.
+  unsigned insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
+                  AuthorityId authority);
+  AuthorityId authority(std::string_view name);
   TransformStream open_stream(bool is_static, std::string_view authority);
   // The source has another name: notes it for the frames that its last messages told of, and for all to come.
   void rename(TransformStream& stream, std::string_view authority);
@@ -85,6 +89,11 @@ class Buffer {
   // The two legs are answered together: `stamp` is the target leg's, in and out.
   bool lookup_full(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed, Pose& pose,
                    Failure& failure) const;
+  // The same without a word of what is missing, for two different frames and with paths that only the caller uses;
+  // false may also mean that lookup() has to decide.
+  bool quick_lookup(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const;
+  // Whether lookup() would answer; false may also mean that it has to decide.
+  bool quick_check(PathCache& paths, FrameId target, FrameId source, Stamp stamp) const;
   // By name; notes the numbers of the frames in the question. With `extrapolation` also beyond the data, as far as it
   // allows; it learns how far that was.
   bool answer(Question& question, Answer& answer, Failure& failure, Extrapolation* extrapolation = nullptr) const;
@@ -131,6 +140,8 @@ class Buffer {
                    Failure& failure) const;
   bool resolve_both(Question& question, Failure& failure) const;
   bool resolve(std::string_view name, Argument argument, FrameId& frame, Failure& failure) const;
+  template <class Insert>
+  unsigned insert_and_announce(Insert&& insert);
   Inserted store(TransformStream& stream, std::size_t index, const TransformView& view);
   bool count(unsigned refusals);
   void announce(const Inserted* inserted, std::size_t count);

@@ -94,6 +94,14 @@ Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
   return Found::ok;
 }
 
+bool History::View::covers(Stamp stamp, FrameId parent) const {
+  if (empty()) return false;
+  const std::uint64_t back = end_ - 1;
+  if (sample_of(back).parent() != parent) return false;
+  if (is_static() || stamp == 0) return true;
+  return stamp <= stamp_of(back) && stamp >= stamp_of(begin_);
+}
+
 std::size_t History::View::first_after(Stamp stamp) const {
   if (empty()) return 0;
   const Stamp last = stamp_of(end_ - 1);

@@ -56,6 +56,8 @@ class History {
 
     // The pose at `stamp` and the frame it is told in. No extrapolation, ever.
     Found at(Stamp stamp, Pose& pose, FrameId& parent) const;
+    // Whether at() would find a pose told in `parent`, where all samples are told in one frame.
+    bool covers(Stamp stamp, FrameId parent) const;
     // Index of the first sample newer than `stamp`; size() if there is none.
     std::size_t first_after(Stamp stamp) const;
 

@@ -169,17 +169,30 @@ bool identity(const Tree& tree, FrameId frame, Stamp& stamp, Pose& pose) {
 
 }  // namespace
 
+bool follow_path(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) {
+  const PathCache::Path* path = paths.find(tree, target, source);
+  if (!path) return false;
+  const Stamp when = stamp != 0 ? stamp : path_common_time(path->steps);
+  if (!path_pose(path->steps, when, pose)) return false;
+  stamp = when;
+  canonicalise(pose.q);
+  return true;
+}
+
+bool check_path(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp stamp) {
+  const PathCache::Path* path = paths.find(tree, target, source);
+  if (!path) return false;
+  const Stamp when = stamp != 0 ? stamp : path_common_time(path->steps);
+  for (const PathCache::Step& link : path->steps) {
+    if (!link.history->view().covers(when, link.parent)) return false;
+  }
+  return true;
+}
+
 bool lookup(const Tree& tree, PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
             Failure& failure) {
   if (target == source) return identity(tree, target, stamp, pose);
-  if (const PathCache::Path* path = paths ? paths->find(tree, target, source) : nullptr) {
-    const Stamp when = stamp != 0 ? stamp : path_common_time(path->steps);
-    if (path_pose(path->steps, when, pose)) {
-      stamp = when;
-      canonicalise(pose.q);
-      return true;
-    }
-  }
+  if (paths && follow_path(tree, *paths, target, source, stamp, pose)) return true;
   if (stamp == 0 && !latest_common_time(tree, target, source, stamp, failure)) return false;
   Exact exact;
   if (!walk_pose(tree, exact, target, source, stamp, pose, failure)) return false;

@@ -18,6 +18,11 @@ namespace coframe {
 bool lookup(const Tree& tree, PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
             Failure& failure);
 
+// The same along a remembered path, for two different frames; false where lookup() has to decide.
+bool follow_path(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose);
+// Whether follow_path() would answer.
+bool check_path(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp stamp);
+
 // The same beyond the data of a link, as far as `extrapolation` allows, which then knows how far it went.
 bool lookup(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
             Failure& failure);
