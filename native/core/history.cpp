@@ -55,10 +55,9 @@ const SharedSample& History::View::sample_of(std::uint64_t number) const {
 }
 
 Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
-  const auto take = [&](const SharedSample& shared) {
-    const Sample found = shared.load();
-    pose = found.pose;
-    parent = found.parent;
+  const auto take = [&](const SharedSample& found) {
+    found.load(pose);
+    parent = found.parent();
     return Found::ok;
   };
   if (empty()) return Found::empty;
@@ -79,18 +78,14 @@ Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
       start = stamp_of(next - 1);
     }
   }
-  const Sample older = sample_of(next - 1).load();
-  parent = older.parent;
-  if (start == stamp) {
-    pose = older.pose;
-    return Found::ok;
-  }
-  const Sample newer = sample_of(next).load();
-  if (newer.parent != older.parent) {
-    pose = older.pose;
-  } else {
-    interpolate(older.pose, newer.pose, share_of(stamp, start, stamp_of(next)), pose);
-  }
+  const SharedSample& older = sample_of(next - 1);
+  const SharedSample& newer = sample_of(next);
+  parent = older.parent();
+  if (start == stamp || newer.parent() != parent) return take(older);
+  Pose from, to;
+  older.load(from);
+  newer.load(to);
+  interpolate(from, to, share_of(stamp, start, stamp_of(next)), pose);
   return Found::ok;
 }
 
