@@ -33,10 +33,7 @@ def test_the_wheel_has_everything(tmp_path):
     path, rclpy = run(python, "-c", "import sys, rclpy; print(sys.path[-1]); print(rclpy.__file__)").splitlines()
     assert path.endswith("coframe/ros"), "the ROS packages come last on the path"
     assert rclpy.startswith(path)
-    run(
-        python,
-        "-c",
-        "import tf2_ros, tf2_geometry_msgs, tf2_sensor_msgs, tf2_nav_msgs, tf2_visualization_msgs, tf_transformations, sensor_msgs_py",
-    )
+    packages = "tf2_ros, tf2_geometry_msgs, tf2_sensor_msgs, tf2_nav_msgs, tf2_visualization_msgs, tf_transformations"
+    run(python, "-c", f"import {packages}, sensor_msgs_py")
     shown = run(tmp_path / "env" / "bin" / "coframe", "demo", "--duration", "5", ROS_DOMAIN_ID="201")
     assert re.search(r"^ *camera_link +end_effector +static", shown, re.MULTILINE)

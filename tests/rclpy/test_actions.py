@@ -593,6 +593,7 @@ def test_across_processes(run_script, make_node, result_of, wait_until):
     executor = spinner_of(client)
     wait_until(lambda: [message.goal_id for message in heard] == [goal_handle.goal_id], lambda: executor.spin_once(0.1))
     script.process.terminate()
+    script.end()
     wait_until(lambda: not client.server_is_ready())
     assert not client.send_goal_async(goal).done()
 

@@ -124,7 +124,7 @@ def test_a_future_completes_when_data_come_in_natively(buffer):
     done = _core.Event()
     future.add_done_callback(lambda _: done.set())
     # Past everything of Python's, as a reader on the wire does.
-    buffer._buffer.set_values("a", "b", 1_000_000_000, *(0.0,) * 6, 1.0, False, "wire")
+    buffer._coframe_buffer.set_values("a", "b", 1_000_000_000, *(0.0,) * 6, 1.0, False, "wire")
     assert done.wait(10_000_000_000)
     assert future.result().header.frame_id == "a"
 
@@ -143,7 +143,7 @@ def test_cancelled_futures_are_forgotten(buffer, stamped):
     future.cancel()
     buffer.set_transform(stamped("a", "b", 1.0), "me")
     assert not future.done()
-    assert buffer._buffer.dispatcher.is_idle
+    assert buffer._coframe_buffer.dispatcher.is_idle
 
 
 def test_the_waiting_thread_ends_with_the_waits(buffer, stamped):

@@ -143,6 +143,13 @@ def test_covariances_of_an_imu_follow_their_axes(imu, transform):
     assert np.array_equal(moved.orientation_covariance, imu.orientation_covariance), "it is in the world's axes"
 
 
+def test_an_orientation_of_zeros_is_none(imu, transform):
+    imu.orientation = Quaternion(w=0.0)
+    moved = do_transform_imu(imu, transform)
+    assert moved.orientation == imu.orientation
+    assert moved.angular_velocity != imu.angular_velocity
+
+
 def test_what_an_imu_does_not_measure_stays_as_it_is(imu, transform):
     imu.orientation_covariance[0] = imu.linear_acceleration_covariance[0] = -1.0
     imu.orientation = Quaternion(w=0.0)

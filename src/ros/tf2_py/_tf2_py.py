@@ -1,7 +1,7 @@
 """tf2's `BufferCore` on coframe's native buffer."""
 
 import sys
-from typing import Any, ClassVar
+from typing import Any
 
 import coframe
 from coframe import _core
@@ -41,6 +41,8 @@ for _exception in (
 ):
     _exception.__module__ = "tf2"
 
+# console_bridge's prefixes, as Humble writes them to stderr.
+_LOG_PREFIX = {"error": "Error:   ", "warning": "Warning: "}
 _TEN_SECONDS = Duration(seconds=10)
 _NO_TIME = Time()
 
@@ -54,9 +56,6 @@ class BufferCore:
 
     __module__ = "_tf2"  # likewise
 
-    # console_bridge's prefixes, as Humble writes them to stderr.
-    _LOG_PREFIX: ClassVar[dict[str, str]] = {"error": "Error:   ", "warning": "Warning: "}
-
     def __init__(self, cache_time: Any = _TEN_SECONDS, /, **_ignored: Any) -> None:
         """Create an empty buffer.
 
@@ -64,7 +63,8 @@ class BufferCore:
             cache_time: How long a transform is kept after newer ones arrived.
             **_ignored: tf2's native type takes no keywords and passes over them silently.
         """
-        self._buffer = coframe.Buffer(_convert.nanoseconds(cache_time, "duration"))
+        # Programs subclass it, with attributes of their own: names are chosen that theirs are not.
+        self._coframe_buffer = coframe.Buffer(_convert.nanoseconds(cache_time, "duration"))
 
     def set_transform(self, transform: Any, authority: str, /) -> None:
         """Add a transform that changes over time; refused data are reported on stderr, as tf2 does.
@@ -73,29 +73,29 @@ class BufferCore:
             transform: A `geometry_msgs/TransformStamped`, or what looks like one.
             authority: Who says so.
         """
-        self._insert(transform, authority, static=False)
+        self.__insert(transform, authority, static=False)
 
     def set_transform_static(self, transform: Any, authority: str, /) -> None:
         """Add a transform that holds at every time; refused data are reported on stderr, as tf2 does."""
-        self._insert(transform, authority, static=True)
+        self.__insert(transform, authority, static=True)
 
-    def _insert(self, transform: Any, authority: str, *, static: bool) -> None:
+    def __insert(self, transform: Any, authority: str, *, static: bool) -> None:
         authority = _convert.text(authority, 2)
         parent = _convert.frame_id(transform.header.frame_id, "header.frame_id")
         child = _convert.frame_id(transform.child_frame_id, "child_frame_id")
         stamp = _convert.nanoseconds(transform.header.stamp, "time")
         pose = _convert.values(transform.transform, static=static)
         try:
-            refused = self._buffer.set_values(parent, child, stamp, *pose, static, authority)
+            refused = self._coframe_buffer.set_values(parent, child, stamp, *pose, static, authority)
         except TypeError:
             raise TypeError(f"translation and rotation must be numbers, but are {pose!r}") from None
         if refused:
             for level, text in _core.insert_texts(refused, parent, child, stamp, *pose, authority):
-                sys.stderr.write(f"{self._LOG_PREFIX[level]}{text}\n")
+                sys.stderr.write(f"{_LOG_PREFIX[level]}{text}\n")
 
     def can_transform_core(self, target_frame: str, source_frame: str, time: Any) -> tuple[int, str]:
         """1 and an empty text if the look-up would succeed, else 0 and the reason."""
-        reason = self._buffer.why_not(
+        reason = self._coframe_buffer.why_not(
             _convert.text(target_frame, 1), _convert.text(source_frame, 2), _convert.nanoseconds(time, "time")
         )
         return int(not reason), reason
@@ -104,7 +104,7 @@ class BufferCore:
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> tuple[int, str]:
         """The same for `lookup_transform_full_core`."""
-        reason = self._buffer.why_not_full(
+        reason = self._coframe_buffer.why_not_full(
             *_convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         )
         return int(not reason), reason
@@ -115,12 +115,12 @@ class BufferCore:
         Raises:
             TransformException: One of its children, with tf2's text.
         """
-        return self._lookup(
+        return self._coframe_lookup(
             _convert.text(target_frame, 1), _convert.text(source_frame, 2), _convert.nanoseconds(time, "time")
         )
 
-    def _lookup(self, target: str, source: str, stamp: int, wait: int | None = None) -> TransformStamped:
-        found = self._buffer.lookup(target, source, stamp, timeout=wait)
+    def _coframe_lookup(self, target: str, source: str, stamp: int, wait: int | None = None) -> TransformStamped:
+        found = self._coframe_buffer.lookup(target, source, stamp, timeout=wait)
         return transform_stamped(target, source, found.stamp or 0, found.values)
 
     def lookup_transform_full_core(
@@ -131,10 +131,12 @@ class BufferCore:
         Raises:
             TransformException: One of its children, with tf2's text.
         """
-        return self._lookup_full(_convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame))
+        return self._coframe_lookup_full(
+            _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
+        )
 
-    def _lookup_full(self, query: tuple[str, int, str, int, str], wait: int | None = None) -> TransformStamped:
-        found = self._buffer.lookup_full(*query, timeout=wait)
+    def _coframe_lookup_full(self, query: tuple[str, int, str, int, str], wait: int | None = None) -> TransformStamped:
+        found = self._coframe_buffer.lookup_full(*query, timeout=wait)
         return transform_stamped(query[0], query[2], found.stamp or 0, found.values)
 
     def get_latest_common_time(self, target_frame: str, source_frame: str, /) -> Time:
@@ -143,7 +145,9 @@ class BufferCore:
         Raises:
             TransformException: There is none; `LookupException` for a frame that nobody has mentioned.
         """
-        return any_time(self._buffer.latest_common_time(_convert.text(target_frame, 1), _convert.text(source_frame, 2)))
+        return any_time(
+            self._coframe_buffer.latest_common_time(_convert.text(target_frame, 1), _convert.text(source_frame, 2))
+        )
 
     def lookupVelocityCore(
         self, tracking_frame: str, observation_frame: str, time: Any, averaging_interval: Any
@@ -151,7 +155,7 @@ class BufferCore:
         """Linear (m/s) and angular (rad/s) velocity of the tracking frame's origin in the observation frame."""
         tracking, observation = _convert.text(tracking_frame, 1), _convert.text(observation_frame, 2)
         return lookup_velocity(
-            self._buffer,
+            self._coframe_buffer,
             Tracked(tracking, (0.0, 0.0, 0.0), tracking),
             observation,
             observation,
@@ -174,7 +178,7 @@ class BufferCore:
         x, y, z = reference_point
         point = (float(x), float(y), float(z))
         return lookup_velocity(
-            self._buffer,
+            self._coframe_buffer,
             Tracked(_convert.text(tracking_frame, 1), point, _convert.text(reference_point_frame, 5)),
             _convert.text(observation_frame, 2),
             _convert.text(reference_frame, 3),
@@ -184,29 +188,29 @@ class BufferCore:
 
     def all_frames_as_yaml(self, *_ignored: Any) -> str:
         """One YAML block per frame that has a parent: who sends it, how often, from when to when."""
-        return self._buffer.all_frames_as_yaml()
+        return self._coframe_buffer.all_frames_as_yaml()
 
     def all_frames_as_string(self, *_ignored: Any) -> str:
         """One sentence per frame that has a parent."""
-        return self._buffer.all_frames_as_string()
+        return self._coframe_buffer.all_frames_as_string()
 
     def _allFramesAsDot(self, time: Any = _NO_TIME) -> str:
-        return self._buffer.all_frames_as_dot(_convert.nanoseconds(time, "time"))
+        return self._coframe_buffer.all_frames_as_dot(_convert.nanoseconds(time, "time"))
 
     def _chain(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> list[str]:
-        return self._buffer.chain(
+        return self._coframe_buffer.chain(
             *_convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         )
 
     def _frameExists(self, frame: str, /) -> bool:
         # tf2 keeps the root of all trees in its table of names.
-        return _convert.text(frame, 1) == "NO_PARENT" or self._buffer.frame_exists(frame)
+        return _convert.text(frame, 1) == "NO_PARENT" or self._coframe_buffer.frame_exists(frame)
 
     def _getFrameStrings(self) -> list[str]:
-        return self._buffer.frame_names()
+        return self._coframe_buffer.frame_names()
 
     def clear(self) -> None:
         """Forget every moving transform; frames and static transforms stay."""
-        self._buffer.clear()
+        self._coframe_buffer.clear()

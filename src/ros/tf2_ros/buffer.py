@@ -53,7 +53,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         if node is None:
             self.clock = Clock()
         else:
-            self.srv = node.create_service(FrameGraph, "tf2_frames", self._describe_frames)
+            self.srv = node.create_service(FrameGraph, "tf2_frames", self.__describe_frames)
             self.clock = node.get_clock()
         self.jump_handle = clear_on_time_jump(self, self.clock)
 
@@ -63,7 +63,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         get_logger("tf2_buffer").warning("Detected jump back in time. Clearing tf buffer.")
         self.clear()
 
-    def _describe_frames(self, request: Any, response: Any) -> Any:
+    def __describe_frames(self, request: Any, response: Any) -> Any:
         del request
         response.frame_yaml = self.all_frames_as_yaml()
         return response
@@ -75,7 +75,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             transform: The transform.
             authority: Who says so.
         """
-        with self._buffer.dispatcher.inserting():
+        with self._coframe_buffer.dispatcher.inserting():
             super().set_transform(transform, authority)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
@@ -85,7 +85,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             transform: The transform.
             authority: Who says so.
         """
-        with self._buffer.dispatcher.inserting():
+        with self._coframe_buffer.dispatcher.inserting():
             super().set_transform_static(transform, authority)
 
     def lookup_transform(
@@ -103,7 +103,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             TransformException: It is not known; one of its children says why.
         """
         target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
-        return self._lookup(target, source, _convert.nanoseconds(time, "time"), _wait(timeout))
+        return self._coframe_lookup(target, source, _convert.nanoseconds(time, "time"), _wait(timeout))
 
     def lookup_transform_full(
         self,
@@ -128,7 +128,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             TransformException: It is not known; one of its children says why.
         """
         query = _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
-        return self._lookup_full(query, _wait(timeout))
+        return self._coframe_lookup_full(query, _wait(timeout))
 
     async def lookup_transform_async(
         self,
@@ -170,7 +170,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         stamp, wait = _convert.nanoseconds(time, "time"), _wait(timeout)
         if wait is not None:
             target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
-            self._buffer.can_transform(target, source, stamp, timeout=wait)
+            self._coframe_buffer.can_transform(target, source, stamp, timeout=wait)
         answer = self.can_transform_core(target_frame, source_frame, time)
         return answer if return_debug_tuple else answer[0]
 
@@ -188,7 +188,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         query = (target_frame, target_time, source_frame, source_time, fixed_frame)
         wait = _wait(timeout)
         if wait is not None:
-            self._buffer.can_transform_full(*_convert.full_query(*query), timeout=wait)
+            self._coframe_buffer.can_transform_full(*_convert.full_query(*query), timeout=wait)
         answer = self.can_transform_full_core(*query)
         return answer if return_debug_tuple else answer[0]
 
@@ -204,10 +204,10 @@ class Buffer(tf2.BufferCore, BufferInterface):
         target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
         stamp = _convert.nanoseconds(time, "time")
         return _waits.wait(
-            self._buffer.dispatcher,
-            lambda mailbox, token: _core.wait(self._buffer, mailbox, token, target, source, stamp),
+            self._coframe_buffer.dispatcher,
+            lambda mailbox, token: _core.wait(self._coframe_buffer, mailbox, token, target, source, stamp),
             lambda found: transform_stamped(target, source, found.stamp or 0, found.values),
-            lambda: self._lookup(target, source, stamp),
+            lambda: self._coframe_lookup(target, source, stamp),
             _limit(timeout),
         )
 
@@ -224,10 +224,10 @@ class Buffer(tf2.BufferCore, BufferInterface):
         """The same between two times."""
         query = _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         return _waits.wait(
-            self._buffer.dispatcher,
-            lambda mailbox, token: _core.wait_full(self._buffer, mailbox, token, *query),
+            self._coframe_buffer.dispatcher,
+            lambda mailbox, token: _core.wait_full(self._coframe_buffer, mailbox, token, *query),
             lambda found: transform_stamped(query[0], query[2], found.stamp or 0, found.values),
-            lambda: self._lookup_full(query),
+            lambda: self._coframe_lookup_full(query),
             _limit(timeout),
         )
 

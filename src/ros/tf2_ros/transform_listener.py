@@ -135,7 +135,7 @@ class TransformListener:
         reader = self.node._wire.tf_reader(
             self.node._graph_node,
             topic,
-            self.__buffer._buffer,
+            self.__buffer._coframe_buffer,
             static=static,
             qos=qos._to_wire(),
             authority=_AUTHORITY,
@@ -185,7 +185,7 @@ class _Arrivals:
     _DEPTH = 100
 
     def __init__(self, buffer: tf2.BufferCore) -> None:
-        self._buffer = buffer._buffer
+        self._buffer = buffer._coframe_buffer
         self._told = self._count()
 
     def _count(self) -> int:

@@ -10,14 +10,13 @@ acceleration, which nobody measured.
 """
 
 from copy import deepcopy
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import tf2_ros
 from coframe import quaternion as quaternions
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
 from sensor_msgs.msg import Imu
 from tf2_geometry_msgs.tf2_geometry_msgs import _get_mat_from_quat
 
@@ -25,12 +24,13 @@ Array = NDArray[np.float64]
 
 # In the first element of a covariance: the IMU does not measure that.
 _NOT_MEASURED = -1.0
+_NO_ORIENTATION = Quaternion(x=0.0, y=0.0, z=0.0, w=0.0)
 
 
 def do_transform_imu(imu: Imu, transform: TransformStamped) -> Imu:
     """An IMU's measurements (rad/s, m/s^2) in the axes of the transform's frame; the header is the transform's.
 
-    What its covariance says is not measured (-1) stays as it is.
+    What its covariance says is not measured (-1) stays as it is, and so does an orientation of zeros, which is none.
 
     Args:
         imu: The measurements.
@@ -40,7 +40,7 @@ def do_transform_imu(imu: Imu, transform: TransformStamped) -> Imu:
     rotation = _get_mat_from_quat(np.roll(turn, 1))
     result = deepcopy(imu)
     result.header = transform.header
-    if imu.orientation_covariance[0] != _NOT_MEASURED:
+    if imu.orientation_covariance[0] != _NOT_MEASURED and imu.orientation != _NO_ORIENTATION:
         result.orientation = _turned_body(imu.orientation, turn)
     for name in ("angular_velocity", "linear_acceleration"):
         covariance = getattr(imu, f"{name}_covariance")
@@ -51,23 +51,23 @@ def do_transform_imu(imu: Imu, transform: TransformStamped) -> Imu:
     return result
 
 
-def _unit(quaternion: Any) -> Array:
-    """The quaternion (x, y, z, w) of a message, normalised; the identity for a zero quaternion, as elsewhere in tf2."""
+def _unit(quaternion: Quaternion) -> Array:
+    """A quaternion (x, y, z, w), normalised; the identity for a zero quaternion, as elsewhere in tf2."""
     values = np.array([quaternion.x, quaternion.y, quaternion.z, quaternion.w], dtype=np.float64)
     length = float(np.linalg.norm(values))
     return values / length if length**2 >= np.finfo(np.float64).eps else np.array([0.0, 0.0, 0.0, 1.0])
 
 
-def _turned_body(orientation: Any, turn: Array) -> Any:
+def _turned_body(orientation: Quaternion, turn: Array) -> Quaternion:
     """The orientation in the world of a frame that is `turn` away from the one whose orientation is given."""
-    result = type(orientation)()
+    result = Quaternion()
     product = quaternions.multiply(_unit(orientation), quaternions.inverse(turn))
     result.x, result.y, result.z, result.w = product.tolist()
     return result
 
 
-def _rotated(vector: Any, rotation: Array) -> Any:
-    result = type(vector)()
+def _rotated(vector: Vector3, rotation: Array) -> Vector3:
+    result = Vector3()
     result.x, result.y, result.z = (rotation @ [vector.x, vector.y, vector.z]).tolist()
     return result
 

@@ -171,6 +171,21 @@ def test_a_subclass_that_sets_transforms_its_own_way(stamped):
     assert buffer.lookup_transform("foo", "bar", Time()).transform.translation.z == -2.0
 
 
+def test_a_subclass_with_attributes_of_its_own(stamped):
+    class Mine(tf2_ros.Buffer):
+        def __init__(self):
+            super().__init__()
+            self._buffer = self._core = self._lookup = self._lookup_full = self._insert = self._waits = None
+
+    buffer = Mine()
+    future = buffer.wait_for_transform_async("foo", "bar", Time(seconds=1))
+    buffer.set_transform(stamped("foo", "bar", 1.0), "unittest")
+    assert future.done()
+    assert buffer.lookup_transform("foo", "bar", Time(seconds=1)).child_frame_id == "bar"
+    assert buffer.lookup_transform_full("foo", Time(), "bar", Time(), "foo").child_frame_id == "bar"
+    assert buffer.can_transform("foo", "bar", Time(), Duration(seconds=1))
+
+
 def test_a_subclass_that_looks_up_its_own_way(stamped):
     class Fixed(tf2_ros.BufferInterface):
         def lookup_transform(self, target_frame, source_frame, *_):
