@@ -18,6 +18,12 @@ namespace coframe {
 using FrameId = std::uint32_t;  // 0 is tf2's NO_PARENT
 using Stamp = std::int64_t;     // nanoseconds; 0 asks for the latest
 
+// How far apart two stamps are, whatever they are.
+inline std::uint64_t distance(Stamp a, Stamp b) {
+  const auto first = static_cast<std::uint64_t>(a), second = static_cast<std::uint64_t>(b);
+  return a < b ? second - first : first - second;
+}
+
 // A pose and the frame it is told in.
 struct Sample {
   Pose pose;

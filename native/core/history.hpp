@@ -37,6 +37,8 @@ class History {
   struct Directory;
 
  public:
+  class Search;
+
   // What a reader sees: the samples that were there when it began. Appended ones do not show.
   class View {
    public:
@@ -61,18 +63,48 @@ class History {
     // Index of the first sample newer than `stamp`; size() if there is none.
     std::size_t first_after(Stamp stamp) const;
 
+    // For many look-ups at once; samples by their number in the history's life, as Search tells them.
+    void prefetch_stamp(std::uint64_t number) const;
+    void prefetch_samples(std::uint64_t next) const;
+    // The pose at `stamp`, which lies between the sample `next` and the one before.
+    void between(std::uint64_t next, Stamp stamp, Pose& pose, FrameId& parent) const;
+
    private:
     friend class History;
+    friend class Search;
     // By their number in the history's life.
     const Chunk& chunk_of(std::uint64_t number) const;
     Stamp stamp_of(std::uint64_t number) const;
     const SharedSample& sample_of(std::uint64_t number) const;
-    std::uint64_t search(Stamp stamp, Stamp first, Stamp last) const;
-
     const Directory* directory_;
     const SharedSample* fixed_;
     std::uint64_t begin_, end_;
     HistoryKind kind_;
+  };
+
+  // Where in a dynamic history of at least two samples a stamp lies.
+  class Search {
+   public:
+    explicit Search(const View& samples);
+
+    bool covers(Stamp stamp) const { return stamp >= first_ && stamp <= last_; }
+    // Rates are nearly constant, so a straight line through both ends lands close. For any stamp: a sample.
+    std::uint64_t guess(Stamp stamp) const;
+    // The first sample newer than a stamp that covers() allows and that is not the newest: doubling steps from the guess
+    // find it.
+    std::uint64_t first_after(Stamp stamp, std::uint64_t guess) const;
+    // The newer one of the two samples that View::between() wants for a stamp that covers() allows.
+    std::uint64_t next(Stamp stamp, std::uint64_t guess) const {
+      return stamp == last_ ? high_ : stamp == first_ ? low_ + 1 : first_after(stamp, guess);
+    }
+    // For a stamp that it does not allow.
+    std::uint64_t any() const { return low_ + 1; }
+
+   private:
+    const View& samples_;
+    Stamp first_, last_;
+    std::uint64_t low_, high_;  // the oldest and the newest
+    double per_nanosecond_;     // samples
   };
 
   History();
@@ -92,6 +124,9 @@ class History {
   // Stores a sample as tf2 does: prunes by the newest stamp before this one, refuses what is older than the cache
   // length, takes an exact repetition silently, puts equal stamps behind each other. Not for HistoryKind::none.
   Insertion insert(const HistoryContext& context, Stamp stamp, const Sample& sample);
+  // Stores samples, told by their index, as long as each is newer than the one before and the newest; returns how many.
+  template <class SampleAt>
+  std::size_t append_run(const HistoryContext& context, const Stamp* stamps, std::size_t count, SampleAt&& sample_at);
   // Starts anew as another kind.
   void reset(const HistoryContext& context, HistoryKind kind);
   // Forgets all samples of a dynamic history; a static one stays.
@@ -113,6 +148,8 @@ class History {
   void put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample);
   void add_chunk(const HistoryContext& context);
   void own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end);
+  // By the newest stamp there was before the last insertion; returns the earliest stamp that is kept.
+  Stamp prune(const HistoryContext& context, Stamp newest);
   void drop_older_than(ChunkPool& pool, Stamp stamp);
   void drop_all(ChunkPool& pool);
   Chunk* chunk_at(std::uint64_t index) const;
@@ -127,5 +164,28 @@ class History {
   SharedSample fixed_;  // the one sample of a static history
   std::vector<std::unique_ptr<Directory>> directories_;  // the last is in use; readers may still be in the others
 };
+
+template <class SampleAt>
+std::size_t History::append_run(const HistoryContext& context, const Stamp* stamps, std::size_t count,
+                                SampleAt&& sample_at) {
+  Stamp newest = view().newest(), before = newest;
+  std::size_t stored = 0;
+  while (stored < count && stamps[stored] > newest) {
+    const std::uint64_t start = end_;
+    if (start % Chunk::kSize == 0) add_chunk(context);
+    Chunk& chunk = *chunk_at(start);
+    std::uint64_t end = start;
+    do {
+      chunk.stamps[end % Chunk::kSize] = stamps[stored];
+      chunk.samples[end % Chunk::kSize].store(sample_at(stored));
+      before = newest;
+      newest = stamps[stored++];
+      ++end;
+    } while (end % Chunk::kSize != 0 && stored < count && stamps[stored] > newest);
+    end_.store(end, std::memory_order_release);
+    prune(context, before);
+  }
+  return stored;
+}
 
 }  // namespace coframe

@@ -2,18 +2,26 @@
 
 namespace coframe {
 
+namespace {
+
+std::uint64_t key_of(FrameId target, FrameId source) { return (static_cast<std::uint64_t>(target) << 32) | source; }
+
+}  // namespace
+
 const PathCache::Path* PathCache::find(const Tree& tree, FrameId target, FrameId source) {
   if (paths_.empty()) paths_.resize(kEntries);
-  const std::uint64_t frames = (static_cast<std::uint64_t>(target) << 32) | source;
-  Path& path = paths_[(frames * 0x9e3779b97f4a7c15u) >> 53];
-  const std::uint64_t version = tree.version();
-  if (path.frames != frames || path.version != version) {
-    const std::uint64_t revision = tree.revision().start_reading();
-    walk(tree, target, source, path);
-    path.frames = frames;
-    path.version = tree.revision().unchanged(revision) ? version : 0;
-  }
+  Path& path = paths_[(key_of(target, source) * 0x9e3779b97f4a7c15u) >> 53];
+  update(tree, target, source, path);
   return path.usable ? &path : nullptr;
+}
+
+void PathCache::update(const Tree& tree, FrameId target, FrameId source, Path& path) {
+  const std::uint64_t version = tree.version();
+  if (path.frames == key_of(target, source) && path.version == version) return;
+  const std::uint64_t revision = tree.revision().start_reading();
+  walk(tree, target, source, path);
+  path.frames = key_of(target, source);
+  path.version = tree.revision().unchanged(revision) ? version : 0;
 }
 
 void PathCache::walk(const Tree& tree, FrameId target, FrameId source, Path& path) {

@@ -27,6 +27,9 @@ class PathCache {
   // The steps from `source` to `target` as of the newest data, or nullptr where the slow walk must decide.
   const Path* find(const Tree& tree, FrameId target, FrameId source);
 
+  // Finds a path again if the tree has changed since, for who keeps one of his own.
+  static void update(const Tree& tree, FrameId target, FrameId source, Path& path);
+
  private:
   friend class PathLease;
   // A new path takes the place of another: a program may ask for every pair of a thousand frames.

@@ -127,10 +127,11 @@ class Buffer:
         target: str,
         source: str,
         stamps: Any,
-        translations: Any,
-        quaternions: Any,
+        poses: Any,
+        twists: Any,
         beyond: Any,
-        nan_for_none: bool,
+        on_error: str,
+        threads: int,
         extrapolate: DurationLike | None = None,
         hold: bool = False,
     ) -> int:
@@ -139,6 +140,14 @@ class Buffer:
         Returns:
             The first row without an answer, which raises unless NaN stands for it; the number of rows if there is none.
         """
+
+    def stamps_between(self, target: str, source: str, first: int, last: int) -> bytes:
+        """The stamps of all samples between two times on the links between two frames, in order, as int64."""
+
+    def set_rows(
+        self, parent: str, child: str, stamps: Any, poses: Any, static: bool, authority: str
+    ) -> tuple[int, int, int]:
+        """set_values() for each row: the reasons for refusal as bits, how many were stored, the first refused row."""
 
     def can_transform(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
