@@ -422,11 +422,13 @@ bool Buffer::answer_row(Question& question, const Extrapolation* extrapolation, 
   bool ok = answer(question, one, failure, extrapolation ? &guess : nullptr);
   if (ok && batch.twists) {
     Twist twist;
-    PathCache::Path path;
-    if (question.target != question.source) PathCache::update(tree_, question.target_id, question.source_id, path);
-    if (path.usable) {
-      Pose pose;
-      ok = read([&](const Tree&) { return follow_moving(path, one.stamp, pose, twist); });
+    if (question.target != question.source) {
+      ok = read([&](const Tree& tree) {
+        PathCache::Path path;
+        Pose pose;
+        PathCache::walk_at(tree, question.target_id, question.source_id, one.stamp, path);
+        return path.usable && follow_moving(path, one.stamp, pose, twist);
+      });
     }
     std::copy_n(twist.linear, 3, batch.twists + 6 * row);
     std::copy_n(twist.angular, 3, batch.twists + 6 * row + 3);

@@ -25,11 +25,6 @@ void PathCache::update(const Tree& tree, FrameId target, FrameId source, Path& p
 }
 
 void PathCache::walk(const Tree& tree, FrameId target, FrameId source, Path& path) {
-  struct Link {
-    FrameId frame, parent;
-  };
-  path.usable = false;
-  path.steps.clear();
   const auto climb = [&tree](FrameId frame, std::vector<Link>& links) {
     for (;;) {
       const History::View history = tree.history(frame);
@@ -40,7 +35,31 @@ void PathCache::walk(const Tree& tree, FrameId target, FrameId source, Path& pat
     }
   };
   std::vector<Link> up, down;
-  if (!climb(source, up) || !climb(target, down) || up.back().frame != down.back().frame) return;
+  path.usable = climb(source, up) && climb(target, down);
+  if (path.usable) join(tree, up, down, path);
+}
+
+void PathCache::walk_at(const Tree& tree, FrameId target, FrameId source, Stamp stamp, Path& path) {
+  const auto climb = [&](FrameId frame, std::vector<Link>& links) {
+    Pose ignored;
+    FrameId parent = 0;
+    while (links.size() <= kMaxDepth && tree.history(frame).at(stamp, ignored, parent) == Found::ok) {
+      links.push_back({frame, parent});
+      frame = parent;
+    }
+    links.push_back({frame, 0});
+  };
+  std::vector<Link> up, down;
+  climb(source, up);
+  climb(target, down);
+  join(tree, up, down, path);
+}
+
+// The links up from the source and down to the target, without those above where they meet.
+void PathCache::join(const Tree& tree, std::vector<Link>& up, std::vector<Link>& down, Path& path) {
+  path.steps.clear();
+  path.usable = up.back().frame == down.back().frame;
+  if (!path.usable) return;
   while (up.size() > 1 && down.size() > 1 && up[up.size() - 2].frame == down[down.size() - 2].frame) {
     up.pop_back();
     down.pop_back();
@@ -50,7 +69,6 @@ void PathCache::walk(const Tree& tree, FrameId target, FrameId source, Path& pat
   };
   for (std::size_t i = 0; i + 1 < up.size(); ++i) add(up[i], false);
   for (std::size_t i = down.size() - 1; i > 0; --i) add(down[i - 1], true);
-  path.usable = true;
 }
 
 }  // namespace coframe

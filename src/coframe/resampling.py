@@ -19,6 +19,8 @@ Stamps = NDArray[np.int64]
 
 # A step is cut into parts of equal time, of which some may still be too long: so often is it tried again.
 _ROUNDS = 30
+# Poses to choose from, a step: the more, the nearer to the limits the chosen steps come.
+_CHOICE = 4
 
 
 @dataclass(frozen=True)
@@ -46,13 +48,15 @@ class StepLimits:
             stamps: (N,) in order; those of the samples, between which the motion is smooth.
         """
         poses = poses_at(stamps)
+        parts_a_step = _CHOICE
         for _ in range(_ROUNDS):
-            parts = np.ceil(self._share(poses[:-1], poses[1:])).astype(np.int64)
-            parts = np.minimum(np.maximum(parts, 1), np.maximum(np.diff(stamps), 1))
+            parts = np.ceil(self._share(poses[:-1], poses[1:]) * parts_a_step).astype(np.int64)
+            parts = np.clip(parts, 1, np.maximum(np.diff(stamps), 1))
             if (parts == 1).all():
                 break
             stamps = _cut(stamps, parts)
             poses = poses_at(stamps)
+            parts_a_step = 1
         return poses[self._thin(poses)]
 
     def _thin(self, poses: Transform) -> NDArray[np.intp]:
