@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/pose_rows.hpp"
+
 namespace coframe {
 
 namespace {
@@ -18,18 +20,15 @@ void add_step(const PathCache::Step& link, const Pose& step, Pose& pose) {
 }
 
 // One link of the path for all rows: where the samples lie, then the samples, each asked from memory in advance.
-void follow_link(const PathCache::Step& link, const Stamp* stamps, std::size_t count, Pose* poses, bool* ok) {
+void follow_link(const PathCache::Step& link, const Stamp* stamps, std::size_t count, PoseRows& poses, bool* ok) {
   const History::View history = link.history->view();
   if (history.is_static() || history.size() < 2) {
-    Pose step;
-    FrameId parent;
     for (std::size_t row = 0; row < count; ++row) {
-      if (history.at(stamps[row], step, parent) == Found::ok && parent == link.parent) {
-        add_step(link, step, poses[row]);
-      } else {
-        ok[row] = false;
-      }
+      Pose step;
+      FrameId parent;
+      ok[row] = ok[row] && history.at(stamps[row], step, parent) == Found::ok && parent == link.parent;
     }
+    if (!history.empty()) compose_rows(history.sample(0).pose, link.down, count, poses);
     return;
   }
   std::array<std::uint64_t, kBlock> next;
@@ -43,13 +42,18 @@ void follow_link(const PathCache::Step& link, const Stamp* stamps, std::size_t c
     next[row] = ok[row] ? search.next(stamps[row], next[row]) : search.any();
     history.prefetch_samples(next[row]);
   }
+  PoseRows older, newer;
+  std::array<double, kBlock> part, whole;
   for (std::size_t row = 0; row < count; ++row) {
-    Pose step;
-    FrameId parent;
-    history.between(next[row], stamps[row], step, parent);
-    ok[row] = ok[row] && parent == link.parent;
-    add_step(link, step, poses[row]);
+    const History::Pair pair = history.pair(next[row], stamps[row]);
+    ok[row] = ok[row] && pair.older->parent() == link.parent;
+    older.load(row, *pair.older);
+    newer.load(row, *pair.newer);
+    part[row] = pair.part;
+    whole[row] = pair.whole;
   }
+  interpolate_rows(older, newer, part.data(), whole.data(), count, older);
+  compose_rows(older, link.down, count, poses);
 }
 
 void cross(const double* a, const double* b, double* out) {
@@ -114,13 +118,14 @@ void subtract_rate(const Pose& step, const Twist& rate, const Pose& pose, Twist&
 
 }  // namespace
 
-void follow_block(const PathCache::Path& path, const Stamp* stamps, std::size_t count, Pose* poses, bool* ok) {
-  for (std::size_t row = 0; row < count; ++row) {
-    poses[row] = Pose{};
-    ok[row] = stamps[row] != 0;
-  }
+void follow_block(const PathCache::Path& path, const Stamp* stamps, std::size_t count, double* rows, bool* ok) {
+  PoseRows poses;
+  poses.set_identity(count);
+  for (std::size_t row = 0; row < count; ++row) ok[row] = stamps[row] != 0;
   for (const PathCache::Step& link : path.steps) follow_link(link, stamps, count, poses, ok);
-  for (std::size_t row = 0; row < count; ++row) canonicalise(poses[row].q);
+  for (std::size_t row = 0; row < count; ++row) {
+    if (ok[row]) poses.write(row, rows + 7 * row);
+  }
 }
 
 bool follow_moving(const PathCache::Path& path, Stamp stamp, Pose& pose, Twist& twist) {

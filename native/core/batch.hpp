@@ -5,16 +5,14 @@
 #include <cstddef>
 
 #include "core/paths.hpp"
+#include "core/pose_rows.hpp"
 #include "core/tree.hpp"
 
 namespace coframe {
 
-// Rows are answered together; each row is one look-up.
-inline constexpr std::size_t kBlock = 256;
-
-// The poses of `count` <= kBlock rows at `stamps` along a path; `ok[row]` false where the row has to be looked up alone:
-// without a sample, or with one of another parent.
-void follow_block(const PathCache::Path& path, const Stamp* stamps, std::size_t count, Pose* poses, bool* ok);
+// The poses of `count` <= kBlock rows at `stamps` along a path, as x, y, z, qx, qy, qz, qw a row; `ok[row]` false where
+// the row has to be looked up alone: without a sample, with one of another parent, or for the latest.
+void follow_block(const PathCache::Path& path, const Stamp* stamps, std::size_t count, double* rows, bool* ok);
 
 // How fast a frame moves, in metres and radians per second along the axes of the frame that sees it.
 struct Twist {

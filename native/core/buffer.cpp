@@ -372,7 +372,6 @@ std::size_t Buffer::answer_rows(Question question, const Extrapolation* extrapol
                                 std::size_t first, std::size_t last, Failure& failure) const {
   std::size_t missing = batch.count;
   PathCache::Path path;
-  std::array<Pose, kBlock> poses;
   std::array<bool, kBlock> ok;
   const bool by_path = !extrapolation && !batch.twists && question.target != question.source;
   Failure ignored;
@@ -380,7 +379,9 @@ std::size_t Buffer::answer_rows(Question question, const Extrapolation* extrapol
   for (std::size_t start = first; start < last; start += kBlock) {
     const std::size_t count = std::min(kBlock, last - start);
     Stamp* stamps = batch.stamps + start;
-    if (resolved && question.target != question.source) PathCache::update(tree_, question.target_id, question.source_id, path);
+    if (resolved && question.target != question.source) {
+      PathCache::update(tree_, question.target_id, question.source_id, path);
+    }
     if (path.usable && batch.missing == Batch::Missing::clip) {
       Stamp earliest, latest;
       if (read([&](const Tree&) { return common_span(path, earliest, latest); }) && latest != 0) {
@@ -392,16 +393,12 @@ std::size_t Buffer::answer_rows(Question question, const Extrapolation* extrapol
     ok.fill(false);
     if (by_path && path.usable) {
       read([&](const Tree&) {
-        follow_block(path, stamps, count, poses.data(), ok.data());
+        follow_block(path, stamps, count, batch.poses + 7 * start, ok.data());
         return true;
       });
     }
     for (std::size_t row = 0; row < count; ++row) {
-      if (ok[row]) {
-        write_pose(poses[row], batch.poses + 7 * (start + row));
-        if (batch.beyond) batch.beyond[start + row] = 0;
-        continue;
-      }
+      if (ok[row]) continue;
       Failure why;
       if (answer_row(question, extrapolation, batch, start + row, why)) continue;
       if (missing == batch.count) {

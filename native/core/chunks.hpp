@@ -38,6 +38,11 @@ class alignas(64) SharedSample {
     for (int i = 0; i < 4; ++i) pose.q[i] = numbers_[i];
     for (int i = 0; i < 3; ++i) pose.p[i] = numbers_[4 + i];
   }
+  // Each number of a pose `stride` behind the one before.
+  void load(double* q, double* p, std::size_t stride) const {
+    for (std::size_t i = 0; i < 4; ++i) q[i * stride] = numbers_[i];
+    for (std::size_t i = 0; i < 3; ++i) p[i * stride] = numbers_[4 + i];
+  }
   Sample load() const {
     Sample sample;
     load(sample.pose);

@@ -18,21 +18,6 @@ Stamp minus(Stamp stamp, Stamp length) {
   return stamp < std::numeric_limits<Stamp>::min() + length ? std::numeric_limits<Stamp>::min() : stamp - length;
 }
 
-// How far `stamp` lies on the way from `start` to `end`, for start <= stamp <= end; between 0 and 1 for any numbers,
-// as those that are being changed may not be in order.
-double share_of(Stamp stamp, Stamp start, Stamp end) {
-  const auto part = static_cast<double>(distance(start, stamp)), whole = static_cast<double>(distance(start, end));
-  return part < whole ? part / whole : 1.0;
-}
-
-void prefetch(const void* address) {
-#if defined(__GNUC__)
-  __builtin_prefetch(address);
-#else
-  (void)address;
-#endif
-}
-
 // Fills what no chunk was ever put into.
 Chunk* no_chunk() {
   static Chunk chunk;
@@ -48,18 +33,6 @@ bool repeats(const History::View& samples, std::size_t end, Stamp stamp, const S
 }
 
 }  // namespace
-
-inline const Chunk& History::View::chunk_of(std::uint64_t number) const {
-  return *directory_->chunks[number / Chunk::kSize & directory_->mask].load(std::memory_order_acquire);
-}
-
-Stamp History::View::stamp_of(std::uint64_t number) const {
-  return chunk_of(number).stamps[number % Chunk::kSize];
-}
-
-const SharedSample& History::View::sample_of(std::uint64_t number) const {
-  return is_static() ? *fixed_ : chunk_of(number).samples[number % Chunk::kSize];
-}
 
 Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
   const auto take = [&](const SharedSample& found) {
@@ -84,28 +57,14 @@ Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
       next = search.first_after(stamp, search.guess(stamp));
     }
   }
-  between(next, stamp, pose, parent);
-  return Found::ok;
-}
-
-// At the stamp of a sample there is nothing between: the newest holds, or else the last one of that stamp, and at the
-// oldest stamp the first one. A change of the parent is not interpolated over: the older sample holds (tf2's
-// findClosest).
-void History::View::between(std::uint64_t next, Stamp stamp, Pose& pose, FrameId& parent) const {
-  const Stamp start = stamp_of(next - 1), end = stamp_of(next);
-  const SharedSample& newer = sample_of(next);
-  const SharedSample& older = sample_of(next - 1);
-  if (stamp == end && next == end_ - 1) {
-    newer.load(pose);
-    parent = newer.parent();
-    return;
-  }
-  parent = older.parent();
-  if (stamp == start || newer.parent() != parent) return older.load(pose);
+  const Pair found = pair(next, stamp);
+  if (found.part == 0.0) return take(*found.older);
   Pose from, to;
-  older.load(from);
-  newer.load(to);
-  interpolate(from, to, share_of(stamp, start, end), pose);
+  found.older->load(from);
+  found.newer->load(to);
+  parent = found.older->parent();
+  interpolate(from, to, found.part / found.whole, pose);
+  return Found::ok;
 }
 
 bool History::View::covers(Stamp stamp, FrameId parent) const {
@@ -124,15 +83,6 @@ std::size_t History::View::first_after(Stamp stamp) const {
   return static_cast<std::size_t>(search.first_after(stamp, search.guess(stamp)) - begin_);
 }
 
-void History::View::prefetch_stamp(std::uint64_t number) const {
-  prefetch(&chunk_of(number).stamps[number % Chunk::kSize]);
-}
-
-void History::View::prefetch_samples(std::uint64_t next) const {
-  prefetch(&sample_of(next - 1));
-  prefetch(&sample_of(next));
-}
-
 History::Search::Search(const View& samples)
     : samples_(samples),
       first_(samples.stamp_of(samples.begin_)),
@@ -140,14 +90,6 @@ History::Search::Search(const View& samples)
       low_(samples.begin_),
       high_(samples.end_ - 1),
       per_nanosecond_(static_cast<double>(high_ - low_) / static_cast<double>(distance(first_, last_))) {}
-
-std::uint64_t History::Search::guess(Stamp stamp) const {
-  if (stamp <= first_) return low_;
-  // Numbers that are being changed may be in no order: whatever comes out must be a sample.
-  const double offset = static_cast<double>(distance(first_, stamp)) * per_nanosecond_;
-  const auto most = static_cast<double>(high_ - low_);
-  return low_ + static_cast<std::uint64_t>(offset < most ? offset : most);
-}
 
 std::uint64_t History::Search::first_after(Stamp stamp, std::uint64_t guess) const {
   std::uint64_t low = low_, high = high_;  // stamp_of(low) <= stamp < stamp_of(high)
