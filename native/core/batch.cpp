@@ -118,14 +118,30 @@ void subtract_rate(const Pose& step, const Twist& rate, const Pose& pose, Twist&
 
 }  // namespace
 
-void follow_block(const PathCache::Path& path, const Stamp* stamps, std::size_t count, double* rows, bool* ok) {
-  PoseRows poses;
+void follow_block(const PathCache::Path& path, const Stamp* stamps, std::size_t count, PoseRows& poses, bool* ok) {
   poses.set_identity(count);
   for (std::size_t row = 0; row < count; ++row) ok[row] = stamps[row] != 0;
   for (const PathCache::Step& link : path.steps) follow_link(link, stamps, count, poses, ok);
-  for (std::size_t row = 0; row < count; ++row) {
-    if (ok[row]) poses.write(row, rows + 7 * row);
-  }
+  canonicalise_rows(count, poses);
+}
+
+// Counting sort into buckets of equal time: near enough, and much cheaper than sorting.
+std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count) {
+  constexpr std::size_t kFew = 4 * kBlock, kBuckets = 2048;
+  if (count < kFew || count > std::numeric_limits<std::uint32_t>::max()) return {};
+  if (std::is_sorted(stamps, stamps + count)) return {};
+  const auto [first, last] = std::minmax_element(stamps, stamps + count);
+  const Stamp start = *first;
+  const double scale = static_cast<double>(kBuckets - 1) / static_cast<double>(distance(start, *last));
+  const auto bucket_of = [&](Stamp stamp) {
+    return static_cast<std::size_t>(static_cast<double>(distance(start, stamp)) * scale);
+  };
+  std::array<std::uint32_t, kBuckets + 1> begin{};
+  for (std::size_t row = 0; row < count; ++row) ++begin[bucket_of(stamps[row]) + 1];
+  for (std::size_t i = 1; i <= kBuckets; ++i) begin[i] += begin[i - 1];
+  std::vector<std::uint32_t> order(count);
+  for (std::size_t row = 0; row < count; ++row) order[begin[bucket_of(stamps[row])]++] = static_cast<std::uint32_t>(row);
+  return order;
 }
 
 bool follow_moving(const PathCache::Path& path, Stamp stamp, Pose& pose, Twist& twist) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "core/paths.hpp"
 #include "core/pose_rows.hpp"
@@ -10,9 +11,13 @@
 
 namespace coframe {
 
-// The poses of `count` <= kBlock rows at `stamps` along a path, as x, y, z, qx, qy, qz, qw a row; `ok[row]` false where
-// the row has to be looked up alone: without a sample, with one of another parent, or for the latest.
-void follow_block(const PathCache::Path& path, const Stamp* stamps, std::size_t count, double* rows, bool* ok);
+// The poses of `count` <= kBlock rows at `stamps` along a path; `ok[row]` false where the row has to be looked up alone:
+// without a sample, with one of another parent, or for the latest.
+void follow_block(const PathCache::Path& path, const Stamp* stamps, std::size_t count, PoseRows& poses, bool* ok);
+
+// Puts rows that ask for about the same time beside each other, so that their samples are found in the first caches:
+// where each row goes, or nothing where the stamps are in order already or few.
+std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count);
 
 // How fast a frame moves, in metres and radians per second along the axes of the frame that sees it.
 struct Twist {

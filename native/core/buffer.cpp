@@ -372,43 +372,54 @@ std::size_t Buffer::answer_rows(Question question, const Extrapolation* extrapol
                                 std::size_t first, std::size_t last, Failure& failure) const {
   std::size_t missing = batch.count;
   PathCache::Path path;
-  std::array<bool, kBlock> ok;
-  const bool by_path = !extrapolation && !batch.twists && question.target != question.source;
   Failure ignored;
-  const bool resolved = resolve_both(question, ignored);
+  const bool has_path = question.target != question.source && resolve_both(question, ignored);
+  const bool by_path = has_path && !extrapolation && !batch.twists;
+  const std::vector<std::uint32_t> order =
+      by_path ? order_by_time(batch.stamps + first, last - first) : std::vector<std::uint32_t>{};
+  std::array<std::size_t, kBlock> rows;
+  std::array<Stamp, kBlock> stamps;
+  std::array<bool, kBlock> ok;
+  PoseRows poses;
   for (std::size_t start = first; start < last; start += kBlock) {
     const std::size_t count = std::min(kBlock, last - start);
-    Stamp* stamps = batch.stamps + start;
-    if (resolved && question.target != question.source) {
-      PathCache::update(tree_, question.target_id, question.source_id, path);
+    for (std::size_t i = 0; i < count; ++i) {
+      rows[i] = order.empty() ? start + i : first + order[start - first + i];
+      stamps[i] = batch.stamps[rows[i]];
     }
-    if (path.usable && batch.missing == Batch::Missing::clip) {
-      Stamp earliest, latest;
-      if (read([&](const Tree&) { return common_span(path, earliest, latest); }) && latest != 0) {
-        for (std::size_t row = 0; row < count; ++row) {
-          if (stamps[row] != 0) stamps[row] = std::clamp(stamps[row], earliest, latest);
-        }
-      }
-    }
+    if (has_path) PathCache::update(tree_, question.target_id, question.source_id, path);
+    if (path.usable && batch.missing == Batch::Missing::clip) clip(path, count, stamps.data());
     ok.fill(false);
     if (by_path && path.usable) {
       read([&](const Tree&) {
-        follow_block(path, stamps, count, batch.poses + 7 * start, ok.data());
+        follow_block(path, stamps.data(), count, poses, ok.data());
         return true;
       });
     }
-    for (std::size_t row = 0; row < count; ++row) {
-      if (ok[row]) continue;
+    for (std::size_t i = 0; i < count; ++i) {
+      batch.stamps[rows[i]] = stamps[i];
+      if (ok[i]) {
+        poses.write(i, batch.poses + 7 * rows[i]);
+        continue;
+      }
       Failure why;
-      if (answer_row(question, extrapolation, batch, start + row, why)) continue;
-      if (missing == batch.count) {
-        missing = start + row;
+      if (answer_row(question, extrapolation, batch, rows[i], why)) continue;
+      if (rows[i] < missing) {
+        missing = rows[i];
         failure = std::move(why);
       }
-      if (batch.missing != Batch::Missing::nan) return missing;
+      if (batch.missing != Batch::Missing::nan && order.empty()) return missing;
     }
   }
   return missing;
+}
+
+void Buffer::clip(const PathCache::Path& path, std::size_t count, Stamp* stamps) const {
+  Stamp earliest, latest;
+  if (!read([&](const Tree&) { return common_span(path, earliest, latest); }) || latest == 0) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (stamps[i] != 0) stamps[i] = std::clamp(stamps[i], earliest, latest);
+  }
 }
 
 bool Buffer::answer_row(Question& question, const Extrapolation* extrapolation, const Batch& batch, std::size_t row,

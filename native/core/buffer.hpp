@@ -148,6 +148,7 @@ class Buffer {
                    Failure& failure) const;
   std::size_t answer_rows(Question question, const Extrapolation* extrapolation, const Batch& batch,
                           std::size_t first, std::size_t last, Failure& failure) const;
+  void clip(const PathCache::Path& path, std::size_t count, Stamp* stamps) const;
   bool answer_row(Question& question, const Extrapolation* extrapolation, const Batch& batch, std::size_t row,
                   Failure& failure) const;
   bool resolve_both(Question& question, Failure& failure) const;

@@ -69,12 +69,6 @@ void PoseRows::set_identity(std::size_t count) {
   for (int k = 0; k < 3; ++k) std::fill_n(p[k], count, 0.0);
 }
 
-void PoseRows::write(std::size_t row, double* out) const {
-  for (int k = 0; k < 3; ++k) out[k] = p[k][row];
-  for (int k = 0; k < 4; ++k) out[3 + k] = q[k][row];
-  canonicalise(out + 3);
-}
-
 COFRAME_CPU_LEVELS
 void interpolate_rows(const PoseRows& older, const PoseRows& newer, const double* part, const double* whole,
                       std::size_t count, PoseRows& out) {
@@ -126,6 +120,18 @@ void compose_rows(const Pose& step, bool down, std::size_t count, PoseRows& pose
     compose_each<true>(step_at, count, poses);
   } else {
     compose_each<false>(step_at, count, poses);
+  }
+}
+
+COFRAME_CPU_LEVELS
+void canonicalise_rows(std::size_t count, PoseRows& poses) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = poses.q[0][i], y = poses.q[1][i], z = poses.q[2][i], w = poses.q[3][i];
+    const double x2 = x * x, y2 = y * y, z2 = z * z, length2 = x2 + y2 + z2 + w * w;
+    double leading = x2 < y2 ? (y2 < z2 ? z : y) : (x2 < z2 ? z : x);
+    leading = 4.0 * w * w <= length2 ? leading : w;
+    const double scale = (leading < 0.0 ? -1.0 : 1.0) / std::sqrt(length2);
+    for (int k = 0; k < 4; ++k) poses.q[k][i] *= scale;
   }
 }
 

@@ -17,8 +17,11 @@ struct alignas(64) PoseRows {
 
   void set_identity(std::size_t count);
   void load(std::size_t row, const SharedSample& sample) { sample.load(&q[0][row], &p[0][row], kBlock); }
-  // x, y, z and the quaternion, normalised and of tf2's sign.
-  void write(std::size_t row, double* out) const;
+  // x, y, z, qx, qy, qz, qw.
+  void write(std::size_t row, double* out) const {
+    for (int k = 0; k < 3; ++k) out[k] = p[k][row];
+    for (int k = 0; k < 4; ++k) out[3 + k] = q[k][row];
+  }
 };
 
 // interpolate() of pose.hpp for each row, at the share part / whole; `out` may be one of both ends.
@@ -29,5 +32,8 @@ void interpolate_rows(const PoseRows& older, const PoseRows& newer, const double
 void compose_rows(const PoseRows& steps, bool down, std::size_t count, PoseRows& poses);
 // The same for one step.
 void compose_rows(const Pose& step, bool down, std::size_t count, PoseRows& poses);
+
+// canonicalise() of pose.hpp for each row.
+void canonicalise_rows(std::size_t count, PoseRows& poses);
 
 }  // namespace coframe
