@@ -17,11 +17,6 @@ namespace coframe::bindings {
 
 namespace {
 
-BufferObject& buffer_of(PyObject* object) {
-  if (!nb::inst_ready(object)) throw nb::type_error("the buffer was not initialised: __init__ was not called");
-  return *nb::inst_ptr<BufferObject>(object);
-}
-
 // Tries now, and then waits without the GIL for the insertion that brings the answer.
 bool answer_within(BufferObject& self, Question& question, std::int64_t timeout_ns, Answer& answer, Failure& failure) {
   if (self.core->answer(question, answer, failure)) return true;

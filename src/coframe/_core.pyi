@@ -204,6 +204,12 @@ class Buffer:
     ) -> int:
         """Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts)."""
 
+    def set_message(self, message: Any, static: bool, authority: str) -> int | None:
+        """set_values() of a TransformStamped between known frames; None where it is not just that."""
+
+    def lookup_message(self, target: str, source: str, time: Any) -> Any:
+        """lookup() as a TransformStamped, for a Time; None where lookup() has to decide."""
+
     def ingest(self, cdr: Any, *, static: bool = False, authority: str = "no recorded authority") -> int:
         """Takes in a tf2_msgs/msg/TFMessage as CDR bytes, whole or not at all; returns how many transforms it stored.
 
@@ -349,6 +355,17 @@ def insert_texts(
 
 def register_transform_class(cls: type[Transform]) -> None:
     """Look-ups return instances of `cls`, a subclass of Transform."""
+
+def register_messages(
+    transform_stamped: type,
+    header: type,
+    time: type,
+    rclpy_time: type,
+    transform: type,
+    vector3: type,
+    quaternion: type,
+) -> None:
+    """The classes that set_message() reads and lookup_message() makes."""
 
 def register_errors(errors: ModuleType) -> None:
     """Failures are raised as the exceptions of this module."""
