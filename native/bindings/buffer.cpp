@@ -37,7 +37,9 @@ nb::object raise_for(BufferObject& self, Failure failure, nb::handle target, nb:
   return raise_failure({std::move(failure), self.core, nb::borrow(target), nb::borrow(source)});
 }
 
-Extrapolation extrapolation_of(nb::handle limit, bool hold) {
+// Nothing where there is to be none.
+std::optional<Extrapolation> extrapolation_of(nb::handle limit, bool hold) {
+  if (limit.is_none()) return std::nullopt;
   Extrapolation extrapolation;
   extrapolation.method = hold ? Extrapolation::Method::hold : Extrapolation::Method::twist;
   extrapolation.limit = to_duration(limit);
@@ -46,19 +48,15 @@ Extrapolation extrapolation_of(nb::handle limit, bool hold) {
 }
 
 nb::object patient_lookup(BufferObject& self, nb::handle target, nb::handle source, nb::handle stamp,
-                          nb::handle timeout, nb::handle extrapolate, bool hold) {
+                          std::int64_t timeout_ns, std::optional<Extrapolation>& extrapolation) {
   Question question = question_of(self, target, source, stamp);
   Answer answer;
   Failure failure;
-  const std::int64_t timeout_ns = to_duration(timeout);
   if (answer_within(self, question, timeout_ns, answer, failure)) {
     return make_transform(answer.pose, answer.stamp, target, source);
   }
-  if (!extrapolate.is_none()) {
-    Extrapolation extrapolation = extrapolation_of(extrapolate, hold);
-    if (self.core->answer(question, answer, failure, &extrapolation)) {
-      return make_transform(answer.pose, answer.stamp, target, source, extrapolation.furthest);
-    }
+  if (extrapolation && self.core->answer(question, answer, failure, &*extrapolation)) {
+    return make_transform(answer.pose, answer.stamp, target, source, extrapolation->furthest);
   }
   return raise_for(self, std::move(failure), target, source);
 }
@@ -81,12 +79,21 @@ bool plain(BufferObject& self, PyObject* target, PyObject* source, PyObject* sta
 
 nb::handle given(PyObject* object) { return object ? nb::handle(object) : nb::handle(Py_None); }
 
+bool is_true(PyObject* object) {
+  const int truth = object ? PyObject_IsTrue(object) : 0;
+  if (truth < 0) throw nb::python_error();
+  return truth != 0;
+}
+
 PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<6> signature("lookup", {"target", "source", "stamp", "timeout", "extrapolate", "hold"}, 2, 3);
   PyObject* values[6];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&] {
     BufferObject& self = buffer_of(object);
+    // What is wrong with these is told also where they are not needed.
+    const std::int64_t timeout = to_duration(given(values[3]));
+    std::optional<Extrapolation> extrapolation = extrapolation_of(given(values[4]), is_true(values[5]));
     FrameId target, source;
     Stamp stamp;
     Pose pose;
@@ -95,10 +102,7 @@ PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t cou
         self.core->quick_lookup(self.paths, target, source, stamp, pose)) {
       return make_transform(pose, stamp, values[0], values[1]).release().ptr();
     }
-    const bool hold = values[5] && nb::cast<bool>(nb::handle(values[5]));
-    return patient_lookup(self, values[0], values[1], given(values[2]), given(values[3]), given(values[4]), hold)
-        .release()
-        .ptr();
+    return patient_lookup(self, values[0], values[1], given(values[2]), timeout, extrapolation).release().ptr();
   });
 }
 
@@ -119,6 +123,7 @@ PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssiz
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&] {
     BufferObject& self = buffer_of(object);
+    const std::int64_t timeout = to_duration(given(values[3]));
     FrameId target, source;
     Stamp stamp;
     if (plain(self, values[0], values[1], values[2], target, source, stamp) &&
@@ -128,7 +133,7 @@ PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssiz
     Question question = question_of(self, values[0], values[1], given(values[2]));
     Answer answer;
     Failure failure;
-    return PyBool_FromLong(answer_within(self, question, to_duration(given(values[3])), answer, failure));
+    return PyBool_FromLong(answer_within(self, question, timeout, answer, failure));
   });
 }
 
@@ -182,8 +187,7 @@ std::size_t lookup_rows(BufferObject& self, nb::handle target, nb::handle source
   if (!twists.is_none()) batch.twists = rows(rates.emplace(twists, kFlags), 6, count);
   if (!beyond.is_none()) batch.beyond = reinterpret_cast<Stamp*>(rows(distances.emplace(beyond, kFlags), 1, count));
   const Question question = question_of(self, target, source, nb::none());
-  std::optional<Extrapolation> extrapolation;
-  if (!extrapolate.is_none()) extrapolation = extrapolation_of(extrapolate, hold);
+  const std::optional<Extrapolation> extrapolation = extrapolation_of(extrapolate, hold);
   Failure failure;
   std::size_t missing;
   const auto run = [&] {
@@ -294,15 +298,17 @@ PyObject* py_set_values(PyObject* object, PyObject* const* arguments, Py_ssize_t
     const FrameId parent = self.frame(values[0]), child = self.frame(values[1]);
     const AuthorityId authority = self.authority(values[11]);
     double v[7];
-    for (int i = 0; i < 7; ++i) v[i] = PyFloat_AsDouble(values[3 + i]);
+    for (int i = 0; i < 7; ++i) {
+      v[i] = PyFloat_AsDouble(values[3 + i]);
+      if (v[i] == -1.0 && PyErr_Occurred()) return nullptr;
+    }
     const Stamp stamp = to_int64(values[2]);
-    const int is_static = PyObject_IsTrue(values[10]);
-    if (PyErr_Occurred()) return nullptr;
+    const bool is_static = is_true(values[10]);
     const TransformValues transform{{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
     const bool known = parent != 0 && child != 0 && parent != child;
     return PyLong_FromUnsignedLong(
-        known ? self.core->insert(parent, child, stamp, transform, is_static != 0, authority)
-              : self.core->insert(text(values[0]), text(values[1]), stamp, transform, is_static != 0, authority));
+        known ? self.core->insert(parent, child, stamp, transform, is_static, authority)
+              : self.core->insert(text(values[0]), text(values[1]), stamp, transform, is_static, authority));
   });
 }
 

@@ -97,8 +97,9 @@ unsigned Buffer::insert(FrameId parent, FrameId child, Stamp stamp, const Transf
 unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId authority, std::size_t& stored,
                              std::size_t& bad_row) {
   stored = 0;
+  const unsigned refused_names = check_names(track.parent, track.child);
   for (bad_row = 0; bad_row < track.count; ++bad_row) {
-    if (const unsigned refusals = track_refusals(track, bad_row)) return refusals;
+    if (const unsigned refusals = refused_names | track_refusals(track, bad_row)) return refusals;
   }
   std::vector<std::size_t> order;
   if (!std::is_sorted(track.stamps, track.stamps + track.count)) {
@@ -142,11 +143,10 @@ std::size_t Buffer::insert_block(const Track& track, const Stamp* stamps, const 
     counts_.stored += run;
     stored += run;
     i += run;
-    if (run > 0 && inserted.empty()) inserted.push_back({0, tree_.find(track.child), false, false});
+    if (run > 0) inserted.push_back({0, tree_.find(without_slash(track.child)), false, false});
     if (i == count) break;
-    const Inserted one = tree_.insert(track.parent, track.child, stamps[i], values[i], is_static, authority);
-    stored += this->count(one.refusals);
-    if (one.refusals == 0) inserted.push_back(one);
+    inserted.push_back(tree_.insert(track.parent, track.child, stamps[i], values[i], is_static, authority));
+    stored += this->count(inserted.back().refusals);
     ++i;
   }
   return stored;

@@ -123,14 +123,11 @@ AuthorityId Tree::authority(std::string_view name) {
 
 Inserted Tree::insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
                       bool is_static, AuthorityId authority) {
-  parent = without_slash(parent);
-  child = without_slash(child);
   const Pose pose = canonical_pose(values);
   Inserted inserted;
-  inserted.refusals = check_values(pose);
-  if (parent == child) inserted.refusals |= kSelfTransform;
-  if (child.empty()) inserted.refusals |= kNoChildFrame;
-  if (parent.empty()) inserted.refusals |= kNoParentFrame;
+  inserted.refusals = check_values(pose) | check_names(parent, child);
+  parent = without_slash(parent);
+  child = without_slash(child);
   if (inserted.refusals != 0) {
     if (const FrameId id = find(child)) frames_[id].counts.refuse(inserted.refusals);
     return inserted;
@@ -160,6 +157,16 @@ Inserted Tree::insert(FrameId parent, FrameId child, Stamp stamp, const Transfor
   return inserted;
 }
 
+unsigned check_names(std::string_view parent, std::string_view child) {
+  parent = without_slash(parent);
+  child = without_slash(child);
+  unsigned refusals = 0;
+  if (parent == child) refusals |= kSelfTransform;
+  if (child.empty()) refusals |= kNoChildFrame;
+  if (parent.empty()) refusals |= kNoParentFrame;
+  return refusals;
+}
+
 unsigned check_values(const TransformValues& values) { return check_values(canonical_pose(values)); }
 
 std::size_t Tree::append_run(std::string_view parent, std::string_view child, const Stamp* stamps,
@@ -169,6 +176,7 @@ std::size_t Tree::append_run(std::string_view parent, std::string_view child, co
   Frame& frame = frames_[child_id];
   const History::View before = frame.history.view();
   if (before.empty() || before.is_static() || before.parent() != parent_id) return 0;
+  if (!frame.history.one_parent()) return 0;  // what is dropped may matter to those who wait
   const std::size_t stored = frame.history.append_run(
       context(), stamps, count, [&](std::size_t i) { return Sample{canonical_pose(values[i]), parent_id}; });
   if (stored == 0) return 0;

@@ -125,7 +125,8 @@ class Tree {
   std::atomic<std::uint64_t> version_{1};
 };
 
-// Why the values of a transform are refused; 0 if they are not.
+// Why the names or values of a transform are refused; 0 if they are not.
+unsigned check_names(std::string_view parent, std::string_view child);
 unsigned check_values(const TransformValues& values);
 
 // The lines that tf2 logs for a refused transform; `pose` as it was checked.

@@ -22,6 +22,7 @@ class Transform:
         source: str | None,
         stamp: int | None,
         batch: Any,
+        beyond: int = 0,
     ) -> None: ...
     @property
     def values(self) -> tuple[float, float, float, float, float, float, float]:

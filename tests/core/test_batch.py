@@ -190,6 +190,12 @@ class TestSetMany:
         thread.join()
         assert found[0].stamp == 3 * SECOND
 
+    @pytest.mark.parametrize(("parent", "child"), [("a", "a"), ("", "a"), ("a", "")])
+    def test_names_are_refused_as_by_set(self, parent, child):
+        buffer = coframe.Buffer()
+        with pytest.raises(coframe.InvalidArgumentException, match="row 0: TF_"):
+            buffer.set_many(parent, child, [1, 2], [[0, 0, 0, 0, 0, 0, 1]] * 2)
+
 
 class TestTrajectory:
     def test_at_the_samples_own_times(self, tree):

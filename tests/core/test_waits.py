@@ -78,6 +78,19 @@ def a_transform_that_is_too_old_names_a_frame(buffer):
     tell(buffer, "world", "map", 100_000_000)
 
 
+def a_row_that_is_too_old_names_a_frame(buffer):
+    tell(buffer, "map", "odom", 100_000_000)
+    yield "world", "odom", None
+    assert buffer.set_many("world", "odom", [1], [[0, 0, 0, 0, 0, 0, 1]]) == 0
+    tell(buffer, "world", "map", 100_000_000)
+
+
+def rows_come_with_a_slash(buffer):
+    tell(buffer, "map", "odom", 10)
+    yield "map", "odom", 12
+    assert buffer.set_many("/map", "/odom", [11, 12, 13], [[0, 0, 0, 0, 0, 0, 1]] * 3) == 3
+
+
 def the_source_was_in_another_tree_then(buffer):
     tell(buffer, "old", "cup", 5, 6)
     tell(buffer, "new", "cup", 7)
@@ -131,6 +144,8 @@ def the_target_is_above_a_loop(buffer):
         the_latest_of_both_links_is_too_far_apart,
         the_latest_of_a_link_is_zero,
         a_transform_that_is_too_old_names_a_frame,
+        a_row_that_is_too_old_names_a_frame,
+        rows_come_with_a_slash,
         the_source_was_in_another_tree_then,
         a_late_sample_has_another_parent,
         after_a_clear_comes_another_tree,
