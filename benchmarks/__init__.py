@@ -1,0 +1,1 @@
+"""coframe beside its peers: `make bench`."""
