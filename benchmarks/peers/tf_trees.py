@@ -1,4 +1,4 @@
-"""tf_tree (PyPI: transform-tree) with the chain that all contenders have, interpolated as tf2 does."""
+"""tf_tree (PyPI: transform-tree) with the chain that all contenders have; interpolated as tf2 does, by default."""
 
 from typing import Any
 
@@ -8,18 +8,17 @@ from benchmarks import motion, ours
 from benchmarks.motion import frame
 from benchmarks.peers import package
 
-XYZ_XYZW_FROM_WXYZ_XYZ = [4, 5, 6, 1, 2, 3, 0]
-"""Columns of coframe's poses in tf_tree's."""
 WXYZ_XYZ_FROM_XYZ_XYZW = [6, 3, 4, 5, 0, 1, 2]
+"""Where tf_tree's columns of a pose are in ours."""
 
 
-def empty(depth: int, samples: int) -> Any:
+def empty(depth: int, samples: int, interpolation: str = "lerpslerp") -> Any:
     links = [(frame(link), frame(link + 1)) for link in range(depth)]
-    return package("tf_tree").build(links, capacity=samples, interp="lerpslerp")
+    return package("tf_tree").build(links, capacity=samples, interp=interpolation)
 
 
-def filled(depth: int, samples: int = motion.SAMPLES) -> Any:
-    tree = empty(depth, samples)
+def filled(depth: int, samples: int = motion.SAMPLES, interpolation: str = "lerpslerp") -> Any:
+    tree = empty(depth, samples, interpolation)
     for link in range(depth):
         stamps, values = ours.stamps_and_values(link, samples)
         with tree.publisher(frame(link + 1), frame(link)) as publisher:
@@ -27,5 +26,5 @@ def filled(depth: int, samples: int = motion.SAMPLES) -> Any:
     return tree
 
 
-def plan(depth: int, samples: int = motion.SAMPLES) -> Any:
-    return filled(depth, samples).plan("f0", frame(depth))
+def plan(depth: int, samples: int, interpolation: str = "lerpslerp") -> Any:
+    return filled(depth, samples, interpolation).plan("f0", frame(depth))

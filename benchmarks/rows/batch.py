@@ -15,7 +15,7 @@ from benchmarks.peers import by_hand, tf_trees
 from benchmarks.statement import Statement
 
 LOOKUPS, SAMPLES = 100_000, 10_000
-MANY_LOOKUPS, MANY_SAMPLES, DEEP = 1_000_000, 100_000, 10
+MANY_LOOKUPS, MANY_SAMPLES, FEW_SAMPLES, DEEP = 1_000_000, 100_000, 100, 10
 STORED = 100_000
 
 
@@ -62,6 +62,19 @@ def beside_tf_tree(order: str, code: str, their_code: str, bar: Bar | None) -> R
     return Row(f"lookup_many, N=1e5, {order}, D=5, {into}", "tf_tree, Plan", contenders, bar)
 
 
+def with_twists() -> Row:
+    """Velocities as well; tf_tree has them only along screws, which is another interpolation."""
+
+    def contenders() -> Generator[Contender]:
+        times = ours.random_times(LOOKUPS, SAMPLES, in_order=True)
+        yield looking_up(5, times, SAMPLES, code="buffer.lookup_many('f0', source, times, out=out, twist=True)")
+        plan = tf_trees.plan(5, SAMPLES, interpolation="sclerp")
+        names = {"plan": plan, "times": times, "out": np.empty((LOOKUPS, 13))}
+        yield batch("plan.at_into(times, out, layout='quat_twist')", LOOKUPS, **names)
+
+    return Row("lookup_many, N=1e5, sorted, D=5, with twists", "tf_tree, Plan, by screws", contenders)
+
+
 OURS_INTO, OURS_NEW = "buffer.lookup_many('f0', source, times, out=out)", "buffer.lookup_many('f0', source, times)"
 THEIRS_INTO, THEIRS_NEW = "plan.at_into(times, out, layout='quat')", "plan.at(times, layout='quat')"
 
@@ -84,28 +97,14 @@ def beside_hand(depth: int, beside: str, make: Callable[[Any], Any], tolerance: 
 
 
 def large() -> Row:
-    """A million times in random order in long histories: the memory is the limit."""
+    """A million times in random order in long histories, and the same arithmetic on samples that are all at hand."""
 
     def contenders() -> Generator[Contender]:
         edges = MANY_LOOKUPS * DEEP
-        times = ours.random_times(MANY_LOOKUPS, MANY_SAMPLES)
-        yield looking_up(DEEP, times, MANY_SAMPLES, items=edges)
-        records = np.ones((DEEP * MANY_SAMPLES, 8))
-        places = np.random.default_rng(7).integers(len(records), size=MANY_LOOKUPS)
-        yield batch(
-            "records.take(places, axis=0, out=out, mode='clip')",
-            MANY_LOOKUPS,
-            records=records,
-            places=places,
-            out=np.empty((MANY_LOOKUPS, 8)),
-        )
+        yield looking_up(DEEP, ours.random_times(MANY_LOOKUPS, MANY_SAMPLES), MANY_SAMPLES, items=edges)
+        yield looking_up(DEEP, ours.random_times(MANY_LOOKUPS, FEW_SAMPLES, in_order=True), FEW_SAMPLES, items=edges)
 
-    return Row(
-        "lookup_many, N=1e6, random, D=10, n=1e5, per edge",
-        "floor: gathering 64 bytes",
-        contenders,
-        AtMost(15),
-    )
+    return Row("lookup_many, N=1e6, random, D=10, n=1e5, per edge", "floor: sorted, n=100", contenders, AtMost(15))
 
 
 def by_two_threads() -> Row:
@@ -155,6 +154,7 @@ ROWS = [
     beside_tf_tree("sorted", OURS_INTO, THEIRS_INTO, TimesAsFast(5)),
     beside_tf_tree("random", OURS_INTO, THEIRS_INTO, TimesAsFast(5)),
     beside_tf_tree("sorted", OURS_NEW, THEIRS_NEW, None),
+    with_twists(),
     beside_hand(1, "numpy by hand", by_hand.Numpy),
     beside_hand(10, "numpy by hand", by_hand.Numpy),
     beside_hand(1, "scipy, Slerp", by_hand.Scipy),
