@@ -43,15 +43,14 @@ class Statement:
         """Nanoseconds an item, from about `SAMPLE_NS` of runs and at least one."""
         if not self._runs:
             self._runs = self._runs_of_a_sample()
-        return self._timer.timeit(self._runs) / (self._runs * self._items)
+        return self._spend(self._runs) / (self._runs * self._items)
+
+    def _spend(self, runs: int) -> int:
+        return max(int(self._timer.timeit(runs)), 1)
 
     def _runs_of_a_sample(self) -> int:
+        self._spend(1)  # cold
         runs = 1
-        while True:
-            spent = max(self._timer.timeit(runs), 1)
-            if spent > SAMPLE_NS / 4:
-                runs = round(runs * SAMPLE_NS / spent)
-                return min(max(runs, 1), self._limit)
-            if runs == self._limit:
-                return runs
-            runs = min(runs * 4, self._limit)
+        while runs < self._limit and min(self._spend(runs), self._spend(runs)) < SAMPLE_NS * 0.7:
+            runs = min(2 * runs, self._limit)
+        return runs
