@@ -32,6 +32,12 @@ test-slow: $(STAMP) ## the tests that take minutes
 test-long: $(STAMP) ## ten million random operations beside the real tf2, a new seed each time
 	$(BIN)/python -m pytest -m long -rP $(ARGS)
 
+sanitize: ## the native core under ThreadSanitizer for a minute, and under AddressSanitizer, also with damaged messages
+	@$(MAKE) -s -C tests/native thread address
+	tests/native/sanitized.sh build/sanitize/thread/stress $(or $(ARGS),60)
+	tests/native/sanitized.sh build/sanitize/address/stress 20
+	tests/native/sanitized.sh build/sanitize/address/fuzz_ingest 200000
+
 conformance: $(STAMP) ## tf2's semantics, case by case
 	@$(BIN)/python conformance/run.py $(ARGS)
 

@@ -10,6 +10,11 @@ nb::handle time_module;  // coframe.time: what is neither int nor None is conver
 
 }  // namespace
 
+BufferObject& buffer_of(nb::handle object) {
+  if (!nb::inst_ready(object)) throw nb::type_error("the buffer was not initialised: __init__ was not called");
+  return *nb::inst_ptr<BufferObject>(object);
+}
+
 std::string_view text(nb::handle name) {
   if (!PyUnicode_Check(name.ptr())) {
     PyErr_Format(PyExc_TypeError, "a frame name must be str, not %s", Py_TYPE(name.ptr())->tp_name);
