@@ -199,7 +199,7 @@ BARS = [
     ("set_many, N=1e5, in order, per sample", "floor: copying the arrays", AtMost(10)),
     ("transform_cloud, 1e5 points, per point", "Debian's tf2", TimesAsFast(500)),
     ("transform_cloud, 1e5 points, per point", "floor: copying the bytes", AtMost(3)),
-    ("deskew, 1e6 points, distinct times, D=1, per point", "floor: copying the arrays", AtMost(10)),
+    ("deskew, 1e6 points, distinct times, D=1, per point", "floor: copying the points", AtMost(10)),
     ("listener, 1 kHz x 10, CPU of one core", "floor: a bare UDP socket", AtMost(1.5)),
     ("listener, 1 kHz x 10, latency, p50", "floor: a bare UDP socket", AtMost(40_000)),
     ("lookup, newest, D=1, n=1e6", "the same, n=100", GrowsAtMost(2)),
