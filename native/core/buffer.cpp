@@ -184,13 +184,12 @@ DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, 
     ++counts_.messages;
     if (failure.reason) ++counts_.malformed;
     for (std::size_t i = 0; i < stream.decoded.size(); ++i) {
-      const Inserted inserted = store(stream, i, stream.decoded[i]);
-      if (!count(inserted.refusals)) continue;
-      ++stored;
-      stream.inserted.push_back(inserted);
+      // Also what is refused as too old changes something: it makes frames known, and older ones may be forgotten.
+      stream.inserted.push_back(store(stream, i, stream.decoded[i]));
+      if (count(stream.inserted.back().refusals)) ++stored;
     }
   }
-  if (stored > 0) announce(stream.inserted.data(), stored);
+  if (!stream.inserted.empty()) announce(stream.inserted.data(), stream.inserted.size());
   if (stream.decoded.capacity() > TransformStream::kMaxRemembered) {
     stream.decoded = {};
     stream.inserted = {};
@@ -237,7 +236,9 @@ void Buffer::clear() {
     if (frozen()) return;
     tree_.clear();
   }
-  announce(nullptr, 0);
+  Inserted cleared;
+  cleared.rewired = true;  // what comes next may be another tree
+  announce(&cleared, 1);
 }
 
 bool Buffer::remove_frame(std::string_view name) {

@@ -138,11 +138,22 @@ bool History::mentions(FrameId parent) const {
 
 Insertion History::insert(const HistoryContext& context, Stamp stamp, const Sample& sample) {
   if (kind_ == HistoryKind::fixed) return insert_fixed(context, sample);
-  if (!view().empty() && stamp < prune(context, view().newest())) return Insertion::refused_as_old;
+  const View before = view();
+  if (!before.empty()) {
+    const Stamp newest = before.newest();
+    if (stamp < prune(context, newest)) return Insertion::refused_as_old;
+    if (sample.parent != before.parent()) one_parent_ = false;
+    if (stamp <= newest) return insert_behind(context, stamp, sample);
+  }
+  append(context, stamp, sample);
+  return Insertion::appended;
+}
+
+// Not newer than the newest.
+Insertion History::insert_behind(const HistoryContext& context, Stamp stamp, const Sample& sample) {
   const View samples = view();
   const std::size_t position = samples.first_after(stamp);
   if (repeats(samples, position, stamp, sample)) return Insertion::repeated;
-  if (!samples.empty() && sample.parent != samples.parent()) one_parent_ = false;
   if (position == samples.size()) {
     append(context, stamp, sample);
     return Insertion::appended;

@@ -188,6 +188,7 @@ class History {
   void release(ChunkPool& pool);
 
  private:
+  Insertion insert_behind(const HistoryContext& context, Stamp stamp, const Sample& sample);
   Insertion insert_fixed(const HistoryContext& context, const Sample& sample);
   void append(const HistoryContext& context, Stamp stamp, const Sample& sample);
   void put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample);

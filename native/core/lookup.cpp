@@ -10,32 +10,31 @@ namespace {
 
 constexpr Stamp kNoTime = std::numeric_limits<Stamp>::max();
 
-bool fail_loop(FrameId target, FrameId source, Failure& failure) {
+// `source_end` is 0 where it is the walk up from the source that does not end.
+bool fail_loop(FrameId target, FrameId source, Stamp stamp, FrameId source_end, Failure& failure) {
   failure = Failure{};
   failure.code = ErrorCode::loop;
   failure.target = target;
   failure.source = source;
+  failure.requested = stamp;
+  failure.source_end = source_end;
   return false;
 }
 
-// The frame above which nobody says anything, by the newest data.
-FrameId root_of(const Tree& tree, FrameId frame) {
-  for (int depth = 0; depth <= kMaxDepth; ++depth) {
-    const History::View history = tree.history(frame);
-    if (history.empty()) break;
-    frame = history.parent();
-  }
-  return frame;
-}
-
-bool fail_not_connected(const Tree& tree, FrameId target, FrameId source, Stamp stamp, Failure& failure) {
-  failure = Failure{};
+Failure not_connected(FrameId target, FrameId source, Stamp stamp) {
+  Failure failure;
   failure.code = ErrorCode::not_connected;
   failure.target = target;
   failure.source = source;
   failure.requested = stamp;
-  failure.target_root = root_of(tree, target);
-  failure.source_root = root_of(tree, source);
+  return failure;
+}
+
+// The walks up from both frames ended apart.
+bool fail_apart(Failure reason, FrameId target_end, FrameId source_end, Failure& failure) {
+  failure = std::move(reason);
+  failure.target_end = target_end;
+  failure.source_end = source_end;
   return false;
 }
 
@@ -94,7 +93,7 @@ bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source,
     }
     if (frame == target) return true;
     compose(step, walk.source_pose);
-    if (++depth > kMaxDepth) return fail_loop(target, source, failure);
+    if (++depth > kMaxDepth) return fail_loop(target, source, stamp, 0, failure);
   }
 
   depth = 0;
@@ -102,14 +101,11 @@ bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source,
     if (walk.down) walk.down->push_back(frame);
     const History::View history = tree.history(frame);
     if (!history.exists()) {
-      if (!gap) return fail_not_connected(tree, target, source, stamp, failure);
-      failure = std::move(*gap);
-      return false;
+      return fail_apart(gap ? std::move(*gap) : not_connected(target, source, stamp), frame, top, failure);
     }
     const Found found = method.at(history, stamp, step, parent);
     if (found != Found::ok) {
-      failure = missing_sample(history, found, frame, target, source, stamp);
-      return false;
+      return fail_apart(missing_sample(history, found, frame, target, source, stamp), frame, top, failure);
     }
     if (frame == source) {  // the source lies on the target's way up: only this side counts
       walk.source_pose = Pose{};
@@ -117,7 +113,7 @@ bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source,
       return true;
     }
     compose(step, walk.target_pose);
-    if (++depth > kMaxDepth) return fail_loop(target, source, failure);
+    if (++depth > kMaxDepth) return fail_loop(target, source, stamp, top, failure);
   }
   return true;
 }
@@ -234,13 +230,14 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
     frame = history.parent();
     links.push_back({history.newest(), frame});
     if (frame == target) return answer();
-    if (++depth > kMaxDepth) return fail_loop(target, source, failure);
+    if (++depth > kMaxDepth) return fail_loop(target, source, 0, 0, failure);
   }
+  const FrameId source_root = links.empty() ? source : links.back().parent;
   common = kNoTime;
   depth = 0;
   for (FrameId frame = target;;) {
     const History::View history = tree.history(frame);
-    if (history.empty()) return fail_not_connected(tree, target, source, 0, failure);
+    if (history.empty()) return fail_apart(not_connected(target, source, 0), frame, source_root, failure);
     keep_earlier(history.newest(), common);
     frame = history.parent();
     const auto meeting = std::find_if(links.begin(), links.end(), [&](const Link& l) { return l.parent == frame; });
@@ -249,7 +246,7 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
       return answer();
     }
     if (frame == source) return answer();
-    if (++depth > kMaxDepth) return fail_loop(target, source, failure);
+    if (++depth > kMaxDepth) return fail_loop(target, source, 0, source_root, failure);
   }
 }
 

@@ -182,17 +182,20 @@ void Tree::store(FrameId parent, FrameId child, Stamp stamp, const Pose& pose, b
   Frame& frame = frames_[child];
   History& history = frame.history;
   prepare(history, is_static, inserted);
-  const FrameId parent_before = history.view().parent();
-  const bool one_parent_before = history.one_parent();
+  const History::View before = history.view();
+  const bool had_one_parent = history.one_parent();
+  const FrameId newest_before = before.parent(), oldest_before = had_one_parent ? 0 : before.parent_at(0);
   const Insertion outcome = history.insert(context(), stamp, Sample{pose, parent});
   frame.counts.add(outcome);
+  const History::View now = history.view();
+  const bool changes_the_past = (outcome == Insertion::put_before_newer && !history.one_parent()) ||
+                                (!had_one_parent && now.parent_at(0) != oldest_before);
+  if (newest_before != 0 && (changes_the_past || now.parent() != newest_before)) inserted.rewired = true;
   if (outcome == Insertion::refused_as_old) {
     inserted.refusals = kOldData;
     return;
   }
-  const FrameId parent_now = history.view().parent();
-  if (parent_now != parent_before && parent_before != 0) inserted.rewired = true;
-  if (parent_now != parent_before || history.one_parent() != one_parent_before) raise_version();
+  if (now.parent() != newest_before || history.one_parent() != had_one_parent) raise_version();
   frame.authority = authority;
   inserted.child = child;
 }

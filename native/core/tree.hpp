@@ -56,7 +56,7 @@ struct Inserted {
   unsigned refusals = 0;  // Refusal bits
   FrameId child = 0;      // where something was stored
   bool new_names = false;
-  bool rewired = false;  // a frame that had a parent has another, or changed between static and dynamic
+  bool rewired = false;  // a frame that had a parent has or had another, or changed between static and dynamic
 };
 
 class Tree {

@@ -102,3 +102,16 @@ def test_the_paths_between_all_pairs_of_frames_take_no_memory_for_ever():
         assert grown < 20_000, f"{grown} KiB"
     """
     assert run(code) == (0, "")
+
+
+def test_waits_for_frames_that_never_come_take_no_memory_for_ever():
+    code = """
+        import resource
+        buffer = coframe.Buffer()
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        for number in range(100_000):
+            assert not buffer.can_transform("map", f"tag_{number}", timeout=1)
+        grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+        assert grown < 5_000, f"{grown} KiB"
+    """
+    assert run(code) == (0, "")
