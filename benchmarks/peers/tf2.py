@@ -104,10 +104,10 @@ def set_transform() -> Statement:
 
 
 def cloud(points: int) -> Any:
-    """A PointCloud2 of points with intensities, all float32."""
+    """A PointCloud2 of points with intensities, all float32, in the frame that `message(1, ...)` tells of."""
     sensor_msgs: Any = importlib.import_module("sensor_msgs.msg")
     result = sensor_msgs.PointCloud2()
-    result.header.frame_id, result.header.stamp = "lidar", message_time(motion.START)
+    result.header.frame_id, result.header.stamp = frame(2), message_time(motion.START)
     result.height, result.width, result.point_step, result.row_step = 1, points, 16, 16 * points
     result.fields = [
         sensor_msgs.PointField(name=name, offset=4 * place, datatype=sensor_msgs.PointField.FLOAT32, count=1)
