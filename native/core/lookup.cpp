@@ -250,6 +250,23 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
   }
 }
 
+namespace {
+
+// Both walks end in the same frames: those above the last common one go. Where of the source's side only the source
+// itself is left, tf2 leaves its walk as it is.
+void join_walks(std::vector<FrameId>& up, std::vector<FrameId>& down) {
+  down.push_back(up.back());
+  std::size_t m = down.size(), n = up.size();
+  while (m > 0 && n > 0 && down[m - 1] == up[n - 1]) {
+    --m;
+    --n;
+  }
+  if (n > 1) up.resize(n + 1);
+  while (m > 0) up.push_back(down[--m]);
+}
+
+}  // namespace
+
 bool chain(const Tree& tree, FrameId target, FrameId source, Stamp stamp, std::vector<FrameId>& frames,
            Failure& failure) {
   frames.clear();
@@ -261,7 +278,11 @@ bool chain(const Tree& tree, FrameId target, FrameId source, Stamp stamp, std::v
   walk.down = &down;
   Exact exact;
   if (!walk_tree(tree, exact, target, source, stamp, walk, failure)) return false;
-  frames.insert(frames.end(), down.rbegin(), down.rend());
+  if (frames.empty()) {
+    frames.assign(down.rbegin(), down.rend());
+  } else if (!down.empty()) {
+    join_walks(frames, down);
+  }
   return true;
 }
 

@@ -260,9 +260,9 @@ std::vector<LogLine> refusal_texts(unsigned refusals, std::string_view parent, s
                                    "because of a nan value in the transform (%f %f %f) (%f %f %f %f)")});
   }
   if (refusals & kDenormalisedQuaternion) {
-    lines.push_back({true, numbers("TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id \"%s\" from "
-                                   "authority \"%s\" because of an invalid quaternion in the transform "
-                                   "(%f %f %f) (%f %f %f %f)")});
+    lines.push_back({true, format("TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id \"%s\" from "
+                                  "authority \"%s\" because of an invalid quaternion in the transform (%f %f %f %f)",
+                                  child_name.c_str(), who.c_str(), pose.q[0], pose.q[1], pose.q[2], pose.q[3])});
   }
   if (refusals & kOldData) {
     lines.push_back({false, format("TF_OLD_DATA ignoring data from the past for frame %s at time %.6f according to "

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.timeout(600)  # where nothing is built yet
+
 FOLDER = Path(__file__).parent
 BUILD = FOLDER.parents[1] / "build" / "sanitize"
 FLAGS = {"thread": "-fsanitize=thread", "address": "-fsanitize=address,undefined"}

@@ -20,6 +20,7 @@ def debian():
     debian.close()
 
 
+@pytest.mark.timeout(600)
 def test_coframe_answers_as_the_real_tf2(debian):
     explained, finding = run(debian, seed="coframe", operations=200_000)
     assert finding is None, finding
