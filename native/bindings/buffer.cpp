@@ -1,10 +1,12 @@
 #include "bindings/buffer.hpp"
 
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
 #include <nanobind/stl/vector.h>
 
 #include <optional>
+#include <set>
 
 #include "bindings/arguments.hpp"
 #include "bindings/bindings.hpp"
@@ -278,12 +280,23 @@ nb::tuple frame_tuple(const FrameSummary& f) {
   return nb::make_tuple(f.name, f.parent, f.is_static, f.samples, f.oldest, f.newest, f.rate, f.authority);
 }
 
-nb::list edge_tuples(const BufferObject& self) {
+nb::tuple edge_tuple(const EdgeSummary& e) {
+  const nb::tuple intervals = nb::make_tuple(e.mean_interval, e.interval_deviation, e.longest_interval);
+  const nb::tuple counts = nb::make_tuple(e.stored, e.late, e.repeated, e.old, e.self, e.nan, e.quaternion);
+  return nb::make_tuple(frame_tuple(e.frame), intervals, counts);
+}
+
+nb::list edge_tuples(const BufferObject& self, const std::optional<std::vector<std::string>>& children) {
   nb::list edges;
-  for (const EdgeSummary& e : self.core->edges()) {
-    const nb::tuple intervals = nb::make_tuple(e.mean_interval, e.interval_deviation, e.longest_interval);
-    const nb::tuple counts = nb::make_tuple(e.stored, e.late, e.repeated, e.old, e.self, e.nan, e.quaternion);
-    edges.append(nb::make_tuple(frame_tuple(e.frame), intervals, counts));
+  if (!children) {
+    for (const EdgeSummary& edge : self.core->edges()) edges.append(edge_tuple(edge));
+    return edges;
+  }
+  std::set<FrameId> frames;  // in the order of all
+  for (const std::string& child : *children) frames.insert(self.core->find(child));
+  frames.erase(0);
+  for (const FrameId frame : frames) {
+    if (const auto edge = self.core->edge(frame)) edges.append(edge_tuple(*edge));
   }
   return edges;
 }
@@ -394,7 +407,7 @@ void define_buffer(nb::module_& module) {
       .def("become_snapshot", [](BufferObject& self, const BufferObject& other) { self.core = other.core->snapshot(); },
            arg("other"))
       .def("frame_tuples", &frame_tuples)
-      .def("edge_tuples", &edge_tuples)
+      .def("edge_tuples", &edge_tuples, arg("children") = nb::none())
       .def("frame_names", [](const BufferObject& self) { return self.core->frame_names(); })
       .def("frame_exists",
            [](const BufferObject& self, std::string_view name) {

@@ -511,17 +511,22 @@ std::vector<FrameSummary> Buffer::frames() const {
 std::vector<EdgeSummary> Buffer::edges() const {
   std::vector<EdgeSummary> all;
   for (FrameId id = 1; id < tree_.frame_count(); ++id) {
-    const EdgeSummary edge = consistent([&] {
-      const Frame::Counts& counts = tree_.frame(id).counts;
-      EdgeSummary one{summary_of(tree_, id), 0.0,          0.0,        0.0,        counts.stored, counts.late,
-                      counts.repeated,       counts.old, counts.self, counts.nan, counts.quaternion};
-      measure_intervals(tree_.history(id), one);
-      return one;
-    });
-    const bool has_something_to_tell = edge.frame.samples + edge.stored + edge.old + edge.self + edge.nan > 0;
-    if (tree_.frame(id).known && has_something_to_tell) all.push_back(edge);
+    if (auto one = edge(id)) all.push_back(std::move(*one));
   }
   return all;
+}
+
+std::optional<EdgeSummary> Buffer::edge(FrameId child) const {
+  EdgeSummary edge = consistent([&] {
+    const Frame::Counts& counts = tree_.frame(child).counts;
+    EdgeSummary one{summary_of(tree_, child), 0.0,          0.0,         0.0,        counts.stored, counts.late,
+                    counts.repeated,          counts.old, counts.self, counts.nan, counts.quaternion};
+    measure_intervals(tree_.history(child), one);
+    return one;
+  });
+  const bool has_something_to_tell = edge.frame.samples + edge.stored + edge.old + edge.self + edge.nan > 0;
+  if (!tree_.frame(child).known || !has_something_to_tell) return std::nullopt;
+  return edge;
 }
 
 std::vector<std::string> Buffer::frame_names() const {

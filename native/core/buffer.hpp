@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <optional>
 
 #include "core/batch.hpp"
 #include "core/cdr.hpp"
@@ -114,6 +115,8 @@ class Buffer {
 
   std::vector<FrameSummary> frames() const;
   std::vector<EdgeSummary> edges() const;
+  // Of the link between a frame and its parent; nothing where nobody has told of it.
+  std::optional<EdgeSummary> edge(FrameId child) const;
   std::vector<std::string> frame_names() const;
   // The newest sample of every static or every dynamic frame, as a TFMessage's CDR.
   std::string encode(bool is_static) const;

@@ -1,5 +1,6 @@
 """The native core. Private: use `import coframe`."""
 
+from collections.abc import Sequence
 from types import ModuleType
 from typing import Any
 
@@ -244,6 +245,7 @@ class Buffer:
     def frame_tuples(self) -> list[tuple[str, str, bool, int, int, int, float, str]]: ...
     def edge_tuples(
         self,
+        children: Sequence[str] | None = None,
     ) -> list[
         tuple[
             tuple[str, str, bool, int, int, int, float, str],

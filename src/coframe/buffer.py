@@ -497,9 +497,7 @@ class Buffer(_core.Buffer):
                 have a time of their own.
         """
         now = system_time.time_ns() if now is None else now
-        wanted = None if children is None else set(children)
-        found = (_edge_info(*facts, now) for facts in self.edge_tuples())
-        return [edge for edge in found if wanted is None or edge.child in wanted]
+        return [_edge_info(*facts, now) for facts in self.edge_tuples(children)]
 
     def frames(self) -> list[FrameInfo]:
         """Every frame that was ever mentioned, in the order in which they were."""

@@ -351,7 +351,11 @@ def test_deferred_goals(serve, connect, count, result_of, wait_until, fibonacci)
     client = connect()
     first, second = (result_of(client, client.send_goal_async(fibonacci.Goal(order=order))) for order in (1, 2))
     executor = spinner_of(client)
-    wait_until(lambda: first.status == GoalStatus.STATUS_ACCEPTED, lambda: executor.spin_once(timeout_sec=0.1))
+    # The client may hear of a goal before the server's callback has run.
+    wait_until(
+        lambda: len(accepted) == 2 and first.status == GoalStatus.STATUS_ACCEPTED,
+        lambda: executor.spin_once(timeout_sec=0.1),
+    )
     accepted[1].execute()
     assert list(result_of(client, second.get_result_async()).result.sequence) == [0, 1, 1, 2]
     assert accepted[0].status == GoalStatus.STATUS_ACCEPTED
