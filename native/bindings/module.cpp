@@ -12,5 +12,6 @@ NB_MODULE(_core, module) {
   define_buffer(module);
   define_waiting(module);
   define_event(module);
+  define_sensors(module);
   define_wire(module);
 }
