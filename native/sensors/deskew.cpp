@@ -119,7 +119,7 @@ class Worker {
     std::size_t n = 0;
     for (std::size_t i = 0; i < count; ++n) {
       hint = link.interval(times_[i], hint);
-      const auto start = static_cast<std::uint64_t>(link.stamps[hint]);
+      const auto start = static_cast<std::uint64_t>(link.start(hint));
       const std::uint64_t length = static_cast<std::uint64_t>(link.stamps[hint + 1]) - start;
       stretches[n] = {i, hint};
       do ++i;

@@ -31,6 +31,11 @@ std::size_t Trajectory::Link::interval(Stamp stamp, std::size_t guess) const {
   return static_cast<std::size_t>(next - stamps.begin()) - 1;
 }
 
+Stamp Trajectory::Link::start(std::size_t interval) const {
+  const bool behind_oldest = interval > 0 && stamps[interval] == stamps.front();
+  return stamps[interval] + (behind_oldest ? 1 : 0);
+}
+
 void Trajectory::Link::shares(const Kernels& kernels, std::size_t interval, const Stamp* times, std::size_t n,
                               double* out) const {
   if (stamps[interval] < stamps[interval + 1]) {

@@ -23,6 +23,8 @@ class Trajectory {
     bool stands_still() const { return stamps.empty(); }
     // i with stamps[i] <= stamp <= stamps[i + 1], as a look-up chooses between samples; the `guess` is likely to be it.
     std::size_t interval(Stamp stamp, std::size_t guess) const;
+    // The first stamp for which interval() is this one; all up to the stamp at its end follow.
+    Stamp start(std::size_t interval) const;
     // Where stamps of one interval lie between its ends.
     void shares(const Kernels& kernels, std::size_t interval, const Stamp* stamps, std::size_t n, double* out) const;
   };

@@ -1,7 +1,7 @@
 """Laser scans and point clouds, as messages and as arrays, seen from other frames.
 
-`transform_cloud` moves a cloud as a whole, `deskew` each of its points by its own time, `project_scan` makes points of a
-laser scan.
+`transform_cloud` moves a cloud as a whole, `deskew` each of its points by its own time; `project_scan` makes points of
+a laser scan.
 """
 
 from coframe.sensors.clouds import transform_cloud

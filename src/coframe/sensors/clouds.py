@@ -93,6 +93,7 @@ def transform_cloud(
 
     Example:
         >>> import coframe
+        >>> import numpy as np
         >>> from coframe.sensors import transform_cloud
         >>> lidar = coframe.Transform([0.0, 0.0, 0.5], target="base_link", source="lidar")
         >>> transform_cloud(np.array([[1.0, 2.0, 3.0]]), lidar).tolist()
@@ -143,10 +144,10 @@ def to_transform(transform: Any) -> Transform:
         TypeError: It is something else.
         ValueError: It is a batch.
     """
-    if isinstance(transform, Transform):
-        if transform.shape:
+    if isinstance(transform, _core.Transform):
+        if transform.batch is not None:
             raise ValueError("one transform is needed, not a batch; deskew() gives each point its own")
-        return transform
+        return transform  # type: ignore[return-value]
     target = source = None
     if hasattr(transform, "transform") and hasattr(transform, "child_frame_id"):
         target, source = transform.header.frame_id or None, transform.child_frame_id or None

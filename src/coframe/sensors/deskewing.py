@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, Literal, TypeVar
 
 import numpy as np
@@ -136,7 +137,7 @@ def point_times(points: Any, times: ArrayLike | str, unit: str | None, since: St
     if since is not None:
         stamps = np.where(stamps == _NO_TIME, _NO_TIME, stamps + stamp_ns(since))
     grid = layout.grid_of(points)
-    if stamps.size == np.prod(grid):
+    if stamps.size == math.prod(grid):
         return np.ascontiguousarray(stamps.reshape(-1))
     if len(grid) == 2 and stamps.shape == (grid[1],):
         return np.broadcast_to(stamps, grid).reshape(-1)
@@ -148,8 +149,9 @@ def _nanoseconds(values: NDArray[Any], scale: int) -> NDArray[np.int64]:
         raise TypeError(f"times in a unit must be numbers, not {values.dtype}")
     if values.dtype.kind != "f":
         return values.astype(np.int64) * scale
-    nanoseconds = values.astype(np.float64) * scale
-    known = np.abs(nanoseconds) < np.iinfo(np.int64).max
+    with np.errstate(over="ignore", invalid="ignore"):
+        nanoseconds = values.astype(np.float64) * scale
+        known = np.abs(nanoseconds) < np.iinfo(np.int64).max
     return np.where(known, np.rint(np.where(known, nanoseconds, 0.0)).astype(np.int64), _NO_TIME)
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
@@ -45,9 +45,16 @@ def is_message(points: Any) -> bool:
 
 
 def grid_of(points: Any) -> tuple[int, ...]:
-    """The shape of the points: (N,), or (rows, columns) where they are organised."""
+    """The shape of the points: (N,), or (rows, columns) where they are organised.
+
+    Raises:
+        ValueError: A message has not even a byte for each.
+    """
     if is_message(points):
-        return (points.height, points.width)
+        rows, columns, available = points.height, points.width, len(_memory(points.data))
+        if min(rows, columns) < 0 or rows * columns > available:
+            raise ValueError(f"the cloud's data has {available} bytes, too few for {rows} rows of {columns} points")
+        return rows, columns
     return points.shape if points.dtype.names is not None else points.shape[:-1]  # type: ignore[no-any-return]
 
 
@@ -119,7 +126,8 @@ def destination(points: Any, out: Any, *, in_place: bool) -> Any:
 
 def _array_destination(points: NDArray[Any], out: Any, *, in_place: bool) -> NDArray[Any]:
     if out is None and not in_place:
-        return points.copy()
+        copied: NDArray[Any] = points.copy()
+        return copied
     result = points if in_place else out
     if not isinstance(result, np.ndarray):
         raise TypeError(f"out must be a numpy array as the points are, not {type(out).__name__}")
@@ -191,7 +199,7 @@ def _message_field(cloud: Any, name: str) -> NDArray[Any]:
         return np.empty((rows, columns), dtype)
     memory = _memory(cloud.data)
     _check_layout(name, field.offset, dtype.itemsize, rows, columns, step, row_step, len(memory))
-    points = np.ndarray((rows, columns), dtype, buffer=memory, offset=field.offset, strides=(row_step, step))
+    points: NDArray[Any] = np.ndarray((rows, columns), dtype, memory, field.offset, strides=(row_step, step))
     return _single(points, name, field.count)
 
 
@@ -202,9 +210,9 @@ def _check_layout(
     if min(offset, rows, columns) < 0:
         raise ValueError("a cloud's offsets, height and width must not be negative")
     if offset + size > step:
-        raise ValueError(f"the field {name!r} ends at byte {offset + size} of a point, but a point_step is {step} bytes")
+        raise ValueError(f"the field {name!r} ends at byte {offset + size} of a point, but point_step is {step}")
     if row_step < columns * step:
-        raise ValueError(f"{columns} points of {step} bytes (width, point_step) need more than a row_step of {row_step}")
+        raise ValueError(f"{columns} points of {step} bytes (width, point_step) do not fit a row_step of {row_step}")
     needed = (rows - 1) * row_step + (columns - 1) * step + offset + size
     if needed > available:
         raise ValueError(
