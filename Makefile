@@ -32,6 +32,12 @@ test-slow: $(STAMP) ## the tests that take minutes
 test-long: $(STAMP) ## ten million random operations beside the real tf2, a new seed each time
 	$(BIN)/python -m pytest -m long -rP $(ARGS)
 
+sanitize: ## the native core under ThreadSanitizer for a minute, and under AddressSanitizer, also with damaged messages
+	@$(MAKE) -s -C tests/native thread address
+	tests/native/sanitized.sh build/sanitize/thread/stress $(or $(ARGS),60)
+	tests/native/sanitized.sh build/sanitize/address/stress 20
+	tests/native/sanitized.sh build/sanitize/address/fuzz_ingest 200000
+
 conformance: $(STAMP) ## tf2's semantics, case by case
 	@$(BIN)/python conformance/run.py $(ARGS)
 
@@ -43,14 +49,19 @@ lint: $(STAMP) ## style: ruff, and the generated messages are up to date
 typecheck: $(STAMP) ## mypy --strict, and the stub against the native module
 	$(BIN)/mypy
 	$(BIN)/mypy conformance/run.py
+	$(BIN)/mypy -p benchmarks
 	$(BIN)/python -m mypy.stubtest coframe._core --allowlist scripts/stubtest_allow.txt --mypy-config-file pyproject.toml
 
 format: $(STAMP) ## mend what can be mended
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-bench: $(STAMP) ## the benchmarks, in one table
-	$(BIN)/python benchmarks/run.py $(ARGS)
+$(VENV)/.bench: pyproject.toml | $(STAMP)
+	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group bench && touch $@ || \
+		echo "bench: not all peers could be installed from the package index; rows beside them are skipped"
+
+bench: $(VENV)/.bench ## coframe beside its peers, in one table; fails where a bar is not met
+	@$(BIN)/python -E -m benchmarks $(ARGS)
 
 generate: $(STAMP) ## message classes from interfaces/
 	$(BIN)/python scripts/generate_messages.py

@@ -1,97 +1,225 @@
 """How long a transform is on its way between two processes, and what listening costs.
 
-One process publishes messages of ten transforms at 1 kHz, stamped with the monotonic clock; the other stores them in a
-buffer by the native reader. Latency is from before writing to being in the buffer, as a thread sees it that waits for
-the buffer's change; CPU is that of a listening process without such a thread.
+A talker publishes messages of ten transforms at 1 kHz, each stamped by the monotonic clock right before it is sent. The
+listener is measured:
 
-    python benchmarks/wire_latency.py [seconds]
+    python -m benchmarks.wire_latency cpu coframe 5         processor time, percent of one core
+    python -m benchmarks.wire_latency latency coframe 5     nanoseconds, the median and the 99th percentile
+
+A latency ends when a Python thread that waits for it is awake. Listeners are `coframe`, the buffer's own reader; `tf2`,
+the TransformListener of whoever provides tf2_ros; and `udp`, a bare socket that is sent the same bytes: the floor.
 """
 
-from __future__ import annotations
-
+import contextlib
 import os
+import socket
+import statistics
+import struct
 import subprocess
 import sys
 import time
-
-import numpy as np
-
-import coframe
-from coframe.messages import codec, find
-from coframe.wire.qos import TF
+from collections.abc import Callable, Iterator
+from typing import Protocol
 
 RATE_HZ = 1000
 TRANSFORMS = 10
-DOMAIN = "97"
+TARGET, SOURCE = "base_link_0", "arm_link_0"
+STAMP_AT = 8
+"""Where the first stamp is in the message's bytes."""
+NS = 1_000_000_000
+PATIENCE = 30.0
 
 
-def message_bytes() -> bytearray:
-    """A TFMessage of ten transforms; the first one's stamp is at byte 8."""
-    message = find("tf2_msgs/msg/TFMessage")()
+class Listener(Protocol):
+    """Takes messages in from when it is made."""
+
+    address: str
+    """What a talker is to be told."""
+
+    def heard(self) -> bool:
+        """Whether there was a first message."""
+
+    def listen(self, seconds: float) -> None:
+        """Goes on for so long."""
+
+    def next_stamp(self) -> int:
+        """Waits for a message; nanoseconds."""
+
+
+class Coframe:
+    """The native reader of a buffer."""
+
+    address = "dds"
+
+    def __init__(self) -> None:
+        import coframe
+        from coframe.wire import Participant
+
+        self._buffer = coframe.Buffer()
+        participant = Participant.get()
+        self._reader = participant.tf_reader(participant.add_node("/", "listener"), "/tf", self._buffer, static=False)
+        self._seen = 0
+
+    def heard(self) -> bool:
+        if self._buffer.can_transform(TARGET, SOURCE):
+            self._seen = self._buffer.lookup(TARGET, SOURCE).stamp or 0
+        return self._seen > 0
+
+    def listen(self, seconds: float) -> None:
+        time.sleep(seconds)
+
+    def next_stamp(self) -> int:
+        self._buffer.lookup(TARGET, SOURCE, self._seen + 1, timeout=NS)  # possible once there is a newer one
+        self._seen = self._buffer.lookup(TARGET, SOURCE).stamp or 0
+        return self._seen
+
+
+class Tf2:
+    """The listener of tf2_ros, which spins in a thread of its own."""
+
+    address = "dds"
+
+    def __init__(self) -> None:
+        import rclpy
+        import tf2_ros
+        from rclpy.time import Time
+
+        rclpy.init()
+        self._node = rclpy.create_node("listener")
+        self._buffer = tf2_ros.Buffer()
+        self._listener = tf2_ros.TransformListener(self._buffer, self._node, spin_thread=True)
+        self._latest = Time()
+
+    def heard(self) -> bool:
+        return bool(self._buffer.can_transform(TARGET, SOURCE, self._latest))
+
+    def listen(self, seconds: float) -> None:
+        time.sleep(seconds)
+
+    def next_stamp(self) -> int:
+        raise SystemExit("tf2_ros has nothing to wait with for the next message: ask for cpu")
+
+
+class Udp:
+    """A bare socket."""
+
+    def __init__(self) -> None:
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._socket.bind(("127.0.0.1", 0))
+        self._socket.settimeout(1.0)
+        self.address = str(self._socket.getsockname()[1])
+        self._message = bytearray(4096)
+
+    def heard(self) -> bool:
+        return self.next_stamp() > 0
+
+    def listen(self, seconds: float) -> None:
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            self._socket.recv_into(self._message)
+
+    def next_stamp(self) -> int:
+        self._socket.recv_into(self._message)
+        seconds, nanoseconds = struct.unpack_from("<II", self._message, STAMP_AT)
+        return int(seconds * NS + nanoseconds)
+
+
+LISTENERS: dict[str, Callable[[], Listener]] = {"coframe": Coframe, "tf2": Tf2, "udp": Udp}
+
+
+def message() -> bytearray:
+    """A TFMessage's bytes."""
+    from coframe.messages import codec, find
+
+    result = find("tf2_msgs/msg/TFMessage")()
     for number in range(TRANSFORMS):
         stamped = find("geometry_msgs/msg/TransformStamped")()
         stamped.header.frame_id, stamped.child_frame_id = f"base_link_{number}", f"arm_link_{number}"
         stamped.transform.rotation.w = 1.0
-        message.transforms.append(stamped)
-    return bytearray(codec.serialize(message))
+        result.transforms.append(stamped)
+    return bytearray(codec.serialize(result))
 
 
-def publish(seconds: float) -> None:
-    data = message_bytes()
+@contextlib.contextmanager
+def road(address: str) -> Iterator[Callable[[bytes], object]]:
+    """What sends bytes to a listener."""
+    if address != "dds":
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            sender.connect(("127.0.0.1", int(address)))
+            yield sender.send
+        return
+    import coframe
+    from coframe.messages import find
+    from coframe.wire.qos import TF
+
     with coframe.connect("talker") as ros:
-        publisher = ros.participant.publisher(ros.node, "/bench/tf", find("tf2_msgs/msg/TFMessage"), TF)
+        publisher = ros.participant.publisher(ros.node, "/tf", find("tf2_msgs/msg/TFMessage"), TF)
         while not publisher.matched:
             time.sleep(0.01)
-        spent = []
+        yield publisher.write
+
+
+def talk(address: str, seconds: float) -> None:
+    data = message()
+    with road(address) as send:
         begin = time.monotonic_ns()
         for number in range(int(seconds * RATE_HZ)):
-            left = begin + number * 1_000_000_000 // RATE_HZ - time.monotonic_ns()
+            left = begin + number * NS // RATE_HZ - time.monotonic_ns()
             if left > 0:
-                time.sleep(left / 1e9)
+                time.sleep(left / NS)
             now = time.monotonic_ns()
-            data[8:16] = np.array([now // 1_000_000_000, now % 1_000_000_000], dtype="<u4").tobytes()
-            publisher.write(bytes(data))
-            spent.append(time.monotonic_ns() - now)
-        p50, p99 = np.percentile(spent, [50, 99]) / 1e3
-        print(f"write            p50 {p50:6.1f} us   p99 {p99:6.1f} us", flush=True)
+            struct.pack_into("<II", data, STAMP_AT, now // NS, now % NS)
+            with contextlib.suppress(ConnectionRefusedError):  # the socket has been closed
+                send(bytes(data))
 
 
-def listen(seconds: float, *, watch: bool) -> None:
-    buffer = coframe.Buffer()
-    participant = coframe.wire.Participant.get()
-    node = participant.add_node("/", "listener")
-    participant.tf_reader(node, "/bench/tf", buffer, static=False)
-    talker = subprocess.Popen([sys.executable, __file__, "--publish", str(seconds)])
-    while not buffer.can_transform("base_link_0", "arm_link_0"):
-        time.sleep(0.01)
+@contextlib.contextmanager
+def talker(python: str, listener: Listener, seconds: float) -> Iterator[None]:
+    """A process that talks; from when its first message was heard."""
+    command = [python, "-E", "-m", "benchmarks.wire_latency", "talk", listener.address, str(seconds + PATIENCE)]
+    process = subprocess.Popen(command)
+    try:
+        end = time.monotonic() + PATIENCE
+        while not listener.heard():
+            if time.monotonic() > end:
+                raise SystemExit(f"nothing was heard for {PATIENCE:g} s")
+            time.sleep(0.01)
+        yield
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def cpu(listener: Listener, seconds: float) -> tuple[float, ...]:
+    begin, spent = time.monotonic(), time.process_time()
+    listener.listen(seconds)
+    return (100 * (time.process_time() - spent) / (time.monotonic() - begin),)
+
+
+def latency(listener: Listener, seconds: float) -> tuple[float, ...]:
     latencies = []
-    cpu, begin, first = time.process_time(), time.monotonic(), buffer.statistics["messages"]
-    end = begin + seconds * 0.9
-    if watch:
-        seen = buffer.changes
-        while time.monotonic() < end:
-            seen = buffer.wait_for_change(seen, 100_000_000)
-            latencies.append(time.monotonic_ns() - buffer.lookup("base_link_0", "arm_link_0").stamp)
-    else:
-        time.sleep(seconds * 0.9)
-    elapsed = time.monotonic() - begin
-    busy = time.process_time() - cpu
-    messages = buffer.statistics["messages"] - first
-    if watch:
-        p50, p99 = np.percentile(latencies, [50, 99]) / 1e3
-        print(f"latency          p50 {p50:6.1f} us   p99 {p99:6.1f} us   (with a Python thread that waits)")
-    else:
-        print(f"listening        {100 * busy / elapsed:.1f} % of one core at {messages / elapsed:.0f} messages/s")
-    talker.wait()
-    participant.close()
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        stamp = listener.next_stamp()
+        latencies.append(time.monotonic_ns() - stamp)
+    percentiles = statistics.quantiles(latencies, n=100)
+    return percentiles[49], percentiles[98]
+
+
+FIGURES: dict[str, Callable[[Listener, float], tuple[float, ...]]] = {"cpu": cpu, "latency": latency}
+
+
+def main(figure: str, who: str, seconds: str, talkers_python: str = sys.executable) -> None:
+    if figure == "talk":
+        talk(who, float(seconds))
+        return
+    # This machine's loopback only, and away from whoever else is on it.
+    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))
+    listener = LISTENERS[who]()
+    with talker(talkers_python, listener, float(seconds)):
+        print(*FIGURES[figure](listener, float(seconds)), flush=True)
 
 
 if __name__ == "__main__":
-    os.environ["ROS_DOMAIN_ID"] = DOMAIN
-    os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
-    if sys.argv[1:2] == ["--publish"]:
-        publish(float(sys.argv[2]))
-    else:
-        duration = float(sys.argv[1]) if len(sys.argv) > 1 else 5.0
-        listen(duration, watch=False)
-        listen(duration, watch=True)
+    main(*sys.argv[1:])

@@ -1,5 +1,9 @@
 #include "bindings/arguments.hpp"
 
+#include <array>
+#include <cstdint>
+#include <utility>
+
 #include "bindings/bindings.hpp"
 
 namespace coframe::bindings {
@@ -8,7 +12,34 @@ namespace {
 
 nb::handle time_module;  // coframe.time: what is neither int nor None is converted there
 
+// Durations are mostly written as the same few literals.
+struct KnownDuration {
+  PyObject* text = nullptr;
+  std::int64_t nanoseconds = 0;
+};
+std::array<KnownDuration, 64> known_durations;  // guarded by the GIL
+
+std::int64_t converted(const char* function, nb::handle given) {
+  const CallingPython call;
+  return to_int64(time_module.attr(function)(given));
+}
+
+std::int64_t text_duration(PyObject* text) {
+  KnownDuration& known = known_durations[(reinterpret_cast<std::uintptr_t>(text) >> 4) % known_durations.size()];
+  if (known.text == text) return known.nanoseconds;
+  const std::int64_t nanoseconds = converted("duration_ns", text);
+  Py_INCREF(text);
+  Py_XDECREF(std::exchange(known.text, text));
+  known.nanoseconds = nanoseconds;
+  return nanoseconds;
+}
+
 }  // namespace
+
+BufferObject& buffer_of(nb::handle object) {
+  if (!nb::inst_ready(object)) throw nb::type_error("the buffer was not initialised: __init__ was not called");
+  return *nb::inst_ptr<BufferObject>(object);
+}
 
 std::string_view text(nb::handle name) {
   if (!PyUnicode_Check(name.ptr())) {
@@ -35,14 +66,18 @@ std::int64_t to_int64(nb::handle number) {
 Stamp to_stamp(nb::handle stamp) {
   if (stamp.is_none()) return 0;
   if (PyLong_CheckExact(stamp.ptr())) return to_int64(stamp);
-  const CallingPython call;
-  return to_int64(time_module.attr("stamp_ns")(stamp));
+  return converted("stamp_ns", stamp);
 }
 
 std::int64_t to_duration(nb::handle duration) {
   if (duration.is_none()) return 0;
-  const CallingPython call;
-  return to_int64(time_module.attr("duration_ns")(duration));
+  if (PyLong_CheckExact(duration.ptr())) {
+    int overflow;
+    const long long nanoseconds = PyLong_AsLongLongAndOverflow(duration.ptr(), &overflow);
+    if (overflow == 0) return nanoseconds;
+  }
+  if (PyUnicode_CheckExact(duration.ptr())) return text_duration(duration.ptr());
+  return converted("duration_ns", duration);
 }
 
 Question question_of(BufferObject& buffer, nb::handle target, nb::handle source, nb::handle stamp) {

@@ -12,6 +12,9 @@ namespace coframe::bindings {
 
 namespace nb = nanobind;
 
+// Of a Python object that is one; type_error where __init__ was not called.
+BufferObject& buffer_of(nb::handle object);
+
 // Nanoseconds, by coframe.time for what is no int; None is 0.
 std::int64_t to_int64(nb::handle number);
 Stamp to_stamp(nb::handle stamp);

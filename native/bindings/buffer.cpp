@@ -17,11 +17,6 @@ namespace coframe::bindings {
 
 namespace {
 
-BufferObject& buffer_of(PyObject* object) {
-  if (!nb::inst_ready(object)) throw nb::type_error("the buffer was not initialised: __init__ was not called");
-  return *nb::inst_ptr<BufferObject>(object);
-}
-
 // Tries now, and then waits without the GIL for the insertion that brings the answer.
 bool answer_within(BufferObject& self, Question& question, std::int64_t timeout_ns, Answer& answer, Failure& failure) {
   if (self.core->answer(question, answer, failure)) return true;
@@ -36,13 +31,15 @@ bool answer_within(BufferObject& self, Question& question, std::int64_t timeout_
 }
 
 // Beyond so many the other Python threads may run meanwhile; below, letting them costs more than it gives.
-constexpr std::size_t kManyLookups = 10'000;
+constexpr std::size_t kManyLookups = 20'000;
 
 nb::object raise_for(BufferObject& self, Failure failure, nb::handle target, nb::handle source) {
   return raise_failure({std::move(failure), self.core, nb::borrow(target), nb::borrow(source)});
 }
 
-Extrapolation extrapolation_of(nb::handle limit, bool hold) {
+// Nothing where there is to be none.
+std::optional<Extrapolation> extrapolation_of(nb::handle limit, bool hold) {
+  if (limit.is_none()) return std::nullopt;
   Extrapolation extrapolation;
   extrapolation.method = hold ? Extrapolation::Method::hold : Extrapolation::Method::twist;
   extrapolation.limit = to_duration(limit);
@@ -51,19 +48,15 @@ Extrapolation extrapolation_of(nb::handle limit, bool hold) {
 }
 
 nb::object patient_lookup(BufferObject& self, nb::handle target, nb::handle source, nb::handle stamp,
-                          nb::handle timeout, nb::handle extrapolate, bool hold) {
+                          std::int64_t timeout_ns, std::optional<Extrapolation>& extrapolation) {
   Question question = question_of(self, target, source, stamp);
   Answer answer;
   Failure failure;
-  const std::int64_t timeout_ns = to_duration(timeout);
   if (answer_within(self, question, timeout_ns, answer, failure)) {
     return make_transform(answer.pose, answer.stamp, target, source);
   }
-  if (!extrapolate.is_none()) {
-    Extrapolation extrapolation = extrapolation_of(extrapolate, hold);
-    if (self.core->answer(question, answer, failure, &extrapolation)) {
-      return make_transform(answer.pose, answer.stamp, target, source, extrapolation.furthest);
-    }
+  if (extrapolation && self.core->answer(question, answer, failure, &*extrapolation)) {
+    return make_transform(answer.pose, answer.stamp, target, source, extrapolation->furthest);
   }
   return raise_for(self, std::move(failure), target, source);
 }
@@ -86,12 +79,21 @@ bool plain(BufferObject& self, PyObject* target, PyObject* source, PyObject* sta
 
 nb::handle given(PyObject* object) { return object ? nb::handle(object) : nb::handle(Py_None); }
 
+bool is_true(PyObject* object) {
+  const int truth = object ? PyObject_IsTrue(object) : 0;
+  if (truth < 0) throw nb::python_error();
+  return truth != 0;
+}
+
 PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<6> signature("lookup", {"target", "source", "stamp", "timeout", "extrapolate", "hold"}, 2, 3);
   PyObject* values[6];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&] {
     BufferObject& self = buffer_of(object);
+    // What is wrong with these is told also where they are not needed.
+    const std::int64_t timeout = to_duration(given(values[3]));
+    std::optional<Extrapolation> extrapolation = extrapolation_of(given(values[4]), is_true(values[5]));
     FrameId target, source;
     Stamp stamp;
     Pose pose;
@@ -100,10 +102,7 @@ PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t cou
         self.core->quick_lookup(self.paths, target, source, stamp, pose)) {
       return make_transform(pose, stamp, values[0], values[1]).release().ptr();
     }
-    const bool hold = values[5] && nb::cast<bool>(nb::handle(values[5]));
-    return patient_lookup(self, values[0], values[1], given(values[2]), given(values[3]), given(values[4]), hold)
-        .release()
-        .ptr();
+    return patient_lookup(self, values[0], values[1], given(values[2]), timeout, extrapolation).release().ptr();
   });
 }
 
@@ -124,6 +123,7 @@ PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssiz
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&] {
     BufferObject& self = buffer_of(object);
+    const std::int64_t timeout = to_duration(given(values[3]));
     FrameId target, source;
     Stamp stamp;
     if (plain(self, values[0], values[1], values[2], target, source, stamp) &&
@@ -133,7 +133,7 @@ PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssiz
     Question question = question_of(self, values[0], values[1], given(values[2]));
     Answer answer;
     Failure failure;
-    return PyBool_FromLong(answer_within(self, question, to_duration(given(values[3])), answer, failure));
+    return PyBool_FromLong(answer_within(self, question, timeout, answer, failure));
   });
 }
 
@@ -160,41 +160,80 @@ std::string why_not_full(BufferObject& self, nb::handle target, nb::handle targe
   return reason(self, full_question_of(self, target, target_stamp, source, source_stamp, fixed));
 }
 
-// Arrays of the same number of rows: stamps in, stamps, translations and quaternions out. Returns the first row that
-// has no answer, and raises for it unless it is to be filled with NaN.
-std::size_t lookup_many(BufferObject& self, nb::handle target, nb::handle source, nb::handle stamps,
-                        nb::handle translations, nb::handle quaternions, nb::handle beyond, bool nan_for_none,
-                        nb::handle extrapolate, bool hold) {
-  const Memory times(stamps, PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS);
-  const Memory places(translations, PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS);
-  const Memory turns(quaternions, PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS);
-  const Memory distances(beyond, PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS);
-  const std::size_t count = times.size() / sizeof(Stamp);
-  if (places.size() != 3 * count * sizeof(double) || turns.size() != 4 * count * sizeof(double) ||
-      distances.size() != count * sizeof(Stamp)) {
+double* rows(const Memory& memory, std::size_t columns, std::size_t count) {
+  if (memory.size() != columns * count * sizeof(double)) {
     throw nb::value_error("the arrays must have as many rows as there are stamps");
   }
-  Question question = question_of(self, target, source, nb::none());
-  std::optional<Extrapolation> extrapolation;
-  if (!extrapolate.is_none()) extrapolation = extrapolation_of(extrapolate, hold);
-  Batch batch{count, times.data<Stamp>(), places.data<double>(), turns.data<double>(),
-              distances.data<Stamp>(), nan_for_none};
+  return memory.data<double>();
+}
+
+Batch::Missing missing_of(std::string_view on_error) {
+  if (on_error == "raise") return Batch::Missing::stop;
+  if (on_error == "nan") return Batch::Missing::nan;
+  if (on_error == "clip") return Batch::Missing::clip;
+  throw nb::value_error("on_error must be \"raise\", \"nan\" or \"clip\"");
+}
+
+// Arrays of as many rows: stamps (in and out), poses (N, 7), and if they are not None twists (N, 6) and how far beyond
+// the data (N,). Returns the first row that has no answer, and raises for it unless it is filled with NaN.
+std::size_t lookup_rows(BufferObject& self, nb::handle target, nb::handle source, nb::handle stamps, nb::handle poses,
+                        nb::handle twists, nb::handle beyond, std::string_view on_error, unsigned threads,
+                        nb::handle extrapolate, bool hold) {
+  constexpr int kFlags = PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS;
+  const Memory times(stamps, kFlags), places(poses, kFlags);
+  std::optional<Memory> rates, distances;
+  const std::size_t count = times.size() / sizeof(Stamp);
+  Batch batch{count, times.data<Stamp>(), rows(places, 7, count), nullptr, nullptr, missing_of(on_error)};
+  if (!twists.is_none()) batch.twists = rows(rates.emplace(twists, kFlags), 6, count);
+  if (!beyond.is_none()) batch.beyond = reinterpret_cast<Stamp*>(rows(distances.emplace(beyond, kFlags), 1, count));
+  const Question question = question_of(self, target, source, nb::none());
+  const std::optional<Extrapolation> extrapolation = extrapolation_of(extrapolate, hold);
   Failure failure;
-  const auto run = [&] {
-    return self.core->answer_many(question, extrapolation ? &*extrapolation : nullptr, batch, failure);
-  };
   std::size_t missing;
-  if (count > kManyLookups) {
+  const auto run = [&] {
+    missing = self.core->answer_many(question, extrapolation ? &*extrapolation : nullptr, batch, threads, failure);
+  };
+  if (count > kManyLookups || threads > 1) {
     const WithoutGil release;
-    missing = run();
+    run();
   } else {
-    missing = run();
+    run();
   }
-  if (missing < count && !nan_for_none) {
+  if (missing < count && batch.missing != Batch::Missing::nan) {
     raise_for(self, std::move(failure), target, source);
     throw nb::python_error();
   }
   return missing;
+}
+
+nb::bytes stamps_between(BufferObject& self, nb::handle target, nb::handle source, Stamp first, Stamp last) {
+  Question question = question_of(self, target, source, nb::none());
+  std::vector<Stamp> stamps;
+  Failure failure;
+  if (!self.core->stamps_between(question, first, last, stamps, failure)) {
+    raise_for(self, std::move(failure), target, source);
+    throw nb::python_error();
+  }
+  return nb::bytes(stamps.data(), stamps.size() * sizeof(Stamp));
+}
+
+// (refusals, rows stored, first refused row).
+nb::tuple set_rows(BufferObject& self, std::string_view parent, std::string_view child, nb::handle stamps,
+                   nb::handle poses, bool is_static, nb::handle authority) {
+  const Memory times(stamps, PyBUF_C_CONTIGUOUS), places(poses, PyBUF_C_CONTIGUOUS);
+  const std::size_t count = times.size() / sizeof(Stamp);
+  const Track track{parent, child, count, times.data<const Stamp>(), rows(places, 7, count)};
+  const AuthorityId who = self.authority(authority.ptr());
+  std::size_t stored, bad_row;
+  unsigned refusals;
+  const auto run = [&] { refusals = self.core->insert_many(track, is_static, who, stored, bad_row); };
+  if (count > kManyLookups) {
+    const WithoutGil release;
+    run();
+  } else {
+    run();
+  }
+  return nb::make_tuple(refusals, stored, bad_row);
 }
 
 nb::object py_latest_common_time(BufferObject& self, nb::handle target, nb::handle source) {
@@ -259,15 +298,17 @@ PyObject* py_set_values(PyObject* object, PyObject* const* arguments, Py_ssize_t
     const FrameId parent = self.frame(values[0]), child = self.frame(values[1]);
     const AuthorityId authority = self.authority(values[11]);
     double v[7];
-    for (int i = 0; i < 7; ++i) v[i] = PyFloat_AsDouble(values[3 + i]);
+    for (int i = 0; i < 7; ++i) {
+      v[i] = PyFloat_AsDouble(values[3 + i]);
+      if (v[i] == -1.0 && PyErr_Occurred()) return nullptr;
+    }
     const Stamp stamp = to_int64(values[2]);
-    const int is_static = PyObject_IsTrue(values[10]);
-    if (PyErr_Occurred()) return nullptr;
+    const bool is_static = is_true(values[10]);
     const TransformValues transform{{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
     const bool known = parent != 0 && child != 0 && parent != child;
     return PyLong_FromUnsignedLong(
-        known ? self.core->insert(parent, child, stamp, transform, is_static != 0, authority)
-              : self.core->insert(text(values[0]), text(values[1]), stamp, transform, is_static != 0, authority));
+        known ? self.core->insert(parent, child, stamp, transform, is_static, authority)
+              : self.core->insert(text(values[0]), text(values[1]), stamp, transform, is_static, authority));
   });
 }
 
@@ -329,9 +370,11 @@ void define_buffer(nb::module_& module) {
       .def_prop_ro("cache_ns", [](const BufferObject& self) { return self.core->cache_length(); })
       .def("lookup_full", &py_lookup_full, any("target"), any("target_stamp"), any("source"),
            any("source_stamp"), any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
-      .def("lookup_rows", &lookup_many, any("target"), any("source"), arg("stamps"), arg("translations"),
-           arg("quaternions"), arg("beyond"), arg("nan_for_none"), arg("extrapolate") = nb::none(),
-           arg("hold") = false)
+      .def("lookup_rows", &lookup_rows, any("target"), any("source"), arg("stamps"), arg("poses"), any("twists"),
+           any("beyond"), arg("on_error"), arg("threads"), arg("extrapolate") = nb::none(), arg("hold") = false)
+      .def("stamps_between", &stamps_between, any("target"), any("source"), arg("first"), arg("last"))
+      .def("set_rows", &set_rows, arg("parent"), arg("child"), arg("stamps"), arg("poses"), arg("static"),
+           arg("authority"))
       .def("can_transform_full", &py_can_transform_full, any("target"), any("target_stamp"), any("source"),
            any("source_stamp"), any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
       .def("why_not", &why_not, any("target"), any("source"), arg("stamp") = nb::none())

@@ -68,7 +68,7 @@ nb::object edge(const FailureObject& object) {
 nb::object roots(const FailureObject& object) {
   const Failure& failure = object.failure;
   if (failure.code != ErrorCode::not_connected) return nb::none();
-  return nb::make_tuple(object.buffer->name(failure.target_root), object.buffer->name(failure.source_root));
+  return nb::make_tuple(object.buffer->name(failure.target_end), object.buffer->name(failure.source_end));
 }
 
 // Of all frames, as of now; "" for those that have none.

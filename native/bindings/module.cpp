@@ -11,6 +11,7 @@ NB_MODULE(_core, module) {
   define_arguments(module);
   define_buffer(module);
   define_waiting(module);
+  define_messages(module);
   define_event(module);
   define_sensors(module);
   define_wire(module);

@@ -25,7 +25,7 @@ TransformObject* self_of(PyObject* object) { return reinterpret_cast<TransformOb
 
 PyObject* or_none(PyObject* object) { return Py_NewRef(object ? object : Py_None); }
 
-// Arguments: 7 numbers, target, source, stamp, batch.
+// Arguments: 7 numbers, target, source, stamp, batch, and maybe how far it was extrapolated.
 int initialise(PyObject* object, PyObject* arguments, PyObject* keywords) {
   if (keywords && PyDict_GET_SIZE(keywords) != 0) {
     PyErr_SetString(PyExc_TypeError, "the values of a transform are given by position");
@@ -33,8 +33,9 @@ int initialise(PyObject* object, PyObject* arguments, PyObject* keywords) {
   }
   double v[7];
   PyObject *target, *source, *stamp, *batch;
-  if (!PyArg_ParseTuple(arguments, "dddddddOOOO", &v[0], &v[1], &v[2], &v[3], &v[4], &v[5], &v[6], &target, &source,
-                        &stamp, &batch)) {
+  long long beyond = 0;
+  if (!PyArg_ParseTuple(arguments, "dddddddOOOO|L", &v[0], &v[1], &v[2], &v[3], &v[4], &v[5], &v[6], &target, &source,
+                        &stamp, &batch, &beyond)) {
     return -1;
   }
   const long long nanoseconds = stamp == Py_None ? 0 : PyLong_AsLongLong(stamp);
@@ -42,6 +43,7 @@ int initialise(PyObject* object, PyObject* arguments, PyObject* keywords) {
   TransformObject* self = self_of(object);
   self->pose = Pose{{v[3], v[4], v[5], v[6]}, {v[0], v[1], v[2]}};
   self->stamp = nanoseconds;
+  self->beyond = beyond;
   self->has_stamp = stamp != Py_None;
   Py_XSETREF(self->target, Py_NewRef(target));
   Py_XSETREF(self->source, Py_NewRef(source));

@@ -1,8 +1,12 @@
 #include "core/buffer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "core/dump.hpp"
@@ -33,6 +37,24 @@ void measure_intervals(const History::View& samples, EdgeSummary& edge) {
     edge.longest_interval = std::max(edge.longest_interval, interval(i));
   }
   edge.interval_deviation = std::sqrt(squares / count);
+}
+
+constexpr std::size_t kInsertBlock = 1024;
+
+TransformValues values_of(const double* row) {
+  return {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}};
+}
+
+unsigned track_refusals(const Track& track, std::size_t row) {
+  const double* v = track.poses + 7 * row;
+  const double length2 = v[3] * v[3] + v[4] * v[4] + v[5] * v[5] + v[6] * v[6];
+  if (v[0] + v[1] + v[2] == v[0] + v[1] + v[2] && length2 > 1e-300 && length2 < 1e300) return 0;
+  return check_values(values_of(v));
+}
+
+void write_pose(const Pose& pose, double* row) {
+  std::copy_n(pose.p, 3, row);
+  std::copy_n(pose.q, 4, row + 3);
 }
 
 FrameSummary summary_of(const Tree& tree, FrameId id) {
@@ -72,6 +94,64 @@ unsigned Buffer::insert(FrameId parent, FrameId child, Stamp stamp, const Transf
   return insert_and_announce([&] { return tree_.insert(parent, child, stamp, values, is_static, authority); });
 }
 
+unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId authority, std::size_t& stored,
+                             std::size_t& bad_row) {
+  stored = 0;
+  const unsigned refused_names = check_names(track.parent, track.child);
+  for (bad_row = 0; bad_row < track.count; ++bad_row) {
+    if (const unsigned refusals = refused_names | track_refusals(track, bad_row)) return refusals;
+  }
+  std::vector<std::size_t> order;
+  if (!std::is_sorted(track.stamps, track.stamps + track.count)) {
+    order.resize(track.count);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return track.stamps[a] < track.stamps[b]; });
+  }
+  // In blocks, so that others have their turn.
+  for (std::size_t first = 0; first < track.count; first += kInsertBlock) {
+    const std::size_t count = std::min(kInsertBlock, track.count - first);
+    std::array<Stamp, kInsertBlock> stamps;
+    std::array<TransformValues, kInsertBlock> values;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t row = order.empty() ? first + i : order[first + i];
+      stamps[i] = track.stamps[row];
+      values[i] = values_of(track.poses + 7 * row);
+    }
+    std::vector<Inserted> inserted;
+    {
+      const std::lock_guard lock(writing_);
+      if (frozen()) {
+        counts_.refused += track.count - first;
+        return kFrozen;
+      }
+      stored += insert_block(track, stamps.data(), values.data(), count, is_static, authority, inserted);
+    }
+    announce(inserted.data(), inserted.size());
+  }
+  return 0;
+}
+
+// Runs that go on behind what is there take the short way.
+std::size_t Buffer::insert_block(const Track& track, const Stamp* stamps, const TransformValues* values,
+                                 std::size_t count, bool is_static, AuthorityId authority,
+                                 std::vector<Inserted>& inserted) {
+  std::size_t stored = 0;
+  for (std::size_t i = 0; i < count;) {
+    const std::size_t run =
+        is_static ? 0 : tree_.append_run(track.parent, track.child, stamps + i, values + i, count - i, authority);
+    counts_.stored += run;
+    stored += run;
+    i += run;
+    if (run > 0) inserted.push_back({0, tree_.find(without_slash(track.child)), false, false});
+    if (i == count) break;
+    inserted.push_back(tree_.insert(track.parent, track.child, stamps[i], values[i], is_static, authority));
+    stored += this->count(inserted.back().refusals);
+    ++i;
+  }
+  return stored;
+}
+
 AuthorityId Buffer::authority(std::string_view name) {
   const std::lock_guard lock(writing_);
   return tree_.authority(name);
@@ -104,13 +184,12 @@ DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, 
     ++counts_.messages;
     if (failure.reason) ++counts_.malformed;
     for (std::size_t i = 0; i < stream.decoded.size(); ++i) {
-      const Inserted inserted = store(stream, i, stream.decoded[i]);
-      if (!count(inserted.refusals)) continue;
-      ++stored;
-      stream.inserted.push_back(inserted);
+      // Also what is refused as too old changes something: it makes frames known, and older ones may be forgotten.
+      stream.inserted.push_back(store(stream, i, stream.decoded[i]));
+      if (count(stream.inserted.back().refusals)) ++stored;
     }
   }
-  if (stored > 0) announce(stream.inserted.data(), stored);
+  if (!stream.inserted.empty()) announce(stream.inserted.data(), stream.inserted.size());
   if (stream.decoded.capacity() > TransformStream::kMaxRemembered) {
     stream.decoded = {};
     stream.inserted = {};
@@ -157,7 +236,9 @@ void Buffer::clear() {
     if (frozen()) return;
     tree_.clear();
   }
-  announce(nullptr, 0);
+  Inserted cleared;
+  cleared.rewired = true;  // what comes next may be another tree
+  announce(&cleared, 1);
 }
 
 bool Buffer::remove_frame(std::string_view name) {
@@ -261,26 +342,139 @@ bool Buffer::answer(Question& question, Answer& answer, Failure& failure, Extrap
          lookup_full(target, answer.stamp, source, question.source_stamp, question.fixed_id, answer.pose, failure);
 }
 
-std::size_t Buffer::answer_many(Question& question, Extrapolation* extrapolation, Batch& batch,
-                                Failure& failure) const {
-  std::size_t first = batch.count;
-  for (std::size_t row = 0; row < batch.count; ++row) {
-    Answer one;
-    Failure missing;
-    question.stamp = batch.stamps[row];
-    const bool ok = answer(question, one, missing, extrapolation);
-    if (!ok && first == batch.count) {
-      first = row;
-      failure = std::move(missing);
-      if (!batch.nan_for_none) return first;
+std::size_t Buffer::answer_many(const Question& question, const Extrapolation* extrapolation, const Batch& batch,
+                                unsigned threads, Failure& failure) const {
+  threads = static_cast<unsigned>(std::clamp<std::size_t>(batch.count / kBlock, 1, std::max(threads, 1u)));
+  std::vector<std::size_t> missing(threads);
+  std::vector<Failure> failures(threads);
+  const auto part = [&](unsigned i) {
+    missing[i] = answer_rows(question, extrapolation, batch, batch.count * i / threads, batch.count * (i + 1) / threads,
+                             failures[i]);
+  };
+  std::vector<std::thread> others;
+  for (unsigned i = 1; i < threads; ++i) {
+    try {
+      others.emplace_back(part, i);
+    } catch (const std::system_error&) {  // no more threads to be had
+      part(i);
     }
-    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    for (int i = 0; i < 3; ++i) batch.translations[3 * row + i] = ok ? one.pose.p[i] : kNan;
-    for (int i = 0; i < 4; ++i) batch.quaternions[4 * row + i] = ok ? one.pose.q[i] : kNan;
-    batch.stamps[row] = one.stamp;
-    batch.beyond[row] = ok && extrapolation ? extrapolation->furthest : 0;
   }
-  return first;
+  part(0);
+  for (std::thread& other : others) other.join();
+  for (unsigned i = 0; i < threads; ++i) {
+    if (missing[i] == batch.count) continue;
+    failure = std::move(failures[i]);
+    return missing[i];
+  }
+  return batch.count;
+}
+
+std::size_t Buffer::answer_rows(Question question, const Extrapolation* extrapolation, const Batch& batch,
+                                std::size_t first, std::size_t last, Failure& failure) const {
+  std::size_t missing = batch.count;
+  PathCache::Path path;
+  Failure ignored;
+  const bool has_path = question.target != question.source && resolve_both(question, ignored);
+  const bool by_path = has_path && !extrapolation && !batch.twists;
+  const std::vector<std::uint32_t> order =
+      by_path ? order_by_time(batch.stamps + first, last - first) : std::vector<std::uint32_t>{};
+  std::array<std::size_t, kBlock> rows;
+  std::array<Stamp, kBlock> stamps;
+  std::array<bool, kBlock> ok;
+  PoseRows poses;
+  for (std::size_t start = first; start < last; start += kBlock) {
+    const std::size_t count = std::min(kBlock, last - start);
+    for (std::size_t i = 0; i < count; ++i) {
+      rows[i] = order.empty() ? start + i : first + order[start - first + i];
+      stamps[i] = batch.stamps[rows[i]];
+    }
+    if (has_path) PathCache::update(tree_, question.target_id, question.source_id, path);
+    if (path.usable && batch.missing == Batch::Missing::clip) clip(path, count, stamps.data());
+    ok.fill(false);
+    if (by_path && path.usable) {
+      read([&](const Tree&) {
+        follow_block(path, stamps.data(), count, poses, ok.data());
+        return true;
+      });
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      batch.stamps[rows[i]] = stamps[i];
+      if (ok[i]) {
+        poses.write(i, batch.poses + 7 * rows[i]);
+        continue;
+      }
+      Failure why;
+      if (answer_row(question, extrapolation, batch, rows[i], why)) continue;
+      if (rows[i] < missing) {
+        missing = rows[i];
+        failure = std::move(why);
+      }
+      if (batch.missing != Batch::Missing::nan && order.empty()) return missing;
+    }
+  }
+  return missing;
+}
+
+void Buffer::clip(const PathCache::Path& path, std::size_t count, Stamp* stamps) const {
+  Stamp earliest, latest;
+  if (!read([&](const Tree&) { return common_span(path, earliest, latest); }) || latest == 0) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (stamps[i] != 0) stamps[i] = std::clamp(stamps[i], earliest, latest);
+  }
+}
+
+bool Buffer::answer_row(Question& question, const Extrapolation* extrapolation, const Batch& batch, std::size_t row,
+                        Failure& failure) const {
+  Answer one;
+  question.stamp = batch.stamps[row];
+  Extrapolation guess = extrapolation ? *extrapolation : Extrapolation{};
+  bool ok = answer(question, one, failure, extrapolation ? &guess : nullptr);
+  if (ok && batch.twists) {
+    Twist twist;
+    if (question.target != question.source) {
+      ok = read([&](const Tree& tree) {
+        PathCache::Path path;
+        Pose pose;
+        PathCache::walk_at(tree, question.target_id, question.source_id, one.stamp, path);
+        return path.usable && follow_moving(path, one.stamp, pose, twist);
+      });
+    }
+    std::copy_n(twist.linear, 3, batch.twists + 6 * row);
+    std::copy_n(twist.angular, 3, batch.twists + 6 * row + 3);
+  }
+  if (!ok) {
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    std::fill_n(batch.poses + 7 * row, 7, kNan);
+    if (batch.twists) std::fill_n(batch.twists + 6 * row, 6, kNan);
+    if (batch.beyond) batch.beyond[row] = 0;
+    return false;
+  }
+  write_pose(one.pose, batch.poses + 7 * row);
+  batch.stamps[row] = one.stamp;
+  if (batch.beyond) batch.beyond[row] = guess.furthest;
+  return true;
+}
+
+bool Buffer::stamps_between(Question& question, Stamp first, Stamp last, std::vector<Stamp>& stamps,
+                            Failure& failure) const {
+  if (!resolve_both(question, failure)) return false;
+  PathCache::Path path;
+  PathCache::update(tree_, question.target_id, question.source_id, path);
+  Answer ignored;
+  if (!path.usable && !answer(question, ignored, failure)) return false;
+  return read([&](const Tree&) {
+    stamps.clear();
+    for (const PathCache::Step& link : path.steps) {
+      const History::View history = link.history->view();
+      if (history.is_static()) continue;
+      for (std::size_t i = history.first_after(first - 1); i < history.size() && history.time(i) <= last; ++i) {
+        stamps.push_back(history.time(i));
+      }
+    }
+    std::sort(stamps.begin(), stamps.end());
+    stamps.erase(std::unique(stamps.begin(), stamps.end()), stamps.end());
+    return true;
+  });
 }
 
 bool Buffer::can_answer(Question& question, Failure& failure) const {

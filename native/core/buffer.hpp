@@ -4,6 +4,7 @@
 #include <atomic>
 #include <mutex>
 
+#include "core/batch.hpp"
 #include "core/cdr.hpp"
 #include "core/lookup.hpp"
 #include "core/question.hpp"
@@ -65,6 +66,10 @@ class Buffer {
   // For who knows the numbers of two different frames.
   unsigned insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
                   AuthorityId authority);
+  // As one insert() after the other, in the order of the stamps. Where a row's values are refused nothing is stored, and
+  // `bad_row` is the first of them; what is older than the cache is left out.
+  unsigned insert_many(const Track& track, bool is_static, AuthorityId authority, std::size_t& stored,
+                       std::size_t& bad_row);
   AuthorityId authority(std::string_view name);
   TransformStream open_stream(bool is_static, std::string_view authority);
   // The source has another name: notes it for the frames that its last messages told of, and for all to come.
@@ -98,7 +103,10 @@ class Buffer {
   // allows; it learns how far that was.
   bool answer(Question& question, Answer& answer, Failure& failure, Extrapolation* extrapolation = nullptr) const;
   // Returns the first row that has no answer, and `failure` says why; batch.count if there is none.
-  std::size_t answer_many(Question& question, Extrapolation* extrapolation, Batch& batch, Failure& failure) const;
+  std::size_t answer_many(const Question& question, const Extrapolation* extrapolation, const Batch& batch,
+                          unsigned threads, Failure& failure) const;
+  // The stamps of all samples between two times on the links between two frames, in order, each once.
+  bool stamps_between(Question& question, Stamp first, Stamp last, std::vector<Stamp>& stamps, Failure& failure) const;
   // Whether answer() would: where it travels in time, the target's leg is asked for first here, as in tf2.
   bool can_answer(Question& question, Failure& failure) const;
   bool latest_common_time(Question& question, Stamp& stamp, Failure& failure) const;
@@ -138,8 +146,15 @@ class Buffer {
 
   bool extrapolate(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
                    Failure& failure) const;
+  std::size_t answer_rows(Question question, const Extrapolation* extrapolation, const Batch& batch,
+                          std::size_t first, std::size_t last, Failure& failure) const;
+  void clip(const PathCache::Path& path, std::size_t count, Stamp* stamps) const;
+  bool answer_row(Question& question, const Extrapolation* extrapolation, const Batch& batch, std::size_t row,
+                  Failure& failure) const;
   bool resolve_both(Question& question, Failure& failure) const;
   bool resolve(std::string_view name, Argument argument, FrameId& frame, Failure& failure) const;
+  std::size_t insert_block(const Track& track, const Stamp* stamps, const TransformValues* values, std::size_t count,
+                           bool is_static, AuthorityId authority, std::vector<Inserted>& inserted);
   template <class Insert>
   unsigned insert_and_announce(Insert&& insert);
   Inserted store(TransformStream& stream, std::size_t index, const TransformView& view);

@@ -18,6 +18,12 @@ namespace coframe {
 using FrameId = std::uint32_t;  // 0 is tf2's NO_PARENT
 using Stamp = std::int64_t;     // nanoseconds; 0 asks for the latest
 
+// How far apart two stamps are, whatever they are.
+inline std::uint64_t distance(Stamp a, Stamp b) {
+  const auto first = static_cast<std::uint64_t>(a), second = static_cast<std::uint64_t>(b);
+  return a < b ? second - first : first - second;
+}
+
 // A pose and the frame it is told in.
 struct Sample {
   Pose pose;
@@ -31,6 +37,11 @@ class alignas(64) SharedSample {
   void load(Pose& pose) const {
     for (int i = 0; i < 4; ++i) pose.q[i] = numbers_[i];
     for (int i = 0; i < 3; ++i) pose.p[i] = numbers_[4 + i];
+  }
+  // Each number of a pose `stride` behind the one before.
+  void load(double* q, double* p, std::size_t stride) const {
+    for (std::size_t i = 0; i < 4; ++i) q[i * stride] = numbers_[i];
+    for (std::size_t i = 0; i < 3; ++i) p[i * stride] = numbers_[4 + i];
   }
   Sample load() const {
     Sample sample;

@@ -28,7 +28,9 @@ void for_each_link(const Tree& tree, Visit&& visit) {
 // Names that YAML reads as themselves stay bare, as in tf2; others, which break tf2's YAML, are quoted.
 std::string yaml_key(const std::string& name) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '/' || c == '.'; };
-  if (std::all_of(name.begin(), name.end(), plain) && std::isalpha(static_cast<unsigned char>(name.front()))) {
+  const char first = name.empty() ? ' ' : name.front();
+  const bool starts_plainly = std::isalpha(static_cast<unsigned char>(first)) || first == '/' || first == '_';
+  if (starts_plainly && std::all_of(name.begin(), name.end(), plain)) {
     return name;
   }
   std::string quoted = "\"";

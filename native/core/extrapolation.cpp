@@ -19,12 +19,6 @@ Vector sum(double a, const Vector& u, double b, const Vector& v) {
   return {a * u.x + b * v.x, a * u.y + b * v.y, a * u.z + b * v.z};
 }
 
-// How far apart two stamps are, saturating: they may come from anywhere.
-std::uint64_t distance(Stamp a, Stamp b) {
-  return a > b ? static_cast<std::uint64_t>(a) - static_cast<std::uint64_t>(b)
-               : static_cast<std::uint64_t>(b) - static_cast<std::uint64_t>(a);
-}
-
 // The neighbour of the sample at one end that is the nearest with another stamp and the same parent; the end itself
 // if there is none.
 std::size_t neighbour(const History::View& samples, std::size_t end, bool forward) {

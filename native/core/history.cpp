@@ -18,14 +18,6 @@ Stamp minus(Stamp stamp, Stamp length) {
   return stamp < std::numeric_limits<Stamp>::min() + length ? std::numeric_limits<Stamp>::min() : stamp - length;
 }
 
-// How far `stamp` lies on the way from `start` to `end`, for start <= stamp <= end; between 0 and 1 for any numbers,
-// as those that are being changed may not be in order.
-double share_of(Stamp stamp, Stamp start, Stamp end) {
-  const auto part = static_cast<std::uint64_t>(stamp) - static_cast<std::uint64_t>(start);
-  const auto whole = static_cast<std::uint64_t>(end) - static_cast<std::uint64_t>(start);
-  return whole == 0 ? 0.0 : std::min(1.0, static_cast<double>(part) / static_cast<double>(whole));
-}
-
 // Fills what no chunk was ever put into.
 Chunk* no_chunk() {
   static Chunk chunk;
@@ -42,18 +34,6 @@ bool repeats(const History::View& samples, std::size_t end, Stamp stamp, const S
 
 }  // namespace
 
-inline const Chunk& History::View::chunk_of(std::uint64_t number) const {
-  return *directory_->chunks[number / Chunk::kSize & directory_->mask].load(std::memory_order_acquire);
-}
-
-Stamp History::View::stamp_of(std::uint64_t number) const {
-  return chunk_of(number).stamps[number % Chunk::kSize];
-}
-
-const SharedSample& History::View::sample_of(std::uint64_t number) const {
-  return is_static() ? *fixed_ : chunk_of(number).samples[number % Chunk::kSize];
-}
-
 Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
   const auto take = [&](const SharedSample& found) {
     found.load(pose);
@@ -68,24 +48,22 @@ Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
   if (back == begin_) return Found::only_other;
   if (stamp > last) return Found::too_new;
   std::uint64_t next = back;  // most look-ups are near the newest
-  Stamp start = stamp_of(back - 1);
-  if (start >= stamp) {
+  if (stamp_of(back - 1) >= stamp) {
     const Stamp first = stamp_of(begin_);
     if (stamp == first) return take(sample_of(begin_));
     if (stamp < first) return Found::too_old;
-    if (start > stamp) {
-      next = search(stamp, first, last);
-      start = stamp_of(next - 1);
+    if (stamp_of(back - 1) > stamp) {
+      const Search search(*this);
+      next = search.first_after(stamp, search.guess(stamp));
     }
   }
-  const SharedSample& older = sample_of(next - 1);
-  const SharedSample& newer = sample_of(next);
-  parent = older.parent();
-  if (start == stamp || newer.parent() != parent) return take(older);
+  const Pair found = pair(next, stamp);
+  if (found.part == 0.0) return take(*found.older);
   Pose from, to;
-  older.load(from);
-  newer.load(to);
-  interpolate(from, to, share_of(stamp, start, stamp_of(next)), pose);
+  found.older->load(from);
+  found.newer->load(to);
+  parent = found.older->parent();
+  interpolate(from, to, found.part / found.whole, pose);
   return Found::ok;
 }
 
@@ -99,31 +77,35 @@ bool History::View::covers(Stamp stamp, FrameId parent) const {
 
 std::size_t History::View::first_after(Stamp stamp) const {
   if (empty()) return 0;
-  const Stamp last = stamp_of(end_ - 1);
-  if (last <= stamp) return size();
-  const Stamp first = stamp_of(begin_);
-  return stamp < first ? 0 : static_cast<std::size_t>(search(stamp, first, last) - begin_);
+  if (stamp_of(end_ - 1) <= stamp) return size();
+  if (stamp < stamp_of(begin_)) return 0;
+  const Search search(*this);
+  return static_cast<std::size_t>(search.first_after(stamp, search.guess(stamp)) - begin_);
 }
 
-// The first sample newer than `stamp`, for first <= stamp < last. Rates are nearly constant, so a straight line through
-// both ends lands close, and doubling steps from there find the rest.
-std::uint64_t History::View::search(Stamp stamp, Stamp first, Stamp last) const {
-  std::uint64_t low = begin_, high = end_ - 1;  // stamp_of(low) <= stamp < stamp_of(high)
-  const auto offset = static_cast<std::uint64_t>(share_of(stamp, first, last) * static_cast<double>(high - low));
-  const std::uint64_t guess = std::min(low + offset, high);
+History::Search::Search(const View& samples)
+    : samples_(samples),
+      first_(samples.stamp_of(samples.begin_)),
+      last_(samples.stamp_of(samples.end_ - 1)),
+      low_(samples.begin_),
+      high_(samples.end_ - 1),
+      per_nanosecond_(static_cast<double>(high_ - low_) / static_cast<double>(distance(first_, last_))) {}
+
+std::uint64_t History::Search::first_after(Stamp stamp, std::uint64_t guess) const {
+  std::uint64_t low = low_, high = high_;  // stamp_of(low) <= stamp < stamp_of(high)
   std::uint64_t step = 1;
-  if (stamp_of(guess) <= stamp) {
-    for (low = guess; high - low > step && stamp_of(low + step) <= stamp; step *= 2) low += step;
+  if (samples_.stamp_of(guess) <= stamp) {
+    for (low = guess; high - low > step && samples_.stamp_of(low + step) <= stamp; step *= 2) low += step;
     high = std::min(low + step, high);
   } else {
-    for (high = guess; high - low > step && stamp_of(high - step) > stamp; step *= 2) high -= step;
+    for (high = guess; high - low > step && samples_.stamp_of(high - step) > stamp; step *= 2) high -= step;
     low = high - low > step ? high - step : low;
   }
   while (high - low > 1) {
     const std::uint64_t middle = low + (high - low) / 2;
-    (stamp_of(middle) <= stamp ? low : high) = middle;
+    (samples_.stamp_of(middle) <= stamp ? low : high) = middle;
   }
-  return std::max(high, begin_ + 1);
+  return std::max(high, low_ + 1);
 }
 
 History::Directory::Directory(std::uint64_t size) : mask(size - 1), chunks(new std::atomic<Chunk*>[size]) {
@@ -156,15 +138,22 @@ bool History::mentions(FrameId parent) const {
 
 Insertion History::insert(const HistoryContext& context, Stamp stamp, const Sample& sample) {
   if (kind_ == HistoryKind::fixed) return insert_fixed(context, sample);
-  if (!view().empty() && context.cache_length != kKeepAll) {
-    const Stamp window_start = minus(view().newest(), context.cache_length);
-    drop_older_than(context.pool, window_start);
-    if (stamp < window_start) return Insertion::refused_as_old;
+  const View before = view();
+  if (!before.empty()) {
+    const Stamp newest = before.newest();
+    if (stamp < prune(context, newest)) return Insertion::refused_as_old;
+    if (sample.parent != before.parent()) one_parent_ = false;
+    if (stamp <= newest) return insert_behind(context, stamp, sample);
   }
+  append(context, stamp, sample);
+  return Insertion::appended;
+}
+
+// Not newer than the newest.
+Insertion History::insert_behind(const HistoryContext& context, Stamp stamp, const Sample& sample) {
   const View samples = view();
   const std::size_t position = samples.first_after(stamp);
   if (repeats(samples, position, stamp, sample)) return Insertion::repeated;
-  if (!samples.empty() && sample.parent != samples.parent()) one_parent_ = false;
   if (position == samples.size()) {
     append(context, stamp, sample);
     return Insertion::appended;
@@ -258,6 +247,13 @@ void History::own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end
     directory.chunks[n & directory.mask].store(own, std::memory_order_release);
     pool.release(shared);
   }
+}
+
+Stamp History::prune(const HistoryContext& context, Stamp newest) {
+  if (context.cache_length == kKeepAll) return std::numeric_limits<Stamp>::min();
+  const Stamp start = minus(newest, context.cache_length);
+  drop_older_than(context.pool, start);
+  return start;
 }
 
 void History::drop_older_than(ChunkPool& pool, Stamp stamp) {

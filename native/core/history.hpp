@@ -2,6 +2,7 @@
 // any number read without a lock: what they get is good if the tree's revision did not change meanwhile.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -33,10 +34,32 @@ struct HistoryContext {
   Revision& revision;
 };
 
+// Asks for memory that is needed soon.
+inline void prefetch(const void* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#else
+  (void)address;
+#endif
+}
+
 class History {
-  struct Directory;
+  // Chunk n of the history's life lies at n modulo the size.
+  struct Directory {
+    explicit Directory(std::uint64_t size);
+    std::uint64_t mask;
+    std::unique_ptr<std::atomic<Chunk*>[]> chunks;
+  };
 
  public:
+  class Search;
+
+  // Two samples, and which part of the way from one to the other is meant: part / whole.
+  struct Pair {
+    const SharedSample *older, *newer;
+    double part, whole;
+  };
+
   // What a reader sees: the samples that were there when it began. Appended ones do not show.
   class View {
    public:
@@ -61,18 +84,79 @@ class History {
     // Index of the first sample newer than `stamp`; size() if there is none.
     std::size_t first_after(Stamp stamp) const;
 
+    // For many look-ups at once; samples by their number in the history's life, as Search tells them.
+    void prefetch_stamp(std::uint64_t number) const { prefetch(&chunk_of(number).stamps[number % Chunk::kSize]); }
+    void prefetch_samples(std::uint64_t next) const {
+      prefetch(&chunk_of(next - 1).samples[(next - 1) % Chunk::kSize]);
+      prefetch(&chunk_of(next).samples[next % Chunk::kSize]);
+    }
+    // The two samples between which the pose at `stamp` lies, one of them where it holds alone; `stamp` lies between the
+    // sample `next` and the one before.
+    // At the stamp of a sample there is nothing between: the newest holds, or else the last one of that stamp, and at
+    // the oldest stamp the first one. A change of the parent is not interpolated over: the older sample holds (tf2's
+    // findClosest).
+    Pair pair(std::uint64_t next, Stamp stamp) const {
+      const std::size_t i = next % Chunk::kSize;
+      const Chunk& chunk = chunk_of(next);
+      const Chunk& before = i != 0 ? chunk : chunk_of(next - 1);
+      const std::size_t j = (next - 1) % Chunk::kSize;
+      const SharedSample *older = &before.samples[j], *newer = &chunk.samples[i];
+      const Stamp start = before.stamps[j], end = chunk.stamps[i];
+      if (stamp == end && next == end_ - 1) return {newer, newer, 0.0, 1.0};
+      if (stamp == start || newer->parent() != older->parent()) return {older, older, 0.0, 1.0};
+      return {older, newer, static_cast<double>(distance(start, stamp)), static_cast<double>(distance(start, end))};
+    }
+
    private:
     friend class History;
+    friend class Search;
     // By their number in the history's life.
-    const Chunk& chunk_of(std::uint64_t number) const;
-    Stamp stamp_of(std::uint64_t number) const;
-    const SharedSample& sample_of(std::uint64_t number) const;
-    std::uint64_t search(Stamp stamp, Stamp first, Stamp last) const;
-
+    const Chunk& chunk_of(std::uint64_t number) const {
+      return *directory_->chunks[number / Chunk::kSize & directory_->mask].load(std::memory_order_acquire);
+    }
+    Stamp stamp_of(std::uint64_t number) const { return chunk_of(number).stamps[number % Chunk::kSize]; }
+    const SharedSample& sample_of(std::uint64_t number) const {
+      return is_static() ? *fixed_ : chunk_of(number).samples[number % Chunk::kSize];
+    }
     const Directory* directory_;
     const SharedSample* fixed_;
     std::uint64_t begin_, end_;
     HistoryKind kind_;
+  };
+
+  // Where in a dynamic history of at least two samples a stamp lies.
+  class Search {
+   public:
+    explicit Search(const View& samples);
+
+    bool covers(Stamp stamp) const { return stamp >= first_ && stamp <= last_; }
+    // Rates are nearly constant, so a straight line through both ends lands close. For any stamp: a sample.
+    std::uint64_t guess(Stamp stamp) const {
+      if (stamp <= first_) return low_;
+      // Numbers that are being changed may be in no order: whatever comes out must be a sample.
+      const double offset = static_cast<double>(distance(first_, stamp)) * per_nanosecond_;
+      const auto most = static_cast<double>(high_ - low_);
+      return low_ + static_cast<std::uint64_t>(offset < most ? offset : most);
+    }
+    // The first sample newer than a stamp that covers() allows and that is not the newest: doubling steps from the guess
+    // find it.
+    std::uint64_t first_after(Stamp stamp, std::uint64_t guess) const;
+    // The newer one of the two samples that View::between() wants for a stamp that covers() allows.
+    std::uint64_t next(Stamp stamp, std::uint64_t guess) const {
+      if (stamp == last_) return high_;
+      if (stamp == first_) return low_ + 1;
+      // Mostly it lies right behind the guess.
+      const bool is_next = samples_.stamp_of(guess) <= stamp && stamp < samples_.stamp_of(std::min(guess + 1, high_));
+      return is_next ? guess + 1 : first_after(stamp, guess);
+    }
+    // For a stamp that it does not allow.
+    std::uint64_t any() const { return low_ + 1; }
+
+   private:
+    const View& samples_;
+    Stamp first_, last_;
+    std::uint64_t low_, high_;  // the oldest and the newest
+    double per_nanosecond_;     // samples
   };
 
   History();
@@ -92,6 +176,9 @@ class History {
   // Stores a sample as tf2 does: prunes by the newest stamp before this one, refuses what is older than the cache
   // length, takes an exact repetition silently, puts equal stamps behind each other. Not for HistoryKind::none.
   Insertion insert(const HistoryContext& context, Stamp stamp, const Sample& sample);
+  // Stores samples, told by their index, as long as each is newer than the one before and the newest; returns how many.
+  template <class SampleAt>
+  std::size_t append_run(const HistoryContext& context, const Stamp* stamps, std::size_t count, SampleAt&& sample_at);
   // Starts anew as another kind.
   void reset(const HistoryContext& context, HistoryKind kind);
   // Forgets all samples of a dynamic history; a static one stays.
@@ -101,18 +188,14 @@ class History {
   void release(ChunkPool& pool);
 
  private:
-  // Chunk n of the history's life lies at n modulo the size.
-  struct Directory {
-    explicit Directory(std::uint64_t size);
-    std::uint64_t mask;
-    std::unique_ptr<std::atomic<Chunk*>[]> chunks;
-  };
-
+  Insertion insert_behind(const HistoryContext& context, Stamp stamp, const Sample& sample);
   Insertion insert_fixed(const HistoryContext& context, const Sample& sample);
   void append(const HistoryContext& context, Stamp stamp, const Sample& sample);
   void put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample);
   void add_chunk(const HistoryContext& context);
   void own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end);
+  // By the newest stamp there was before the last insertion; returns the earliest stamp that is kept.
+  Stamp prune(const HistoryContext& context, Stamp newest);
   void drop_older_than(ChunkPool& pool, Stamp stamp);
   void drop_all(ChunkPool& pool);
   Chunk* chunk_at(std::uint64_t index) const;
@@ -127,5 +210,28 @@ class History {
   SharedSample fixed_;  // the one sample of a static history
   std::vector<std::unique_ptr<Directory>> directories_;  // the last is in use; readers may still be in the others
 };
+
+template <class SampleAt>
+std::size_t History::append_run(const HistoryContext& context, const Stamp* stamps, std::size_t count,
+                                SampleAt&& sample_at) {
+  Stamp newest = view().newest(), before = newest;
+  std::size_t stored = 0;
+  while (stored < count && stamps[stored] > newest) {
+    const std::uint64_t start = end_;
+    if (start % Chunk::kSize == 0) add_chunk(context);
+    Chunk& chunk = *chunk_at(start);
+    std::uint64_t end = start;
+    do {
+      chunk.stamps[end % Chunk::kSize] = stamps[stored];
+      chunk.samples[end % Chunk::kSize].store(sample_at(stored));
+      before = newest;
+      newest = stamps[stored++];
+      ++end;
+    } while (end % Chunk::kSize != 0 && stored < count && stamps[stored] > newest);
+    end_.store(end, std::memory_order_release);
+    prune(context, before);
+  }
+  return stored;
+}
 
 }  // namespace coframe

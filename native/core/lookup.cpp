@@ -10,32 +10,31 @@ namespace {
 
 constexpr Stamp kNoTime = std::numeric_limits<Stamp>::max();
 
-bool fail_loop(FrameId target, FrameId source, Failure& failure) {
+// `source_end` is 0 where it is the walk up from the source that does not end.
+bool fail_loop(FrameId target, FrameId source, Stamp stamp, FrameId source_end, Failure& failure) {
   failure = Failure{};
   failure.code = ErrorCode::loop;
   failure.target = target;
   failure.source = source;
+  failure.requested = stamp;
+  failure.source_end = source_end;
   return false;
 }
 
-// The frame above which nobody says anything, by the newest data.
-FrameId root_of(const Tree& tree, FrameId frame) {
-  for (int depth = 0; depth <= kMaxDepth; ++depth) {
-    const History::View history = tree.history(frame);
-    if (history.empty()) break;
-    frame = history.parent();
-  }
-  return frame;
-}
-
-bool fail_not_connected(const Tree& tree, FrameId target, FrameId source, Stamp stamp, Failure& failure) {
-  failure = Failure{};
+Failure not_connected(FrameId target, FrameId source, Stamp stamp) {
+  Failure failure;
   failure.code = ErrorCode::not_connected;
   failure.target = target;
   failure.source = source;
   failure.requested = stamp;
-  failure.target_root = root_of(tree, target);
-  failure.source_root = root_of(tree, source);
+  return failure;
+}
+
+// The walks up from both frames ended apart.
+bool fail_apart(Failure reason, FrameId target_end, FrameId source_end, Failure& failure) {
+  failure = std::move(reason);
+  failure.target_end = target_end;
+  failure.source_end = source_end;
   return false;
 }
 
@@ -94,7 +93,7 @@ bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source,
     }
     if (frame == target) return true;
     compose(step, walk.source_pose);
-    if (++depth > kMaxDepth) return fail_loop(target, source, failure);
+    if (++depth > kMaxDepth) return fail_loop(target, source, stamp, 0, failure);
   }
 
   depth = 0;
@@ -102,14 +101,11 @@ bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source,
     if (walk.down) walk.down->push_back(frame);
     const History::View history = tree.history(frame);
     if (!history.exists()) {
-      if (!gap) return fail_not_connected(tree, target, source, stamp, failure);
-      failure = std::move(*gap);
-      return false;
+      return fail_apart(gap ? std::move(*gap) : not_connected(target, source, stamp), frame, top, failure);
     }
     const Found found = method.at(history, stamp, step, parent);
     if (found != Found::ok) {
-      failure = missing_sample(history, found, frame, target, source, stamp);
-      return false;
+      return fail_apart(missing_sample(history, found, frame, target, source, stamp), frame, top, failure);
     }
     if (frame == source) {  // the source lies on the target's way up: only this side counts
       walk.source_pose = Pose{};
@@ -117,7 +113,7 @@ bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source,
       return true;
     }
     compose(step, walk.target_pose);
-    if (++depth > kMaxDepth) return fail_loop(target, source, failure);
+    if (++depth > kMaxDepth) return fail_loop(target, source, stamp, top, failure);
   }
   return true;
 }
@@ -234,13 +230,14 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
     frame = history.parent();
     links.push_back({history.newest(), frame});
     if (frame == target) return answer();
-    if (++depth > kMaxDepth) return fail_loop(target, source, failure);
+    if (++depth > kMaxDepth) return fail_loop(target, source, 0, 0, failure);
   }
+  const FrameId source_root = links.empty() ? source : links.back().parent;
   common = kNoTime;
   depth = 0;
   for (FrameId frame = target;;) {
     const History::View history = tree.history(frame);
-    if (history.empty()) return fail_not_connected(tree, target, source, 0, failure);
+    if (history.empty()) return fail_apart(not_connected(target, source, 0), frame, source_root, failure);
     keep_earlier(history.newest(), common);
     frame = history.parent();
     const auto meeting = std::find_if(links.begin(), links.end(), [&](const Link& l) { return l.parent == frame; });
@@ -249,9 +246,26 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
       return answer();
     }
     if (frame == source) return answer();
-    if (++depth > kMaxDepth) return fail_loop(target, source, failure);
+    if (++depth > kMaxDepth) return fail_loop(target, source, 0, source_root, failure);
   }
 }
+
+namespace {
+
+// Both walks end in the same frames: those above the last common one go. Where of the source's side only the source
+// itself is left, tf2 leaves its walk as it is.
+void join_walks(std::vector<FrameId>& up, std::vector<FrameId>& down) {
+  down.push_back(up.back());
+  std::size_t m = down.size(), n = up.size();
+  while (m > 0 && n > 0 && down[m - 1] == up[n - 1]) {
+    --m;
+    --n;
+  }
+  if (n > 1) up.resize(n + 1);
+  while (m > 0) up.push_back(down[--m]);
+}
+
+}  // namespace
 
 bool chain(const Tree& tree, FrameId target, FrameId source, Stamp stamp, std::vector<FrameId>& frames,
            Failure& failure) {
@@ -264,7 +278,11 @@ bool chain(const Tree& tree, FrameId target, FrameId source, Stamp stamp, std::v
   walk.down = &down;
   Exact exact;
   if (!walk_tree(tree, exact, target, source, stamp, walk, failure)) return false;
-  frames.insert(frames.end(), down.rbegin(), down.rend());
+  if (frames.empty()) {
+    frames.assign(down.rbegin(), down.rend());
+  } else if (!down.empty()) {
+    join_walks(frames, down);
+  }
   return true;
 }
 

@@ -2,26 +2,29 @@
 
 namespace coframe {
 
+namespace {
+
+std::uint64_t key_of(FrameId target, FrameId source) { return (static_cast<std::uint64_t>(target) << 32) | source; }
+
+}  // namespace
+
 const PathCache::Path* PathCache::find(const Tree& tree, FrameId target, FrameId source) {
   if (paths_.empty()) paths_.resize(kEntries);
-  const std::uint64_t frames = (static_cast<std::uint64_t>(target) << 32) | source;
-  Path& path = paths_[(frames * 0x9e3779b97f4a7c15u) >> 53];
-  const std::uint64_t version = tree.version();
-  if (path.frames != frames || path.version != version) {
-    const std::uint64_t revision = tree.revision().start_reading();
-    walk(tree, target, source, path);
-    path.frames = frames;
-    path.version = tree.revision().unchanged(revision) ? version : 0;
-  }
+  Path& path = paths_[(key_of(target, source) * 0x9e3779b97f4a7c15u) >> 53];
+  update(tree, target, source, path);
   return path.usable ? &path : nullptr;
 }
 
+void PathCache::update(const Tree& tree, FrameId target, FrameId source, Path& path) {
+  const std::uint64_t version = tree.version();
+  if (path.frames == key_of(target, source) && path.version == version) return;
+  const std::uint64_t revision = tree.revision().start_reading();
+  walk(tree, target, source, path);
+  path.frames = key_of(target, source);
+  path.version = tree.revision().unchanged(revision) ? version : 0;
+}
+
 void PathCache::walk(const Tree& tree, FrameId target, FrameId source, Path& path) {
-  struct Link {
-    FrameId frame, parent;
-  };
-  path.usable = false;
-  path.steps.clear();
   const auto climb = [&tree](FrameId frame, std::vector<Link>& links) {
     for (;;) {
       const History::View history = tree.history(frame);
@@ -32,7 +35,31 @@ void PathCache::walk(const Tree& tree, FrameId target, FrameId source, Path& pat
     }
   };
   std::vector<Link> up, down;
-  if (!climb(source, up) || !climb(target, down) || up.back().frame != down.back().frame) return;
+  path.usable = climb(source, up) && climb(target, down);
+  if (path.usable) join(tree, up, down, path);
+}
+
+void PathCache::walk_at(const Tree& tree, FrameId target, FrameId source, Stamp stamp, Path& path) {
+  const auto climb = [&](FrameId frame, std::vector<Link>& links) {
+    Pose ignored;
+    FrameId parent = 0;
+    while (links.size() <= kMaxDepth && tree.history(frame).at(stamp, ignored, parent) == Found::ok) {
+      links.push_back({frame, parent});
+      frame = parent;
+    }
+    links.push_back({frame, 0});
+  };
+  std::vector<Link> up, down;
+  climb(source, up);
+  climb(target, down);
+  join(tree, up, down, path);
+}
+
+// The links up from the source and down to the target, without those above where they meet.
+void PathCache::join(const Tree& tree, std::vector<Link>& up, std::vector<Link>& down, Path& path) {
+  path.steps.clear();
+  path.usable = up.back().frame == down.back().frame;
+  if (!path.usable) return;
   while (up.size() > 1 && down.size() > 1 && up[up.size() - 2].frame == down[down.size() - 2].frame) {
     up.pop_back();
     down.pop_back();
@@ -42,7 +69,6 @@ void PathCache::walk(const Tree& tree, FrameId target, FrameId source, Path& pat
   };
   for (std::size_t i = 0; i + 1 < up.size(); ++i) add(up[i], false);
   for (std::size_t i = down.size() - 1; i > 0; --i) add(down[i - 1], true);
-  path.usable = true;
 }
 
 }  // namespace coframe

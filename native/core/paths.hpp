@@ -27,12 +27,21 @@ class PathCache {
   // The steps from `source` to `target` as of the newest data, or nullptr where the slow walk must decide.
   const Path* find(const Tree& tree, FrameId target, FrameId source);
 
+  // Finds a path again if the tree has changed since, for who keeps one of his own.
+  static void update(const Tree& tree, FrameId target, FrameId source, Path& path);
+  // As of one time; for a look at that time only.
+  static void walk_at(const Tree& tree, FrameId target, FrameId source, Stamp stamp, Path& path);
+
  private:
   friend class PathLease;
   // A new path takes the place of another: a program may ask for every pair of a thousand frames.
   static constexpr std::size_t kEntries = 2048;
 
+  struct Link {
+    FrameId frame, parent;
+  };
   static void walk(const Tree& tree, FrameId target, FrameId source, Path& path);
+  static void join(const Tree& tree, std::vector<Link>& up, std::vector<Link>& down, Path& path);
 
   std::vector<Path> paths_;
   std::atomic<bool> in_use_{false};

@@ -84,13 +84,16 @@ inline double slerp_weight_series(double t, double y) {
   return t * sum;
 }
 
-// Weights of both ends for the share t in [0, 1]; `cosine` in [0, 1]. The bounds keep the series within 1e-15.
+// How small y = cos(theta) - 1 may be for 4 and for 8 terms; that keeps the series within 1e-15.
+inline constexpr double kShortSeries = -1.2e-3, kLongSeries = -3.3e-2;
+
+// Weights of both ends for the share t in [0, 1]; `cosine` in [0, 1].
 inline void slerp_weights(double cosine, double t, double& first, double& second) {
   const double y = std::min(cosine, 1.0) - 1.0;
-  if (y > -1.2e-3) {
+  if (y > kShortSeries) {
     first = slerp_weight_series<4>(1.0 - t, y);
     second = slerp_weight_series<4>(t, y);
-  } else if (y > -3.3e-2) {
+  } else if (y > kLongSeries) {
     first = slerp_weight_series<8>(1.0 - t, y);
     second = slerp_weight_series<8>(t, y);
   } else {

@@ -26,12 +26,25 @@ struct Answer {
 
 // The same question at many times; arrays of the caller.
 struct Batch {
+  enum class Missing {
+    stop,  // at the first row without answer
+    nan,   // fill it with NaN and go on
+    clip,  // take the nearest time for which all links have data
+  };
   std::size_t count;
-  Stamp* stamps;         // in: when, 0 is the latest; out: when that was
-  double* translations;  // out, 3 a row
-  double* quaternions;   // out, 4 a row
-  Stamp* beyond;         // out: nanoseconds beyond the data
-  bool nan_for_none;     // go on after a row without answer; else stop
+  Stamp* stamps;           // in: when, 0 is the latest; out: when that was
+  double* poses;           // out: x, y, z, qx, qy, qz, qw a row
+  double* twists;          // out, if wanted: vx, vy, vz, wx, wy, wz a row, m/s and rad/s along the target's axes
+  Stamp* beyond;           // out, if extrapolated: nanoseconds beyond the data
+  Missing missing = Missing::stop;
+};
+
+// One edge at many times; arrays of the caller.
+struct Track {
+  std::string_view parent, child;
+  std::size_t count;
+  const Stamp* stamps;
+  const double* poses;  // x, y, z, qx, qy, qz, qw a row
 };
 
 }  // namespace coframe

@@ -123,14 +123,11 @@ AuthorityId Tree::authority(std::string_view name) {
 
 Inserted Tree::insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
                       bool is_static, AuthorityId authority) {
-  parent = without_slash(parent);
-  child = without_slash(child);
   const Pose pose = canonical_pose(values);
   Inserted inserted;
-  inserted.refusals = check_values(pose);
-  if (parent == child) inserted.refusals |= kSelfTransform;
-  if (child.empty()) inserted.refusals |= kNoChildFrame;
-  if (parent.empty()) inserted.refusals |= kNoParentFrame;
+  inserted.refusals = check_values(pose) | check_names(parent, child);
+  parent = without_slash(parent);
+  child = without_slash(child);
   if (inserted.refusals != 0) {
     if (const FrameId id = find(child)) frames_[id].counts.refuse(inserted.refusals);
     return inserted;
@@ -160,22 +157,53 @@ Inserted Tree::insert(FrameId parent, FrameId child, Stamp stamp, const Transfor
   return inserted;
 }
 
+unsigned check_names(std::string_view parent, std::string_view child) {
+  parent = without_slash(parent);
+  child = without_slash(child);
+  unsigned refusals = 0;
+  if (parent == child) refusals |= kSelfTransform;
+  if (child.empty()) refusals |= kNoChildFrame;
+  if (parent.empty()) refusals |= kNoParentFrame;
+  return refusals;
+}
+
+unsigned check_values(const TransformValues& values) { return check_values(canonical_pose(values)); }
+
+std::size_t Tree::append_run(std::string_view parent, std::string_view child, const Stamp* stamps,
+                             const TransformValues* values, std::size_t count, AuthorityId authority) {
+  const FrameId child_id = find(without_slash(child)), parent_id = find(without_slash(parent));
+  if (child_id == 0 || parent_id == 0 || child_id == parent_id) return 0;
+  Frame& frame = frames_[child_id];
+  const History::View before = frame.history.view();
+  if (before.empty() || before.is_static() || before.parent() != parent_id) return 0;
+  if (!frame.history.one_parent()) return 0;  // what is dropped may matter to those who wait
+  const std::size_t stored = frame.history.append_run(
+      context(), stamps, count, [&](std::size_t i) { return Sample{canonical_pose(values[i]), parent_id}; });
+  if (stored == 0) return 0;
+  frame.counts.stored.add(stored);
+  frame.authority = authority;
+  return stored;
+}
+
 void Tree::store(FrameId parent, FrameId child, Stamp stamp, const Pose& pose, bool is_static, AuthorityId authority,
                  Inserted& inserted) {
   Frame& frame = frames_[child];
   History& history = frame.history;
   prepare(history, is_static, inserted);
-  const FrameId parent_before = history.view().parent();
-  const bool one_parent_before = history.one_parent();
+  const History::View before = history.view();
+  const bool had_one_parent = history.one_parent();
+  const FrameId newest_before = before.parent(), oldest_before = had_one_parent ? 0 : before.parent_at(0);
   const Insertion outcome = history.insert(context(), stamp, Sample{pose, parent});
   frame.counts.add(outcome);
+  const History::View now = history.view();
+  const bool changes_the_past = (outcome == Insertion::put_before_newer && !history.one_parent()) ||
+                                (!had_one_parent && now.parent_at(0) != oldest_before);
+  if (newest_before != 0 && (changes_the_past || now.parent() != newest_before)) inserted.rewired = true;
   if (outcome == Insertion::refused_as_old) {
     inserted.refusals = kOldData;
     return;
   }
-  const FrameId parent_now = history.view().parent();
-  if (parent_now != parent_before && parent_before != 0) inserted.rewired = true;
-  if (parent_now != parent_before || history.one_parent() != one_parent_before) raise_version();
+  if (now.parent() != newest_before || history.one_parent() != had_one_parent) raise_version();
   frame.authority = authority;
   inserted.child = child;
 }
@@ -232,9 +260,9 @@ std::vector<LogLine> refusal_texts(unsigned refusals, std::string_view parent, s
                                    "because of a nan value in the transform (%f %f %f) (%f %f %f %f)")});
   }
   if (refusals & kDenormalisedQuaternion) {
-    lines.push_back({true, numbers("TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id \"%s\" from "
-                                   "authority \"%s\" because of an invalid quaternion in the transform "
-                                   "(%f %f %f) (%f %f %f %f)")});
+    lines.push_back({true, format("TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id \"%s\" from "
+                                  "authority \"%s\" because of an invalid quaternion in the transform (%f %f %f %f)",
+                                  child_name.c_str(), who.c_str(), pose.q[0], pose.q[1], pose.q[2], pose.q[3])});
   }
   if (refusals & kOldData) {
     lines.push_back({false, format("TF_OLD_DATA ignoring data from the past for frame %s at time %.6f according to "

@@ -56,7 +56,7 @@ struct Inserted {
   unsigned refusals = 0;  // Refusal bits
   FrameId child = 0;      // where something was stored
   bool new_names = false;
-  bool rewired = false;  // a frame that had a parent has another, or changed between static and dynamic
+  bool rewired = false;  // a frame that had a parent has or had another, or changed between static and dynamic
 };
 
 class Tree {
@@ -98,6 +98,10 @@ class Tree {
   // The part of insert() behind the names; for callers who know the numbers of two different frames.
   Inserted insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
                   AuthorityId authority);
+  // Stores what goes on behind the newest sample of a dynamic frame that keeps its parent; returns how many from the
+  // start on did. The values are known to be good.
+  std::size_t append_run(std::string_view parent, std::string_view child, const Stamp* stamps,
+                         const TransformValues* values, std::size_t count, AuthorityId authority);
   void clear();
   // Forgets a frame, its link to its parent and those of its children to it.
   void remove(FrameId frame);
@@ -120,6 +124,10 @@ class Tree {
   NameTable authority_numbers_;
   std::atomic<std::uint64_t> version_{1};
 };
+
+// Why the names or values of a transform are refused; 0 if they are not.
+unsigned check_names(std::string_view parent, std::string_view child);
+unsigned check_values(const TransformValues& values);
 
 // The lines that tf2 logs for a refused transform; `pose` as it was checked.
 struct LogLine {

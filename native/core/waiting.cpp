@@ -11,22 +11,8 @@ namespace {
 
 constexpr Stamp kAnyStamp = std::numeric_limits<Stamp>::min();
 
-Seat seat_after(const Failure& failure) {
-  Seat seat;
-  seat.needed = kAnyStamp;
-  switch (failure.code) {
-    case ErrorCode::unknown_frame: seat.name = failure.name; break;
-    case ErrorCode::not_connected: seat.frames = {failure.target_root, failure.source_root}; break;
-    case ErrorCode::too_new: seat.needed = failure.requested; [[fallthrough]];
-    case ErrorCode::too_old:
-    case ErrorCode::no_data: seat.frames = {failure.edge}; break;
-    case ErrorCode::only_other:
-      if (failure.requested > failure.latest) seat.needed = failure.requested;
-      seat.frames = {failure.edge};
-      break;
-    default: break;  // a bad name, a loop: only rewiring may help
-  }
-  return seat;
+bool asks_latest(const Question& question) {
+  return question.stamp == 0 || (question.travels && question.source_stamp == 0);
 }
 
 template <class T>
@@ -104,7 +90,7 @@ void WaitingRoom::add(const std::shared_ptr<Wait>& wait) {
   const std::lock_guard lock(mutex_);
   waits_.emplace(wait.get(), wait);
   waiting_.fetch_add(1);
-  answer_or_seat(wait);
+  answer_or_seat(wait, false);
 }
 
 void WaitingRoom::remove(const std::shared_ptr<Wait>& wait) {
@@ -131,8 +117,7 @@ void WaitingRoom::remove(const std::shared_ptr<Watch>& watch) {
     take_out(watches_of_all_, watch);
     watching_all_.fetch_sub(1);
   } else if (watch->frame_ == 0) {
-    take_out(by_name_[watch->child_].watches, watch);
-    names_.fetch_sub(1);
+    take_from_name(watch->child_, &Guests::watches, watch);
   } else {
     take_out(by_frame_[watch->frame_].watches, watch);
     tree_.frame(watch->frame_).watchers.fetch_sub(1);
@@ -143,8 +128,7 @@ void WaitingRoom::remove(const std::shared_ptr<Watch>& watch) {
 void WaitingRoom::move_in(const std::shared_ptr<Watch>& watch) {
   const FrameId frame = tree_.find(watch->child_);
   if (frame == 0) return;
-  take_out(by_name_[watch->child_].watches, watch);
-  names_.fetch_sub(1);
+  take_from_name(watch->child_, &Guests::watches, watch);
   watch->frame_ = frame;
   by_frame_[frame].watches.push_back(watch);
   tree_.frame(frame).watchers.fetch_add(1);
@@ -154,7 +138,9 @@ void WaitingRoom::tell(const Inserted& inserted) {
   if (inserted.rewired && waiting_.load() > 0) {
     const std::lock_guard lock(mutex_);
     Waits all;
-    for (const auto& entry : waits_) all.push_back(entry.second);
+    for (const auto& [_, wait] : waits_) {
+      if (wait->seat_.name.empty()) all.push_back(wait);
+    }
     try_again(all);
   }
   if (inserted.new_names && names_.load() > 0) on_new_names();
@@ -187,20 +173,16 @@ void WaitingRoom::on_new_names() {
   }
   for (const auto& watch : watches) move_in(watch);
   try_again(helped);
-  std::erase_if(by_name_, [](const auto& entry) { return entry.second.waits.empty() && entry.second.watches.empty(); });
 }
 
 void WaitingRoom::try_again(const Waits& waits) {
-  for (const auto& wait : waits) {
-    stand_up(wait);
-    answer_or_seat(wait);
-  }
+  for (const auto& wait : waits) answer_or_seat(wait, true);
 }
 
 // A wait sits down before it asks for the last time, and a writer looks for guests after the data are visible: one of
-// the two always sees the other.
-void WaitingRoom::answer_or_seat(const std::shared_ptr<Wait>& wait) {
-  for (bool seated = false;;) {
+// the two always sees the other. Who asks again keeps the seat until another one is better.
+void WaitingRoom::answer_or_seat(const std::shared_ptr<Wait>& wait, bool seated) {
+  for (;;) {
     Answer answer;
     Failure failure;
     if (ask_(wait->question_, answer, failure)) {
@@ -209,11 +191,38 @@ void WaitingRoom::answer_or_seat(const std::shared_ptr<Wait>& wait) {
       wait->bring(answer);
       return;
     }
-    Seat seat = seat_after(failure);
+    Seat seat = seat_for(wait->question_, failure);
     if (seated && seat == wait->seat_) return;
     stand_up(wait);
     sit_down(wait, std::move(seat));
     seated = true;
+  }
+}
+
+// Either walk may get on to where the other one ended, so both ends are to be watched, whichever the failure tells of.
+Seat WaitingRoom::seat_for(const Question& question, const Failure& failure) const {
+  Seat seat;
+  if (failure.code == ErrorCode::unknown_frame) seat.name = failure.name;
+  seat.frames = {failure.target_end, failure.source_end};
+  seat.needed = failure.requested;
+  if (asks_latest(question)) {
+    seat.needed = kAnyStamp;
+    add_lagging(failure.target, failure.requested, seat.frames);
+    add_lagging(failure.source, failure.requested, seat.frames);
+  }
+  std::erase(seat.frames, 0);
+  std::sort(seat.frames.begin(), seat.frames.end());
+  seat.frames.erase(std::unique(seat.frames.begin(), seat.frames.end()), seat.frames.end());
+  return seat;
+}
+
+// The latest common time is that of the links that are furthest behind: it moves with them.
+void WaitingRoom::add_lagging(FrameId frame, Stamp common, std::vector<FrameId>& frames) const {
+  for (int depth = 0; depth <= kMaxDepth; ++depth) {
+    const History::View history = tree_.history(frame);
+    if (history.empty() || (!history.is_static() && history.newest() <= common)) frames.push_back(frame);
+    if (history.empty()) return;
+    frame = history.parent();
   }
 }
 
@@ -235,11 +244,19 @@ void WaitingRoom::stand_up(const std::shared_ptr<Wait>& wait) {
     take_out(by_frame_[frame].waits, wait);
     tree_.frame(frame).watchers.fetch_sub(1);
   }
-  if (!wait->seat_.name.empty()) {
-    take_out(by_name_[wait->seat_.name].waits, wait);
-    names_.fetch_sub(1);
-  }
+  if (!wait->seat_.name.empty()) take_from_name(wait->seat_.name, &Guests::waits, wait);
   wait->seat_ = Seat{};
+}
+
+// Names that never become frames must not pile up.
+template <class Guest>
+void WaitingRoom::take_from_name(const std::string& name, std::vector<std::shared_ptr<Guest>> Guests::*guests,
+                                 const std::shared_ptr<Guest>& guest) {
+  const auto seats = by_name_.find(name);
+  if (seats == by_name_.end()) return;
+  take_out(seats->second.*guests, guest);
+  names_.fetch_sub(1);
+  if (seats->second.waits.empty() && seats->second.watches.empty()) by_name_.erase(seats);
 }
 
 }  // namespace coframe

@@ -120,7 +120,12 @@ class WaitingRoom {
 
   using Waits = std::vector<std::shared_ptr<Wait>>;
 
-  void answer_or_seat(const std::shared_ptr<Wait>& wait);
+  void answer_or_seat(const std::shared_ptr<Wait>& wait, bool seated);
+  Seat seat_for(const Question& question, const Failure& failure) const;
+  void add_lagging(FrameId frame, Stamp common, std::vector<FrameId>& frames) const;
+  template <class Guest>
+  void take_from_name(const std::string& name, std::vector<std::shared_ptr<Guest>> Guests::*guests,
+                      const std::shared_ptr<Guest>& guest);
   void sit_down(const std::shared_ptr<Wait>& wait, Seat seat);
   void stand_up(const std::shared_ptr<Wait>& wait);
   void try_again(const Waits& waits);

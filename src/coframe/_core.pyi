@@ -23,6 +23,7 @@ class Transform:
         source: str | None,
         stamp: int | None,
         batch: Any,
+        beyond: int = 0,
     ) -> None: ...
     @property
     def values(self) -> tuple[float, float, float, float, float, float, float]:
@@ -128,10 +129,11 @@ class Buffer:
         target: str,
         source: str,
         stamps: Any,
-        translations: Any,
-        quaternions: Any,
+        poses: Any,
+        twists: Any,
         beyond: Any,
-        nan_for_none: bool,
+        on_error: str,
+        threads: int,
         extrapolate: DurationLike | None = None,
         hold: bool = False,
     ) -> int:
@@ -140,6 +142,14 @@ class Buffer:
         Returns:
             The first row without an answer, which raises unless NaN stands for it; the number of rows if there is none.
         """
+
+    def stamps_between(self, target: str, source: str, first: int, last: int) -> bytes:
+        """The stamps of all samples between two times on the links between two frames, in order, as int64."""
+
+    def set_rows(
+        self, parent: str, child: str, stamps: Any, poses: Any, static: bool, authority: str
+    ) -> tuple[int, int, int]:
+        """set_values() for each row: the reasons for refusal as bits, how many were stored, the first refused row."""
 
     def can_transform(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
@@ -195,6 +205,12 @@ class Buffer:
         authority: str,
     ) -> int:
         """Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts)."""
+
+    def set_message(self, message: Any, static: bool, authority: str) -> int | None:
+        """set_values() of a TransformStamped between known frames; None where it is not just that."""
+
+    def lookup_message(self, target: str, source: str, time: Any) -> Any:
+        """lookup() as a TransformStamped, for a Time; None where lookup() has to decide."""
 
     def ingest(self, cdr: Any, *, static: bool = False, authority: str = "no recorded authority") -> int:
         """Takes in a tf2_msgs/msg/TFMessage as CDR bytes, whole or not at all; returns how many transforms it stored.
@@ -341,6 +357,17 @@ def insert_texts(
 
 def register_transform_class(cls: type[Transform]) -> None:
     """Look-ups return instances of `cls`, a subclass of Transform."""
+
+def register_messages(
+    transform_stamped: type,
+    header: type,
+    time: type,
+    rclpy_time: type,
+    transform: type,
+    vector3: type,
+    quaternion: type,
+) -> None:
+    """The classes that set_message() reads and lookup_message() makes."""
 
 def register_errors(errors: ModuleType) -> None:
     """Failures are raised as the exceptions of this module."""

@@ -5,25 +5,29 @@ from __future__ import annotations
 import contextlib
 import sys
 import time as system_time
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
 
 from coframe import _core, errors, time
 from coframe.dispatcher import Dispatcher
 from coframe.errors import InvalidArgumentException, TimeoutException, TransformException
+from coframe.resampling import StepLimits
 from coframe.transform import batch_of, stamps_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Self
 
     from coframe.time import DurationLike, StampLike
     from coframe.transform import Transform
 
 __all__ = ["Buffer", "EdgeInfo", "FrameInfo", "Subscription"]
+
+OnError: TypeAlias = Literal["raise", "nan", "clip"]
+Array: TypeAlias = "NDArray[np.float64]"
 
 _KEEP_EVERYTHING = -1
 DEFAULT_AUTHORITY = "no recorded authority"
@@ -177,13 +181,7 @@ class Buffer(_core.Buffer):
                 f"a dynamic transform from {parent!r} to {child!r} needs a stamp",
                 hint="Give stamp=..., or static=True if it never changes.",
             )
-        if self.frozen:
-            raise InvalidArgumentException.telling(
-                f"the buffer is frozen: the transform from {parent!r} to {child!r} was not stored",
-                target=parent,
-                source=child,
-                hint="A snapshot() and a buffer after freeze() only answer; set it in the buffer that lives on.",
-            )
+        self._check_not_frozen(parent, child)
         facts = (parent, child, when or 0, *transform.values)
         refusals = self.set_values(*facts, static, authority)
         errors_found = [text for level, text in _core.insert_texts(refusals, *facts, authority) if level == "error"]
@@ -193,28 +191,147 @@ class Buffer(_core.Buffer):
             )
         return refusals == 0
 
+    def set_many(
+        self,
+        parent: str,
+        child: str,
+        stamps: ArrayLike | None,
+        poses: Transform | ArrayLike,
+        *,
+        static: bool = False,
+        authority: str = DEFAULT_AUTHORITY,
+    ) -> int:
+        """:meth:`set` for many samples of one edge, as one after the other in the order of their stamps.
+
+        Args:
+            parent: The frame that the poses are told in.
+            child: The frame that they tell of.
+            stamps: (N,) int64 nanoseconds or datetime64, sorted or not; None: those of the batch.
+            poses: A batch of shape (N,), or an array (N, 7) of x, y, z in metres and qx, qy, qz, qw.
+            static: Valid for all time; then the last one holds.
+            authority: Who says so.
+
+        Returns:
+            How many were stored: without those that are older than the cache reaches.
+
+        Raises:
+            InvalidArgumentException: tf2 refuses one of them, with tf2's text, or the buffer is frozen; then none is
+                stored.
+        """
+        if isinstance(poses, _core.Transform):
+            _check_frames(parent, child, poses)
+            stamps = poses.stamps if stamps is None else stamps
+            poses = np.concatenate([poses.translation, poses.quaternion], axis=-1)
+        values = np.ascontiguousarray(poses, dtype=np.float64)
+        if stamps is None:
+            raise InvalidArgumentException.telling(
+                f"dynamic transforms from {parent!r} to {child!r} need stamps", hint="Give an array of nanoseconds."
+            )
+        times = np.ascontiguousarray(stamps_of(stamps))
+        if times.ndim != 1 or values.shape != (*times.shape, 7):
+            raise ValueError(
+                f"stamps of the shape (N,) and poses (N, 7) are wanted, not {times.shape} and {values.shape}"
+            )
+        self._check_not_frozen(parent, child)
+        refusals, stored, row = self.set_rows(parent, child, times, values, static, authority)
+        if refusals:
+            x, y, z, qx, qy, qz, qw = values[row].tolist()
+            texts = _core.insert_texts(refusals, parent, child, int(times[row]), x, y, z, qx, qy, qz, qw, authority)
+            text = "\n".join(line for _, line in texts)
+            raise InvalidArgumentException.telling(
+                f"row {row}: {text}", target=parent, source=child, edge=(parent, child), hint=_REFUSED_HINT
+            )
+        return stored
+
+    @overload
     def lookup_many(
         self,
         target: str,
         source: str,
         stamps: ArrayLike,
         *,
-        on_error: Literal["raise", "nan"] = "raise",
+        out: None = None,
+        threads: int = 1,
+        on_error: OnError = "raise",
+        twist: Literal[False] = False,
         extrapolate: DurationLike | None = None,
         hold: bool = False,
-    ) -> Transform:
+    ) -> Transform: ...
+    @overload
+    def lookup_many(
+        self,
+        target: str,
+        source: str,
+        stamps: ArrayLike,
+        *,
+        out: Array,
+        threads: int = 1,
+        on_error: OnError = "raise",
+        twist: Literal[False] = False,
+        extrapolate: DurationLike | None = None,
+        hold: bool = False,
+    ) -> Array: ...
+    @overload
+    def lookup_many(
+        self,
+        target: str,
+        source: str,
+        stamps: ArrayLike,
+        *,
+        out: None = None,
+        threads: int = 1,
+        on_error: OnError = "raise",
+        twist: Literal[True],
+        extrapolate: DurationLike | None = None,
+        hold: bool = False,
+    ) -> tuple[Transform, Array]: ...
+    @overload
+    def lookup_many(
+        self,
+        target: str,
+        source: str,
+        stamps: ArrayLike,
+        *,
+        out: Array,
+        threads: int = 1,
+        on_error: OnError = "raise",
+        twist: Literal[True],
+        extrapolate: DurationLike | None = None,
+        hold: bool = False,
+    ) -> tuple[Array, Array]: ...
+
+    def lookup_many(
+        self,
+        target: str,
+        source: str,
+        stamps: ArrayLike,
+        *,
+        out: Array | None = None,
+        threads: int = 1,
+        on_error: OnError = "raise",
+        twist: bool = False,
+        extrapolate: DurationLike | None = None,
+        hold: bool = False,
+    ) -> Transform | Array | tuple[Transform | Array, Array]:
         """:meth:`lookup` at many times at once.
 
         Args:
             target: The frame the answers are in.
             source: The frame that is asked about.
             stamps: (N,) int64 nanoseconds or datetime64; 0 asks for the latest. Need not be sorted.
-            on_error: ``"raise"`` as the first look-up without an answer does, or fill its row with ``"nan"``.
+            out: Filled and returned instead of a new batch: (N, 7) float64 gets x, y, z, qx, qy, qz, qw; (N, 4, 4)
+                gets matrices.
+            threads: So many share the work.
+            on_error: ``"raise"`` as the first look-up without an answer does, fill its row with ``"nan"``, or
+                ``"clip"`` its time to those for which all links have data.
+            twist: Also tell how fast ``source`` moves, seen from ``target``.
             extrapolate: As of :meth:`lookup`.
             hold: As of :meth:`lookup`.
 
         Returns:
-            A batch of shape (N,), with its ``stamps``.
+            A batch of shape (N,), with its ``stamps``, or ``out``. With ``twist`` also an array (N, 6): m/s along x,
+            y, z and rad/s about them, of the origin of ``source`` along the axes of ``target``, by the interpolation
+            between samples (at a sample, of the interval after it).
 
         Raises:
             TransformException: As :meth:`lookup`; with ``"nan"`` only if no row at all has an answer.
@@ -228,16 +345,69 @@ class Buffer(_core.Buffer):
             >>> buffer.lookup_many("map", "base", [1_250_000_000, 1_500_000_000]).translation[:, 0].tolist()
             [1.25, 1.5]
         """
-        if on_error not in {"raise", "nan"}:
-            raise ValueError(f'on_error must be "raise" or "nan", not {on_error!r}')
-        times = np.array(stamps_of(stamps), dtype=np.int64, ndmin=1)
-        translations, quaternions = np.empty((*times.shape, 3)), np.empty((*times.shape, 4))
-        beyond = np.zeros_like(times)
-        arrays = (times, translations, quaternions, beyond)
-        missing = self.lookup_rows(target, source, *arrays, on_error == "nan", extrapolate, hold)
-        if missing == 0 and times.size and np.isnan(translations).all():
-            self.lookup(target, source, int(np.asarray(stamps_of(stamps)).flat[0]), extrapolate=extrapolate, hold=hold)
-        return batch_of(translations, quaternions, target, source, times, beyond if extrapolate is not None else None)
+        times = np.array(stamps_of(stamps), ndmin=1)
+        if times.ndim != 1:
+            raise ValueError(f"stamps must have the shape (N,), not {times.shape}")
+        rows = out if out is not None and _is_rows(out, times.size) else np.empty((times.size, 7))
+        twists = np.empty((times.size, 6)) if twist else None
+        beyond = np.empty_like(times) if extrapolate is not None else None
+        missing = self.lookup_rows(target, source, times, rows, twists, beyond, on_error, threads, extrapolate, hold)
+        if missing == 0 and times.size and np.isnan(rows[:, 0]).all():
+            self.lookup(target, source, int(np.ravel(stamps_of(stamps))[0]), extrapolate=extrapolate, hold=hold)
+        batch = batch_of(rows[:, :3], rows[:, 3:], target, source, times, beyond)
+        if out is not None and out is not rows:
+            out[...] = batch.matrix
+        result = batch if out is None else out
+        return result if twists is None else (result, twists)
+
+    def trajectory(
+        self,
+        target: str,
+        source: str,
+        start: StampLike | None = None,
+        stop: StampLike | None = None,
+        *,
+        max_translation: float | None = None,
+        max_rotation: float | None = None,
+    ) -> Transform:
+        """Where ``source`` went, seen from ``target``: at the samples' own times, or as densely as it moves.
+
+        Args:
+            target: The frame the poses are in.
+            source: The frame that moves.
+            start: From when on; None: as far back as all links have data.
+            stop: Until when; None: as long as they have.
+            max_translation: Metres from one pose to the next at most.
+            max_rotation: Radians from one pose to the next at most. With one of the two, there are as few poses as
+                that allows, and none where nothing moves, other than the first and the last.
+
+        Returns:
+            A batch with its ``stamps``, in order. A single pose where all links are static.
+
+        Raises:
+            TransformException: As :meth:`lookup`.
+        """
+        first, last = self.span(target, source)
+        first = first if start is None else max(first, time.stamp_ns(start))
+        last = last if stop is None else min(last, time.stamp_ns(stop))
+        inside = np.frombuffer(self.stamps_between(target, source, first, last), dtype=np.int64)
+        stamps = np.unique(np.concatenate([[first], inside, [last]]).astype(np.int64)) if first <= last else inside
+        if max_translation is None and max_rotation is None:
+            return self.lookup_many(target, source, stamps)
+        steps = StepLimits(max_translation, max_rotation)
+        return steps.resample(lambda times: self.lookup_many(target, source, times), stamps)
+
+    def span(self, target: str, source: str) -> tuple[int, int]:
+        """From when until when every link between two frames has data, in nanoseconds; (0, 0) if all are static.
+
+        Raises:
+            TransformException: As :meth:`lookup`, or the links have no common time.
+        """
+        ends = np.array([np.iinfo(np.int64).min + 1, np.iinfo(np.int64).max])
+        if self.latest_common_time(target, source) == 0:
+            return 0, 0
+        self.lookup_rows(target, source, ends, np.empty((2, 7)), None, None, "clip", 1)
+        return int(ends[0]), int(ends[1])
 
     def wait(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
@@ -335,6 +505,15 @@ class Buffer(_core.Buffer):
         """Every frame that was ever mentioned, in the order in which they were."""
         return [FrameInfo(*facts) for facts in self.frame_tuples()]
 
+    def _check_not_frozen(self, parent: str, child: str) -> None:
+        if self.frozen:
+            raise InvalidArgumentException.telling(
+                f"the buffer is frozen: the transform from {parent!r} to {child!r} was not stored",
+                target=parent,
+                source=child,
+                hint="A snapshot() and a buffer after freeze() only answer; set it in the buffer that lives on.",
+            )
+
     def __contains__(self, frame: object) -> bool:
         return isinstance(frame, str) and self.frame_exists(frame)
 
@@ -344,6 +523,13 @@ class Buffer(_core.Buffer):
 
 
 _REFUSED_HINT = "Names must differ and not be empty, values must be numbers, and a quaternion must not be zero."
+
+
+def _is_rows(out: Array, count: int) -> bool:
+    """Whether the poses can go there straight; False for matrices."""
+    if out.dtype == np.float64 and out.shape in {(count, 7), (count, 4, 4)}:
+        return out.ndim == 2 and out.flags.c_contiguous and out.flags.writeable
+    raise ValueError(f"out must be float64 of the shape ({count}, 7) or ({count}, 4, 4), not {out.dtype} {out.shape}")
 
 
 _REASONS = ("older than the cache", "its own parent", "not a number", "invalid quaternion")

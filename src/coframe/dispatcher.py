@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import atexit
 import heapq
 import itertools
 import logging
+import os
 import threading
 import time
 import weakref
@@ -25,6 +27,8 @@ Cancel = Callable[[], object]
 
 _WAKE_UP = 0  # a token that stands for nothing
 _FOR_EVER = -1
+_FEW = 100
+_PATIENCE = 1.0  # seconds for callbacks that run at the exit
 
 _log = logging.getLogger("coframe")
 
@@ -44,18 +48,35 @@ class _Watch:
 class Dispatcher:
     """Calls back for the waits and watches of one buffer.
 
-    Its thread lives while there are any. Callbacks run one after another and under no lock; what they raise is logged.
+    Its thread lives while there are any. Callbacks run under no lock; what they raise is logged. Those of watches run
+    one after another in the thread; waits that an insertion from Python answers are called by the inserting thread.
     """
 
     def __init__(self) -> None:
+        self.start_anew()
+        _all.add(self)
+
+    def start_anew(self) -> None:
+        """Forgets everything; also in a forked process, which has no thread, but locks that one may have held."""
         self._mailbox = _core.Mailbox()
-        self._lock = threading.Lock()  # guards what follows; nothing foreign runs under it
+        # Who holds one of these locks may need it again: finalizers and signal handlers run anywhere.
+        self._lock = threading.RLock()  # guards what follows; nothing foreign is called under it
         self._tokens = itertools.count(_WAKE_UP + 1)
         self._entries: dict[int, _Wait | _Watch] = {}
         self._deadlines: list[tuple[int, int]] = []  # a heap of (monotonic ns, token)
         self._thread: threading.Thread | None = None
-        self._turn = threading.Lock()  # held while tokens change hands
+        self._turn = threading.RLock()  # held from an insertion until its tokens are taken
         weakref.finalize(self, self._mailbox.put, _WAKE_UP).atexit = False
+
+    def end(self) -> None:
+        """Forgets everything and ends the thread: the exit would stop it anywhere, maybe with a lock in its hands."""
+        with self._lock:
+            entries, self._entries = self._entries, {}
+            thread = self._thread
+            self._mailbox.put(_WAKE_UP)
+        entries.clear()
+        if thread is not None:
+            thread.join(_PATIENCE)
 
     @property
     def is_idle(self) -> bool:
@@ -65,16 +86,19 @@ class Dispatcher:
     def wait(
         self, start: StartWait, on_end: Callable[[Transform | None], object], timeout: int | None = None
     ) -> Cancel:
-        """Calls `on_end` once: with the transform, or with None after `timeout` nanoseconds.
+        """Calls `on_end` once: with the transform, at once if it is there, or with None after `timeout` nanoseconds.
 
         Returns:
             Ends the wait without a call.
         """
         token = next(self._tokens)
-        # Before the entry is there a token means nothing, and the wait may end as soon as it begins.
-        with self._turn:
-            native = start(self._mailbox, token)
+        native = start(self._mailbox, token)
+        found = native.answer()
+        if found is not None:
+            _call(on_end, found)
+        else:
             self._add(token, _Wait(native, on_end), timeout)
+            self._end_if_answered(token)  # before the entry was there, the token meant nothing
         return lambda: self._forget(token)
 
     def watch(self, start: StartWatch, on_change: Callable[[list[str]], object]) -> Cancel:
@@ -84,8 +108,8 @@ class Dispatcher:
             Ends the watch.
         """
         token = next(self._tokens)
-        with self._turn:
-            self._add(token, _Watch(start(self._mailbox, token), on_change), None)
+        self._add(token, _Watch(start(self._mailbox, token), on_change), None)
+        self._mailbox.put(token)  # before the entry was there, the token meant nothing
         return lambda: self._forget(token)
 
     @contextmanager
@@ -97,28 +121,35 @@ class Dispatcher:
         with self._turn:
             yield
             tokens = self._mailbox.take()
-        for token in tokens:
-            self._carry_out(token)
-
-    def settle(self) -> None:
-        """Carries out in this thread what was noticed and nobody has carried out yet."""
-        with self._turn:
-            tokens = self._mailbox.take()
-        for token in tokens:
-            self._carry_out(token)
+        self._carry_out(tokens, watches=False)
 
     def _add(self, token: int, entry: _Wait | _Watch, timeout: int | None) -> None:
         with self._lock:
             self._entries[token] = entry
             if timeout is not None:
+                self._forget_old_deadlines()
                 heapq.heappush(self._deadlines, (time.monotonic_ns() + timeout, token))
-            if self._thread is not None:
-                self._mailbox.put(_WAKE_UP)  # the next deadline may be another
+            if self._thread is not None or _exiting.is_set():
+                if timeout is not None and self._deadlines[0][1] == token:
+                    self._mailbox.put(_WAKE_UP)  # to sleep no longer than that
                 return
-            self._thread = threading.Thread(
-                target=_run, args=(weakref.ref(self), self._mailbox), name="coframe waits", daemon=True
-            )
-            self._thread.start()
+            arguments = (weakref.ref(self), self._mailbox)
+            self._thread = threading.Thread(target=_run, args=arguments, name="coframe waits", daemon=True)
+            try:
+                self._thread.start()
+            except RuntimeError:  # there are too many, or the interpreter ends
+                self._thread = None
+                self._forget(token)
+                raise
+
+    def _forget_old_deadlines(self) -> None:
+        """Those of waits that have ended may be far ahead."""
+        if len(self._deadlines) <= 2 * len(self._entries) + _FEW:
+            return
+        old, self._deadlines = self._deadlines, []
+        for deadline in old:
+            if deadline[1] in self._entries:
+                heapq.heappush(self._deadlines, deadline)
 
     def _forget(self, token: int) -> _Wait | _Watch | None:
         with self._lock:
@@ -129,12 +160,34 @@ class Dispatcher:
             entry.native.cancel()
         return entry
 
-    def _carry_out(self, token: int) -> None:
+    def _carry_out(self, tokens: list[int], *, watches: bool) -> None:
+        """What the tokens stand for; those of watches are for the thread."""
+        tokens.reverse()
+        try:
+            while tokens:
+                token = tokens.pop()
+                entry = self._entries.get(token)
+                if isinstance(entry, _Wait):
+                    self._end_if_answered(token)
+                elif isinstance(entry, _Watch) and watches:
+                    self._tell_changes(entry)
+                elif isinstance(entry, _Watch):
+                    self._mailbox.put(token)
+        finally:
+            for token in tokens:  # a callback wants to end this thread: the others are not to suffer
+                self._mailbox.put(token)
+
+    def _end_if_answered(self, token: int) -> None:
         entry = self._entries.get(token)
-        if isinstance(entry, _Watch):
-            _call(entry.on_change, entry.native.take())
-        elif isinstance(entry, _Wait) and self._forget(token) is not None:
-            _call(entry.on_end, entry.native.answer())
+        found = entry.native.answer() if isinstance(entry, _Wait) else None
+        if isinstance(entry, _Wait) and found is not None and self._forget(token) is not None:
+            _call(entry.on_end, found)
+
+    @staticmethod
+    def _tell_changes(watch: _Watch) -> None:
+        changed = watch.native.take()
+        if changed:
+            _call(watch.on_change, changed)
 
     def _end_overdue(self) -> None:
         now = time.monotonic_ns()
@@ -149,7 +202,9 @@ class Dispatcher:
 
     def turn(self) -> int | None:
         """One round of the thread: nanoseconds that it may sleep now (negative: for ever), None if it may end."""
-        self.settle()
+        with self._turn:
+            tokens = self._mailbox.take()
+        self._carry_out(tokens, watches=True)
         self._end_overdue()
         with self._lock:
             if not self._entries:
@@ -165,7 +220,11 @@ def _run(reference: weakref.ref[Dispatcher], mailbox: _core.Mailbox) -> None:
     """The thread; asleep, it does not keep the dispatcher alive."""
     while True:
         dispatcher = reference()
-        nap = dispatcher.turn() if dispatcher is not None else None
+        try:
+            nap = dispatcher.turn() if dispatcher is not None else None
+        except BaseException:  # noqa: BLE001 - sys.exit() in a callback ends no thread that others need
+            _log.exception("a callback of a buffer wanted to end the thread of all callbacks")
+            nap = 0
         del dispatcher
         if nap is None:
             return
@@ -177,3 +236,23 @@ def _call(callback: Callable[[Any], object], argument: Any) -> None:
         callback(argument)
     except Exception:  # noqa: BLE001 - of the user's; the next ones are to be called as well
         _log.exception("a callback of a buffer failed")
+
+
+_all: weakref.WeakSet[Dispatcher] = weakref.WeakSet()
+_exiting = threading.Event()  # a thread that is started then may never begin, and the one who starts it never go on
+
+
+def _start_all_anew() -> None:
+    for dispatcher in list(_all):
+        dispatcher.start_anew()
+
+
+def _end_all() -> None:
+    _exiting.set()
+    for dispatcher in list(_all):
+        dispatcher.end()
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_start_all_anew)
+atexit.register(_end_all)

@@ -283,7 +283,7 @@ class Transform(_core.Transform):
         return f"Transform({frames}translation={_numbers(self.translation)}, rpy={_numbers(self.rpy)}{stamp})"
 
     def __reduce__(self) -> tuple[object, ...]:
-        return _rebuild, (self.values, self.target, self.source, self.stamp, self.batch)
+        return _rebuild, (self.values, self.target, self.source, self.stamp, self.batch, self.beyond)
 
 
 def batch_of(
@@ -315,10 +315,11 @@ def _rebuild(
     source: str | None,
     stamp: int | None,
     batch: Any,
+    beyond: int = 0,
 ) -> Transform:
     """Bit for bit what it was: unlike the constructor, this does not normalise again."""
     transform = Transform.__new__(Transform)
-    _core.Transform.__init__(transform, *values, target, source, stamp, batch)
+    _core.Transform.__init__(transform, *values, target, source, stamp, batch, beyond)
     return transform
 
 

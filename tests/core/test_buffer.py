@@ -368,3 +368,26 @@ def test_seconds_where_nanoseconds_are_wanted_are_noticed():
     with pytest.raises(coframe.ExtrapolationException) as caught:
         buffer.lookup("a", "b", 500_000_000)
     assert "has forgotten that time" in caught.value.hint
+
+
+@pytest.mark.parametrize("wrong", [{"timeout": 0.5}, {"timeout": "soon"}, {"extrapolate": 0.1}, {"timeout": [1]}])
+def test_what_is_wrong_is_told_also_where_it_is_not_needed(buffer, wrong):
+    with pytest.raises((TypeError, ValueError), match=r"is not a duration|a duration must be"):
+        buffer.lookup("odom", "base", **wrong)
+    if "timeout" in wrong:
+        with pytest.raises((TypeError, ValueError), match=r"is not a duration|a duration must be"):
+            buffer.can_transform("odom", "base", **wrong)
+
+
+def test_hold_may_be_anything_that_is_true(buffer):
+    latest = buffer.lookup("odom", "base").stamp
+    assert buffer.lookup("odom", "base", latest + 5, extrapolate=10, hold=1).extrapolated == 5
+
+
+def test_of_several_values_that_are_no_numbers_the_first_is_told():
+    class Number:
+        def __float__(self):
+            return 1.0
+
+    with pytest.raises(TypeError, match="must be real number, not str"):
+        coframe.Buffer().set_values("a", "b", 1, "x", Number(), None, 0.0, 0.0, 0.0, 1.0, False, "me")

@@ -104,7 +104,7 @@ class TestLookupMany:
         assert (many.target, many.source) == ("odom", "lidar")
         np.testing.assert_array_equal(many.stamps, stamps)
         for one, stamp in zip(many, stamps, strict=True):
-            assert one == buffer.lookup("odom", "lidar", int(stamp))
+            assert one.is_close(buffer.lookup("odom", "lidar", int(stamp)), translation=1e-12, rotation=1e-12)
 
     def test_datetime64_and_latest(self, buffer):
         times = np.array([10_500_000_000], dtype="datetime64[ns]")

@@ -1,5 +1,6 @@
 """Threads that wait, and what happens to them at the end."""
 
+import os
 import subprocess
 import sys
 import textwrap
@@ -9,6 +10,7 @@ import time
 import pytest
 
 import coframe
+from coframe import _core
 
 SECOND = 1_000_000_000
 
@@ -102,3 +104,126 @@ def test_the_paths_between_all_pairs_of_frames_take_no_memory_for_ever():
         assert grown < 20_000, f"{grown} KiB"
     """
     assert run(code) == (0, "")
+
+
+def test_waits_for_frames_that_never_come_take_no_memory_for_ever():
+    code = """
+        import resource
+        from coframe import _core
+        buffer = coframe.Buffer()
+        mailbox = _core.Mailbox()
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        for number in range(100_000):
+            _core.wait(buffer, mailbox, number, "map", f"tag_{number}", None).cancel()
+        grown = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before
+        assert grown < 5_000, f"{grown} KiB"
+    """
+    assert run(code) == (0, "")
+
+
+@pytest.mark.parametrize("act", ["tell()", "wait()()", "buffer.on_change(print).close()"])
+def test_finalizers_may_use_the_buffer_that_is_being_waited_in(act):
+    code = f"""
+        import gc
+        from coframe import _core
+        buffer = coframe.Buffer()
+        def tell():
+            with buffer.dispatcher.inserting():
+                buffer.set("odom", "base", coframe.Transform(), 1)
+        def wait():
+            start = lambda mailbox, token: _core.wait(buffer, mailbox, token, "map", "base", None)
+            return buffer.dispatcher.wait(start, lambda found: None, 100_000_000_000)
+        class Acts:
+            def __init__(self):
+                self.itself = self
+            def __del__(self):
+                {act}
+        kept = [wait(), buffer.on_change(lambda edge: None)]
+        for allocations in range(1, 50):  # until the garbage is collected
+            for use in (tell, wait):
+                gc.disable()
+                Acts()
+                gc.set_threshold(gc.get_count()[0] + allocations)
+                gc.enable()
+                use()
+                gc.set_threshold(700)
+        Acts()  # for the exit
+    """
+    assert run(code) == (0, "")
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="the system has no fork()")
+def test_a_forked_process_can_wait_in_the_buffer():
+    code = """
+        import asyncio, os, sys, threading
+        sys.setswitchinterval(1e-6)
+        buffer = coframe.Buffer()
+        kept = buffer.on_change(lambda edge: None)
+        child = os.fork()
+        if child == 0:
+            threading.Timer(0.05, lambda: buffer.set("odom", "base", coframe.Transform(), 1)).start()
+            asyncio.run(buffer.wait_async("odom", "base", timeout="5s"))
+            os._exit(0)
+        assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+    """
+    assert [run(code) for _ in range(5)] == [(0, "")] * 5
+
+
+def told(buffer, count):
+    """The stamps that a subscription tells of, up to `count`; each is set when the one before has been told."""
+    stamps, arrived = [], threading.Condition()
+
+    def tell(edge):
+        with arrived:
+            stamps.append(edge.newest)
+            arrived.notify()
+        if edge.newest == 1:
+            sys.exit("enough")
+
+    with buffer.on_change(tell), arrived:
+        for stamp in range(1, count + 1):
+            buffer.set("odom", "base", coframe.Transform(), stamp)
+            arrived.wait_for(lambda stamp=stamp: stamp in stamps, timeout=5)
+    return stamps
+
+
+def test_a_callback_that_exits_ends_no_thread_that_others_need(caplog):
+    assert told(coframe.Buffer(), 3) == [1, 2, 3]
+    assert "wanted to end the thread" in caplog.text
+
+
+def test_who_interrupts_a_callback_keeps_nobody_waiting():
+    buffer = coframe.Buffer()
+    ended = threading.Semaphore(0)
+
+    def interrupt(_):
+        ended.release()
+        raise KeyboardInterrupt
+
+    start = lambda mailbox, token: _core.wait(buffer, mailbox, token, "odom", "base", None)  # noqa: E731
+    for on_end in (interrupt, interrupt, lambda _: ended.release()):
+        buffer.dispatcher.wait(start, on_end)
+    with pytest.raises(KeyboardInterrupt), buffer.dispatcher.inserting():
+        buffer.set("odom", "base", coframe.Transform(), 1)
+    assert all(ended.acquire(timeout=5) for _ in range(3))
+
+
+def test_watches_are_called_in_the_thread_of_their_own_whoever_inserts():
+    buffer = coframe.Buffer()
+    threads = []
+    called = threading.Event()
+    with buffer.on_change(lambda _: (threads.append(threading.get_ident()), called.set())):
+        with buffer.dispatcher.inserting():
+            buffer.set("odom", "base", coframe.Transform(), 1)
+        assert called.wait(5)
+    assert threading.get_ident() not in threads
+
+
+def test_deadlines_of_waits_that_have_ended_do_not_pile_up():
+    buffer = coframe.Buffer()
+    start = lambda mailbox, token: _core.wait(buffer, mailbox, token, "odom", "base", None)  # noqa: E731
+    kept = buffer.on_change(print)
+    for _ in range(2000):
+        buffer.dispatcher.wait(start, print, 10**15)()
+    kept.close()
+    assert len(buffer.dispatcher._deadlines) < 500

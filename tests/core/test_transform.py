@@ -115,6 +115,10 @@ def test_values_survive_pickle_and_copy(rng):
     for a in (random_transform(rng, target="a", source="b", stamp=7), random_transform(rng, (3,))):
         assert pickle.loads(pickle.dumps(a)) == a
         assert copy.deepcopy(a) == a
+    buffer = coframe.Buffer()
+    buffer.set("odom", "base", Transform(), 1)
+    guess = buffer.lookup("odom", "base", 4, extrapolate=10)
+    assert copy.copy(guess).extrapolated == pickle.loads(pickle.dumps(guess)).extrapolated == 3
     error = pickle.loads(pickle.dumps(coframe.LookupException.telling("text", target="a", hint="do")))
     assert (str(error), error.target, error.hint) == ("text", "a", "do")
 

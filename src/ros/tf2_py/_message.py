@@ -8,8 +8,11 @@ is still an answer, and so is one before the epoch, which the constructor of rcl
 
 from typing import Any
 
-from geometry_msgs.msg import TransformStamped
+from builtin_interfaces.msg import Time as TimeMessage
+from coframe import _core
+from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from rclpy.time import Time
+from std_msgs.msg import Header
 from tf2_py._convert import NANOSECONDS_PER_SECOND
 
 Pose = tuple[float, float, float, float, float, float, float]
@@ -33,3 +36,6 @@ def any_time(nanoseconds: int) -> Time:
     result = Time()
     result._nanoseconds = nanoseconds
     return result
+
+
+_core.register_messages(TransformStamped, Header, TimeMessage, Time, Transform, Vector3, Quaternion)

@@ -42,6 +42,7 @@ for _exception in (
     _exception.__module__ = "tf2"
 
 # console_bridge's prefixes, as Humble writes them to stderr.
+_STORED = 0
 _LOG_PREFIX = {"error": "Error:   ", "warning": "Warning: "}
 _TEN_SECONDS = Duration(seconds=10)
 _NO_TIME = Time()
@@ -80,13 +81,17 @@ class BufferCore:
         self.__insert(transform, authority, static=True)
 
     def __insert(self, transform: Any, authority: str, *, static: bool) -> None:
+        refused = self._coframe_buffer.set_message(transform, static, authority)
+        if refused == _STORED:
+            return
         authority = _convert.text(authority, 2)
         parent = _convert.frame_id(transform.header.frame_id, "header.frame_id")
         child = _convert.frame_id(transform.child_frame_id, "child_frame_id")
         stamp = _convert.nanoseconds(transform.header.stamp, "time")
         pose = _convert.values(transform.transform, static=static)
         try:
-            refused = self._coframe_buffer.set_values(parent, child, stamp, *pose, static, authority)
+            if refused is None:
+                refused = self._coframe_buffer.set_values(parent, child, stamp, *pose, static, authority)
         except TypeError:
             raise TypeError(f"translation and rotation must be numbers, but are {pose!r}") from None
         if refused:
@@ -95,9 +100,10 @@ class BufferCore:
 
     def can_transform_core(self, target_frame: str, source_frame: str, time: Any) -> tuple[int, str]:
         """1 and an empty text if the look-up would succeed, else 0 and the reason."""
-        reason = self._coframe_buffer.why_not(
-            _convert.text(target_frame, 1), _convert.text(source_frame, 2), _convert.nanoseconds(time, "time")
-        )
+        query = _convert.text(target_frame, 1), _convert.text(source_frame, 2), _convert.nanoseconds(time, "time")
+        if self._coframe_buffer.can_transform(*query):
+            return 1, ""
+        reason = self._coframe_buffer.why_not(*query)
         return int(not reason), reason
 
     def can_transform_full_core(
@@ -115,6 +121,9 @@ class BufferCore:
         Raises:
             TransformException: One of its children, with tf2's text.
         """
+        found: TransformStamped | None = self._coframe_buffer.lookup_message(target_frame, source_frame, time)
+        if found is not None:
+            return found
         return self._coframe_lookup(
             _convert.text(target_frame, 1), _convert.text(source_frame, 2), _convert.nanoseconds(time, "time")
         )

@@ -58,5 +58,4 @@ def wait(
             future.set_result(result)
 
     future._end_wait = dispatcher.wait(start, end, timeout)
-    dispatcher.settle()
     return future

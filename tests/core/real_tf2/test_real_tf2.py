@@ -6,7 +6,6 @@ ROS 1 differs from ROS 2 by rules, which are data (rules.py); how buffers that d
 import time
 
 import pytest
-
 from real_tf2.coframe_side import CoframeSide
 from real_tf2.comparison import Debian, run
 from real_tf2.rules import REASONS
@@ -21,6 +20,7 @@ def debian():
     debian.close()
 
 
+@pytest.mark.timeout(600)
 def test_coframe_answers_as_the_real_tf2(debian):
     explained, finding = run(debian, seed="coframe", operations=200_000)
     assert finding is None, finding

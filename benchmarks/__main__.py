@@ -1,0 +1,59 @@
+"""`make bench`: coframe beside its peers, in one table, and whether each bar is met.
+
+make bench                                  everything; writes benchmarks/RESULTS.md
+make bench ARGS="--rows lookup deskew"      the rows whose subject or name has one of these words
+make bench ARGS="--quick"                   a rough look at all of them
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+from benchmarks import machine, report
+from benchmarks.measuring import Effort, Row, measure
+from benchmarks.rows import ROWS
+
+RESULTS = Path(__file__).with_name("RESULTS.md")
+QUICK = Effort(rounds=7, seconds=0.5, least=2)
+
+
+def chosen(words: list[str]) -> list[Row]:
+    """The rows whose subject or name has one of the words; all of them without any."""
+    return [
+        row
+        for subject, rows in ROWS.items()
+        for row in rows
+        if not words or any(word in subject or word in row.name for word in words)
+    ]
+
+
+def run(rows: list[Row], effort: Effort, results: Path | None) -> int:
+    """Measures, prints, writes the page if there is to be one; the program's exit status."""
+    terminal = report.Terminal(rows)
+    print(terminal.heading(), flush=True)
+    measured = []
+    for row in rows:
+        measured.append(measure(row, effort))
+        print(terminal.line(report.cells(measured[-1])), flush=True)
+    print()
+    print(report.summary(measured))
+    if results:
+        report.write(results, measured, machine.facts())
+        print(f"written: {results}")
+    return int(any(result.failed for result in measured))
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--rows", nargs="+", default=[], metavar="WORD", help="only rows that have one of the words")
+    parser.add_argument("--quick", action="store_true", help="few samples")
+    arguments = parser.parse_args()
+    rows = chosen(arguments.rows)
+    if not rows:
+        parser.error(f"no row has any of these: {' '.join(arguments.rows)}. Subjects: {', '.join(ROWS)}")
+    whole = not arguments.rows and not arguments.quick
+    return run(rows, QUICK if arguments.quick else Effort(), RESULTS if whole else None)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,14 @@
+"""The rows of the table, a file for each of their subjects."""
+
+from benchmarks.rows import batch, history, insertion, listener, sensors, single, startup
+
+ROWS = {
+    "single": single.ROWS,
+    "insertion": insertion.ROWS,
+    "batch": batch.ROWS,
+    "sensors": sensors.ROWS,
+    "listener": listener.ROWS,
+    "history": history.ROWS,
+    "startup": startup.ROWS,
+}
+"""By subject."""

@@ -1,0 +1,88 @@
+"""Single questions from Python."""
+
+from collections.abc import Generator
+
+import numpy as np
+
+import coframe
+from benchmarks import motion, ours
+from benchmarks.measuring import Bar, Contender, Row, TimesAsFast
+from benchmarks.motion import frame
+from benchmarks.peers import DEBIAN, ROS2, Tf2, tf_trees
+from benchmarks.rows.beside_tf2 import beside_tf2, drop_in
+from benchmarks.statement import Statement
+
+TIME = motion.between(490)
+
+NEWEST = "buffer.lookup('f0', source)"
+AT_A_TIME = "buffer.lookup('f0', source, time)"
+TIME_TRAVEL = "buffer.lookup_full('f0', time, source, earlier, 'f0')"
+POSSIBLE = "buffer.can_transform('f0', source)"
+POSSIBLE_AT_A_TIME = "buffer.can_transform('f0', source, time)"
+FAILING = """
+try:
+    buffer.lookup('f0', source, 1)
+except TransformException as error:
+    pass
+"""
+FAILING_WITH_TEXT = FAILING.replace("pass", "str(error)")
+
+
+def question(code: str, depth: int) -> Statement:
+    names = {
+        "buffer": ours.filled(depth),
+        "source": frame(depth),
+        "time": TIME,
+        "earlier": motion.between(300),
+        "TransformException": coframe.TransformException,
+    }
+    return Statement(code, names)
+
+
+def newest(depth: int, peer: Tf2, bar: Bar | None = None) -> Row:
+    return beside_tf2(f"lookup, newest, D={depth}", lambda: question(NEWEST, depth), peer, "lookup", depth, bar=bar)
+
+
+def beside_debian(name: str, code: str, function: str, *arguments: object, bar: Bar | None = None) -> Row:
+    """A question about a chain of five links."""
+    return beside_tf2(f"{name}, D=5", lambda: question(code, 5), DEBIAN, function, 5, *arguments, bar=bar)
+
+
+def beside_tf_tree(depth: int, what: str, code: str, bar: Bar | None = None) -> Row:
+    """Ours by name; theirs by name as well, or by a plan that was compiled before."""
+
+    def contenders() -> Generator[Contender]:
+        yield question(AT_A_TIME, depth)
+        tree = tf_trees.filled(depth)
+        plan = tree.plan("f0", frame(depth))
+        expected = ours.filled(depth).lookup("f0", frame(depth), TIME).matrix
+        np.testing.assert_allclose(plan.at(TIME), expected, atol=1e-9)
+        names = {"tree": tree, "plan": plan, "source": frame(depth), "time": TIME, "out": np.empty((4, 4))}
+        yield Statement(code, names)
+
+    return Row(f"lookup at a time, D={depth}", f"tf_tree, {what}", contenders, bar)
+
+
+ROWS = [
+    newest(1, DEBIAN, TimesAsFast(35)),
+    newest(5, DEBIAN, TimesAsFast(25)),
+    newest(10, DEBIAN, TimesAsFast(18)),
+    newest(50, DEBIAN, TimesAsFast(10)),
+    newest(5, ROS2),
+    beside_debian("lookup at a time", AT_A_TIME, "lookup", TIME),
+    beside_tf_tree(1, "Plan.at", "plan.at(time)", TimesAsFast(2.5)),
+    beside_tf_tree(5, "Plan.at", "plan.at(time)", TimesAsFast(3)),
+    beside_tf_tree(5, "Plan.at_into", "plan.at_into(time, out)"),
+    beside_tf_tree(5, "Tree.lookup", "tree.lookup('f0', source, time)"),
+    beside_debian("time travel", TIME_TRAVEL, "time_travel"),
+    beside_debian("can_transform, newest", POSSIBLE, "can_transform", bar=TimesAsFast(12)),
+    beside_debian("can_transform at a time", POSSIBLE_AT_A_TIME, "can_transform", TIME, bar=TimesAsFast(12)),
+    beside_debian("failing lookup, caught", FAILING, "failing_lookup", bar=TimesAsFast(10)),
+    beside_debian("failing lookup, text read", FAILING_WITH_TEXT, "failing_lookup", "str(error)"),
+    drop_in("tf2_py: lookup_transform_core, D=5", DEBIAN, "lookup", 5, bar=TimesAsFast(8)),
+    drop_in("tf2_py: lookup_transform_core, D=5", ROS2, "lookup", 5),
+    drop_in("tf2_py: can_transform_core, D=5", DEBIAN, "can_transform", 5),
+    drop_in("tf2_py: can_transform_core, D=5", ROS2, "can_transform", 5),
+    drop_in("tf2_py: failing lookup, caught, D=5", DEBIAN, "failing_lookup", 5),
+    drop_in("tf2_py: failing lookup, caught, D=5", ROS2, "failing_lookup", 5),
+]

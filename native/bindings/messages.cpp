@@ -1,0 +1,196 @@
+// The drop-in's messages, read and made slot by slot: geometry_msgs' classes are Python's, with __slots__, and going
+// through their attributes costs more than the look-up. What is not exactly of these classes Python deals with.
+#include <nanobind/nanobind.h>
+#include <structmember.h>  // PyMemberDef, before Python 3.12
+
+#include <array>
+
+#include "bindings/arguments.hpp"
+#include "bindings/bindings.hpp"
+#include "bindings/fast_call.hpp"
+
+namespace coframe::bindings {
+
+namespace {
+
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+// A class and where its slots lie in an instance, as `names` has them.
+template <std::size_t N>
+class SlottedClass {
+ public:
+  void set(nb::handle cls, const std::array<const char*, N>& names) {
+    type_ = reinterpret_cast<PyTypeObject*>(cls.inc_ref().ptr());  // as long as the process lives
+    for (std::size_t i = 0; i < N; ++i) {
+      const nb::object descriptor = cls.attr(names[i]);
+      if (Py_TYPE(descriptor.ptr()) != &PyMemberDescr_Type) throw nb::type_error("a class with slots is wanted");
+      offsets_[i] = reinterpret_cast<PyMemberDescrObject*>(descriptor.ptr())->d_member->offset;
+    }
+  }
+  bool is(PyObject* object) const { return object && Py_TYPE(object) == type_; }
+  // Borrowed; nullptr if it was deleted.
+  PyObject* get(PyObject* object, std::size_t i) const { return slot(object, i); }
+  // Steals `value`.
+  void put(PyObject* object, std::size_t i, PyObject* value) const { slot(object, i) = value; }
+  // Without __init__: every slot is to be put.
+  PyObject* make() const {
+    PyObject* object = type_->tp_alloc(type_, 0);
+    if (!object) throw nb::python_error();
+    return object;
+  }
+
+ private:
+  PyObject*& slot(PyObject* object, std::size_t i) const {
+    return *reinterpret_cast<PyObject**>(reinterpret_cast<char*>(object) + offsets_[i]);
+  }
+
+  PyTypeObject* type_ = nullptr;
+  std::array<Py_ssize_t, N> offsets_{};
+};
+
+SlottedClass<3> transform_stamped;  // header, child_frame_id, transform
+SlottedClass<2> header;             // stamp, frame_id
+SlottedClass<2> time_message;       // sec, nanosec
+SlottedClass<1> rclpy_time;         // nanoseconds
+SlottedClass<2> transform;          // translation, rotation
+SlottedClass<3> vector3;
+SlottedClass<4> quaternion;
+
+bool is_text(PyObject* object) { return object && PyUnicode_CheckExact(object); }
+
+bool read_int(PyObject* object, std::int64_t& value) {
+  if (!object || !PyLong_CheckExact(object)) return false;
+  int overflow;
+  value = PyLong_AsLongLongAndOverflow(object, &overflow);
+  return overflow == 0;
+}
+
+bool read_time(PyObject* object, Stamp& stamp) {
+  if (rclpy_time.is(object)) return read_int(rclpy_time.get(object, 0), stamp);
+  if (!time_message.is(object)) return false;
+  std::int64_t seconds, nanoseconds;
+  if (!read_int(time_message.get(object, 0), seconds) || !read_int(time_message.get(object, 1), nanoseconds)) {
+    return false;
+  }
+  if (seconds > 9'000'000'000 || seconds < -9'000'000'000) return false;
+  stamp = seconds * kNanosecondsPerSecond + nanoseconds;
+  return true;
+}
+
+template <std::size_t N>
+bool read_numbers(const SlottedClass<N>& cls, PyObject* object, double* out) {
+  if (!cls.is(object)) return false;
+  for (std::size_t i = 0; i < N; ++i) {
+    PyObject* number = cls.get(object, i);
+    if (!number || !PyFloat_CheckExact(number)) return false;
+    out[i] = PyFloat_AS_DOUBLE(number);
+  }
+  return true;
+}
+
+struct Told {
+  PyObject *parent, *child;
+  Stamp stamp;
+  TransformValues values;
+};
+
+bool read_message(PyObject* message, Told& told) {
+  if (!transform_stamped.is(message)) return false;
+  PyObject* head = transform_stamped.get(message, 0);
+  PyObject* pose = transform_stamped.get(message, 2);
+  if (!header.is(head) || !transform.is(pose)) return false;
+  told.parent = header.get(head, 1);
+  told.child = transform_stamped.get(message, 1);
+  return is_text(told.parent) && is_text(told.child) && read_time(header.get(head, 0), told.stamp) &&
+         read_numbers(vector3, transform.get(pose, 0), told.values.translation) &&
+         read_numbers(quaternion, transform.get(pose, 1), told.values.rotation);
+}
+
+template <std::size_t N>
+nb::object make_numbers(const SlottedClass<N>& cls, const double* values) {
+  nb::object object = nb::steal(cls.make());
+  for (std::size_t i = 0; i < N; ++i) cls.put(object.ptr(), i, PyFloat_FromDouble(values[i]));
+  return object;
+}
+
+nb::object make_message(PyObject* target, PyObject* source, Stamp stamp, const Pose& pose) {
+  std::int64_t seconds = stamp / kNanosecondsPerSecond, nanoseconds = stamp % kNanosecondsPerSecond;
+  if (nanoseconds < 0) {
+    nanoseconds += kNanosecondsPerSecond;
+    --seconds;
+  }
+  nb::object when = nb::steal(time_message.make());
+  time_message.put(when.ptr(), 0, PyLong_FromLongLong(seconds));
+  time_message.put(when.ptr(), 1, PyLong_FromLongLong(nanoseconds));
+  nb::object head = nb::steal(header.make());
+  header.put(head.ptr(), 0, when.release().ptr());
+  header.put(head.ptr(), 1, Py_NewRef(target));
+  nb::object where = nb::steal(transform.make());
+  transform.put(where.ptr(), 0, make_numbers(vector3, pose.p).release().ptr());
+  transform.put(where.ptr(), 1, make_numbers(quaternion, pose.q).release().ptr());
+  nb::object message = nb::steal(transform_stamped.make());
+  transform_stamped.put(message.ptr(), 0, head.release().ptr());
+  transform_stamped.put(message.ptr(), 1, Py_NewRef(source));
+  transform_stamped.put(message.ptr(), 2, where.release().ptr());
+  return message;
+}
+
+// None where Python has to deal with it.
+PyObject* set_message(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<3> signature("set_message", {"message", "static", "authority"}, 3, 3);
+  PyObject* values[3];
+  if (!signature.parse(arguments, count, keywords, values)) return nullptr;
+  return guarded([&]() -> PyObject* {
+    BufferObject& self = buffer_of(object);
+    Told told;
+    if (!PyUnicode_CheckExact(values[2]) || !read_message(values[0], told)) return Py_NewRef(Py_None);
+    const FrameId parent = self.frame(told.parent), child = self.frame(told.child);
+    if (parent == 0 || child == 0 || parent == child) return Py_NewRef(Py_None);
+    return PyLong_FromUnsignedLong(self.core->insert(parent, child, told.stamp, told.values,
+                                                     PyObject_IsTrue(values[1]) == 1, self.authority(values[2])));
+  });
+}
+
+PyObject* lookup_message(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<3> signature("lookup_message", {"target", "source", "time"}, 3, 3);
+  PyObject* values[3];
+  if (!signature.parse(arguments, count, keywords, values)) return nullptr;
+  return guarded([&]() -> PyObject* {
+    BufferObject& self = buffer_of(object);
+    Stamp stamp;
+    Pose pose;
+    if (!is_text(values[0]) || !is_text(values[1]) || !read_time(values[2], stamp)) return Py_NewRef(Py_None);
+    const FrameId target = self.frame(values[0]), source = self.frame(values[1]);
+    const bool found = target != 0 && source != 0 && target != source &&
+                       self.core->quick_lookup(self.paths, target, source, stamp, pose);
+    return found ? make_message(values[0], values[1], stamp, pose).release().ptr() : Py_NewRef(Py_None);
+  });
+}
+
+}  // namespace
+
+void define_messages(nb::module_& module) {
+  const nb::object buffer = module.attr("Buffer");
+  add_method(buffer, "set_message", &set_message,
+             "set_message($self, /, message, static, authority)\n--\n\n"
+             "set_values() of a TransformStamped between known frames; None where it is not just that.");
+  add_method(buffer, "lookup_message", &lookup_message,
+             "lookup_message($self, /, target, source, time)\n--\n\n"
+             "lookup() as a TransformStamped, for a Time; None where lookup() has to decide.");
+  module.def(
+      "register_messages",
+      [](nb::type_object stamped, nb::type_object head, nb::type_object stamp, nb::type_object rclpy_stamp,
+         nb::type_object pose, nb::type_object translation, nb::type_object rotation) {
+        transform_stamped.set(stamped, {"_header", "_child_frame_id", "_transform"});
+        header.set(head, {"_stamp", "_frame_id"});
+        time_message.set(stamp, {"_sec", "_nanosec"});
+        rclpy_time.set(rclpy_stamp, {"_nanoseconds"});
+        transform.set(pose, {"_translation", "_rotation"});
+        vector3.set(translation, {"_x", "_y", "_z"});
+        quaternion.set(rotation, {"_x", "_y", "_z", "_w"});
+      },
+      nb::arg("transform_stamped"), nb::arg("header"), nb::arg("time"), nb::arg("rclpy_time"), nb::arg("transform"),
+      nb::arg("vector3"), nb::arg("quaternion"), "The classes that set_message() reads and lookup_message() makes.");
+}
+
+}  // namespace coframe::bindings

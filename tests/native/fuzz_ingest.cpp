@@ -1,0 +1,185 @@
+// TFMessages as bytes, most of them damaged, taken in by one buffer, for a sanitizer to watch. The same every time.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/buffer.hpp"
+#include "core/dump.hpp"
+
+namespace {
+
+using namespace coframe;
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::size_t kHeader = 4;
+
+void expect(bool holds, const char* what) {
+  if (holds) return;
+  std::fprintf(stderr, "broken: %s\n", what);
+  std::_Exit(1);
+}
+
+// CDR in either byte order, written from the standard and not from the code under test.
+class Message {
+ public:
+  explicit Message(bool big) : big_(big), bytes_{0, static_cast<std::uint8_t>(big ? 0 : 1), 0, 0} {}
+
+  template <class T>
+  void number(T value) {
+    while ((bytes_.size() - kHeader) % sizeof(T) != 0) bytes_.push_back(0);
+    std::array<std::uint8_t, sizeof(T)> raw;
+    std::memcpy(raw.data(), &value, sizeof(T));
+    if (big_) std::reverse(raw.begin(), raw.end());
+    bytes_.insert(bytes_.end(), raw.begin(), raw.end());
+  }
+
+  void text(std::string_view value) {
+    number(static_cast<std::uint32_t>(value.size() + 1));
+    bytes_.insert(bytes_.end(), value.begin(), value.end());
+    bytes_.push_back(0);
+  }
+
+  Bytes take() { return std::move(bytes_); }
+
+ private:
+  bool big_;
+  Bytes bytes_;
+};
+
+class Fuzzer {
+ public:
+  Fuzzer() : rng_(20) {
+    for (int i = 0; i < 4; ++i) streams_.push_back(buffer_.open_stream(i % 2 == 0, "fuzzer"));
+  }
+
+  void run(int messages) {
+    for (int i = 0; i < messages; ++i) {
+      std::size_t transforms = 0;
+      Bytes bytes = message(transforms);
+      const bool damaged = rng_() % 4 != 0;
+      for (unsigned n = damaged ? 1 + rng_() % 4 : 0; n > 0; --n) damage(bytes);
+      take_in(bytes, transforms, damaged);
+      if (i % 16 == 0) ask();
+      if (i % 5000 == 0) buffer_.clear();
+    }
+    const Counts counts = buffer_.counts();
+    expect(counts.messages == static_cast<std::uint64_t>(messages), "messages that were not counted");
+    std::printf("%d messages, %llu malformed; %llu transforms stored, %llu refused, %llu old; %zu frames\n", messages,
+                static_cast<unsigned long long>(counts.malformed), static_cast<unsigned long long>(counts.stored),
+                static_cast<unsigned long long>(counts.refused), static_cast<unsigned long long>(counts.old),
+                buffer_.frame_names().size());
+    expect(counts.malformed > 0 && counts.stored > 0 && counts.refused > 0 && counts.old > 0, "a kind is missing");
+  }
+
+ private:
+  template <class T, std::size_t size>
+  const T& one_of(const std::array<T, size>& values) {
+    return values[rng_() % size];
+  }
+
+  std::string name() {
+    static const std::array<std::string, 8> odd{"", "/", "//", "/a", "größe", "NO_PARENT", "a b", std::string(300, 'x')};
+    return rng_() % 8 == 0 ? one_of(odd) : "frame" + std::to_string(rng_() % 20);
+  }
+
+  double value() {
+    static const std::array<double, 8> odd{0.0, -0.0, 1e308, -1e308, 1e-308, NAN, INFINITY, -INFINITY};
+    return rng_() % 50 == 0 ? one_of(odd) : std::uniform_real_distribution<double>(-10, 10)(rng_);
+  }
+
+  Bytes message(std::size_t& transforms) {
+    static const std::array<std::int32_t, 4> odd_seconds{0, -1, 0x7fffffff, -0x7fffffff - 1};
+    Message made(rng_() % 2 == 0);
+    transforms = rng_() % 3 == 0 ? 0 : rng_() % 20;
+    made.number(static_cast<std::uint32_t>(transforms));
+    for (std::size_t i = 0; i < transforms; ++i) {
+      made.number(rng_() % 200 == 0 ? one_of(odd_seconds) : static_cast<std::int32_t>(1000 + rng_() % 20));
+      made.number(static_cast<std::uint32_t>(rng_() % 100 == 0 ? rng_() : rng_() % 1'000'000'000));
+      made.text(name());
+      made.text(name());
+      for (int k = 0; k < 7; ++k) made.number(value());
+    }
+    return made.take();
+  }
+
+  void damage(Bytes& bytes) {
+    static const std::array<std::uint32_t, 8> lengths{0, 1, 2, 0xff, 0xffff, 0x7fffffff, 0xfffffff0, 0xffffffff};
+    const std::size_t size = bytes.size(), at = size == 0 ? 0 : rng_() % size;
+    switch (size == 0 ? 1 : rng_() % 8) {
+      case 0: bytes.resize(at); break;
+      case 1: bytes.insert(bytes.end(), 1 + rng_() % 16, static_cast<std::uint8_t>(rng_())); break;
+      case 2: bytes[at] = static_cast<std::uint8_t>(rng_()); break;
+      case 3: bytes[at] ^= static_cast<std::uint8_t>(1u << rng_() % 8); break;
+      case 4: bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(at)); break;
+      case 5: bytes[std::min(at, kHeader - 1)] ^= static_cast<std::uint8_t>(rng_() % 3); break;
+      case 6: {  // something like the length of a string or of the sequence
+        const std::size_t aligned = at / 4 * 4;
+        const auto nearly = static_cast<std::uint32_t>(rng_() % (2 * size));
+        const std::uint32_t length = rng_() % 2 == 0 ? one_of(lengths) : nearly;
+        if (aligned + sizeof length <= size) std::memcpy(&bytes[aligned], &length, sizeof length);
+        break;
+      }
+      default: {  // a piece of it once more, elsewhere
+        const std::size_t from = rng_() % size, count = std::min(size - std::max(at, from), std::size_t{64});
+        std::memmove(&bytes[at], &bytes[from], count);
+      }
+    }
+  }
+
+  void take_in(const Bytes& bytes, std::size_t transforms, bool damaged) {
+    // Not a byte more: what is read beyond is seen.
+    const std::unique_ptr<std::uint8_t[]> exact(new std::uint8_t[bytes.size()]);
+    std::copy(bytes.begin(), bytes.end(), exact.get());
+    const Counts before = buffer_.counts();
+    std::size_t stored = 0;
+    const DecodeFailure failure = buffer_.ingest(streams_[rng_() % streams_.size()], exact.get(), bytes.size(), stored);
+    const Counts after = buffer_.counts();
+    expect(after.stored - before.stored == stored, "another number than was counted");
+    expect(damaged || (!failure.reason && stored <= transforms), "a good message is refused");
+    if (failure.reason) {
+      expect(stored == 0 && failure.offset <= bytes.size(), "a refused message leaves traces");
+      expect(after.refused == before.refused && after.old == before.old, "parts of a refused message are counted");
+    } else {
+      const std::uint64_t told = after.stored + after.refused + after.old - before.stored - before.refused - before.old;
+      expect(damaged || told == transforms, "transforms that were not counted");
+    }
+  }
+
+  void ask() {
+    const std::vector<std::string> names = buffer_.frame_names();
+    if (names.empty()) return;
+    const FrameId target = buffer_.find(names[rng_() % names.size()]), source = buffer_.find(names.back());
+    Stamp stamp = rng_() % 2 == 0 ? 0 : static_cast<Stamp>(1000 + rng_() % 20) * 1'000'000'000;
+    Pose pose;
+    Failure failure;
+    if (target != 0 && source != 0 && !buffer_.lookup(target, source, stamp, pose, failure)) {
+      expect(!buffer_.read([&](const Tree& tree) { return lookup_text(failure, tree); }).empty(), "no words");
+    }
+    for (const bool is_static : {false, true}) {
+      const std::string bytes = buffer_.encode(is_static);
+      std::vector<TransformView> views;
+      const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
+      expect(!decode_tf_message(data, bytes.size(), views).reason, "its own message is not good");
+    }
+  }
+
+  std::mt19937 rng_;
+  Buffer buffer_{10'000'000'000};
+  std::vector<TransformStream> streams_;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Fuzzer().run(argc > 1 ? std::atoi(argv[1]) : 200'000);
+  return 0;
+}

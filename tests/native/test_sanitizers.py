@@ -1,0 +1,64 @@
+"""The native core by itself under sanitizers: readers and writers at once, and damaged messages.
+
+`make sanitize` runs the same for longer. What is built stays in build/sanitize.
+"""
+
+import fcntl
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+pytestmark = pytest.mark.timeout(600)  # where nothing is built yet
+
+FOLDER = Path(__file__).parent
+BUILD = FOLDER.parents[1] / "build" / "sanitize"
+FLAGS = {"thread": "-fsanitize=thread", "address": "-fsanitize=address,undefined"}
+
+
+def build(kind, tmp_path):
+    if not (shutil.which("make") and shutil.which("c++")):
+        pytest.skip("the sanitizers need make and a C++ compiler")
+    probe = tmp_path / "probe.cpp"
+    probe.write_text("int main() {}")
+    command = ["c++", FLAGS[kind], probe, "-o", probe.with_suffix("")]
+    if subprocess.run(command, capture_output=True, check=False).returncode != 0:
+        pytest.skip(f"the C++ compiler cannot build with {FLAGS[kind]}")
+    BUILD.mkdir(parents=True, exist_ok=True)
+    with (BUILD / "lock").open("w") as lock:  # somebody else may be testing in this folder
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        made = subprocess.run(
+            ["make", "-s", "-j2", "-C", FOLDER, kind, f"BUILD={BUILD}"], capture_output=True, text=True, check=False
+        )
+    assert made.returncode == 0, made.stderr
+
+
+def run(kind, program, amount):
+    command = [FOLDER / "sanitized.sh", BUILD / kind / program, str(amount)]
+    ended = subprocess.run(command, capture_output=True, text=True, check=False)
+    print(ended.stdout)
+    assert (ended.returncode, ended.stderr) == (0, ""), ended.stderr
+
+
+def test_threads_meet_without_a_race(tmp_path):
+    build("thread", tmp_path)
+    run("thread", "stress", 3)
+
+
+@pytest.mark.slow
+def test_threads_meet_without_a_race_for_a_minute(tmp_path):
+    build("thread", tmp_path)
+    run("thread", "stress", 60)
+
+
+@pytest.mark.slow
+def test_threads_leave_memory_in_order(tmp_path):
+    build("address", tmp_path)
+    run("address", "stress", 20)
+
+
+@pytest.mark.slow
+def test_damaged_messages_do_no_harm(tmp_path):
+    build("address", tmp_path)
+    run("address", "fuzz_ingest", 200_000)

@@ -1,0 +1,214 @@
+"""The arithmetic of `make bench`, on contenders whose figures are known, and that it has a row for every bar."""
+
+import contextlib
+import itertools
+
+import pytest
+from benchmarks import __main__ as bench
+from benchmarks import report
+from benchmarks.measuring import (
+    AtMost,
+    Effort,
+    GrowsAtMost,
+    MissingPeerError,
+    Row,
+    TimesAsFast,
+    measure,
+    nanoseconds,
+)
+from benchmarks.process import OWN_PYTHON, PeerError, Program, RemoteStatement, Worker
+from benchmarks.rows import ROWS
+from benchmarks.statement import Statement
+
+EFFORT = Effort(rounds=5, seconds=60.0)
+
+
+class Fake:
+    """Has its figures ready, and writes down whose turn it was; the first one is for warming up."""
+
+    def __init__(self, name, figures, turns=None):
+        self.name, self.figures, self.turns = name, itertools.chain([1.0], figures), turns
+
+    def sample(self):
+        if self.turns is not None:
+            self.turns.append(self.name)
+        return next(self.figures)
+
+
+def row(ours, theirs, bar=None, name="work", **more):
+    """A row with these figures; an exception in the place of some is raised instead."""
+
+    def contenders():
+        for figures in (ours, theirs):
+            if isinstance(figures, Exception):
+                raise figures
+            yield Fake("", figures)
+
+    return Row(name, "peer", contenders, bar, **more)
+
+
+def test_contenders_take_turns():
+    turns = []
+    ended = []
+
+    def contenders():
+        with contextlib.closing(contextlib.ExitStack()) as stack:
+            stack.callback(ended.append, True)
+            yield Fake("ours", [1.0] * 5, turns)
+            yield Fake("theirs", [1.0] * 5, turns)
+
+    measure(Row("work", "peer", contenders), EFFORT)
+    assert turns == ["ours", "theirs"] * 6
+    assert ended, "the contenders were not ended"
+
+
+def test_the_ratio_is_the_median_of_the_rounds_not_the_ratio_of_the_medians():
+    # The machine was twice as slow in two rounds: both contenders felt it.
+    result = measure(row([10, 20, 10, 20, 10], [50, 100, 70, 100, 30]), EFFORT)
+    assert sorted(their / our for our, their in zip(result.ours, result.theirs, strict=True)) == [3, 5, 5, 5, 7]
+    assert result.ratio == (5, 5, 5)
+    assert report.Spread.of([1.0, 2.0, 3.0, 4.0, 5.0]) == (2, 3, 4)
+    assert report.cells(result)[1:6] == ("10.0 ns", "peer", "70.0 ns", "5.00x", "5.00 - 5.00")
+
+
+@pytest.mark.parametrize(
+    ("bar", "ours", "theirs", "verdict"),
+    [
+        (TimesAsFast(5), [10] * 5, [50] * 5, "met"),
+        (TimesAsFast(5), [10] * 5, [49] * 5, "FALLS SHORT"),
+        (TimesAsFast(5), [10] * 5, MissingPeerError("apt-get install peer"), "skipped"),
+        (TimesAsFast(5), AttributeError("no such call"), [50] * 5, "FAILS"),
+        (TimesAsFast(5), [10] * 5, PeerError("it crashed"), "FAILS"),
+        (AtMost(10), [9, 9, 10, 99, 99], [1] * 5, "met"),
+        (AtMost(10), [9, 9, 10.1, 99, 99], [1] * 5, "FALLS SHORT"),
+        (AtMost(10), [11] * 5, MissingPeerError("peer"), "FALLS SHORT"),
+        (GrowsAtMost(2), [20] * 5, [10] * 5, "met"),
+        (GrowsAtMost(2), [21] * 5, [10] * 5, "FALLS SHORT"),
+        (None, [10] * 5, [1] * 5, ""),
+        (None, [10] * 5, MissingPeerError("peer"), "skipped"),
+        (None, ValueError("no"), [1] * 5, "fails"),
+    ],
+)
+def test_a_bar_is_checked(bar, ours, theirs, verdict, capsys):
+    one = row(ours, theirs, bar)
+    assert measure(one, EFFORT).verdict == verdict
+    assert bench.run([one], EFFORT, None) == (verdict in {"FALLS SHORT", "FAILS"})
+    printed = capsys.readouterr().out
+    for reason in (ours, theirs):
+        if isinstance(reason, Exception):
+            assert str(reason) in printed
+
+
+def test_one_bar_that_falls_short_is_enough_to_fail(capsys):
+    rows = [row([10] * 5, [50] * 5, TimesAsFast(5)), row([10] * 5, [40] * 5, TimesAsFast(5), name="slow work")]
+    assert bench.run(rows, EFFORT, None) == 1
+    assert "1 of 2 bars are met, 0 skipped.\nFALLS SHORT: slow work (≥ 5x): 10.0 ns, 4.00x" in capsys.readouterr().out
+
+
+def test_rows_end_by_rounds_or_by_time():
+    assert len(measure(row([1.0] * 99, [1.0] * 99), Effort(rounds=9)).ours) == 9
+    assert len(measure(row([1.0] * 99, [1.0] * 99, least=3), Effort(rounds=9, seconds=0.0)).ours) == 3
+    assert len(measure(row([1.0] * 99, [1.0] * 99, least=3), Effort(rounds=9, seconds=0.0, least=2)).theirs) == 2
+
+
+def test_the_page_has_every_row_with_the_machine_and_is_written_by_a_full_run_only(tmp_path, monkeypatch, capsys):
+    page = tmp_path / "RESULTS.md"
+    monkeypatch.setattr(bench, "RESULTS", page)
+    monkeypatch.setattr(bench, "ROWS", {"subject": [row([10.0] * 99, [50.0] * 99, TimesAsFast(5))]})
+    for arguments in (["--quick"], ["--rows", "work"]):
+        monkeypatch.setattr("sys.argv", ["bench", *arguments])
+        assert bench.main() == 0
+        assert not page.exists()
+    monkeypatch.setattr("sys.argv", ["bench"])
+    assert bench.main() == 0
+    text = page.read_text()
+    assert "| work | 10.0 ns | peer | 50.0 ns | 5.00x | 5.00 - 5.00 | ≥ 5x | met |" in text
+    for fact in ("Date", "Command: make bench\n", "Machine", "Python", "numpy ", "transform-tree ", "python3-tf2 "):
+        assert fact in text
+    assert str(page) in capsys.readouterr().out
+
+
+def test_a_row_is_chosen_by_subject_or_by_a_word_of_its_name():
+    assert bench.chosen(["startup"]) == ROWS["startup"]
+    assert all("deskew" in row.name for row in bench.chosen(["deskew"]))
+    assert len(bench.chosen([])) == sum(map(len, ROWS.values()))
+
+
+def test_times_are_told_in_a_unit_that_fits():
+    told = [nanoseconds(value) for value in (6.54, 999.4, 9_999.0, 12_345.0, 123_456.0, 60e6, 12e9)]
+    assert told == ["6.5 ns", "999 ns", "9999 ns", "12.3 us", "123 us", "60.0 ms", "12.0 s"]
+
+
+def test_a_statement_is_timed_without_its_setup_and_told_for_one_item():
+    now = 0
+
+    def spend(nanoseconds):
+        nonlocal now
+        now += nanoseconds
+
+    statement = Statement("spend(600)", {"spend": spend}, setup="spend(10**6)", items=3, clock=lambda: now)
+    assert statement.sample() == 200
+    assert statement.sample() == 200
+
+
+def test_a_setup_is_good_for_so_many_runs():
+    statement = Statement(
+        "next(left)", {"iter": iter}, setup="left = iter([1, 2, 3])", limit=3, clock=itertools.count().__next__
+    )
+    assert statement.sample() > 0
+
+
+def test_statements_are_timed_in_another_python():
+    with contextlib.closing(Worker(OWN_PYTHON, "benchmarks.peers.tf2")) as worker:
+        assert RemoteStatement(worker, "lookup", 1).sample() > 0
+        with pytest.raises(PeerError, match="no attribute 'jump'"):
+            RemoteStatement(worker, "jump").sample()
+        assert RemoteStatement(worker, "can_transform", 1).sample() > 0
+    with (
+        contextlib.closing(Worker(OWN_PYTHON, "benchmarks.peers.nobody")) as worker,
+        pytest.raises(PeerError, match="No module named"),
+    ):
+        RemoteStatement(worker, "lookup", 1).sample()
+
+
+def test_a_program_is_a_contender_by_what_it_prints():
+    assert Program("-c", "print(1.5, 2)").sample() == 1.5
+    with pytest.raises(PeerError, match="ValueError: not today"):
+        Program("-c", "raise ValueError('not today')").sample()
+
+
+# What the project has set itself to reach.
+BARS = [
+    ("lookup, newest, D=1", "Debian's tf2", TimesAsFast(35)),
+    ("lookup, newest, D=5", "Debian's tf2", TimesAsFast(25)),
+    ("lookup, newest, D=10", "Debian's tf2", TimesAsFast(18)),
+    ("lookup, newest, D=50", "Debian's tf2", TimesAsFast(10)),
+    ("lookup at a time, D=1", "tf_tree, Plan.at", TimesAsFast(2.5)),
+    ("lookup at a time, D=5", "tf_tree, Plan.at", TimesAsFast(3)),
+    ("tf2_py: lookup_transform_core, D=5", "Debian's tf2", TimesAsFast(8)),
+    ("can_transform, newest, D=5", "Debian's tf2", TimesAsFast(12)),
+    ("can_transform at a time, D=5", "Debian's tf2", TimesAsFast(12)),
+    ("failing lookup, caught, D=5", "Debian's tf2", TimesAsFast(10)),
+    ("tf2_py: set_transform(message)", "Debian's tf2", TimesAsFast(3)),
+    ("set, from numbers", "Debian's tf2", TimesAsFast(8)),
+    ("TFMessage bytes of 10 into the buffer, per transform", "floor: copying the bytes", AtMost(60)),
+    ("TFMessage bytes of 10 into the buffer, per transform", "decoding alone, rosbags", TimesAsFast(50)),
+    ("lookup_many, N=1e5, sorted, D=5, into an array", "tf_tree, Plan", TimesAsFast(5)),
+    ("lookup_many, N=1e5, random, D=5, into an array", "tf_tree, Plan", TimesAsFast(5)),
+    ("lookup_many, N=1e6, random, D=10, n=1e5, per edge", "floor: sorted, n=100", AtMost(15)),
+    ("set_many, N=1e5, in order, per sample", "floor: copying the arrays", AtMost(10)),
+    ("transform_cloud, 1e5 points, per point", "Debian's tf2", TimesAsFast(500)),
+    ("transform_cloud, 1e5 points, per point", "floor: copying the bytes", AtMost(3)),
+    ("deskew, 1e6 points, distinct times, D=1, per point", "floor: copying the points", AtMost(10)),
+    ("listener, 1 kHz x 10, CPU of one core", "floor: a bare UDP socket", AtMost(1.5)),
+    ("listener, 1 kHz x 10, latency, p50", "floor: a bare UDP socket", AtMost(40_000)),
+    ("lookup, newest, D=1, n=1e6", "the same, n=100", GrowsAtMost(2)),
+    ("lookup at random times, D=1, n=1e6", "the same, n=100", GrowsAtMost(2)),
+    ("memory per stored transform", "floor: arrays of numpy", AtMost(80)),
+    ("import coframe, numpy is there", "floor: import numpy", AtMost(60_000_000)),
+]
+
+
+def test_every_bar_has_its_row():
+    rows = {(row.name, row.beside, row.bar) for row in bench.chosen([]) if row.bar}
+    assert rows == set(BARS)
