@@ -128,13 +128,8 @@ nb::tuple py_deskew(BufferObject& buffer, nb::handle target, nb::handle source, 
                       stamps.data<const Stamp>(), nan_for_none, threads};
   const std::shared_ptr<Buffer> core = buffer.core;
   Missing missing;
-  if (threads > 1 || count > kManyTimes) {
-    const WithoutGil scope;
-    PathCache paths;
-    missing = deskew(*core, paths, how, fields.grid(), fields.coordinates());
-  } else {
-    missing = deskew(*core, buffer.paths, how, fields.grid(), fields.coordinates());
-  }
+  without_gil_if(threads > 1 || count > kManyTimes,
+                 [&] { missing = deskew(*core, how, fields.grid(), fields.coordinates()); });
   return nb::make_tuple(missing.count, missing.first);
 }
 

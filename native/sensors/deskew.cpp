@@ -224,11 +224,11 @@ Missing deskew_by_lookups(const Buffer& buffer, const Deskewing& how, const Grid
 
 }  // namespace
 
-Missing deskew(const Buffer& buffer, PathCache& paths, const Deskewing& how, const Grid& grid,
+Missing deskew(const Buffer& buffer, const Deskewing& how, const Grid& grid,
                const std::vector<Coordinates>& coordinates) {
   const std::size_t count = grid.count();
   if (count == 0) return {};
-  if (how.target == 0 || how.source == 0) return {count, 0};
+  if (how.target == 0 || how.source == 0 || how.target == how.source) return {count, 0};
   Span span = kernels().span(how.times, count);
   Stamp latest = 0;
   bool plain = span.first > 0;
@@ -239,7 +239,7 @@ Missing deskew(const Buffer& buffer, PathCache& paths, const Deskewing& how, con
     span = told_span(how.times, count, latest);
   }
   Trajectory trajectory;
-  if (!trajectory.record(buffer, paths, how.target, how.source, span.first, span.last)) {
+  if (!trajectory.record(buffer, how.target, how.source, span.first, span.last)) {
     return deskew_by_lookups(buffer, how, grid, coordinates);
   }
   trajectory.continue_to(how.onward);

@@ -27,7 +27,7 @@ struct Missing {
 };
 
 // In place. Nothing is touched where no point has a transform.
-Missing deskew(const Buffer& buffer, PathCache& paths, const Deskewing& how, const Grid& grid,
+Missing deskew(const Buffer& buffer, const Deskewing& how, const Grid& grid,
                const std::vector<Coordinates>& coordinates);
 
 }  // namespace coframe

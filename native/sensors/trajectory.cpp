@@ -4,15 +4,6 @@
 
 namespace coframe {
 
-namespace {
-
-// Whatever they are, for older <= newer.
-std::uint64_t distance(Stamp older, Stamp newer) {
-  return static_cast<std::uint64_t>(newer) - static_cast<std::uint64_t>(older);
-}
-
-}  // namespace
-
 // At the oldest stamp the first sample of that stamp holds, else the last one, as in History::View. Rates are nearly
 // constant, so that a straight line through both ends lands close.
 std::size_t Trajectory::Link::interval(Stamp stamp, std::size_t guess) const {
@@ -45,12 +36,11 @@ void Trajectory::Link::shares(const Kernels& kernels, std::size_t interval, cons
   }
 }
 
-bool Trajectory::record(const Buffer& buffer, PathCache& paths, FrameId target, FrameId source, Stamp first,
-                        Stamp last) {
-  if (target == source) return true;
+bool Trajectory::record(const Buffer& buffer, FrameId target, FrameId source, Stamp first, Stamp last) {
+  PathCache::Path path;
   return buffer.read([&](const Tree& tree) {
-    const PathCache::Path* path = paths.find(tree, target, source);
-    return path && copy(*path, first, last);
+    PathCache::update(tree, target, source, path);
+    return path.usable && copy(path, first, last);
   });
 }
 

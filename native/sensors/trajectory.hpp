@@ -32,8 +32,9 @@ class Trajectory {
   // The intervals of all links that were asked for last; each thread has its own.
   using Hints = std::vector<std::size_t>;
 
-  // False where look-ups have to decide one by one: there is no path, or a frame on it has changed its parent.
-  bool record(const Buffer& buffer, PathCache& paths, FrameId target, FrameId source, Stamp first, Stamp last);
+  // For two different frames. False where look-ups have to decide one by one: there is no path, or a frame on it has
+  // changed its parent.
+  bool record(const Buffer& buffer, FrameId target, FrameId source, Stamp first, Stamp last);
   // Seen from yet another frame, where the target is told to be.
   void continue_to(const Pose& pose);
 
