@@ -13,5 +13,6 @@ NB_MODULE(_core, module) {
   define_waiting(module);
   define_messages(module);
   define_event(module);
+  define_sensors(module);
   define_wire(module);
 }

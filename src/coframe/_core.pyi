@@ -376,6 +376,45 @@ def register_errors(errors: ModuleType) -> None:
 def register_time(time: ModuleType) -> None:
     """Stamps and durations that are not int are converted by this module."""
 
+CPU_LEVEL: str
+CPU_LEVELS: tuple[str, ...]
+
+def transform_fields(pose: Sequence[float], fields: Sequence[Sequence[Any]], threads: int) -> None:
+    """Moves points by a pose (x, y, z, qx, qy, qz, qw), in place.
+
+    Args:
+        pose: What they are moved by.
+        fields: Threes of float32 or float64 arrays of one shape, with one or two axes and any strides: the position,
+            then directions, which are turned only.
+        threads: How many share the work.
+    """
+
+def deskew_fields(
+    buffer: Buffer,
+    target: str,
+    source: str,
+    times: Any,
+    onward: Sequence[float],
+    fields: Sequence[Sequence[Any]],
+    nan_for_none: bool,
+    threads: int,
+) -> tuple[int, int]:
+    """Moves points in `source` to `target`, each by its own time, and then by a pose, in place.
+
+    Args:
+        buffer: Where the motion is known.
+        target: The frame that stands still.
+        source: The sensor's frame.
+        times: int64 nanoseconds, one a point; 0 is the latest, the least int64 is none.
+        onward: The pose of `target`, seen from where the points shall be.
+        fields: As in transform_fields().
+        nan_for_none: Points without a transform become NaN; else none is touched if one has none.
+        threads: How many share the work.
+
+    Returns:
+        How many points have no transform, and the first of them. If all of them, none is touched.
+    """
+
 PUBLICATIONS: int
 SUBSCRIPTIONS: int
 

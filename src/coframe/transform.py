@@ -187,7 +187,12 @@ class Transform(_core.Transform):
         if isinstance(other, Transform):
             return self._compose(other)
         points = _points(other)
-        return quaternion.rotate(self.quaternion, points) + self.translation
+        if self.shape:
+            return quaternion.rotate(self.quaternion, points) + self.translation
+        moved = np.array(points, order="C")
+        x, y, z = moved.reshape(-1, 3).T
+        _core.transform_fields(self.values, [(x, y, z)], 1)
+        return moved
 
     def _compose(self, other: Transform) -> Transform:
         if self.source is not None and other.target is not None and self.source != other.target:

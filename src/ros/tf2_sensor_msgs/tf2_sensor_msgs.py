@@ -1,21 +1,20 @@
 """Point clouds seen from another frame."""
 
-from array import array
+import math
+import sys
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 import tf2_ros
+from coframe.sensors.clouds import move
+from coframe.sensors.layout import destination
 from geometry_msgs.msg import Transform, TransformStamped
 from sensor_msgs.msg import PointCloud2
-from sensor_msgs_py.point_cloud2 import as_structured
-from std_msgs.msg import Header
-from tf2_geometry_msgs.tf2_geometry_msgs import _get_mat_from_quat
 
 Array = NDArray[np.float64]
 
-_POSITION = ("x", "y", "z")
 _NORMAL = ("normal_x", "normal_y", "normal_z")
 
 
@@ -38,11 +37,15 @@ def transform_points(point_cloud: NDArray[Any], transform: Transform) -> Array:
 
     Returns:
         The points in the other frame, shape (N, 3), float64.
+
+    Raises:
+        ValueError: The points have another shape.
     """
-    q, t = transform.rotation, transform.translation
-    rotation = _get_mat_from_quat(np.array([q.w, q.x, q.y, q.z]))
-    points = np.asarray(point_cloud, dtype=np.float64)
-    return np.asarray(points @ rotation.T + np.array([t.x, t.y, t.z]))
+    points = np.array(point_cloud, dtype=np.float64, order="C")
+    if points.shape[-1:] != (3,):
+        raise ValueError(f"points must have the shape (N, 3), not {points.shape}")
+    move(points.reshape(-1, 3), _values(transform))
+    return points
 
 
 def do_transform_cloud(cloud: PointCloud2, transform: Transform | TransformStamped) -> PointCloud2:
@@ -52,41 +55,31 @@ def do_transform_cloud(cloud: PointCloud2, transform: Transform | TransformStamp
     fields, the cloud's stamp and its layout stay as they are; the argument is not touched.
 
     Args:
-        cloud: A cloud with the fields x, y and z.
+        cloud: A cloud with the fields x, y and z, float32 or float64.
         transform: Its frame becomes the result's if it is stamped.
 
     Raises:
         AssertionError: The cloud lacks x, y or z.
+        ValueError: The cloud's sizes do not fit its data.
     """
-    header = Header(stamp=cloud.header.stamp, frame_id=cloud.header.frame_id)
-    if isinstance(transform, TransformStamped):
-        header.frame_id = transform.header.frame_id
-        transform = transform.transform
-    names = {field.name for field in cloud.fields}
-    assert names.issuperset(_POSITION), "Point cloud needs the fields x, y, and z for the transformation"
-    result = PointCloud2(
-        header=header,
-        height=cloud.height,
-        width=cloud.width,
-        fields=cloud.fields,
-        is_bigendian=cloud.is_bigendian,
-        point_step=cloud.point_step,
-        row_step=cloud.row_step,
-        is_dense=cloud.is_dense,
+    assert {field.name for field in cloud.fields}.issuperset("xyz"), (
+        "Point cloud needs the fields x, y, and z for the transformation"
     )
-    result.data = array("B", bytes(cloud.data))
-    points = as_structured(result)
-    _move(points, _POSITION, transform)
-    if names.issuperset(_NORMAL):
-        _move(points, _NORMAL, Transform(rotation=transform.rotation))
+    result: PointCloud2 = destination(cloud, None, in_place=False)
+    if isinstance(transform, TransformStamped):
+        result.header.frame_id = transform.header.frame_id
+        transform = transform.transform
+    move(result, _values(transform), normals=[_NORMAL])
     return result
 
 
-def _move(points: NDArray[Any], fields: tuple[str, str, str], transform: Transform) -> None:
-    """Transforms three fields of structured points, in place."""
-    moved = transform_points(np.stack([points[field].ravel() for field in fields], axis=1), transform)
-    for column, field in enumerate(fields):
-        points[field] = moved[:, column].reshape(points.shape)
+def _values(transform: Transform) -> tuple[float, float, float, float, float, float, float]:
+    """A pose with a unit quaternion; the identity for a zero one, as elsewhere in tf2."""
+    t, q = transform.translation, transform.rotation
+    length = math.sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w)
+    if length**2 < sys.float_info.epsilon:
+        return t.x, t.y, t.z, 0.0, 0.0, 0.0, 1.0
+    return t.x, t.y, t.z, q.x / length, q.y / length, q.z / length, q.w / length
 
 
 def _register() -> None:

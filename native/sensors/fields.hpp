@@ -1,0 +1,96 @@
+// Where the coordinates of points lie, and a block of them at work.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "kernels/kernels.hpp"
+
+namespace coframe {
+
+// Points in rows, as in an organised cloud; their number runs through all rows.
+struct Grid {
+  std::size_t rows, width;
+  std::size_t count() const { return rows * width; }
+};
+
+// One number of every point.
+struct Field {
+  char* data;
+  std::ptrdiff_t row_step, step;
+  Number number;
+};
+
+// Three fields that go together.
+struct Coordinates {
+  Field x, y, z;
+  bool is_direction;  // turned and not moved: normals, velocities
+};
+
+inline constexpr std::size_t kPointBlock = 128;
+
+// The coordinates of some points that follow each other.
+class PointBlock {
+ public:
+  Points points() { return {x_, y_, z_}; }
+  Points points_from(std::size_t i) { return {x_ + i, y_ + i, z_ + i}; }
+
+  void load(const Kernels& kernels, const Coordinates& from, const Grid& grid, std::size_t first, std::size_t count) {
+    for_each_piece(from, grid, first, count, kernels.load);
+  }
+  void store(const Kernels& kernels, const Coordinates& to, const Grid& grid, std::size_t first, std::size_t count) {
+    for_each_piece(to, grid, first, count, kernels.store);
+  }
+
+ private:
+  // A block may reach over several rows.
+  template <class Each>
+  void for_each_piece(const Coordinates& at, const Grid& grid, std::size_t first, std::size_t count, Each&& each) {
+    std::size_t row = grid.rows == 1 ? 0 : first / grid.width, column = first - row * grid.width;
+    for (std::size_t done = 0; done < count; ++row, column = 0) {
+      const std::size_t n = std::min(grid.width - column, count - done);
+      const auto piece = [&](const Field& field) {
+        return Column{field.data + static_cast<std::ptrdiff_t>(row) * field.row_step +
+                          static_cast<std::ptrdiff_t>(column) * field.step,
+                      field.step, field.number};
+      };
+      each(piece(at.x), n, x_ + done);
+      each(piece(at.y), n, y_ + done);
+      each(piece(at.z), n, z_ + done);
+      done += n;
+    }
+  }
+
+  double x_[kPointBlock], y_[kPointBlock], z_[kPointBlock];
+};
+
+inline Affine affine_of(const Pose& pose, bool is_direction) {
+  const double x = pose.q[0], y = pose.q[1], z = pose.q[2], w = pose.q[3];
+  const double moved = is_direction ? 0.0 : 1.0;
+  return {{{1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y), moved * pose.p[0]},
+           {2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x), moved * pose.p[1]},
+           {2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y), moved * pose.p[2]}}};
+}
+
+// Calls body(first, last) for parts of [0, count), each in a thread of its own; the last may not be more than asked for.
+template <class Body>
+void in_parts(std::size_t count, unsigned threads, Body&& body) {
+  const std::size_t blocks = (count + kPointBlock - 1) / kPointBlock;
+  const std::size_t parts = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(blocks, 1));
+  const auto border = [&](std::size_t part) { return std::min(count, blocks * part / parts * kPointBlock); };
+  std::vector<std::thread> others;
+  for (std::size_t part = 1; part < parts; ++part) {
+    try {
+      others.emplace_back([&, part] { body(border(part), border(part + 1)); });
+    } catch (const std::system_error&) {  // no more threads to be had
+      body(border(part), border(part + 1));
+    }
+  }
+  body(border(0), border(1));
+  for (std::thread& other : others) other.join();
+}
+
+}  // namespace coframe

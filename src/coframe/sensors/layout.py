@@ -1,0 +1,230 @@
+"""Where the coordinates of points lie, in messages and in arrays; and where results go."""
+
+from __future__ import annotations
+
+import copy
+from array import array
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    # Names of fields, or numbers of columns, in threes.
+    Vectors: TypeAlias = Sequence[str] | Sequence[int] | Sequence[Sequence[str]] | Sequence[Sequence[int]]
+
+__all__ = ["coordinates", "destination", "field_of", "grid_of", "is_message"]
+
+Triple: TypeAlias = "tuple[NDArray[Any], NDArray[Any], NDArray[Any]]"
+
+_POSITION = ("x", "y", "z")
+NORMALS = (("normal_x", "normal_y", "normal_z"), ("nx", "ny", "nz"))
+# By PointField's constants.
+_DTYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
+
+
+def is_message(points: Any) -> bool:
+    """Whether the points come as a PointCloud2 message, of coframe, of ROS or of a reader of recordings.
+
+    Raises:
+        TypeError: They come as something that holds no points.
+        ValueError: They come as an array without three coordinates a point.
+    """
+    if hasattr(points, "point_step") and hasattr(points, "fields"):
+        return True
+    if not isinstance(points, np.ndarray):
+        raise TypeError(f"points must be a PointCloud2 message or a numpy array, not {type(points).__name__}")
+    if points.dtype.names is None and (points.ndim not in {2, 3} or points.shape[-1] < 3):
+        raise ValueError(f"an array of points must have the shape (N, 3) or (rows, columns, 3), not {points.shape}")
+    if points.dtype.names is not None and points.ndim not in {1, 2}:
+        raise ValueError(f"a structured array of points must have one or two axes, not {points.ndim}")
+    return False
+
+
+def grid_of(points: Any) -> tuple[int, ...]:
+    """The shape of the points: (N,), or (rows, columns) where they are organised.
+
+    Raises:
+        ValueError: A message has not even a byte for each.
+    """
+    if is_message(points):
+        rows, columns, available = points.height, points.width, len(_memory(points.data))
+        if min(rows, columns) < 0 or rows * columns > available:
+            raise ValueError(f"the cloud's data has {available} bytes, too few for {rows} rows of {columns} points")
+        return rows, columns
+    return points.shape if points.dtype.names is not None else points.shape[:-1]  # type: ignore[no-any-return]
+
+
+def field_of(points: Any, name: str | int) -> NDArray[Any]:
+    """A field of all points, by its name or as a column of a plain array; no copy.
+
+    Raises:
+        ValueError: There is none, or the message says that it lies where its data is not.
+    """
+    if is_message(points):
+        return _message_field(points, str(name))
+    if points.dtype.names is None:
+        if not isinstance(name, int) or not 0 <= name < points.shape[-1]:
+            raise ValueError(f"an array of {points.shape[-1]} columns has no column {name!r}")
+        return points[..., name]  # type: ignore[no-any-return]
+    if name not in points.dtype.names:
+        raise _no_field(name, list(points.dtype.names))
+    field: NDArray[Any] = points[name]
+    return _single(field, name, field.size // max(points.size, 1))
+
+
+def coordinates(points: Any, vectors: Vectors, normals: Sequence[Sequence[str]] = NORMALS) -> list[Triple]:
+    """The fields that a transform changes: the position, then those that it turns only.
+
+    Args:
+        points: A message or an array.
+        vectors: What it turns besides normals: three names or column numbers, or a sequence of such threes.
+        normals: Names of fields that it turns where all three are there.
+
+    Raises:
+        ValueError: One of them is missing, or is not float32 or float64.
+    """
+    message = is_message(points)
+    plain = not message and points.dtype.names is None
+    names = () if plain else [f.name for f in points.fields] if message else points.dtype.names
+    threes: list[Sequence[str | int]] = [(0, 1, 2) if plain else _POSITION]
+    threes += [three for three in normals if set(three) <= set(names)]
+    threes += [three for three in _in_threes(vectors) if tuple(three) not in {tuple(other) for other in threes}]
+    return [_triple(points, three) for three in threes]
+
+
+def destination(points: Any, out: Any, *, in_place: bool) -> Any:
+    """What the points are changed in: themselves, ``out`` with a copy of them, or a new copy.
+
+    Of a message it has an own header, whose stamp may still be that of ``points``.
+
+    Raises:
+        TypeError: `out` is not what the points are.
+        ValueError: Both ``out`` and ``in_place``; or an array of another shape, or one that may not be written to.
+    """
+    if in_place and out is not None and out is not points:
+        raise ValueError("in_place=True and out=... exclude each other")
+    in_place = in_place or out is points
+    if not is_message(points):
+        return _array_destination(points, out, in_place=in_place)
+    if in_place:
+        if _memory(points.data).readonly:
+            raise ValueError("the message's data may not be written to: leave in_place and out away")
+        return points
+    result = copy.copy(points) if out is None else out
+    if out is not None:
+        for name in ("height", "width", "fields", "is_bigendian", "point_step", "row_step", "is_dense"):
+            setattr(out, name, getattr(points, name))
+    result.header = copy.copy(points.header)
+    if out is None or not _take_over(out.data, points.data):
+        result.data = _copied(points.data)
+    return result
+
+
+def _array_destination(points: NDArray[Any], out: Any, *, in_place: bool) -> NDArray[Any]:
+    if out is None and not in_place:
+        copied: NDArray[Any] = points.copy()
+        return copied
+    result = points if in_place else out
+    if not isinstance(result, np.ndarray):
+        raise TypeError(f"out must be a numpy array as the points are, not {type(out).__name__}")
+    if not result.flags.writeable:
+        raise ValueError("the array that the result should go to may not be written to")
+    if not in_place:
+        if out.shape != points.shape:
+            raise ValueError(f"out must have the shape of the points, {points.shape}, not {out.shape}")
+        np.copyto(out, points, casting="same_kind")
+    return result
+
+
+def _memory(data: Any) -> memoryview:
+    """The bytes of a message; a copy where they do not lie in one piece."""
+    try:
+        return memoryview(data).cast("B")
+    except TypeError:
+        return memoryview(bytes(data))
+
+
+def _copied(data: Any) -> Any:
+    if isinstance(data, array):
+        return data[:]
+    return data.copy() if isinstance(data, np.ndarray) else array("B", bytes(data))
+
+
+def _take_over(own: Any, data: Any) -> bool:
+    """Copies bytes into those of a message that is used again; False where it has none of its own that fit."""
+    if own is data or _memory(own).readonly or len(_memory(own)) != len(_memory(data)):
+        return False
+    _memory(own)[:] = _memory(data)
+    return True
+
+
+def _in_threes(vectors: Any) -> list[Sequence[str | int]]:
+    if isinstance(vectors, str):
+        raise TypeError(f"vectors are three names, or a sequence of such threes, not {vectors!r}")
+    vectors = list(vectors)
+    threes = [vectors] if vectors and isinstance(vectors[0], str | int) else vectors
+    for three in threes:
+        if isinstance(three, str) or len(three) != 3:
+            raise ValueError(f"a vector has three fields, not {three!r}")
+    return threes
+
+
+def _triple(points: Any, names: Sequence[str | int]) -> Triple:
+    x, y, z = (_number_field(points, name) for name in names)
+    return x, y, z
+
+
+def _number_field(points: Any, name: str | int) -> NDArray[Any]:
+    field = field_of(points, name)
+    if field.dtype.kind != "f" or field.dtype.itemsize not in {4, 8}:
+        raise ValueError(f"the field {name!r} must be float32 or float64, not {field.dtype}")
+    return field
+
+
+def _message_field(cloud: Any, name: str) -> NDArray[Any]:
+    field = next((field for field in cloud.fields if field.name == name), None)
+    if field is None:
+        raise _no_field(name, [field.name for field in cloud.fields])
+    if field.datatype not in _DTYPES:
+        raise ValueError(f"the field {name!r} has the datatype {field.datatype}, which PointField does not know")
+    dtype = np.dtype((">" if cloud.is_bigendian else "<") + _DTYPES[field.datatype])
+    rows, columns, step = cloud.height, cloud.width, cloud.point_step
+    # Where there is one row only, publishers do not care for its length.
+    row_step = cloud.row_step if rows > 1 and cloud.row_step else columns * step
+    if rows * columns == 0:
+        return np.empty((rows, columns), dtype)
+    memory = _memory(cloud.data)
+    _check_layout(name, field.offset, dtype.itemsize, rows, columns, step, row_step, len(memory))
+    points: NDArray[Any] = np.ndarray((rows, columns), dtype, memory, field.offset, strides=(row_step, step))
+    return _single(points, name, field.count)
+
+
+def _check_layout(
+    name: str, offset: int, size: int, rows: int, columns: int, step: int, row_step: int, available: int
+) -> None:
+    """Refuses what would reach beyond the data or put points on top of each other."""
+    if min(offset, rows, columns) < 0:
+        raise ValueError("a cloud's offsets, height and width must not be negative")
+    if offset + size > step:
+        raise ValueError(f"the field {name!r} ends at byte {offset + size} of a point, but point_step is {step}")
+    if row_step < columns * step:
+        raise ValueError(f"{columns} points of {step} bytes (width, point_step) do not fit a row_step of {row_step}")
+    needed = (rows - 1) * row_step + (columns - 1) * step + offset + size
+    if needed > available:
+        raise ValueError(
+            f"the cloud's data has {available} bytes, but {rows} rows of {columns} points (height, width) need {needed}"
+        )
+
+
+def _single(field: NDArray[Any], name: object, count: int) -> NDArray[Any]:
+    if count > 1:
+        raise ValueError(f"the field {name!r} has {count} numbers a point, where one is needed")
+    return field
+
+
+def _no_field(name: object, names: list[str]) -> ValueError:
+    return ValueError(f"the points have no field {name!r}; they have {', '.join(map(repr, names)) or 'none'}")

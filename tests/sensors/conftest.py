@@ -1,0 +1,22 @@
+"""A sensor that moves."""
+
+import numpy as np
+import pytest
+from sensor_data import Motion
+
+import coframe
+
+
+@pytest.fixture
+def buffer():
+    return coframe.Buffer(None)
+
+
+@pytest.fixture
+def motion(buffer):
+    return Motion().fill(buffer)
+
+
+@pytest.fixture
+def random():
+    return np.random.default_rng(1)

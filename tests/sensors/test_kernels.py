@@ -1,0 +1,159 @@
+"""The inner loops: exact, and the same for every level of the processor."""
+
+import hashlib
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation, Slerp
+
+import coframe
+from coframe import _core
+from coframe.sensors import deskew
+
+# Between neighbouring samples, in radians: from none to half a turn, and on both sides of where the way changes.
+TURNS = [0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 5e-3, 0.0116, 0.0118, 0.1, 0.123, 0.124, 0.5, 0.58, 0.6, 1.0, 2.0, 3.0]
+TURNS += [np.pi - 1e-3, np.pi - 1e-6, np.pi - 1e-9, np.pi]
+SHARES = 33
+PERIOD = 10_000_000
+
+# Every way through the kernels: the same time for many points, many times between the same samples, any order.
+EVERYTHING = """
+import sys
+import numpy as np
+import coframe
+from coframe.sensors import deskew, transform_cloud
+random = np.random.default_rng(0)
+buffer = coframe.Buffer(None)
+for i in range(200):
+    for child, size in (("a", 1.0), ("b", 1e-3), ("c", 0.05), ("d", 0.3)):
+        q = np.append(size * random.normal(size=3), 1.0)
+        parent, child = ("odom", child) if child == "a" else (chr(ord(child) - 1), child)
+        buffer.set(parent, child, coframe.Transform(random.normal(size=3), q), 1 + i * 1_000_000)
+ordered = np.sort(random.integers(1, 199_000_000, 5003))
+for times in (ordered, random.permutation(ordered), np.repeat(ordered[::100], 100)[:5003], ordered // 200 + 1):
+    for dtype in ("f4", ">f4", "f8", ">f8"):
+        points = np.random.default_rng(1).normal(size=(5003, 3)).astype(dtype)
+        for source, target in (("d", "odom"), ("odom", "d")):
+            sys.stdout.buffer.write(deskew(points, times, buffer, target, source=source).tobytes())
+        sys.stdout.buffer.write(transform_cloud(points, buffer.lookup("odom", "d", int(times[0]))).tobytes())
+"""
+
+
+def test_all_levels_give_the_same_to_the_last_bit():
+    answers = {}
+    for level in _core.CPU_LEVELS:
+        result = subprocess.run(
+            [sys.executable, "-c", EVERYTHING],
+            env={**os.environ, "COFRAME_CPU_LEVEL": level},
+            capture_output=True,
+            check=True,
+        )
+        answers[level] = hashlib.sha256(result.stdout).hexdigest()
+        assert len(result.stdout) > 1_000_000
+    assert len(set(answers.values())) == 1, answers
+
+
+def test_the_best_level_is_chosen_and_another_can_be_asked_for():
+    assert _core.CPU_LEVELS[0] == "plain"
+    show = "from coframe import _core; print(_core.CPU_LEVEL)"
+    environment = {name: value for name, value in os.environ.items() if name != "COFRAME_CPU_LEVEL"}
+    for asked, got in ((None, _core.CPU_LEVELS[-1]), ("", _core.CPU_LEVELS[-1]), *((x, x) for x in _core.CPU_LEVELS)):
+        extra = {} if asked is None else {"COFRAME_CPU_LEVEL": asked}
+        result = subprocess.run(
+            [sys.executable, "-c", show], env={**environment, **extra}, capture_output=True, text=True, check=True
+        )
+        assert result.stdout.strip() == got
+    result = subprocess.run(
+        [sys.executable, "-c", show],
+        env={**environment, "COFRAME_CPU_LEVEL": "pdp-11"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert "COFRAME_CPU_LEVEL is pdp-11, but this processor has plain" in result.stderr
+
+
+def slerp_by_hand(a, b, t):
+    """With libm, one after the other; the shorter arc."""
+    cosine = float(np.dot(a, b))
+    if cosine < 0.0:
+        b, cosine = -b, -cosine
+    angle = np.arctan2(np.linalg.norm(b - cosine * a), cosine)
+    if angle < 1e-8:
+        return (1 - t) * a + t * b
+    return (np.sin((1 - t) * angle) * a + np.sin(t * angle) * b) / np.sin(angle)
+
+
+@pytest.fixture(scope="module")
+def turns():
+    """A buffer of samples in pairs, and for each pair some shares: (buffer, times, quaternions by hand)."""
+    random = np.random.default_rng(7)
+    buffer = coframe.Buffer(None)
+    times, expected, start = [], [], 1_000_000_000
+    for turn in TURNS:
+        for _ in range(4):
+            first = Rotation.random(random_state=random.integers(1 << 30))
+            axis = random.normal(size=3)
+            second = Rotation.from_rotvec(turn * axis / np.linalg.norm(axis)) * first
+            for stamp, rotation in ((start, first), (start + PERIOD, second)):
+                buffer.set("odom", "lidar", coframe.Transform(quaternion=rotation.as_quat()), stamp)
+            ends = [buffer.lookup("odom", "lidar", stamp).quaternion for stamp in (start, start + PERIOD)]
+            for share in np.linspace(0, 1, SHARES)[:-1]:
+                time = start + round(share * PERIOD)
+                times.append(time)
+                expected.append(slerp_by_hand(*ends, (time - start) / PERIOD))
+            start += 2 * PERIOD
+    return buffer, np.array(times), np.array(expected)
+
+
+@pytest.mark.parametrize("order", ["as they come", "shuffled", "together"])
+def test_rotations_of_any_size_between_samples(order, turns):
+    buffer, times, expected = turns
+    corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    copies = 30 if order == "together" else 1
+    points = np.repeat(np.tile(corners, (len(times), 1)), copies, axis=0)
+    each = np.repeat(times, 4 * copies)
+    by_hand = np.repeat(Rotation.from_quat(expected).as_matrix().transpose(0, 2, 1), copies, axis=1)
+    where = np.arange(len(points))
+    if order == "shuffled":
+        where = np.random.default_rng(0).permutation(where)
+    result = np.empty_like(points)
+    result[where] = deskew(points[where], each[where], buffer, "odom", source="lidar")
+    result = result.reshape(len(times), 4 * copies, 3)
+    assert np.abs(result[:, :copies]).max() < 1e-12
+    assert np.abs(result[:, copies:] - by_hand).max() < 1e-12
+
+
+def test_the_same_as_scipys_slerp(turns):
+    buffer, times, _ = turns
+    stamps = np.unique(times // PERIOD * PERIOD)
+    small = [i for i, turn in enumerate(np.repeat(TURNS, 4)) if turn < 3.1]  # half a turn may go either way
+    points = np.random.default_rng(1).normal(size=(SHARES - 1, 3))
+    for i in small:
+        start = int(stamps[i])
+        ends = Rotation.from_quat([buffer.lookup("odom", "lidar", s).quaternion for s in (start, start + PERIOD)])
+        own = times[(times >= start) & (times < start + PERIOD)]
+        expected = Slerp([0, 1], ends)((own - start) / PERIOD).apply(points)
+        assert np.abs(deskew(points, own, buffer, "odom", source="lidar") - expected).max() < 1e-12
+
+
+def test_single_look_ups_agree(turns):
+    buffer, times, expected = turns
+    for time, by_hand in zip(times[::7], expected[::7], strict=True):
+        found = buffer.lookup("odom", "lidar", int(time)).quaternion
+        assert min(np.abs(found - by_hand).max(), np.abs(found + by_hand).max()) < 1e-12
+
+
+def test_translations_far_away_and_long_intervals():
+    """Stamps that are further apart than 52 days, and from the beginning of time to its end."""
+    far = 1e7
+    for length in (2**51, 2**52, 2**53 + 1, 2**62):
+        buffer = coframe.Buffer(None)
+        buffer.set("odom", "lidar", coframe.Transform([far, 0, 0]), 1)
+        buffer.set("odom", "lidar", coframe.Transform([far + 1, 0, 0]), 1 + length)
+        times = np.linspace(1, length, 500).astype(np.int64)
+        result = deskew(np.zeros((500, 3)), times, buffer, "odom", source="lidar")[:, 0]
+        assert np.allclose(result - far, (times - 1) / length, rtol=0, atol=1e-8)
