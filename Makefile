@@ -36,6 +36,7 @@ sanitize: ## the native core under ThreadSanitizer for a minute, and under Addre
 	@$(MAKE) -s -C tests/native thread address
 	tests/native/sanitized.sh build/sanitize/thread/stress $(or $(ARGS),60)
 	tests/native/sanitized.sh build/sanitize/address/stress 20
+	tests/native/sanitized.sh build/sanitize/address/latest 10
 	tests/native/sanitized.sh build/sanitize/address/fuzz_ingest 200000
 
 conformance: $(STAMP) ## tf2's semantics, case by case

@@ -261,19 +261,28 @@ std::shared_ptr<Buffer> Buffer::snapshot() const {
   return copy;
 }
 
+// A sample at the latest common time may be dropped between the choice of that time and the look at the sample; a
+// failure that stays the same is none of these.
+template <class Look>
+bool Buffer::look_till_settled(bool for_latest, const Failure& failure, Look&& look) const {
+  std::pair<Stamp, Stamp> before{};
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    if (consistent(look)) return true;
+    const std::pair now(failure.requested, failure.earliest);
+    const bool dropped = failure.code == ErrorCode::too_old || failure.code == ErrorCode::only_other;
+    if (!for_latest || !dropped || now == before) break;
+    before = now;
+  }
+  return false;
+}
+
 bool Buffer::lookup(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const {
   const Stamp asked = stamp;
   const PathLease paths(paths_);
-  const std::uint64_t changes = changes_.load(std::memory_order_relaxed);
-  const auto look = [&] {
-    return consistent([&] {
-      stamp = asked;
-      return coframe::lookup(tree_, paths.get(), target, source, stamp, pose, failure);
-    });
-  };
-  if (look()) return true;
-  // A sample at the latest common time may be dropped between the choice of that time and the look at the sample.
-  return asked == 0 && failure.code == ErrorCode::too_old && changes != changes_.load() && look();
+  return look_till_settled(asked == 0, failure, [&] {
+    stamp = asked;
+    return coframe::lookup(tree_, paths.get(), target, source, stamp, pose, failure);
+  });
 }
 
 bool Buffer::quick_lookup(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const {
@@ -293,7 +302,7 @@ bool Buffer::lookup_full(FrameId target, Stamp& target_stamp, FrameId source, St
                          Pose& pose, Failure& failure) const {
   const Stamp target_asked = target_stamp;
   const PathLease paths(paths_);
-  return consistent([&] {
+  return look_till_settled(target_asked == 0 || source_stamp == 0, failure, [&] {
     Pose step;
     Stamp source_time = source_stamp;
     target_stamp = target_asked;

@@ -147,6 +147,8 @@ class Buffer {
     return read();
   }
 
+  template <class Look>
+  bool look_till_settled(bool for_latest, const Failure& failure, Look&& look) const;
   bool extrapolate(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
                    Failure& failure) const;
   std::size_t answer_rows(Question question, const Extrapolation* extrapolation, const Batch& batch,

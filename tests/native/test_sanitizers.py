@@ -59,6 +59,12 @@ def test_threads_leave_memory_in_order(tmp_path):
 
 
 @pytest.mark.slow
+def test_the_latest_is_there_however_fast_samples_are_dropped(tmp_path):
+    build("address", tmp_path)
+    run("address", "latest", 10)
+
+
+@pytest.mark.slow
 def test_damaged_messages_do_no_harm(tmp_path):
     build("address", tmp_path)
     run("address", "fuzz_ingest", 200_000)

@@ -1,0 +1,53 @@
+// One writer that goes on in order, with a cache that keeps two samples: however fast samples are dropped, the latest of
+// all links is always there.
+
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <thread>
+
+#include "core/buffer.hpp"
+
+namespace {
+
+using namespace coframe;
+
+constexpr TransformValues kHere{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
+
+void expect(bool holds, const char* what) {
+  if (holds) return;
+  std::fprintf(stderr, "broken: %s\n", what);
+  std::_Exit(1);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Buffer buffer(0);
+  const AuthorityId authority = buffer.authority("writer");
+  const auto tell = [&](Stamp stamp) {
+    buffer.insert("map", "odom", stamp, kHere, false, authority);
+    buffer.insert("odom", "base", stamp, kHere, false, authority);
+  };
+  tell(1);
+  const FrameId map = buffer.find("map"), odom = buffer.find("odom"), base = buffer.find("base");
+  std::atomic<bool> over{false};
+  std::thread writer([&] {
+    for (Stamp stamp = 2; !over; ++stamp) tell(stamp);
+  });
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(argc > 1 ? std::atof(argv[1]) : 10);
+  long looks = 0;
+  for (; std::chrono::steady_clock::now() < end; ++looks) {
+    Stamp stamp = 0;
+    Pose pose;
+    Failure failure;
+    expect(buffer.lookup(map, base, stamp, pose, failure), "the latest is not there");
+    stamp = 0;
+    expect(buffer.lookup_full(map, stamp, base, 0, odom, pose, failure), "the latest is not there for time travel");
+  }
+  over = true;
+  writer.join();
+  std::printf("%ld looks\n", looks);
+  return 0;
+}
