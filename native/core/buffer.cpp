@@ -40,6 +40,8 @@ void measure_intervals(const History::View& samples, EdgeSummary& edge) {
 }
 
 constexpr std::size_t kInsertBlock = 1024;
+// Fewer look-ups are not brought into order.
+constexpr std::size_t kWorthSorting = 4 * kRowBlock;
 
 TransformValues values_of(const double* row) {
   return {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}};
@@ -353,7 +355,7 @@ bool Buffer::answer(Question& question, Answer& answer, Failure& failure, Extrap
 
 std::size_t Buffer::answer_many(const Question& question, const Extrapolation* extrapolation, const Batch& batch,
                                 unsigned threads, Failure& failure) const {
-  threads = static_cast<unsigned>(std::clamp<std::size_t>(batch.count / kBlock, 1, std::max(threads, 1u)));
+  threads = static_cast<unsigned>(std::clamp<std::size_t>(batch.count / kRowBlock, 1, std::max(threads, 1u)));
   std::vector<std::size_t> missing(threads);
   std::vector<Failure> failures(threads);
   const auto part = [&](unsigned i) {
@@ -384,41 +386,47 @@ std::size_t Buffer::answer_rows(Question question, const Extrapolation* extrapol
   PathCache::Path path;
   Failure ignored;
   const bool has_path = question.target != question.source && resolve_both(question, ignored);
-  const bool by_path = has_path && !extrapolation && !batch.twists;
+  const bool by_path = has_path && !extrapolation;
+  const bool is_sorted = std::is_sorted(batch.stamps + first, batch.stamps + last);
+  const std::size_t rows_count = last - first;
+  const bool reorder = by_path && !is_sorted && rows_count >= kWorthSorting &&
+                       rows_count <= std::numeric_limits<std::uint32_t>::max();
   const std::vector<std::uint32_t> order =
-      by_path ? order_by_time(batch.stamps + first, last - first) : std::vector<std::uint32_t>{};
-  std::array<std::size_t, kBlock> rows;
-  std::array<Stamp, kBlock> stamps;
-  std::array<bool, kBlock> ok;
-  PoseRows poses;
-  for (std::size_t start = first; start < last; start += kBlock) {
-    const std::size_t count = std::min(kBlock, last - start);
-    for (std::size_t i = 0; i < count; ++i) {
-      rows[i] = order.empty() ? start + i : first + order[start - first + i];
-      stamps[i] = batch.stamps[rows[i]];
+      reorder ? order_by_time(batch.stamps + first, rows_count) : std::vector<std::uint32_t>{};
+  std::array<std::size_t, kRowBlock> at;
+  RowBlock rows;
+  rows.in_order = is_sorted || reorder;
+  rows.with_twists = batch.twists != nullptr;
+  for (std::size_t start = first; start < last; start += kRowBlock) {
+    rows.count = std::min(kRowBlock, last - start);
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      at[i] = reorder ? first + order[start - first + i] : start + i;
+      rows.stamps[i] = batch.stamps[at[i]];
     }
     if (has_path) PathCache::update(tree_, question.target_id, question.source_id, path);
-    if (path.usable && batch.missing == Batch::Missing::clip) clip(path, count, stamps.data());
-    ok.fill(false);
+    if (path.usable && batch.missing == Batch::Missing::clip) {
+      clip(path, rows.count, rows.stamps);
+      for (std::size_t i = 0; i < rows.count; ++i) batch.stamps[at[i]] = rows.stamps[i];
+    }
     if (by_path && path.usable) {
       read([&](const Tree&) {
-        follow_block(path, stamps.data(), count, poses, ok.data());
+        follow_block(path, rows);
         return true;
       });
+      kernels().write_poses(rows.poses, rows.count, at.data(), batch.poses);
+      if (batch.twists) kernels().write_twists(rows.twists, rows.count, at.data(), batch.twists);
+    } else {
+      std::fill_n(rows.ok, rows.count, false);
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      batch.stamps[rows[i]] = stamps[i];
-      if (ok[i]) {
-        poses.write(i, batch.poses + 7 * rows[i]);
-        continue;
-      }
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      if (rows.ok[i]) continue;
       Failure why;
-      if (answer_row(question, extrapolation, batch, rows[i], why)) continue;
-      if (rows[i] < missing) {
-        missing = rows[i];
+      if (answer_row(question, extrapolation, batch, at[i], why)) continue;
+      if (at[i] < missing) {
+        missing = at[i];
         failure = std::move(why);
       }
-      if (batch.missing != Batch::Missing::nan && order.empty()) return missing;
+      if (batch.missing != Batch::Missing::nan && !reorder) return missing;
     }
   }
   return missing;

@@ -38,11 +38,8 @@ class alignas(64) SharedSample {
     for (int i = 0; i < 4; ++i) pose.q[i] = numbers_[i];
     for (int i = 0; i < 3; ++i) pose.p[i] = numbers_[4 + i];
   }
-  // Each number of a pose `stride` behind the one before.
-  void load(double* q, double* p, std::size_t stride) const {
-    for (std::size_t i = 0; i < 4; ++i) q[i * stride] = numbers_[i];
-    for (std::size_t i = 0; i < 3; ++i) p[i * stride] = numbers_[4 + i];
-  }
+  // For kernels, which load it whole: see kernels/lanes.hpp for why they may. q, p, and one that is not a pose's.
+  const double* numbers() const { return reinterpret_cast<const double*>(this); }
   Sample load() const {
     Sample sample;
     load(sample.pose);

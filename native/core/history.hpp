@@ -60,6 +60,12 @@ class History {
     double part, whole;
   };
 
+  // Two samples that follow each other, and their stamps. The stamps that lie between them begin at `from`.
+  struct Interval {
+    const SharedSample *older, *newer;
+    Stamp start, end, from;
+  };
+
   // What a reader sees: the samples that were there when it began. Appended ones do not show.
   class View {
    public:
@@ -89,6 +95,12 @@ class History {
     void prefetch_samples(std::uint64_t next) const {
       prefetch(&chunk_of(next - 1).samples[(next - 1) % Chunk::kSize]);
       prefetch(&chunk_of(next).samples[next % Chunk::kSize]);
+    }
+    // So many from that one on.
+    void prefetch_from(std::uint64_t number, std::uint64_t count) const {
+      for (const std::uint64_t end = std::min(number + count, end_); number < end; ++number) {
+        prefetch(&chunk_of(number).samples[number % Chunk::kSize]);
+      }
     }
     // The two samples between which the pose at `stamp` lies, one of them where it holds alone; `stamp` lies between the
     // sample `next` and the one before.
@@ -149,6 +161,15 @@ class History {
       const bool is_next = samples_.stamp_of(guess) <= stamp && stamp < samples_.stamp_of(std::min(guess + 1, high_));
       return is_next ? guess + 1 : first_after(stamp, guess);
     }
+    // Where several samples have the oldest stamp, the first of them holds there.
+    Interval interval(std::uint64_t next) const {
+      const Chunk &before = samples_.chunk_of(next - 1), &chunk = samples_.chunk_of(next);
+      const std::size_t i = (next - 1) % Chunk::kSize, j = next % Chunk::kSize;
+      const Stamp start = before.stamps[i], end = chunk.stamps[j];
+      const Stamp from = start == first_ && next - 1 != low_ && start != end ? start + 1 : start;
+      return {&before.samples[i], &chunk.samples[j], start, end, from};
+    }
+    bool is_newest(Stamp stamp) const { return stamp == last_; }
     // For a stamp that it does not allow.
     std::uint64_t any() const { return low_ + 1; }
 

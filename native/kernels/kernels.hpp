@@ -35,6 +35,31 @@ struct Motion {
   bool inverse;  // from parent to child
 };
 
+// So many rows are worked on together: what they need fits the first cache.
+inline constexpr std::size_t kRowBlock = 128;
+// Rows are worked on in groups of up to so many: what is beyond the last row, up to a whole group, is read too.
+inline constexpr std::size_t kMostLanes = 8;
+
+// Many poses side by side, number by number.
+struct alignas(64) PoseRows {
+  double q[4][kRowBlock];
+  double p[3][kRowBlock];
+};
+
+// Velocities side by side, in metres and radians per second.
+struct alignas(64) TwistRows {
+  double linear[3][kRowBlock];
+  double angular[3][kRowBlock];
+};
+
+// Where rows lie between two samples: `older` and `newer` are 8 numbers each, q, p and one that is not a pose's.
+struct alignas(64) Between {
+  double share[kRowBlock];
+  double per_second[kRowBlock];  // one by the time between both
+  const double* older[kRowBlock];
+  const double* newer[kRowBlock];
+};
+
 struct Span {
   std::int64_t first, last;
 };
