@@ -17,12 +17,13 @@ void add_step(const PathCache::Step& link, const Pose& step, Pose& pose) {
   }
 }
 
-// Where rows lie between the samples of one history of at least two.
+// Where rows lie between the samples of one history of at least two. With kBoth a row has two samples also where one of
+// them holds alone, and it is told how far they are apart.
+template <bool kBoth>
 class Finder {
  public:
-  // With `both` a row has two samples also where one of them holds alone.
-  Finder(const History::View& history, bool both, Between& rows, bool* ok)
-      : history_(history), search_(history), both_(both), rows_(rows), ok_(ok) {}
+  Finder(const History::View& history, Between& rows, bool* ok)
+      : history_(history), search_(history), rows_(rows), ok_(ok) {}
 
   void find(const Stamp* stamps, std::size_t count, bool in_order) {
     constexpr std::uint64_t kFewSamplesPerRow = 4;
@@ -35,26 +36,23 @@ class Finder {
   }
 
  private:
-  // Two samples, and for which stamps they are the ones.
-  struct Held {
-    std::uint64_t from = 0, length = 0;
-    Stamp start = 0;
-    double per_nanosecond = 0.0;
-    const double *older = nullptr, *newer = nullptr;
-  };
+  using Interval = History::Interval;
 
   // Each row mostly lies where the one before did, or behind it.
   void find_in_order(const Stamp* stamps, std::size_t count, std::uint64_t first) {
-    Held held;
-    std::uint64_t next = first;
+    Interval found{};
+    double per_nanosecond = 0.0;
+    std::uint64_t next = first, inner = 0;  // so many stamps are within, without those of the samples
     for (std::size_t row = 0; row < count; ++row) {
       const Stamp stamp = stamps[row];
-      if (static_cast<std::uint64_t>(stamp) - held.from < held.length) {
-        put(held, stamp, row);
+      const std::uint64_t past = static_cast<std::uint64_t>(stamp) - static_cast<std::uint64_t>(found.start);
+      if (past - 1 < inner) {
+        put(found, static_cast<double>(static_cast<std::int64_t>(past)) * per_nanosecond, per_nanosecond, row);
       } else if (search_.covers(stamp)) {
         next = search_.next(stamp, next);
-        held = hold(next);
-        put_found(held, stamp, row);
+        found = search_.interval(next);
+        per_nanosecond = put_found(found, stamp, row);
+        inner = inner_stamps(found);
       } else {
         put_nothing(row);
       }
@@ -75,47 +73,48 @@ class Finder {
     }
     for (std::size_t row = 0; row < count; ++row) {
       if (search_.covers(stamps[row])) {
-        put_found(hold(next[row]), stamps[row], row);
+        put_found(search_.interval(next[row]), stamps[row], row);
       } else {
         put_nothing(row);
       }
     }
   }
 
-  Held hold(std::uint64_t next) const {
-    const History::Interval found = search_.interval(next);
-    const std::uint64_t whole = distance(found.start, found.end);
-    return {static_cast<std::uint64_t>(found.from), found.end > found.from ? distance(found.from, found.end) : 0,
-            found.start, whole == 0 ? 0.0 : 1.0 / static_cast<double>(whole), found.older->numbers(),
-            found.newer->numbers()};
+  // None where they are too many for a signed number.
+  static std::uint64_t inner_stamps(const Interval& found) {
+    const std::uint64_t length = distance(found.start, found.end);
+    return length == 0 || length >> 63 ? 0 : length - 1;
+  }
+
+  void put(const Interval& found, double share, double per_nanosecond, std::size_t row) {
+    rows_.older[row] = found.older->numbers();
+    rows_.newer[row] = found.newer->numbers();
+    rows_.share[row] = share;
+    if constexpr (kBoth) rows_.per_second[row] = 1e9 * per_nanosecond;
   }
 
   // At the stamp of a sample that one alone: the other may be infinite.
-  void put(const Held& held, Stamp stamp, std::size_t row) {
-    rows_.older[row] = held.older;
-    rows_.newer[row] = stamp == held.start && !both_ ? held.older : held.newer;
-    rows_.share[row] = static_cast<double>(distance(held.start, stamp)) * held.per_nanosecond;
-    rows_.per_second[row] = 1e9 * held.per_nanosecond;
-  }
-
-  void put_found(const Held& held, Stamp stamp, std::size_t row) {
-    put(held, stamp, row);
-    ok_[row] = ok_[row] && !(both_ && held.per_nanosecond == 0.0);  // then others tell how fast it moves
-    if (!search_.is_newest(stamp)) return;
-    rows_.newer[row] = held.newer;
-    if (!both_) rows_.older[row] = held.newer;
-    rows_.share[row] = 1.0;
+  double put_found(const Interval& found, Stamp stamp, std::size_t row) {
+    const std::uint64_t length = distance(found.start, found.end), past = distance(found.start, stamp);
+    const double per_nanosecond = length == 0 ? 0.0 : 1.0 / static_cast<double>(length);
+    if (kBoth && length == 0) ok_[row] = false;  // how fast it moves, others must tell
+    if (search_.is_newest(stamp)) {
+      put(found, 1.0, per_nanosecond, row);
+      if (!kBoth) rows_.older[row] = rows_.newer[row];
+    } else {
+      put(found, static_cast<double>(past) * per_nanosecond, per_nanosecond, row);
+      if (!kBoth && past == 0) rows_.newer[row] = rows_.older[row];
+    }
+    return per_nanosecond;
   }
 
   void put_nothing(std::size_t row) {
     ok_[row] = false;
-    rows_.older[row] = rows_.newer[row] = search_.interval(search_.any()).older->numbers();
-    rows_.share[row] = rows_.per_second[row] = 0.0;
+    put(search_.interval(search_.any()), 0.0, 0.0, row);
   }
 
   const History::View& history_;
   const History::Search search_;
-  const bool both_;
   Between& rows_;
   bool* const ok_;
 };
@@ -123,8 +122,7 @@ class Finder {
 // The last group of rows is worked on whole.
 void fill_up(std::size_t count, Between& rows) {
   for (std::size_t row = count; row % kMostLanes != 0; ++row) {
-    rows.share[row] = rows.share[count - 1];
-    rows.per_second[row] = rows.per_second[count - 1];
+    rows.share[row] = rows.per_second[row] = 0.0;
     rows.older[row] = rows.older[count - 1];
     rows.newer[row] = rows.newer[count - 1];
   }
@@ -152,11 +150,13 @@ void follow_link(const PathCache::Step& link, bool first, RowBlock& rows) {
     return;
   }
   Between between;
-  Finder(history, rows.with_twists, between, rows.ok).find(rows.stamps, rows.count, rows.in_order);
-  fill_up(rows.count, between);
   if (rows.with_twists) {
+    Finder<true>(history, between, rows.ok).find(rows.stamps, rows.count, rows.in_order);
+    fill_up(rows.count, between);
     kernels.follow_moving_rows(between, link.down, first, rows.count, rows.poses, rows.twists);
   } else {
+    Finder<false>(history, between, rows.ok).find(rows.stamps, rows.count, rows.in_order);
+    fill_up(rows.count, between);
     kernels.follow_rows(between, link.down, first, rows.count, rows.poses);
   }
 }
@@ -237,13 +237,17 @@ void follow_block(const PathCache::Path& path, RowBlock& rows) {
 std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count) {
   constexpr unsigned kBits = 11;
   constexpr std::uint32_t kBuckets = 1u << kBits;
+  struct Place {
+    std::uint32_t row, upper;
+  };
   const auto [first, last] = std::minmax_element(stamps, stamps + count);
   const Stamp start = *first;
   const double scale = static_cast<double>(kBuckets * kBuckets - 1) / static_cast<double>(distance(start, *last));
-  std::vector<std::uint32_t> places(count), half(count), order(count);
+  const auto places = std::make_unique_for_overwrite<std::uint32_t[]>(count);
+  const auto half = std::make_unique_for_overwrite<Place[]>(count);
   std::array<std::uint32_t, kBuckets + 1> lower{}, upper{};
   for (std::size_t row = 0; row < count; ++row) {
-    const auto place = static_cast<std::uint32_t>(static_cast<double>(distance(start, stamps[row])) * scale);
+    const auto place = static_cast<std::uint32_t>(static_cast<std::int64_t>(static_cast<double>(distance(start, stamps[row])) * scale));
     places[row] = place;
     ++lower[place % kBuckets + 1];
     ++upper[place / kBuckets + 1];
@@ -252,8 +256,9 @@ std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count)
     lower[i] += lower[i - 1];
     upper[i] += upper[i - 1];
   }
-  for (std::uint32_t row = 0; row < count; ++row) half[lower[places[row] % kBuckets]++] = row;
-  for (const std::uint32_t row : half) order[upper[places[row] / kBuckets]++] = row;
+  for (std::uint32_t row = 0; row < count; ++row) half[lower[places[row] % kBuckets]++] = {row, places[row] / kBuckets};
+  std::vector<std::uint32_t> order(count);
+  for (std::size_t i = 0; i < count; ++i) order[upper[half[i].upper]++] = half[i].row;
   return order;
 }
 

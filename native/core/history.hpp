@@ -60,10 +60,10 @@ class History {
     double part, whole;
   };
 
-  // Two samples that follow each other, and their stamps. The stamps that lie between them begin at `from`.
+  // Two samples that follow each other, and their stamps.
   struct Interval {
     const SharedSample *older, *newer;
-    Stamp start, end, from;
+    Stamp start, end;
   };
 
   // What a reader sees: the samples that were there when it began. Appended ones do not show.
@@ -161,13 +161,11 @@ class History {
       const bool is_next = samples_.stamp_of(guess) <= stamp && stamp < samples_.stamp_of(std::min(guess + 1, high_));
       return is_next ? guess + 1 : first_after(stamp, guess);
     }
-    // Where several samples have the oldest stamp, the first of them holds there.
+    // The sample before that one, and that one.
     Interval interval(std::uint64_t next) const {
       const Chunk &before = samples_.chunk_of(next - 1), &chunk = samples_.chunk_of(next);
       const std::size_t i = (next - 1) % Chunk::kSize, j = next % Chunk::kSize;
-      const Stamp start = before.stamps[i], end = chunk.stamps[j];
-      const Stamp from = start == first_ && next - 1 != low_ && start != end ? start + 1 : start;
-      return {&before.samples[i], &chunk.samples[j], start, end, from};
+      return {&before.samples[i], &chunk.samples[j], before.stamps[i], chunk.stamps[j]};
     }
     bool is_newest(Stamp stamp) const { return stamp == last_; }
     // For a stamp that it does not allow.

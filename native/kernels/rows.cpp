@@ -14,14 +14,19 @@ struct TwistLanes {
   Vector<Lanes> linear, angular;
 };
 
-COFRAME_INLINE PoseLanes load_samples(const double* const* samples) {
-  PoseLanes pose;
+COFRAME_INLINE Quaternion<Lanes> load_rotations(const double* const* samples) {
+  Quaternion<Lanes> q;
+  load_columns(samples, 0, q.x, q.y);
+  load_columns(samples, 2, q.z, q.w);
+  return q;
+}
+
+COFRAME_INLINE Vector<Lanes> load_translations(const double* const* samples) {
+  Vector<Lanes> p;
   Lanes other;
-  load_columns(samples, 0, pose.q.x, pose.q.y);
-  load_columns(samples, 2, pose.q.z, pose.q.w);
-  load_columns(samples, 4, pose.p.x, pose.p.y);
-  load_columns(samples, 6, pose.p.z, other);
-  return pose;
+  load_columns(samples, 4, p.x, p.y);
+  load_columns(samples, 6, p.z, other);
+  return p;
 }
 
 COFRAME_INLINE PoseLanes splat(const Pose& pose) {
@@ -58,24 +63,6 @@ COFRAME_INLINE void store(const TwistLanes& twist, TwistRows& rows, std::size_t 
   store_lanes(twist.angular.z, rows.angular[2] + i);
 }
 
-// interpolate() of core/pose.hpp, and with kMoving how fast that changes: straight for the translation, about one axis
-// for the rotation, told in the parent's axes.
-template <bool kMoving>
-COFRAME_INLINE PoseLanes interpolated(const PoseLanes& a, const PoseLanes& b, const Lanes& t, const Lanes& per_second,
-                                      TwistLanes& rate) {
-  const Lanes product = dot(a.q, b.q), sign = sign_of(product), cosine = with_sign(product, sign);
-  const Weights<Lanes> weights = weights_at<kMoving>(t, cosine);
-  const Lanes first = weights.first, second = with_sign(weights.second, sign);
-  if constexpr (kMoving) {
-    const Quaternion<Lanes> turn = b.q * conjugate(a.q);
-    const Lanes scale = with_sign(2.0 * per_second * weights.angle_by_sine, sign);
-    rate = {per_second * (b.p - a.p), scale * Vector<Lanes>{turn.x, turn.y, turn.z}};
-  }
-  return {{first * a.q.x + second * b.q.x, first * a.q.y + second * b.q.y, first * a.q.z + second * b.q.z,
-           first * a.q.w + second * b.q.w},
-          (1.0 - t) * a.p + t * b.p};
-}
-
 // From the step's child to its parent, which sees the step move as well; or from its parent to its child, which does
 // not see itself move. `pose` is still told in the end that is left.
 template <bool kDown>
@@ -102,13 +89,28 @@ COFRAME_INLINE void add_step(const PoseLanes& step, const TwistLanes& rate, bool
   store(first && !kDown ? step : seen<kDown>(step, pose), poses, i);
 }
 
-// The step of rows from `i` on.
+// The step of rows from `i` on: interpolate() of core/pose.hpp, and with kMoving how fast that changes: straight for the
+// translation, about one axis for the rotation, told in the parent's axes.
 template <bool kMoving>
 COFRAME_INLINE PoseLanes step_at(const Between& link, std::size_t i, TwistLanes& rate) {
-  const Lanes share = load_lanes(link.share + i), per_second = kMoving ? load_lanes(link.per_second + i) : share;
-  return interpolated<kMoving>(load_samples(link.older + i), load_samples(link.newer + i), share, per_second, rate);
+  const Lanes t = load_lanes(link.share + i);
+  const Quaternion<Lanes> a = load_rotations(link.older + i), b = load_rotations(link.newer + i);
+  const Lanes product = dot(a, b), sign = sign_of(product);
+  const Weights<Lanes> weights = weights_at<kMoving>(t, with_sign(product, sign));
+  const Lanes first = weights.first, second = with_sign(weights.second, sign);
+  const Vector<Lanes> from = load_translations(link.older + i), to = load_translations(link.newer + i);
+  if constexpr (kMoving) {
+    const Lanes per_second = load_lanes(link.per_second + i);
+    const Quaternion<Lanes> turn = b * conjugate(a);
+    const Lanes scale = with_sign(2.0 * per_second * weights.angle_by_sine, sign);
+    rate = {per_second * (to - from), scale * Vector<Lanes>{turn.x, turn.y, turn.z}};
+  }
+  return {{first * a.x + second * b.x, first * a.y + second * b.y, first * a.z + second * b.z,
+           first * a.w + second * b.w},
+          (1.0 - t) * from + t * to};
 }
 
+// Where a link stands still.
 template <bool kMoving>
 COFRAME_INLINE PoseLanes step_at(const Pose& link, std::size_t, TwistLanes& rate) {
   rate = {{Lanes{}, Lanes{}, Lanes{}}, {Lanes{}, Lanes{}, Lanes{}}};
