@@ -47,11 +47,22 @@ TransformValues values_of(const double* row) {
   return {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}};
 }
 
-unsigned track_refusals(const Track& track, std::size_t row) {
-  const double* v = track.poses + 7 * row;
-  const double length2 = v[3] * v[3] + v[4] * v[4] + v[5] * v[5] + v[6] * v[6];
-  if (v[0] + v[1] + v[2] == v[0] + v[1] + v[2] && length2 > 1e-300 && length2 < 1e300) return 0;
-  return check_values(values_of(v));
+// Why the first row that is refused is; 0, and `row` is behind the last one, where none is.
+unsigned track_refusals(const Track& track, unsigned refused_names, std::size_t& row) {
+  for (row = 0; row < track.count; ++row) {
+    if (refused_names == 0) row += kernels().plain_rows(track.poses + 7 * row, track.count - row);
+    if (row == track.count) break;
+    if (const unsigned refusals = refused_names | check_values(values_of(track.poses + 7 * row))) return refusals;
+  }
+  return 0;
+}
+
+std::vector<std::size_t> order_of(const Track& track) {
+  std::vector<std::size_t> order(track.count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return track.stamps[a] < track.stamps[b]; });
+  return order;
 }
 
 void write_pose(const Pose& pose, double* row) {
@@ -99,27 +110,20 @@ unsigned Buffer::insert(FrameId parent, FrameId child, Stamp stamp, const Transf
 unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId authority, std::size_t& stored,
                              std::size_t& bad_row) {
   stored = 0;
-  const unsigned refused_names = check_names(track.parent, track.child);
-  for (bad_row = 0; bad_row < track.count; ++bad_row) {
-    if (const unsigned refusals = refused_names | track_refusals(track, bad_row)) return refusals;
-  }
-  std::vector<std::size_t> order;
-  if (!std::is_sorted(track.stamps, track.stamps + track.count)) {
-    order.resize(track.count);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return track.stamps[a] < track.stamps[b]; });
-  }
+  if (const unsigned refusals = track_refusals(track, check_names(track.parent, track.child), bad_row)) return refusals;
+  const bool is_sorted = std::is_sorted(track.stamps, track.stamps + track.count);
+  const std::vector<std::size_t> order = is_sorted ? std::vector<std::size_t>{} : order_of(track);
+  std::vector<Stamp> stamps(is_sorted ? 0 : kInsertBlock);
+  std::vector<double> poses(is_sorted ? 0 : 7 * kInsertBlock);
   // In blocks, so that others have their turn.
   for (std::size_t first = 0; first < track.count; first += kInsertBlock) {
     const std::size_t count = std::min(kInsertBlock, track.count - first);
-    std::array<Stamp, kInsertBlock> stamps;
-    std::array<TransformValues, kInsertBlock> values;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t row = order.empty() ? first + i : order[first + i];
-      stamps[i] = track.stamps[row];
-      values[i] = values_of(track.poses + 7 * row);
+    for (std::size_t i = 0; !is_sorted && i < count; ++i) {
+      stamps[i] = track.stamps[order[first + i]];
+      std::copy_n(track.poses + 7 * order[first + i], 7, &poses[7 * i]);
     }
+    const Track block{track.parent, track.child, count, is_sorted ? track.stamps + first : stamps.data(),
+                      is_sorted ? track.poses + 7 * first : poses.data()};
     std::vector<Inserted> inserted;
     {
       const std::lock_guard lock(writing_);
@@ -127,7 +131,7 @@ unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId aut
         counts_.refused += track.count - first;
         return kFrozen;
       }
-      stored += insert_block(track, stamps.data(), values.data(), count, is_static, authority, inserted);
+      stored += insert_block(block, is_static, authority, inserted);
     }
     announce(inserted.data(), inserted.size());
   }
@@ -135,20 +139,21 @@ unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId aut
 }
 
 // Runs that go on behind what is there take the short way.
-std::size_t Buffer::insert_block(const Track& track, const Stamp* stamps, const TransformValues* values,
-                                 std::size_t count, bool is_static, AuthorityId authority,
+std::size_t Buffer::insert_block(const Track& block, bool is_static, AuthorityId authority,
                                  std::vector<Inserted>& inserted) {
   std::size_t stored = 0;
-  for (std::size_t i = 0; i < count;) {
-    const std::size_t run =
-        is_static ? 0 : tree_.append_run(track.parent, track.child, stamps + i, values + i, count - i, authority);
+  for (std::size_t i = 0; i < block.count;) {
+    const std::size_t run = is_static ? 0
+                                      : tree_.append_run(block.parent, block.child, block.stamps + i,
+                                                         block.poses + 7 * i, block.count - i, authority);
     counts_.stored += run;
     stored += run;
     i += run;
-    if (run > 0) inserted.push_back({0, tree_.find(without_slash(track.child)), false, false});
-    if (i == count) break;
-    inserted.push_back(tree_.insert(track.parent, track.child, stamps[i], values[i], is_static, authority));
-    stored += this->count(inserted.back().refusals);
+    if (run > 0) inserted.push_back({0, tree_.find(without_slash(block.child)), false, false});
+    if (i == block.count) break;
+    inserted.push_back(tree_.insert(block.parent, block.child, block.stamps[i], values_of(block.poses + 7 * i),
+                                    is_static, authority));
+    stored += count(inserted.back().refusals);
     ++i;
   }
   return stored;

@@ -195,9 +195,10 @@ class History {
   // Stores a sample as tf2 does: prunes by the newest stamp before this one, refuses what is older than the cache
   // length, takes an exact repetition silently, puts equal stamps behind each other. Not for HistoryKind::none.
   Insertion insert(const HistoryContext& context, Stamp stamp, const Sample& sample);
-  // Stores samples, told by their index, as long as each is newer than the one before and the newest; returns how many.
-  template <class SampleAt>
-  std::size_t append_run(const HistoryContext& context, const Stamp* stamps, std::size_t count, SampleAt&& sample_at);
+  // Stores rows of 7, x, y, z, qx, qy, qz, qw, that can be normalised, as long as each is newer than the one before and
+  // the newest; returns how many.
+  std::size_t append_run(const HistoryContext& context, const Stamp* stamps, const double* rows, std::size_t count,
+                         FrameId parent);
   // Starts anew as another kind.
   void reset(const HistoryContext& context, HistoryKind kind);
   // Forgets all samples of a dynamic history; a static one stays.
@@ -229,28 +230,5 @@ class History {
   SharedSample fixed_;  // the one sample of a static history
   std::vector<std::unique_ptr<Directory>> directories_;  // the last is in use; readers may still be in the others
 };
-
-template <class SampleAt>
-std::size_t History::append_run(const HistoryContext& context, const Stamp* stamps, std::size_t count,
-                                SampleAt&& sample_at) {
-  Stamp newest = view().newest(), before = newest;
-  std::size_t stored = 0;
-  while (stored < count && stamps[stored] > newest) {
-    const std::uint64_t start = end_;
-    if (start % Chunk::kSize == 0) add_chunk(context);
-    Chunk& chunk = *chunk_at(start);
-    std::uint64_t end = start;
-    do {
-      chunk.stamps[end % Chunk::kSize] = stamps[stored];
-      chunk.samples[end % Chunk::kSize].store(sample_at(stored));
-      before = newest;
-      newest = stamps[stored++];
-      ++end;
-    } while (end % Chunk::kSize != 0 && stored < count && stamps[stored] > newest);
-    end_.store(end, std::memory_order_release);
-    prune(context, before);
-  }
-  return stored;
-}
 
 }  // namespace coframe

@@ -53,6 +53,12 @@ typedef std::int64_t LaneBits __attribute__((vector_size(8 * COFRAME_LANES)));
 typedef double Pair __attribute__((vector_size(16)));
 
 COFRAME_INLINE Lanes splat(double value) { return value - Lanes{}; }
+// Of something that need not be a number.
+COFRAME_INLINE Lanes splat_bits(double value) {
+  std::int64_t bits;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return (Lanes)(bits - LaneBits{});
+}
 
 // The sign of each number, for with_sign().
 COFRAME_INLINE Lanes sign_of(const Lanes& numbers) { return (Lanes)((LaneBits)numbers & INT64_MIN); }
@@ -60,10 +66,11 @@ COFRAME_INLINE Lanes with_sign(const Lanes& numbers, const Lanes& sign) {
   return (Lanes)((LaneBits)numbers ^ (LaneBits)sign);
 }
 
-// The only place where a sample is read that another thread may be writing. For the language it is a race, as
-// SharedSample is made of atomic numbers; but no compiler takes the load apart, processors read aligned numbers of 8
-// bytes whole, and whoever asked for it throws the result away where the revision tells that something was written
-// meanwhile. ThreadSanitizer, which cannot know that, gets what the language wants.
+// The only place where a sample is read that another thread may be writing, and below the only one where it is written
+// so. For the language it is a race, as SharedSample is made of atomic numbers; but no compiler takes the access apart,
+// processors read and write aligned numbers of 8 bytes whole, and whoever asked for it throws the result away where the
+// revision tells that something was written meanwhile. ThreadSanitizer, which cannot know that, gets what the language
+// wants.
 COFRAME_INLINE Pair load_pair(const double* numbers) {
   Pair pair;
 #if defined(COFRAME_CHECKS_THREADS)
@@ -99,21 +106,42 @@ COFRAME_INLINE void load_columns(const double* const* rows, std::size_t offset, 
   second = __builtin_shufflevector(even, odd, COFRAME_ODD);
 }
 
-COFRAME_INLINE void store_pairs(const Lanes& pairs, double* const* rows, std::size_t offset) {
-  for (std::size_t i = 0; i < kLanes; i += 2) {
-    const Pair pair{pairs[i], pairs[i + 1]};
-    __builtin_memcpy(rows[i] + offset, &pair, sizeof(pair));
-  }
+COFRAME_INLINE void store_pair(const Pair& pair, double* numbers) { __builtin_memcpy(numbers, &pair, sizeof(pair)); }
+
+COFRAME_INLINE void store_shared_pair(const Pair& pair, double* numbers) {
+#if defined(COFRAME_CHECKS_THREADS)
+  auto* const bits = reinterpret_cast<std::uint64_t*>(numbers);
+  std::uint64_t both[2];
+  __builtin_memcpy(both, &pair, sizeof(pair));
+  __atomic_store_n(bits, both[0], __ATOMIC_RELAXED);
+  __atomic_store_n(bits + 1, both[1], __ATOMIC_RELAXED);
+#else
+  store_pair(pair, numbers);
+#endif
 }
 
+template <void (*kStore)(const Pair&, double*)>
+COFRAME_INLINE void store_pairs(const Lanes& pairs, double* const* rows, std::size_t offset) {
+  for (std::size_t i = 0; i < kLanes; i += 2) kStore(Pair{pairs[i], pairs[i + 1]}, rows[i] + offset);
+}
+
+template <void (*kStore)(const Pair&, double*)>
+COFRAME_INLINE void store_columns_by(const Lanes& first, const Lanes& second, double* const* rows, std::size_t offset) {
+  store_pairs<kStore>(__builtin_shufflevector(first, second, COFRAME_EVEN), rows, offset);
+  store_pairs<kStore>(__builtin_shufflevector(first, second, COFRAME_ODD), rows + 1, offset);
+}
 COFRAME_INLINE void store_columns(const Lanes& first, const Lanes& second, double* const* rows, std::size_t offset) {
-  store_pairs(__builtin_shufflevector(first, second, COFRAME_EVEN), rows, offset);
-  store_pairs(__builtin_shufflevector(first, second, COFRAME_ODD), rows + 1, offset);
+  store_columns_by<store_pair>(first, second, rows, offset);
+}
+COFRAME_INLINE void store_shared_columns(const Lanes& first, const Lanes& second, double* const* rows,
+                                         std::size_t offset) {
+  store_columns_by<store_shared_pair>(first, second, rows, offset);
 }
 #else
 using Lanes = double;
 
 COFRAME_INLINE Lanes splat(double value) { return value; }
+COFRAME_INLINE Lanes splat_bits(double value) { return value; }
 COFRAME_INLINE Lanes sign_of(Lanes number) { return number < 0.0 ? -1.0 : 1.0; }
 COFRAME_INLINE Lanes with_sign(Lanes number, Lanes sign) { return number * sign; }
 
@@ -126,6 +154,11 @@ COFRAME_INLINE void load_columns(const double* const* rows, std::size_t offset, 
 COFRAME_INLINE void store_columns(Lanes first, Lanes second, double* const* rows, std::size_t offset) {
   rows[0][offset] = first;
   rows[0][offset + 1] = second;
+}
+COFRAME_INLINE void store_shared_columns(Lanes first, Lanes second, double* const* rows, std::size_t offset) {
+  volatile double* const numbers = rows[0] + offset;
+  numbers[0] = first;
+  numbers[1] = second;
 }
 #endif
 

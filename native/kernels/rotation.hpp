@@ -1,6 +1,7 @@
 // The algebra of core/pose.hpp for one number or many at a time: T is a double or Lanes.
 #pragma once
 
+#include "kernels/lanes.hpp"
 #include "kernels/level.hpp"
 
 namespace coframe::COFRAME_LEVEL {
@@ -74,6 +75,16 @@ template <bool kDown, class T>
 COFRAME_INLINE Step<T> seen(const Step<T>& step, const Step<T>& pose) {
   if constexpr (kDown) return {conjugate(step.q) * pose.q, seen<kDown>(step, pose.p)};
   return {step.q * pose.q, seen<kDown>(step, pose.p)};
+}
+
+// canonicalise() of core/pose.hpp for what has a length and is not too small or large for its square.
+COFRAME_INLINE Quaternion<Lanes> canonical(const Quaternion<Lanes>& q) {
+  const Lanes x2 = q.x * q.x, y2 = q.y * q.y, z2 = q.z * q.z, length2 = x2 + y2 + z2 + q.w * q.w;
+  const Lanes larger = x2 < y2 ? q.y : q.x, larger2 = x2 < y2 ? y2 : x2;
+  const Lanes largest = larger2 < z2 ? q.z : larger;
+  const Lanes leading = 4.0 * q.w * q.w <= length2 ? largest : q.w;
+  const Lanes scale = with_sign(1.0 / root(length2), sign_of(leading));
+  return {scale * q.x, scale * q.y, scale * q.z, scale * q.w};
 }
 
 }  // namespace

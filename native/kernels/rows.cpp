@@ -126,16 +126,6 @@ void follow(const Link& link, bool first, std::size_t n, PoseRows& poses, TwistR
   }
 }
 
-// canonicalise() of core/pose.hpp for quaternions that are nearly of length 1.
-COFRAME_INLINE Quaternion<Lanes> canonical(const Quaternion<Lanes>& q) {
-  const Lanes x2 = q.x * q.x, y2 = q.y * q.y, z2 = q.z * q.z, length2 = x2 + y2 + z2 + q.w * q.w;
-  const Lanes larger = x2 < y2 ? q.y : q.x, larger2 = x2 < y2 ? y2 : x2;
-  const Lanes largest = larger2 < z2 ? q.z : larger;
-  const Lanes leading = 4.0 * q.w * q.w <= length2 ? largest : q.w;
-  const Lanes scale = with_sign(1.0 / root(length2), sign_of(leading));
-  return {scale * q.x, scale * q.y, scale * q.z, scale * q.w};
-}
-
 // Where the numbers of kLanes rows from `i` on go; those beyond the last row go `nowhere`.
 template <std::size_t kWidth>
 COFRAME_INLINE void find_places(std::size_t i, std::size_t n, const std::size_t* at, double* out, double* nowhere,
