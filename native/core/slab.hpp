@@ -7,11 +7,11 @@ namespace coframe {
 
 class Slab {
  public:
-  // As large as a large page of the processor.
-  static constexpr std::size_t kLarge = std::size_t{2} << 20;
+  static constexpr std::size_t kAlignment = 64;               // a cache line
+  static constexpr std::size_t kLarge = std::size_t{2} << 20;  // a large page
 
-  // Aligned to a cache line; where kLarge is asked for to a large page, which the system is asked to use: filling that is
-  // many times faster than page by page. Not initialised.
+  // Not initialised. For kLarge the system is asked to use a large page: filling that is many times faster than page by
+  // page.
   explicit Slab(std::size_t size);
   Slab(const Slab&) = delete;
   Slab& operator=(const Slab&) = delete;
@@ -20,7 +20,7 @@ class Slab {
   std::byte* data() const { return data_; }
 
  private:
-  std::size_t alignment_;
+  bool is_large_;
   std::byte* data_;
 };
 
