@@ -1,6 +1,7 @@
 #include "core/lookup.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <optional>
 
@@ -128,19 +129,23 @@ bool walk_pose(const Tree& tree, Method& method, FrameId target, FrameId source,
   return true;
 }
 
-// Along a remembered path; false where a link has no sample, or one of another parent, and the slow walk has to say
-// what that means.
-bool path_pose(const std::vector<PathCache::Step>& steps, Stamp stamp, Pose& pose) {
-  pose = Pose{};
-  Pose step;
-  FrameId parent;
-  for (const PathCache::Step& link : steps) {
-    if (link.history->view().at(stamp, step, parent) != Found::ok || parent != link.parent) return false;
-    if (link.down) {
-      compose_inverse(step, pose);
-    } else {
-      compose(step, pose);
+// Along a remembered path between two frames, from the target to the source; false where a link has no sample, or one of another parent,
+// and the slow walk has to say what that means.
+bool path_pose(std::vector<PathCache::Step>& steps, Stamp stamp, Pose& pose) {
+  constexpr std::size_t kLinks = 32;
+  std::array<Link, kLinks> links;
+  std::size_t left = steps.size();
+  for (bool first = true; left > 0; first = false) {
+    const std::size_t count = std::min(left, kLinks);
+    for (std::size_t i = 0; i < count; ++i) {
+      PathCache::Step& step = steps[--left];
+      links[i].down = step.down;
+      if (!step.history->place(stamp, step.parent, step.hint, links[i])) return false;
     }
+    Pose end;
+    kernels().chain(links.data(), count, &end);
+    if (!first) compose(pose, end);
+    pose = end;
   }
   return true;
 }
@@ -166,7 +171,7 @@ bool identity(const Tree& tree, FrameId frame, Stamp& stamp, Pose& pose) {
 }  // namespace
 
 bool follow_path(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) {
-  const PathCache::Path* path = paths.find(tree, target, source);
+  PathCache::Path* path = paths.find(tree, target, source);
   if (!path) return false;
   const Stamp when = stamp != 0 ? stamp : path_common_time(path->steps);
   if (!path_pose(path->steps, when, pose)) return false;

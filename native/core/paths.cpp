@@ -8,7 +8,7 @@ std::uint64_t key_of(FrameId target, FrameId source) { return (static_cast<std::
 
 }  // namespace
 
-const PathCache::Path* PathCache::find(const Tree& tree, FrameId target, FrameId source) {
+PathCache::Path* PathCache::find(const Tree& tree, FrameId target, FrameId source) {
   if (paths_.empty()) paths_.resize(kEntries);
   Path& path = paths_[(key_of(target, source) * 0x9e3779b97f4a7c15u) >> 53];
   update(tree, target, source, path);

@@ -16,6 +16,7 @@ class PathCache {
     const History* history;
     FrameId parent;  // that all its samples had
     bool down;       // from parent to child: the pose is to be inverted
+    std::uint64_t hint = 0;  // for History::place()
   };
   struct Path {
     std::uint64_t frames = 0;   // target and source
@@ -25,7 +26,7 @@ class PathCache {
   };
 
   // The steps from `source` to `target` as of the newest data, or nullptr where the slow walk must decide.
-  const Path* find(const Tree& tree, FrameId target, FrameId source);
+  Path* find(const Tree& tree, FrameId target, FrameId source);
 
   // Finds a path again if the tree has changed since, for who keeps one of his own.
   static void update(const Tree& tree, FrameId target, FrameId source, Path& path);

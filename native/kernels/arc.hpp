@@ -10,12 +10,12 @@ namespace coframe::COFRAME_LEVEL {
 namespace {
 
 // sin(t theta) / sin(theta) as a series of K terms in y = cos(theta) - 1, as in core/pose.hpp.
-template <int K, int J = 1>
-COFRAME_INLINE double series(double t2, double y) {
-  if constexpr (J > K) {
-    return 1.0;
+template <int K, int J = 1, class Number>
+COFRAME_INLINE Number series(const Number& t2, double y) {
+  constexpr double u = 1.0 / (J * (2.0 * J + 1.0)), v = J / (2.0 * J + 1.0);
+  if constexpr (J == K) {
+    return 1.0 + (t2 * u - v) * y;
   } else {
-    constexpr double u = 1.0 / (J * (2.0 * J + 1.0)), v = J / (2.0 * J + 1.0);
     return 1.0 + (t2 * u - v) * y * series<K, J + 1>(t2, y);
   }
 }
@@ -24,7 +24,10 @@ COFRAME_INLINE double series(double t2, double y) {
 // apart, the more it takes; each way is good to 1e-16 down to `kLeast`.
 template <int K>
 struct Series {
-  COFRAME_INLINE static double weight(double t, double cosine) { return t * series<K>(t * t, cosine - 1.0); }
+  template <class Number>
+  COFRAME_INLINE static Number weight(const Number& t, double cosine) {
+    return t * series<K>(t * t, cosine - 1.0);
+  }
 };
 struct Nearest : Series<2> {
   static constexpr double kLeast = 1.0 - 1.7e-5;
