@@ -63,20 +63,36 @@ nb::object patient_lookup(BufferObject& self, nb::handle target, nb::handle sour
   return raise_for(self, std::move(failure), target, source);
 }
 
-// The frames of a plain question, where their names were asked for before; false for all that is not plain.
-bool plain(BufferObject& self, PyObject* target, PyObject* source, PyObject* stamp, FrameId& target_id,
-           FrameId& source_id, Stamp& when) {
-  target_id = self.frame(target);
-  source_id = self.frame(source);
-  if (target_id == 0 || source_id == 0 || target_id == source_id) return false;
-  if (!stamp || stamp == Py_None) {
-    when = 0;
-    return true;
+// What is mostly asked: two frames, and a stamp that is an int or none.
+struct PlainQuestion {
+  FrameId target = 0, source = 0;
+  Stamp stamp = 0;
+
+  // False for all that is not plain.
+  bool read(FrameId target_frame, FrameId source_frame, PyObject* when) {
+    target = target_frame;
+    source = source_frame;
+    if (target == 0 || source == 0 || target == source) return false;
+    return !when || when == Py_None || quick_int64(when, stamp);
   }
-  if (!PyLong_CheckExact(stamp)) return false;
-  int overflow;
-  when = PyLong_AsLongLongAndOverflow(stamp, &overflow);
-  return overflow == 0;
+};
+
+PyObject* quick_lookup(BufferObject& self, PlainQuestion& question, PyObject* target, PyObject* source) {
+  Pose pose;
+  if (!self.core->quick_lookup(self.paths, question.target, question.source, question.stamp, pose)) return nullptr;
+  return make_transform(pose, question.stamp, target, source).release().ptr();
+}
+
+bool quick_check(BufferObject& self, const PlainQuestion& question) {
+  return self.core->quick_check(self.paths, question.target, question.source, question.stamp);
+}
+
+// The arguments (target, source[, stamp]), with names that were asked for before: the shortest way to ask.
+bool read_known(BufferObject& self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords,
+                PlainQuestion& question) {
+  if (keywords || count < 2 || count > 3) return false;
+  return question.read(self.frames.known(arguments[0]), self.frames.known(arguments[1]),
+                       count == 3 ? arguments[2] : nullptr);
 }
 
 nb::handle given(PyObject* object) { return object ? nb::handle(object) : nb::handle(Py_None); }
@@ -89,20 +105,20 @@ bool is_true(PyObject* object) {
 
 PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<6> signature("lookup", {"target", "source", "stamp", "timeout", "extrapolate", "hold"}, 2, 3);
-  PyObject* values[6];
-  if (!signature.parse(arguments, count, keywords, values)) return nullptr;
-  return guarded([&] {
+  return guarded([&]() -> PyObject* {
     BufferObject& self = buffer_of(object);
+    PlainQuestion question;
+    if (read_known(self, arguments, count, keywords, question)) {
+      if (PyObject* found = quick_lookup(self, question, arguments[0], arguments[1])) return found;
+    }
+    PyObject* values[6];
+    if (!signature.parse(arguments, count, keywords, values)) return nullptr;
     // What is wrong with these is told also where they are not needed.
     const std::int64_t timeout = to_duration(given(values[3]));
     std::optional<Extrapolation> extrapolation = extrapolation_of(given(values[4]), is_true(values[5]));
-    FrameId target, source;
-    Stamp stamp;
-    Pose pose;
     // What can be answered now needs neither patience nor a guess.
-    if (plain(self, values[0], values[1], values[2], target, source, stamp) &&
-        self.core->quick_lookup(self.paths, target, source, stamp, pose)) {
-      return make_transform(pose, stamp, values[0], values[1]).release().ptr();
+    if (question.read(self.frame(values[0]), self.frame(values[1]), values[2])) {
+      if (PyObject* found = quick_lookup(self, question, values[0], values[1])) return found;
     }
     return patient_lookup(self, values[0], values[1], given(values[2]), timeout, extrapolation).release().ptr();
   });
@@ -121,15 +137,14 @@ nb::object py_lookup_full(BufferObject& self, nb::handle target, nb::handle targ
 
 PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<4> signature("can_transform", {"target", "source", "stamp", "timeout"}, 2, 3);
-  PyObject* values[4];
-  if (!signature.parse(arguments, count, keywords, values)) return nullptr;
-  return guarded([&] {
+  return guarded([&]() -> PyObject* {
     BufferObject& self = buffer_of(object);
+    PlainQuestion plain;
+    if (read_known(self, arguments, count, keywords, plain) && quick_check(self, plain)) return Py_NewRef(Py_True);
+    PyObject* values[4];
+    if (!signature.parse(arguments, count, keywords, values)) return nullptr;
     const std::int64_t timeout = to_duration(given(values[3]));
-    FrameId target, source;
-    Stamp stamp;
-    if (plain(self, values[0], values[1], values[2], target, source, stamp) &&
-        self.core->quick_check(self.paths, target, source, stamp)) {
+    if (plain.read(self.frame(values[0]), self.frame(values[1]), values[2]) && quick_check(self, plain)) {
       return Py_NewRef(Py_True);
     }
     Question question = question_of(self, values[0], values[1], given(values[2]));

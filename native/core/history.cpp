@@ -79,14 +79,6 @@ Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
   return found;
 }
 
-bool History::View::covers(Stamp stamp, FrameId parent) const {
-  if (empty()) return false;
-  const std::uint64_t back = end_ - 1;
-  if (sample_of(back).parent() != parent) return false;
-  if (is_static() || stamp == 0) return true;
-  return stamp <= stamp_of(back) && stamp >= stamp_of(begin_);
-}
-
 std::size_t History::View::first_after(Stamp stamp) const {
   if (empty()) return 0;
   if (stamp_of(end_ - 1) <= stamp) return size();
@@ -131,12 +123,7 @@ History::~History() = default;
 bool History::place(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const {
   const View samples = view();
   Pair pair;
-  if (samples.surrounded(stamp, hint, pair)) {
-  } else if (samples.surrounded(stamp, hint + 1, pair)) {
-    ++hint;
-  } else if (samples.find(stamp, pair, hint) != Found::ok) {
-    return false;
-  }
+  if (!samples.surrounded(stamp, hint, pair) && samples.find(stamp, pair, hint) != Found::ok) return false;
   if (pair.older->parent() != parent || pair.newer->parent() != parent) return false;
   link.older = pair.older->record();
   link.newer = pair.older == pair.newer ? link.older : pair.newer->record();

@@ -95,7 +95,14 @@ class History {
       return true;
     }
     // Whether at() would find a pose told in `parent`, where all samples are told in one frame.
-    bool covers(Stamp stamp, FrameId parent) const;
+    bool covers(Stamp stamp, FrameId parent) const {
+      if (empty()) return false;
+      if (is_static()) return fixed_->parent() == parent;
+      const Chunk& chunk = chunk_of(end_ - 1);
+      const std::size_t back = (end_ - 1) % Chunk::kSize;
+      if (chunk.samples[back].parent() != parent) return false;
+      return stamp == 0 || (stamp <= chunk.stamps[back] && stamp >= stamp_of(begin_));
+    }
     // Index of the first sample newer than `stamp`; size() if there is none.
     std::size_t first_after(Stamp stamp) const;
 
