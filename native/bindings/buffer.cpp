@@ -35,7 +35,7 @@ bool answer_within(BufferObject& self, Question& question, std::int64_t timeout_
 // Beyond so many the other Python threads may run meanwhile; below, letting them costs more than it gives.
 constexpr std::size_t kManyLookups = 20'000;
 
-nb::object raise_for(BufferObject& self, Failure failure, nb::handle target, nb::handle source) {
+nb::object raise_for(BufferObject& self, Failure&& failure, nb::handle target, nb::handle source) {
   return raise_failure({std::move(failure), self.core, nb::borrow(target), nb::borrow(source)});
 }
 
@@ -108,7 +108,8 @@ PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t cou
   return guarded([&]() -> PyObject* {
     BufferObject& self = buffer_of(object);
     PlainQuestion question;
-    if (read_known(self, arguments, count, keywords, question)) {
+    const bool is_known = read_known(self, arguments, count, keywords, question);
+    if (is_known) {
       if (PyObject* found = quick_lookup(self, question, arguments[0], arguments[1])) return found;
     }
     PyObject* values[6];
@@ -117,7 +118,7 @@ PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t cou
     const std::int64_t timeout = to_duration(given(values[3]));
     std::optional<Extrapolation> extrapolation = extrapolation_of(given(values[4]), is_true(values[5]));
     // What can be answered now needs neither patience nor a guess.
-    if (question.read(self.frame(values[0]), self.frame(values[1]), values[2])) {
+    if (!is_known && question.read(self.frame(values[0]), self.frame(values[1]), values[2])) {
       if (PyObject* found = quick_lookup(self, question, values[0], values[1])) return found;
     }
     return patient_lookup(self, values[0], values[1], given(values[2]), timeout, extrapolation).release().ptr();
@@ -140,11 +141,12 @@ PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssiz
   return guarded([&]() -> PyObject* {
     BufferObject& self = buffer_of(object);
     PlainQuestion plain;
-    if (read_known(self, arguments, count, keywords, plain) && quick_check(self, plain)) return Py_NewRef(Py_True);
+    const bool is_known = read_known(self, arguments, count, keywords, plain);
+    if (is_known && quick_check(self, plain)) return Py_NewRef(Py_True);
     PyObject* values[4];
     if (!signature.parse(arguments, count, keywords, values)) return nullptr;
     const std::int64_t timeout = to_duration(given(values[3]));
-    if (plain.read(self.frame(values[0]), self.frame(values[1]), values[2]) && quick_check(self, plain)) {
+    if (!is_known && plain.read(self.frame(values[0]), self.frame(values[1]), values[2]) && quick_check(self, plain)) {
       return Py_NewRef(Py_True);
     }
     Question question = question_of(self, values[0], values[1], given(values[2]));

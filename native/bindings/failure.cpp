@@ -170,7 +170,7 @@ std::string text_of(const FailureObject& object) {
   });
 }
 
-nb::object raise_failure(FailureObject failure) {
+nb::object raise_failure(FailureObject&& failure) {
   const CallingPython call;
   PyObject* exception = exceptions[exception_of(failure)];
   PyErr_SetObject(exception, make_failure(std::move(failure)).ptr());
