@@ -83,6 +83,17 @@ PyObject* quick_lookup(BufferObject& self, PlainQuestion& question, PyObject* ta
   return make_transform(pose, question.stamp, target, source).release().ptr();
 }
 
+// The whole answer, or its exception; nullptr without one where a frame is not known any more.
+PyObject* whole_lookup(BufferObject& self, PlainQuestion& question, PyObject* target, PyObject* source) {
+  if (!self.core->knows(question.target) || !self.core->knows(question.source)) return nullptr;
+  Pose pose;
+  Failure failure;
+  if (!self.core->walk(question.target, question.source, question.stamp, pose, failure)) {
+    return raise_for(self, std::move(failure), target, source).release().ptr();
+  }
+  return make_transform(pose, question.stamp, target, source).release().ptr();
+}
+
 bool quick_check(BufferObject& self, const PlainQuestion& question) {
   return self.core->quick_check(self.paths, question.target, question.source, question.stamp);
 }
@@ -111,6 +122,8 @@ PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t cou
     const bool is_known = read_known(self, arguments, count, keywords, question);
     if (is_known) {
       if (PyObject* found = quick_lookup(self, question, arguments[0], arguments[1])) return found;
+      PyObject* found = whole_lookup(self, question, arguments[0], arguments[1]);
+      if (found || PyErr_Occurred()) return found;
     }
     PyObject* values[6];
     if (!signature.parse(arguments, count, keywords, values)) return nullptr;
