@@ -94,14 +94,15 @@ class History {
       pair = {&chunk.samples[i - 1], &chunk.samples[i], static_cast<double>(stamp - start), static_cast<double>(whole)};
       return true;
     }
-    // Whether at() would find a pose told in `parent`, where all samples are told in one frame.
-    bool covers(Stamp stamp, FrameId parent) const {
+    // Whether there are samples, the newest of them told in `parent`; `first` and `last` get the stamps of both ends.
+    // Not for a static history.
+    bool reach(FrameId parent, Stamp& first, Stamp& last) const {
       if (empty()) return false;
-      if (is_static()) return fixed_->parent() == parent;
       const Chunk& chunk = chunk_of(end_ - 1);
       const std::size_t back = (end_ - 1) % Chunk::kSize;
-      if (chunk.samples[back].parent() != parent) return false;
-      return stamp == 0 || (stamp <= chunk.stamps[back] && stamp >= stamp_of(begin_));
+      first = stamp_of(begin_);
+      last = chunk.stamps[back];
+      return chunk.samples[back].parent() == parent;
     }
     // Index of the first sample newer than `stamp`; size() if there is none.
     std::size_t first_after(Stamp stamp) const;

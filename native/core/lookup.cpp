@@ -167,14 +167,25 @@ bool follow_path(const Tree& tree, PathCache& paths, FrameId target, FrameId sou
   return true;
 }
 
+// All links have samples at a time that lies in what all of them reach.
 bool check_path(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp stamp) {
   const PathCache::Path* path = paths.find(tree, target, source);
   if (!path) return false;
-  const Stamp when = stamp != 0 ? stamp : path_common_time(path->steps);
+  Stamp begin = std::numeric_limits<Stamp>::min(), end = kNoTime, common = kNoTime;
   for (const PathCache::Step& link : path->steps) {
-    if (!link.history->view().covers(when, link.parent)) return false;
+    const History::View samples = link.history->view();
+    if (samples.is_static()) {
+      if (samples.parent() != link.parent) return false;
+      continue;
+    }
+    Stamp first, last;
+    if (!samples.reach(link.parent, first, last)) return false;
+    begin = std::max(begin, first);
+    end = std::min(end, last);
+    keep_earlier(last, common);
   }
-  return true;
+  const Stamp when = stamp != 0 ? stamp : common;
+  return when == kNoTime || when == 0 || (begin <= when && when <= end);
 }
 
 bool lookup(const Tree& tree, PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
