@@ -35,10 +35,11 @@ inline bool quick_int64(PyObject* number, std::int64_t& value) {
   const std::size_t count = static_cast<std::size_t>(is_negative ? -size : size);
   const auto* digits = object->ob_digit;
 #endif
-  if (count < 3 || (count == 3 && digits[2] < 8)) {
-    std::int64_t magnitude = 0;
-    for (std::size_t i = count; i > 0; --i) magnitude = magnitude << 30 | digits[i - 1];
-    value = is_negative ? -magnitude : magnitude;
+  if (count <= 3 && (count < 3 || digits[2] < 8)) {
+    std::uint64_t magnitude = count > 0 ? digits[0] : 0;
+    if (count > 1) magnitude |= static_cast<std::uint64_t>(digits[1]) << 30;
+    if (count > 2) magnitude |= static_cast<std::uint64_t>(digits[2]) << 60;
+    value = is_negative ? -static_cast<std::int64_t>(magnitude) : static_cast<std::int64_t>(magnitude);
     return true;
   }
 #endif

@@ -98,12 +98,17 @@ bool quick_check(BufferObject& self, const PlainQuestion& question) {
   return self.core->quick_check(self.paths, question.target, question.source, question.stamp);
 }
 
-// The arguments (target, source[, stamp]), with names that were asked for before: the shortest way to ask.
-bool read_known(BufferObject& self, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords,
-                PlainQuestion& question) {
-  if (keywords || count < 2 || count > 3) return false;
-  return question.read(self.frames.known(arguments[0]), self.frames.known(arguments[1]),
-                       count == 3 ? arguments[2] : nullptr);
+// The shortest way to ask: the arguments are (target, source[, stamp]), and the names were asked for before. nullptr
+// without an exception for all else, and where `ask` has no answer.
+template <class Ask>
+PyObject* ask_known(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords, Ask&& ask) {
+  if (keywords || count < 2 || count > 3 || !nb::inst_ready(object)) return nullptr;
+  return guarded([&]() -> PyObject* {
+    BufferObject& self = *nb::inst_ptr<BufferObject>(object);
+    PlainQuestion question;
+    const FrameId target = self.frames.known(arguments[0]), source = self.frames.known(arguments[1]);
+    return question.read(target, source, count == 3 ? arguments[2] : nullptr) ? ask(self, question) : nullptr;
+  });
 }
 
 nb::handle given(PyObject* object) { return object ? nb::handle(object) : nb::handle(Py_None); }
@@ -114,28 +119,31 @@ bool is_true(PyObject* object) {
   return truth != 0;
 }
 
-PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+PyObject* any_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<6> signature("lookup", {"target", "source", "stamp", "timeout", "extrapolate", "hold"}, 2, 3);
-  return guarded([&]() -> PyObject* {
+  PyObject* values[6];
+  if (!signature.parse(arguments, count, keywords, values)) return nullptr;
+  return guarded([&] {
     BufferObject& self = buffer_of(object);
-    PlainQuestion question;
-    const bool is_known = read_known(self, arguments, count, keywords, question);
-    if (is_known) {
-      if (PyObject* found = quick_lookup(self, question, arguments[0], arguments[1])) return found;
-      PyObject* found = whole_lookup(self, question, arguments[0], arguments[1]);
-      if (found || PyErr_Occurred()) return found;
-    }
-    PyObject* values[6];
-    if (!signature.parse(arguments, count, keywords, values)) return nullptr;
     // What is wrong with these is told also where they are not needed.
     const std::int64_t timeout = to_duration(given(values[3]));
     std::optional<Extrapolation> extrapolation = extrapolation_of(given(values[4]), is_true(values[5]));
     // What can be answered now needs neither patience nor a guess.
-    if (!is_known && question.read(self.frame(values[0]), self.frame(values[1]), values[2])) {
+    PlainQuestion question;
+    if (question.read(self.frame(values[0]), self.frame(values[1]), values[2])) {
       if (PyObject* found = quick_lookup(self, question, values[0], values[1])) return found;
     }
     return patient_lookup(self, values[0], values[1], given(values[2]), timeout, extrapolation).release().ptr();
   });
+}
+
+PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  const auto ask = [&](BufferObject& self, PlainQuestion& question) {
+    PyObject* found = quick_lookup(self, question, arguments[0], arguments[1]);
+    return found ? found : whole_lookup(self, question, arguments[0], arguments[1]);
+  };
+  PyObject* found = ask_known(object, arguments, count, keywords, ask);
+  return found || PyErr_Occurred() ? found : any_lookup(object, arguments, count, keywords);
 }
 
 nb::object py_lookup_full(BufferObject& self, nb::handle target, nb::handle target_stamp, nb::handle source,
@@ -149,17 +157,15 @@ nb::object py_lookup_full(BufferObject& self, nb::handle target, nb::handle targ
   return make_transform(answer.pose, answer.stamp, target, source);
 }
 
-PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+PyObject* any_can_transform(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<4> signature("can_transform", {"target", "source", "stamp", "timeout"}, 2, 3);
-  return guarded([&]() -> PyObject* {
+  PyObject* values[4];
+  if (!signature.parse(arguments, count, keywords, values)) return nullptr;
+  return guarded([&] {
     BufferObject& self = buffer_of(object);
-    PlainQuestion plain;
-    const bool is_known = read_known(self, arguments, count, keywords, plain);
-    if (is_known && quick_check(self, plain)) return Py_NewRef(Py_True);
-    PyObject* values[4];
-    if (!signature.parse(arguments, count, keywords, values)) return nullptr;
     const std::int64_t timeout = to_duration(given(values[3]));
-    if (!is_known && plain.read(self.frame(values[0]), self.frame(values[1]), values[2]) && quick_check(self, plain)) {
+    PlainQuestion plain;
+    if (plain.read(self.frame(values[0]), self.frame(values[1]), values[2]) && quick_check(self, plain)) {
       return Py_NewRef(Py_True);
     }
     Question question = question_of(self, values[0], values[1], given(values[2]));
@@ -167,6 +173,14 @@ PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssiz
     Failure failure;
     return PyBool_FromLong(answer_within(self, question, timeout, answer, failure));
   });
+}
+
+PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  const auto ask = [&](BufferObject& self, PlainQuestion& question) {
+    return quick_check(self, question) ? Py_NewRef(Py_True) : nullptr;
+  };
+  PyObject* found = ask_known(object, arguments, count, keywords, ask);
+  return found || PyErr_Occurred() ? found : any_can_transform(object, arguments, count, keywords);
 }
 
 bool py_can_transform_full(BufferObject& self, nb::handle target, nb::handle target_stamp, nb::handle source,
