@@ -369,6 +369,27 @@ PyObject* py_set_values(PyObject* object, PyObject* const* arguments, Py_ssize_t
   });
 }
 
+// As coframe.Buffer.set() has it: between known frames, the transform's own if it names any, at a time.
+PyObject* py_set_plain(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<5> signature("set_plain", {"parent", "child", "transform", "stamp", "static"}, 5, 5);
+  PyObject* values[5];
+  if (!signature.parse(arguments, count, keywords, values)) return nullptr;
+  return guarded([&]() -> PyObject* {
+    BufferObject& self = buffer_of(object);
+    const FrameId parent = self.frames.known(values[0]), child = self.frames.known(values[1]);
+    GivenTransform given;
+    const auto is = [](PyObject* name, PyObject* wanted) { return name == Py_None || name == wanted; };
+    const bool is_plain = parent != 0 && child != 0 && parent != child && values[4] == Py_False &&
+                          read_transform(values[2], given) && is(given.target, values[0]) &&
+                          is(given.source, values[1]) && !self.core->frozen();
+    const bool has_time = values[3] == Py_None ? given.has_stamp : quick_int64(values[3], given.stamp);
+    if (!is_plain || !has_time) return Py_NewRef(Py_None);
+    const double *p = given.pose.p, *q = given.pose.q;
+    const TransformValues transform{{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}};
+    return PyLong_FromUnsignedLong(self.core->insert(parent, child, given.stamp, transform, false, 0));
+  });
+}
+
 nb::list py_insert_texts(unsigned refusals, std::string_view parent, std::string_view child, Stamp stamp, double x,
                          double y, double z, double qx, double qy, double qz, double qw, std::string_view authority) {
   nb::list lines;
@@ -477,6 +498,9 @@ void define_buffer(nb::module_& module) {
   add_method(cls, "set_values", &py_set_values,
              "set_values($self, /, parent, child, stamp, x, y, z, qx, qy, qz, qw, static, authority)\n--\n\n"
              "Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts).");
+  add_method(cls, "set_plain", &py_set_plain,
+             "set_plain($self, /, parent, child, transform, stamp, static)\n--\n\n"
+             "set_values() of a dynamic Transform between known frames; None where it is not just that.");
   module.def("insert_texts", &py_insert_texts, arg("refusals"), arg("parent"), arg("child"), arg("stamp"), arg("x"),
              arg("y"), arg("z"), arg("qx"), arg("qy"), arg("qz"), arg("qw"), arg("authority"),
              "tf2's log lines for a transform that set_values refused: (level, text).");

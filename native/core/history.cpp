@@ -123,7 +123,13 @@ History::~History() = default;
 bool History::place(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const {
   const View samples = view();
   Pair pair;
-  if (!samples.surrounded(stamp, hint, pair) && samples.find(stamp, pair, hint) != Found::ok) return false;
+  if (!samples.surrounded(stamp, hint, pair)) {
+    if (samples.surrounded(stamp, hint + 1, pair)) {
+      ++hint;
+    } else if (samples.find(stamp, pair, hint) != Found::ok) {
+      return false;
+    }
+  }
   if (pair.older->parent() != parent || pair.newer->parent() != parent) return false;
   link.older = pair.older->record();
   link.newer = pair.older == pair.newer ? link.older : pair.newer->record();
