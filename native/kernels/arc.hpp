@@ -8,9 +8,10 @@ namespace coframe::COFRAME_LEVEL {
 
 namespace {
 
-// sin(t theta) / sin(theta) as a series of K terms in y = cos(theta) - 1, as in core/pose.hpp. T is a double or Lanes.
-template <int K, int J = 1, class T>
-COFRAME_INLINE T weight_series(const T& t2, const T& y) {
+// sin(t theta) / sin(theta) as a series of K terms in y = cos(theta) - 1, as in core/pose.hpp. T is a double or several;
+// there may be one angle for several shares.
+template <int K, int J = 1, class T, class Angle>
+COFRAME_INLINE T weight_series(const T& t2, const Angle& y) {
   constexpr double u = 1.0 / (J * (2.0 * J + 1.0)), v = J / (2.0 * J + 1.0);
   const T term = (t2 * u - v) * y;
   if constexpr (J == K) {
@@ -35,9 +36,10 @@ COFRAME_INLINE T angle_series(const T& y) {
 // angle by its sine. The further they are apart, the more it takes; each way is good to 1e-16 down to `kLeast`.
 template <int K>
 struct Series {
-  template <class T>
-  COFRAME_INLINE static T weight(const T& t, const T& cosine) {
-    const T t2 = t * t, y = cosine - 1.0;
+  template <class T, class Angle>
+  COFRAME_INLINE static T weight(const T& t, const Angle& cosine) {
+    const T t2 = t * t;
+    const Angle y = cosine - 1.0;
     return t * weight_series<K>(t2, y);
   }
   template <class T>

@@ -68,10 +68,10 @@ std::size_t load_packed(const Columns& from, std::size_t n, const Points& out) {
 #if COFRAME_LANES > 1
   if (!are_packed(from)) return 0;
   for (; i + 4 < n; i += 4) {
-    const Vector<Four> points = load_four(from.x.data + static_cast<std::ptrdiff_t>(i) * from.x.step, from.x.step);
-    __builtin_memcpy(out.x + i, &points.x, sizeof(Four));
-    __builtin_memcpy(out.y + i, &points.y, sizeof(Four));
-    __builtin_memcpy(out.z + i, &points.z, sizeof(Four));
+    const Vector<FourDoubles> points = load_four(from.x.data + static_cast<std::ptrdiff_t>(i) * from.x.step, from.x.step);
+    __builtin_memcpy(out.x + i, &points.x, sizeof(FourDoubles));
+    __builtin_memcpy(out.y + i, &points.y, sizeof(FourDoubles));
+    __builtin_memcpy(out.z + i, &points.z, sizeof(FourDoubles));
   }
 #endif
   return i;
@@ -82,10 +82,10 @@ std::size_t store_packed(const Columns& to, std::size_t n, const Points& in) {
 #if COFRAME_LANES > 1
   if (!are_packed(to)) return 0;
   for (; i + 4 <= n; i += 4) {
-    Vector<Four> points;
-    __builtin_memcpy(&points.x, in.x + i, sizeof(Four));
-    __builtin_memcpy(&points.y, in.y + i, sizeof(Four));
-    __builtin_memcpy(&points.z, in.z + i, sizeof(Four));
+    Vector<FourDoubles> points;
+    __builtin_memcpy(&points.x, in.x + i, sizeof(FourDoubles));
+    __builtin_memcpy(&points.y, in.y + i, sizeof(FourDoubles));
+    __builtin_memcpy(&points.z, in.z + i, sizeof(FourDoubles));
     store_four(points, to.x.data + static_cast<std::ptrdiff_t>(i) * to.x.step, to.x.step);
   }
 #endif
@@ -101,8 +101,8 @@ std::size_t transform_packed(const Affine& affine, std::size_t n, const Columns&
   std::memcpy(m, affine.m, sizeof(m));
   for (; i + 4 < n; i += 4) {
     char* const data = columns.x.data + static_cast<std::ptrdiff_t>(i) * columns.x.step;
-    const Vector<Four> p = load_four(data, columns.x.step);
-    const Vector<Four> moved{m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z + m[0][3],
+    const Vector<FourDoubles> p = load_four(data, columns.x.step);
+    const Vector<FourDoubles> moved{m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z + m[0][3],
                              m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z + m[1][3],
                              m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z + m[2][3]};
     store_four(moved, data, columns.x.step);

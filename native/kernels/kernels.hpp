@@ -65,6 +65,15 @@ struct alignas(64) Between {
   const double* newer[kRowBlock];
 };
 
+// A link of a chain. Its pose lies between two records of eight numbers: x, y, z, w of the quaternion, x, y, z of the
+// translation, and one that says nothing. `share` of the way from one to the other; there is only one where both are the
+// same.
+struct Link {
+  const double *older, *newer;
+  double share;
+  bool down;  // from parent to child
+};
+
 struct Span {
   std::int64_t first, last;
 };
