@@ -110,7 +110,8 @@ class Tree {
   FrameId find_or_add(std::string_view name, bool& is_new);
   std::uint32_t find_number(std::string_view name) const;
   void prepare(History& history, bool is_static, Inserted& inserted);
-  void store(FrameId parent, FrameId child, Stamp stamp, const Pose& pose, bool is_static, AuthorityId authority,
+  void know_again(FrameId id, Frame& frame, Inserted& inserted);
+  void store(Frame& frame, FrameId child, Stamp stamp, const Sample& sample, bool is_static, AuthorityId authority,
              Inserted& inserted);
   void raise_version() { version_.fetch_add(1, std::memory_order_release); }
   HistoryContext context() { return {cache_length_, *pool_, revision_}; }
