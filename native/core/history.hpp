@@ -211,11 +211,16 @@ class History {
   void put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample);
   void add_chunk(const HistoryContext& context);
   void own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end);
+  // Of a dynamic history with samples.
+  Stamp oldest() const {
+    const std::uint64_t first = begin_.load(std::memory_order_relaxed);
+    return chunk_at(first)->stamps[first % Chunk::kSize];
+  }
   // By the newest stamp there was before the last insertion; returns the earliest stamp that is kept.
   Stamp prune(const HistoryContext& context, Stamp newest) {
     if (context.cache_length == kKeepAll) return std::numeric_limits<Stamp>::min();
     const Stamp start = minus(newest, context.cache_length);
-    drop_older_than(context.pool, start);
+    if (oldest() < start) drop_older_than(context.pool, start);
     return start;
   }
   // Saturating: stamps may come from anywhere.

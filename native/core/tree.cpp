@@ -150,14 +150,15 @@ Inserted Tree::insert(FrameId parent, FrameId child, Stamp stamp, const Transfor
     frame.counts.refuse(inserted.refusals);
     return inserted;
   }
-  know_again(child, frame, inserted);
-  know_again(parent, frames_[parent], inserted);
+  // A history with samples tells of frames that are known.
   if (!is_static && frame.history.append_newer(context(), stamp, sample)) {
     frame.counts.add(Insertion::appended);
     frame.authority = authority;
     inserted.child = child;
     return inserted;
   }
+  know_again(child, frame, inserted);
+  know_again(parent, frames_[parent], inserted);
   store(frame, child, stamp, sample, is_static, authority, inserted);
   return inserted;
 }
