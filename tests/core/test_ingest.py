@@ -135,7 +135,7 @@ def encoded(*links):
 
 
 def test_names_that_change_from_message_to_message_are_noticed():
-    """Names are remembered by their place in a source's messages; here they move, grow, shrink and come in new pairs."""
+    """Names are remembered by their place in a source's messages; here they move, grow, shrink and pair anew."""
     rng = random.Random(2)
     names = [*"abcdefg", "ab", "abc", "abcd", "abcde" * 3, "abcde" * 3 + "f", "é", "éa"]
     fast, slow = coframe.Buffer(), coframe.Buffer()
