@@ -77,7 +77,7 @@ unsigned Buffer::insert_and_announce(Insert&& insert) {
       ++counts_.refused;
       return kFrozen;
     }
-    inserted = insert();
+    insert(inserted);
     count(inserted.refusals);
     count_change();
   }
@@ -87,12 +87,16 @@ unsigned Buffer::insert_and_announce(Insert&& insert) {
 
 unsigned Buffer::insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
                         bool is_static, AuthorityId authority) {
-  return insert_and_announce([&] { return tree_.insert(parent, child, stamp, values, is_static, authority); });
+  return insert_and_announce([&](Inserted& inserted) {
+    inserted = tree_.insert(parent, child, stamp, values, is_static, authority);
+  });
 }
 
 unsigned Buffer::insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
                         AuthorityId authority) {
-  return insert_and_announce([&] { return tree_.insert(parent, child, stamp, values, is_static, authority); });
+  return insert_and_announce([&](Inserted& inserted) {
+    tree_.insert(parent, child, stamp, values, is_static, authority, inserted);
+  });
 }
 
 unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId authority, std::size_t& stored,
@@ -185,7 +189,7 @@ DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, 
     if (failure.reason) ++counts_.malformed;
     for (std::size_t i = 0; i < transforms; ++i) {
       // Also what is refused as too old changes something: it makes frames known, and older ones may be forgotten.
-      stream.inserted[i] = store(stream, i, stream.decoded[i]);
+      store(stream, i, stream.decoded[i], stream.inserted[i]);
       if (count(stream.inserted[i].refusals)) ++stored;
     }
     if (transforms > 0) count_change();
@@ -198,23 +202,19 @@ DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, 
   return failure;
 }
 
-Inserted Buffer::store(TransformStream& stream, std::size_t index, const TransformView& view) {
-  Inserted refused;
+void Buffer::store(TransformStream& stream, std::size_t index, const TransformView& view, Inserted& inserted) {
   if (frozen()) {
-    refused.refusals = kFrozen;
-    return refused;
+    inserted = {.refusals = kFrozen};
+  } else if (view.as_expected) {
+    const ExpectedNames& names = stream.expected[index];
+    tree_.insert(names.parent, names.child, view.stamp, view.values, stream.is_static, stream.authority, inserted);
+  } else {
+    inserted = store_unexpected(stream, index, view);
   }
-  if (!view.as_expected) return store_unexpected(stream, index, view);
-  const ExpectedNames& names = stream.expected[index];
-  return tree_.insert(names.parent, names.child, view.stamp, view.values, stream.is_static, stream.authority);
 }
 
 Inserted Buffer::store_unexpected(TransformStream& stream, std::size_t index, const TransformView& view) {
-  Inserted refused;
-  if (!is_utf8(view.parent) || !is_utf8(view.child)) {
-    refused.refusals = kNoChildFrame;
-    return refused;
-  }
+  if (!is_utf8(view.parent) || !is_utf8(view.child)) return {.refusals = kNoChildFrame};
   const Inserted inserted =
       tree_.insert(view.parent, view.child, view.stamp, view.values, stream.is_static, stream.authority);
   if (inserted.refusals == 0 && index < TransformStream::kMaxRemembered) {

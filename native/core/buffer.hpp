@@ -159,7 +159,7 @@ class Buffer {
                            bool is_static, AuthorityId authority, std::vector<Inserted>& inserted);
   template <class Insert>
   unsigned insert_and_announce(Insert&& insert);
-  Inserted store(TransformStream& stream, std::size_t index, const TransformView& view);
+  void store(TransformStream& stream, std::size_t index, const TransformView& view, Inserted& inserted);
   Inserted store_unexpected(TransformStream& stream, std::size_t index, const TransformView& view);
   bool count(unsigned refusals);
   void count_change() { changes_.store(changes_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }

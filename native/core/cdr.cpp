@@ -108,6 +108,7 @@ bool read_transform(Reader& reader, TransformView& view) {
   const std::size_t names = reader.position();
   if (!reader.text(view.parent) || !reader.text(view.child)) return false;
   view.name_bytes = reader.bytes_since(names);
+  view.as_expected = false;
   for (double& value : view.values.translation) {
     if (!reader.number(value)) return false;
   }
@@ -146,24 +147,24 @@ class Writer {
 
 DecodeFailure decode_tf_message(const std::uint8_t* data, std::size_t size, std::vector<TransformView>& out,
                                 std::span<const ExpectedNames> expected) {
-  out.clear();
-  if (size < kHeader) return {size, "the message is shorter than its 4-byte header"};
-  if (data[0] != 0 || data[1] > 1) return {0, "the header does not say plain CDR (00 01 or 00 00)"};
+  const auto fail = [&](std::size_t offset, const char* reason) {
+    out.clear();
+    return DecodeFailure{offset, reason};
+  };
+  if (size < kHeader) return fail(size, "the message is shorter than its 4-byte header");
+  if (data[0] != 0 || data[1] > 1) return fail(0, "the header does not say plain CDR (00 01 or 00 00)");
   Reader reader(data + kHeader, size - kHeader, data[1] == 0);
   std::uint32_t count;
   bool complete = reader.number(count);
   for (std::uint32_t i = 0; complete && i < count; ++i) {
-    TransformView& view = out.emplace_back();
-    complete = (i < expected.size() && reader.transform(expected[i], view)) || read_transform(reader, view);
+    if (i == out.size()) out.emplace_back();  // else that of an earlier message is written over
+    complete = (i < expected.size() && reader.transform(expected[i], out[i])) || read_transform(reader, out[i]);
   }
-  if (!complete) {
-    out.clear();
-    return {kHeader + reader.position(), reader.reason()};
-  }
+  if (!complete) return fail(kHeader + reader.position(), reader.reason());
   if (reader.left() > kLargestPadding) {
-    out.clear();
-    return {kHeader + reader.position(), "bytes are left over after the last transform"};
+    return fail(kHeader + reader.position(), "bytes are left over after the last transform");
   }
+  out.resize(count);
   return {};
 }
 

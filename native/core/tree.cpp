@@ -140,27 +140,26 @@ Inserted Tree::insert(std::string_view parent, std::string_view child, Stamp sta
   return inserted;
 }
 
-Inserted Tree::insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
-                      AuthorityId authority) {
+void Tree::insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
+                  AuthorityId authority, Inserted& inserted) {
   const Sample sample{canonical_pose(values), parent};
   Frame& frame = frames_[child];
-  Inserted inserted;
-  inserted.refusals = check_values(sample.pose);
-  if (inserted.refusals != 0) {
-    frame.counts.refuse(inserted.refusals);
-    return inserted;
+  inserted = {};
+  if (const unsigned refusals = check_values(sample.pose)) {
+    frame.counts.refuse(refusals);
+    inserted.refusals = refusals;
+    return;
   }
   // A history with samples tells of frames that are known.
   if (!is_static && frame.history.append_newer(context(), stamp, sample)) {
     frame.counts.add(Insertion::appended);
     frame.authority = authority;
     inserted.child = child;
-    return inserted;
+    return;
   }
   know_again(child, frame, inserted);
   know_again(parent, frames_[parent], inserted);
   store(frame, child, stamp, sample, is_static, authority, inserted);
-  return inserted;
 }
 
 // A frame may have been removed since its number was found.
