@@ -15,16 +15,6 @@ if TYPE_CHECKING:
 MAX_DOMAIN_ID = 232
 MAX_PARTICIPANT_INDEX = 99
 
-# Multicast on the loopback interface is how a Humble with ROS_LOCALHOST_ONLY announces itself.
-_ON_LOOPBACK = (
-    '<Interfaces><NetworkInterface address="127.0.0.1" multicast="true"/></Interfaces>'
-    "<AllowMulticast>true</AllowMulticast>"
-)
-# A thread for each socket sleeps in the socket itself, where one for all must first wait for any of them: an eighth
-# less work for who listens to many small messages. Such threads end by a message to their own socket, also by
-# multicast: on a network, where a firewall may swallow that, leaving might never end.
-_THREADS = "<MultipleReceiveThreads>true</MultipleReceiveThreads>"
-
 _RANGES = ("OFF", "LOCALHOST", "SUBNET", "SYSTEM_DEFAULT")
 _PEER = re.compile(r"[A-Za-z0-9_.:%\-]+")
 _LOOPBACK = re.compile(r"localhost|127(\.\d+){3}|::1")
@@ -104,26 +94,34 @@ def cyclone_config(environment: Mapping[str, str] = os.environ) -> str:
         WireError: a variable holds something else than ROS defines.
     """
     reach = discovery_range(environment)
-    general = discovery = internal = ""
+    general = discovery = ""
     if reach == "OFF":
         general = "<AllowMulticast>false</AllowMulticast>"
         # The tag keeps participants of other processes out even if they know our port.
         discovery = f"<ParticipantIndex>none</ParticipantIndex><Tag>coframe_{os.getpid()}</Tag>"
     elif reach == "LOCALHOST":
         peers = static_peers(environment)
-        if all(_LOOPBACK.fullmatch(peer) for peer in peers):
-            general, internal = _ON_LOOPBACK, _THREADS
-        else:  # a peer on another machine cannot be reached from the loopback interface
-            general = "<AllowMulticast>false</AllowMulticast>"
+        general = _localhost(peers)
         discovery = _peers(["127.0.0.1", *peers])
     elif reach == "SUBNET" and (peers := static_peers(environment)):
         discovery = _peers(peers)
     xml = (
         f'<CycloneDDS><Domain id="any"><General>{general}</General>'
-        f"<Discovery>{discovery}</Discovery><Internal>{internal}</Internal></Domain></CycloneDDS>"
+        f"<Discovery>{discovery}</Discovery></Domain></CycloneDDS>"
     )
     user = environment.get("CYCLONEDDS_URI", "").strip()
     return f"{xml},{user}" if user else xml
+
+
+def _localhost(peers: list[str]) -> str:
+    if all(_LOOPBACK.fullmatch(peer) for peer in peers):
+        # Multicast on the loopback interface is how a Humble with ROS_LOCALHOST_ONLY announces itself.
+        return (
+            '<Interfaces><NetworkInterface address="127.0.0.1" multicast="true"/></Interfaces>'
+            "<AllowMulticast>true</AllowMulticast>"
+        )
+    # A peer on another machine cannot be reached from the loopback interface.
+    return "<AllowMulticast>false</AllowMulticast>"
 
 
 def _peers(peers: list[str]) -> str:
