@@ -24,7 +24,7 @@ demo: $(STAMP) ## the lab's moving transform tree, live in the terminal, spoken 
 	@$(BIN)/coframe demo $(ARGS)
 
 test: $(STAMP) ## the test suite (under 6 minutes)
-	$(BIN)/python -m pytest $(ARGS)
+	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile $(ARGS)
 
 test-slow: $(STAMP) ## the tests that take minutes
 	$(BIN)/python -m pytest -m slow $(ARGS)
