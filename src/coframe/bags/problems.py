@@ -15,7 +15,7 @@ class Problems:
         self._left_out = 0
 
     def add(self, sentence: str, times: int = 1) -> None:
-        """Notes a sentence, 0 times if it is to be told once; after some hundred different ones only that there were more."""
+        """Notes a sentence, 0 times if it is told once in any case; in the end only that there were more of them."""
         if sentence not in self._counts and len(self._counts) >= _MOST:
             self._left_out += times
             return

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 __all__ = ["Ingest", "ingest_for", "is_static"]
 
 _SECOND = 1_000_000_000
+# Behind the count, the stamp and the name's length, and in ROS 1 the number, in CDR the header.
+_FIRST_PARENT = 20
 # What damaged bytes make the functions below raise.
 _DAMAGE = (struct.error, ValueError, TypeError, KeyError, IndexError, AttributeError, OverflowError, RecursionError)
 
@@ -45,6 +47,10 @@ class Ingest:
         self._decode = decode
         self.static = static
         self._authority = authority
+
+    def names_begin_with_slash(self, data: bytes | memoryview) -> bool:
+        """Whether the first transform's parent does; of messages of ROS."""
+        return self._decode in {None, _ros1} and data[_FIRST_PARENT : _FIRST_PARENT + 1] == b"/"
 
     def __call__(self, buffer: Buffer, data: bytes | memoryview) -> None:
         """Takes in one message, whole or not at all.

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 __all__ = ["Transforms", "report", "span"]
 
 _HOUR = 3_600_000_000_000
-# The end of a short name's length in 4 bytes, and a slash; where the first two names of a message are.
-_SLASH, _FIRST_NAMES = b"\0\0\0/", 64
 
 
 class _Tree:
@@ -71,7 +69,7 @@ class Transforms:
         buffer = tree.static if take.static else tree.moving
 
         def ingest(data: bytes | memoryview) -> None:
-            if _SLASH in bytes(data[:_FIRST_NAMES]):
+            if take.names_begin_with_slash(data):
                 self._problems.add(f"{channel.topic}: names of frames begin with '/': it is left off, as tf2 does", 0)
             try:
                 take(buffer, data)
