@@ -103,6 +103,7 @@ def write_rosbag2(path, plugin=StoragePlugin.SQLITE3, compression=None, rows=Non
 def write_rosbag1(path, compression=None, rows=None, types=None):
     """A bag of ROS 1."""
     writer = Rosbag1Writer(path)
+    writer.chunk_threshold = 2000
     if compression is not None:
         writer.set_compression(compression)
     with writer:
