@@ -100,7 +100,7 @@ def test_a_damaged_chunk_costs_only_itself(tmp_path):
     data[frame : frame + 4] = bytes(4)
     path.write_bytes(data)
     recording = coframe.open_bag(path)
-    assert COUNT - 15 < recording.topics["/tf"].messages < COUNT
+    assert COUNT - 20 < recording.topics["/tf"].messages < COUNT
     assert "cannot be unpacked: zstd says" in recording.problems[0]
 
 
@@ -228,6 +228,8 @@ def mutated(rng, data):
     """The bytes with some of them changed, left out, doubled or swapped."""
     out = bytearray(data)
     for _ in range(rng.choice([1, 1, 2, 4, 16])):
+        if not out:
+            break
         where = rng.randrange(len(out))
         kind = rng.random()
         if kind < 0.5:

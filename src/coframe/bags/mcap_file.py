@@ -107,8 +107,8 @@ class McapStorage(ChunkedStorage):
         try:
             _, _, size, crc = _CHUNK_HEAD.unpack_from(chunk)
             compression, start = _text(chunk, _CHUNK_HEAD.size)
-        except (struct.error, ValueError) as error:
-            raise DamagedError(str(error)) from None
+        except (struct.error, ValueError):
+            raise DamagedError("its first bytes are damaged or cut off") from None
         packed = chunk[start + 8 :]
         data = unpack(compression, packed, size)
         if crc and zlib.crc32(data) != crc:
@@ -165,8 +165,8 @@ class McapStorage(ChunkedStorage):
             number, schema = struct.unpack_from("<HH", data)
             topic, position = _text(data, 4)
             encoding, _ = _text(data, position)
-        except (struct.error, ValueError, IndexError) as error:
-            self.problem(f"a damaged description of a channel: {error}")
+        except (struct.error, ValueError, IndexError):
+            self.problem("a damaged description of a channel")
             return
         if number not in self._channels:
             name, kind, definition = self._schemas.get(schema, ("", "", b""))
