@@ -2,7 +2,7 @@
 VENV ?= .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.ready
-NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp') CMakeLists.txt
+NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') CMakeLists.txt
 
 .DEFAULT_GOAL := help
 .PHONY: help setup build demo test test-slow test-long sanitize lint typecheck format conformance bench generate clean
