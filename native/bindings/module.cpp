@@ -14,5 +14,6 @@ NB_MODULE(_core, module) {
   define_messages(module);
   define_event(module);
   define_sensors(module);
+  define_bags(module);
   define_wire(module);
 }

@@ -1,5 +1,8 @@
 """ROS 2's transform system (tf2) for Python: any frame, any time, on any machine."""
 
+import importlib
+from typing import TYPE_CHECKING, Any
+
 from coframe.buffer import Buffer, EdgeInfo, FrameInfo, Subscription
 from coframe.errors import (
     ConnectivityException,
@@ -8,12 +11,18 @@ from coframe.errors import (
     FrameMismatchException,
     InvalidArgumentException,
     LookupException,
+    PackageError,
+    RecordingError,
+    RobotDescriptionError,
     TimeoutException,
     TransformException,
     WireError,
 )
 from coframe.transform import Transform
 from coframe.wire.connection import Connection, connect
+
+if TYPE_CHECKING:
+    from coframe.bags import open_bag
 
 __version__ = "0.1.0"
 
@@ -28,6 +37,9 @@ __all__ = [
     "FrameMismatchException",
     "InvalidArgumentException",
     "LookupException",
+    "PackageError",
+    "RecordingError",
+    "RobotDescriptionError",
     "Subscription",
     "TimeoutException",
     "Transform",
@@ -35,4 +47,14 @@ __all__ = [
     "WireError",
     "__version__",
     "connect",
+    "open_bag",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """What takes long to import, and few need, is imported when it is first used."""
+    if name == "open_bag":
+        return importlib.import_module("coframe.bags").open_bag
+    if name in {"bags", "robots"}:
+        return importlib.import_module(f"coframe.{name}")
+    raise AttributeError(f"module 'coframe' has no attribute {name!r}")

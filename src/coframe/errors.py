@@ -9,7 +9,10 @@
     │   │   └── FrameMismatchException  composing a<-b with c<-d where b is not c
     │   └── TimeoutException            waited in vain
     ├── WireError(RuntimeError)         the ROS graph could not be joined
-    └── DecodeError(ValueError)         bytes that are not what they claim to be
+    ├── DecodeError(ValueError)         bytes that are not what they claim to be
+    ├── RobotDescriptionError(ValueError)  a robot description that contradicts itself
+    ├── PackageError(LookupError)       a package, or a file of one, that is not there
+    └── RecordingError(ValueError)      a recording of which nothing can be read
 
 The names of the transform exceptions are tf2's, and so are their texts (``str(error)``). Each also carries the facts
 behind its text, where they apply, and ``hint``: what to do next.
@@ -34,6 +37,9 @@ __all__ = [
     "FrameMismatchException",
     "InvalidArgumentException",
     "LookupException",
+    "PackageError",
+    "RecordingError",
+    "RobotDescriptionError",
     "TimeoutException",
     "TransformException",
     "WireError",
@@ -189,6 +195,50 @@ class WireError(RuntimeError):
 
 class DecodeError(ValueError):
     """Bytes that are not what they claim to be; the text says which type, where, and what was expected.
+
+    Attributes:
+        hint: What to do next, in a sentence; may be empty.
+    """
+
+    def __init__(self, text: str, *, hint: str = "") -> None:
+        super().__init__(text)
+        self.hint = hint
+
+
+class RobotDescriptionError(ValueError):
+    """A robot description that contradicts itself, or is none.
+
+    Attributes:
+        line: Where in the text, counted from 1; None where no line is to blame.
+        file: The file's name; None for a text.
+        hint: What to do next, in a sentence; may be empty.
+    """
+
+    def __init__(self, text: str, *, line: int | None = None, file: str | None = None, hint: str = "") -> None:
+        super().__init__(text)
+        self.line = line
+        self.file = file
+        self.hint = hint
+
+    def __str__(self) -> str:
+        places = [self.file or "", f"line {self.line}" if self.line is not None else ""]
+        return ": ".join(filter(None, [", ".join(filter(None, places)), str(self.args[0])]))
+
+
+class PackageError(LookupError):
+    """A package or a file of it that is not there, or a file that is not inside its package.
+
+    Attributes:
+        hint: What to do next, in a sentence; may be empty.
+    """
+
+    def __init__(self, text: str, *, hint: str = "") -> None:
+        super().__init__(text)
+        self.hint = hint
+
+
+class RecordingError(ValueError):
+    """A recording of which nothing can be read.
 
     Attributes:
         hint: What to do next, in a sentence; may be empty.

@@ -1,0 +1,52 @@
+"""Recordings whose messages were compressed one by one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from coframe.bags.compression import LARGEST, DamagedError, unpack
+from coframe.bags.storage import Batch, Slices, Storage
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from coframe.bags.storage import Channel
+
+__all__ = ["UnpackedMessages"]
+
+
+class UnpackedMessages(Storage):
+    """Another storage, with its messages unpacked."""
+
+    def __init__(self, packed: Storage, compression: str) -> None:
+        super().__init__(packed.path, packed.problems)
+        self._packed = packed
+        self._compression = compression
+
+    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
+        """Those of the other storage, unpacked."""
+        for batch in self._packed.batches(wanted, progress):
+            if batch.messages is None:
+                yield batch
+                continue
+            unpacked = [self._unpack(batch.channel, message) for message in batch.messages.each()]
+            there = np.array([message is not None for message in unpacked], dtype=bool)
+            messages = Slices.joined([message for message in unpacked if message is not None])
+            yield Batch(batch.channel, batch.received[there], batch.positions[there], messages)
+
+    def _unpack(self, channel: Channel, message: memoryview) -> bytes | None:
+        try:
+            return unpack(self._compression, message, LARGEST)
+        except DamagedError as error:
+            self.problem(f"messages on {channel.topic} that cannot be unpacked: {error}")
+            return None
+
+    def read(self, position: int) -> bytes:
+        """One message's bytes, unpacked."""
+        return unpack(self._compression, self._packed.read(position), LARGEST)
+
+    def close(self) -> None:
+        """Lets go of the file."""
+        self._packed.close()

@@ -1,0 +1,154 @@
+"""rosbag2's SQLite files, of every schema version."""
+
+from __future__ import annotations
+
+import sqlite3
+import threading
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from coframe.bags.compression import DamagedError
+from coframe.bags.storage import Batch, Channel, Slices, Storage
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from coframe.bags.problems import Problems
+
+__all__ = ["MAGIC", "SqliteStorage"]
+
+MAGIC = b"SQLite format 3\0"
+
+# SQLite quotes what is damaged, and that need not be text.
+_DAMAGE = (sqlite3.Error, UnicodeDecodeError)
+_STEP = 2000  # messages between two reports of progress
+
+
+class SqliteStorage(Storage):
+    """A ``.db3`` file; a position is a row's id."""
+
+    def __init__(self, path: Path, problems: Problems) -> None:
+        super().__init__(path, problems)
+        self._lock = threading.Lock()
+        self._database = self._open()
+        self._channels: dict[int, Channel] = {}
+
+    def _open(self) -> sqlite3.Connection:
+        # With a journal beside it the recorder was stopped: SQLite mends that, unless the folder is read-only.
+        journals = [self.path.with_name(f"{self.path.name}-{kind}") for kind in ("wal", "journal")]
+        if any(journal.exists() for journal in journals):
+            mended = sqlite3.connect(f"{self.path.absolute().as_uri()}?mode=ro", uri=True, check_same_thread=False)
+            try:
+                mended.execute("SELECT count(*) FROM sqlite_master").fetchone()
+            except _DAMAGE as error:
+                mended.close()
+                self.problem(f"the journal beside it cannot be used ({error}): what was written last is missing")
+            else:
+                return mended
+        uri = f"{self.path.absolute().as_uri()}?mode=ro&immutable=1"
+        return sqlite3.connect(uri, uri=True, check_same_thread=False)
+
+    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
+        """Those of the wanted channels with their data, then the others without."""
+        try:
+            self._database.text_factory = lambda text: text.decode("utf-8", "replace")
+            self._database.execute("PRAGMA trusted_schema = OFF")
+            self._channels = self._read_channels()
+            (total,) = self._database.execute("SELECT max(id) FROM messages").fetchone()
+        except (*_DAMAGE, TypeError) as error:
+            self.problem(f"the database cannot be read: {error}")
+            return
+        if not isinstance(total, int):
+            return
+        whole = [number for number, channel in self._channels.items() if wanted(channel)]
+        rest = [number for number in self._channels if number not in whole]
+        for numbers, column in ((whole, "data"), (rest, "NULL")):
+            yield from self._rows(numbers, column, lambda row: progress(self.size * row // max(total, 1)))
+        progress(self.size)
+
+    def _rows(self, numbers: list[int], column: str, progress: Callable[[int], object]) -> Iterator[Batch]:
+        if not numbers:
+            return
+        # All that goes into the text are integers and our own words.
+        query = (
+            f"SELECT topic_id, id, timestamp, {column} FROM messages "  # noqa: S608
+            f"WHERE topic_id IN ({', '.join(map(str, numbers))}) ORDER BY id"
+        )
+        try:
+            cursor = self._database.execute(query)
+            while rows := cursor.fetchmany(_STEP):
+                progress(rows[-1][1])
+                yield from self._grouped(rows, with_data=column == "data")
+        except _DAMAGE as error:
+            self.problem(f"the database is damaged, and not all of it was read: {error}")
+
+    def _grouped(self, rows: list[tuple[Any, ...]], *, with_data: bool) -> Iterator[Batch]:
+        """The rows of each topic; those that are not what they should be are left out."""
+        topics, _, times, data = zip(*rows, strict=True)
+        if set(map(type, times)) != {int} or (with_data and set(map(type, data)) != {bytes}):
+            good = [row for row in rows if isinstance(row[2], int) and (isinstance(row[3], bytes) or not with_data)]
+            self.problem("rows whose time or data are not what they should be", len(rows) - len(good))
+            rows = good
+        numbers = set(topics)
+        for number in numbers:
+            group = rows if len(numbers) == 1 else [row for row in rows if row[0] == number]
+            if group:
+                _, positions, received, messages = zip(*group, strict=True)
+                yield Batch(
+                    self._channels[number],
+                    np.fromiter(received, np.int64, len(group)),
+                    np.fromiter(positions, np.int64, len(group)).astype(np.uint64),
+                    Slices.joined(messages) if with_data else None,
+                )
+
+    def _read_channels(self) -> dict[int, Channel]:
+        tables = dict(self._query("SELECT name, sql FROM sqlite_master WHERE type = 'table'"))
+        for name in ("topics", "messages"):
+            if not str(tables.get(name)).upper().startswith("CREATE TABLE"):
+                raise sqlite3.DatabaseError(f"there is no table {name}: it is no recording of rosbag2")
+        definitions = {}
+        if "message_definitions" in tables:
+            for type_, kind, text in self._query(
+                "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions"
+            ):
+                definitions[type_] = (str(text).encode(), str(kind))
+        return {
+            number: Channel(str(topic), str(type_), str(encoding), *definitions.get(type_, (b"", "")))
+            for number, topic, type_, encoding in self._query("SELECT id, name, type, serialization_format FROM topics")
+            if isinstance(number, int)
+        }
+
+    def _query(self, query: str) -> list[Any]:
+        return self._database.execute(query).fetchall()
+
+    def read(self, position: int) -> bytes:
+        """The data of the row with this id."""
+        try:
+            with self._lock:
+                row = self._database.execute("SELECT data FROM messages WHERE id = ?", (_row(position),)).fetchone()
+        except _DAMAGE as error:
+            raise DamagedError(f"the database is damaged: {error}") from None
+        if row is None or not isinstance(row[0], bytes):
+            raise DamagedError("the message is gone")
+        return bytes(row[0])
+
+    def head(self, position: int, size: int) -> bytes:
+        """The first bytes of the row with this id; the rest, of an image perhaps, is not read."""
+        if not hasattr(self._database, "blobopen"):  # before Python 3.11
+            return super().head(position, size)
+        try:
+            with self._lock, self._database.blobopen("messages", "data", _row(position), readonly=True) as blob:
+                return bytes(blob.read(size))
+        except _DAMAGE as error:
+            raise DamagedError(f"the database is damaged: {error}") from None
+
+    def close(self) -> None:
+        """Lets go of the file."""
+        self._database.close()
+
+
+def _row(position: int) -> int:
+    """Rows may have negative numbers."""
+    return position - (1 << 64) if position >= 1 << 63 else position
