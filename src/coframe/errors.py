@@ -9,6 +9,7 @@
     │   │   └── FrameMismatchException  composing a<-b with c<-d where b is not c
     │   └── TimeoutException            waited in vain
     ├── WireError(RuntimeError)         the ROS graph could not be joined
+    ├── ViewerError(RuntimeError)       the viewer could not be started, or a file that it was given is none of its kind
     └── DecodeError(ValueError)         bytes that are not what they claim to be
 
 The names of the transform exceptions are tf2's, and so are their texts (``str(error)``). Each also carries the facts
@@ -36,6 +37,7 @@ __all__ = [
     "LookupException",
     "TimeoutException",
     "TransformException",
+    "ViewerError",
     "WireError",
 ]
 
@@ -177,6 +179,18 @@ class TimeoutException(TransformException):
 
 class WireError(RuntimeError):
     """The ROS graph could not be joined or used.
+
+    Attributes:
+        hint: What to do next, in a sentence; may be empty.
+    """
+
+    def __init__(self, text: str, *, hint: str = "") -> None:
+        super().__init__(text)
+        self.hint = hint
+
+
+class ViewerError(RuntimeError):
+    """The viewer could not be started, or a file that it was given is none of its kind.
 
     Attributes:
         hint: What to do next, in a sentence; may be empty.

@@ -1,0 +1,179 @@
+"""What a tab may ask for: each kind of message checked and turned into a deed."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Awaitable, Callable
+
+    from coframe.viewer.client import Client
+
+__all__ = ["BadRequestError", "Request", "parse"]
+
+_FARTHEST = 2.0**62  # nanoseconds from the origin
+
+
+class BadRequestError(ValueError):
+    """A message that is not what the protocol allows.
+
+    Attributes:
+        hint: What to do.
+    """
+
+    def __init__(self, text: str, hint: str = "") -> None:
+        super().__init__(text)
+        self.hint = hint
+
+
+class Request:
+    """A message from a tab, as the fields of its JSON object."""
+
+    def __init__(self, kind: str, fields: dict[str, Any]) -> None:
+        self.kind = kind
+        self._fields = fields
+
+    async def run(self, client: Client) -> None:
+        """Does what is asked for.
+
+        Raises:
+            BadRequestError: It is no message of the protocol.
+        """
+        deed = _DEEDS.get(self.kind)
+        if deed is None:
+            raise BadRequestError(f"the server knows no message of the type {_shown(self.kind)}", "Reload the page.")
+        await deed(client, self)
+
+    def text(self, name: str) -> str:
+        """A field that holds text."""
+        value = self._fields.get(name)
+        if not isinstance(value, str):
+            raise self._wrong(name, "text")
+        return value
+
+    def number(self, name: str, default: float | None = None) -> float:
+        """A field that holds a finite number."""
+        value = self._fields.get(name, default)
+        if isinstance(value, bool) or not isinstance(value, int | float) or not _is_finite(value):
+            raise self._wrong(name, "a number")
+        return float(value)
+
+    def integer(self, name: str, least: int, most: int) -> int:
+        """A field that holds a whole number in a range."""
+        value = self.number(name)
+        if value != int(value) or not least <= value <= most:
+            raise self._wrong(name, f"a whole number from {least} to {most}")
+        return int(value)
+
+    def flag(self, name: str) -> bool:
+        """A field that holds true or false, or is left out."""
+        value = self._fields.get(name, False)
+        if not isinstance(value, bool):
+            raise self._wrong(name, "true or false")
+        return value
+
+    def mapping(self, name: str) -> dict[str, Any]:
+        """A field that holds an object, or is left out."""
+        value = self._fields.get(name, {})
+        if not isinstance(value, dict):
+            raise self._wrong(name, "an object")
+        return value
+
+    def sequence(self, name: str) -> list[Any]:
+        """A field that holds an array."""
+        value = self._fields.get(name)
+        if not isinstance(value, list):
+            raise self._wrong(name, "an array")
+        return value
+
+    def time(self, name: str, origin: int) -> int:
+        """A field that holds a time: nanoseconds."""
+        return _nanoseconds(self.number(name), origin, self._wrong(name, "a time"))
+
+    def span(self, name: str, origin: int) -> tuple[int, int] | None:
+        """A field that holds two times, or null."""
+        value = self._fields.get(name)
+        if value is None:
+            return None
+        wrong = self._wrong(name, "two times")
+        if not isinstance(value, list) or len(value) != 2 or not all(isinstance(end, int | float) for end in value):
+            raise wrong
+        first, last = (_nanoseconds(end, origin, wrong) for end in value)
+        return first, last
+
+    def _wrong(self, name: str, wanted: str) -> BadRequestError:
+        value = _shown(self._fields.get(name))
+        return BadRequestError(f"{name} of a message {self.kind!r} must be {wanted}, not {value}")
+
+
+def parse(message: str | bytes) -> Request:
+    """A tab's message.
+
+    Raises:
+        BadRequestError: It is no JSON object with a type.
+    """
+    if isinstance(message, bytes):
+        raise BadRequestError("the server takes text messages only")
+    try:
+        fields = json.loads(message)
+    except (ValueError, RecursionError) as error:
+        raise BadRequestError(f"a message is no JSON: {error}") from None
+    if not isinstance(fields, dict) or not isinstance(fields.get("type"), str):
+        raise BadRequestError("a message must be a JSON object with a type")
+    return Request(fields["type"], fields)
+
+
+def _is_finite(value: float) -> bool:
+    try:
+        return math.isfinite(value)
+    except OverflowError:  # an int beyond all floats
+        return False
+
+
+def _nanoseconds(value: float, origin: int, wrong: BadRequestError) -> int:
+    if not _is_finite(value) or abs(value) > _FARTHEST:
+        raise wrong
+    return round(value) + origin
+
+
+def _shown(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+async def _fixed(client: Client, request: Request) -> None:
+    client.wanted_fixed = request.text("frame")
+
+
+async def _time(client: Client, request: Request) -> None:
+    mode = request.text("mode")
+    if mode == "live":
+        client.playhead.go_live()
+    elif mode == "at":
+        origin = client.origin
+        client.playhead.move(
+            request.time("at", origin),
+            playing=request.flag("playing"),
+            speed=request.number("speed", 1.0),
+            loop=request.span("loop", origin),
+        )
+    else:
+        raise BadRequestError(f"the mode of a message 'time' is 'live' or 'at', not {_shown(mode)}")
+
+
+async def _ready(client: Client, _request: Request) -> None:
+    client.is_ready()
+
+
+async def _frame_timeout(client: Client, request: Request) -> None:
+    client.frame_timeout = min(max(request.number("seconds"), 0.0), 1e6)
+
+
+_DEEDS: dict[str, Callable[[Client, Request], Awaitable[None]]] = {
+    "fixed": _fixed,
+    "frame_timeout": _frame_timeout,
+    "ready": _ready,
+    "time": _time,
+}
