@@ -93,9 +93,7 @@ class Scene:
         self.infos = self.buffer.frames()
         self._note_structure()
         dynamic = [info for info in self.infos if info.samples and not info.static]
-        self.span = (
-            (min(info.oldest for info in dynamic), max(info.newest for info in dynamic)) if dynamic else None
-        )
+        self.span = (min(info.oldest for info in dynamic), max(info.newest for info in dynamic)) if dynamic else None
         newest = np.array([info.newest for info in self.infos], np.int64)
         periods = np.array([1.0 / info.rate if info.rate > 0.0 else 0.0 for info in self.infos])
         heard = np.full(len(newest), time.monotonic())
