@@ -11,8 +11,7 @@ from coframe.errors import ViewerError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
-
-    from typing_extensions import TypeGuard
+    from typing import TypeGuard
 
 __all__ = ["DISPLAY_CLASSES", "RvizConfig"]
 
