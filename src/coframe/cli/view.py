@@ -32,6 +32,9 @@ def view(
     port: PortOption = None,
     host: HostOption = "127.0.0.1",
     no_browser: NoBrowserOption = False,
+    robot: Annotated[
+        Path | None, typer.Option(help="A robot's URDF or xacro file, besides what /robot_description tells.")
+    ] = None,
     mesh_root: Annotated[
         list[Path] | None, typer.Option(help="A folder below which meshes may lie; may be given several times.")
     ] = None,
@@ -52,7 +55,7 @@ def view(
             else Path(bag)
         )
         viewer = stack.enter_context(
-            show(source, fixed=fixed, host=host, port=port, rviz=rviz, mesh_roots=mesh_root or [])
+            show(source, fixed=fixed, host=host, port=port, rviz=rviz, robot=robot, mesh_roots=mesh_root or [])
         )
         announce(viewer, browser=not no_browser)
         threading.Event().wait()

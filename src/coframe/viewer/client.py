@@ -14,11 +14,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from websockets.exceptions import ConnectionClosed
 
+from coframe.errors import WireError
 from coframe.viewer import protocol
 from coframe.viewer.clock import Playhead
 from coframe.viewer.display import Display, Status
 from coframe.viewer.requests import BadRequestError, parse
 from coframe.viewer.scene import LocalOrigin
+from coframe.viewer.stage import FRAME_TIMEOUT
 from coframe.viewer.statistics import frame_rows
 
 if TYPE_CHECKING:
@@ -26,7 +28,9 @@ if TYPE_CHECKING:
 
     from websockets.asyncio.server import ServerConnection
 
+    from coframe.viewer.descriptions import Description
     from coframe.viewer.displays import Options
+    from coframe.viewer.joints import JointPublisher
     from coframe.viewer.stage import Stage
 
 __all__ = ["Client"]
@@ -38,7 +42,6 @@ MOST_ANSWERS = 64
 STATISTICS_PERIOD = 1.0
 # Where nothing changes, a tick comes all the same once in a while.
 IDLE_PERIOD = 1.0
-_FRAME_TIMEOUT = 15.0
 _RATE = 30.0
 _MOST_DISPLAYS = 100
 
@@ -65,11 +68,14 @@ class Client:
         self._socket = socket
         self._stage = stage
         self.playhead = Playhead()
-        self.frame_timeout = _FRAME_TIMEOUT
+        self.frame_timeout = FRAME_TIMEOUT
         self.rviz = stage.rviz
         self.wanted_fixed = stage.fixed
         self.bad_requests = 0
         self._displays: dict[int, _Wanted] = {}
+        self._joints: dict[int, JointPublisher] = {}
+        self._told_robots: dict[int, Description] = {}
+        self._told_problems: dict[str, tuple[str, str]] = {}
         self._origin = LocalOrigin()
         self._answers: asyncio.Queue[str] = asyncio.Queue(MOST_ANSWERS)
         self._ready = True
@@ -103,6 +109,8 @@ class Client:
                 await sending
             for number in list(self._displays):
                 self.unsubscribe(number)
+            for number in list(self._joints):
+                self.stop_joints(number)
 
     async def answer(self, kind: str, **fields: Any) -> None:
         """Sends something that was asked for; waits where the tab does not read."""
@@ -153,6 +161,27 @@ class Client:
             wanted.display.close()
             self._stage.release(wanted.topic)
 
+    def publish_joints(self, number: int, positions: dict[str, Any]) -> None:
+        """Sends the positions of a robot's joints from now on.
+
+        Raises:
+            ValueError: There is no such robot or joint, or a position is no number.
+            WireError: They cannot be sent.
+        """
+        known = self._stage.descriptions.known.get(number)
+        if known is None:
+            raise ValueError(f"there is no robot with the number {number}")
+        publisher = self._joints.get(number)
+        if publisher is None:
+            publisher = self._joints[number] = self._stage.joint_publisher(known.robot)
+        publisher.set(positions)
+
+    def stop_joints(self, number: int) -> None:
+        """Sends them no longer."""
+        publisher = self._joints.pop(number, None)
+        if publisher is not None:
+            publisher.close()
+
     def _open_display(self, number: int, wanted: _Wanted) -> None:
         messages = self._stage.open(wanted.topic)
         if messages is not None:
@@ -169,6 +198,7 @@ class Client:
         while True:
             while not self._answers.empty():
                 await self._socket.send(self._answers.get_nowait())
+            self._send_joints()
             if self._ready:
                 await self._send_news()
             due = max(due + 1.0 / _RATE, time.monotonic())
@@ -185,8 +215,25 @@ class Client:
             self._told_statistics = now
             await self._send_statistics()
             self._open_late_displays()
+        await self._send_robots()
         await self._send_displays()
         await self._send_tick()
+
+    def _send_joints(self) -> None:
+        for publisher in self._joints.values():
+            with contextlib.suppress(WireError):  # somebody who listens to them hangs
+                publisher.send_if_due()
+
+    async def _send_robots(self) -> None:
+        descriptions = self._stage.descriptions
+        for number, known in list(descriptions.known.items()):
+            if self._told_robots.get(number) is not known:
+                self._told_robots[number] = known
+                await self._socket.send(protocol.text("robot", **known.told))
+        for topic, problem in list(descriptions.problems.items()):
+            if self._told_problems.get(topic) != problem:
+                self._told_problems[topic] = problem
+                await self._socket.send(protocol.text("problem", text=problem[0], hint=problem[1]))
 
     async def _send_hello(self) -> None:
         stage = self._stage

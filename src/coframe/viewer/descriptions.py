@@ -2,22 +2,31 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.errors import DecodeError, RobotDescriptionError
 from coframe.robots import parse_urdf
 from coframe.viewer.robots import describe
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from concurrent.futures import Executor, Future
+
     from coframe.robots import Robot
-    from coframe.viewer.messages import Messages
     from coframe.viewer.meshes import MeshTable
+    from coframe.viewer.messages import Messages, Sighting
     from coframe.viewer.sources import Source
 
 __all__ = ["ROBOT_DESCRIPTION", "Descriptions"]
 
 ROBOT_DESCRIPTION = "/robot_description"
-_LARGEST = 16 << 20
+
+
+class Description(NamedTuple):
+    """A robot, and the fields of its ``robot`` message."""
+
+    robot: Robot
+    told: dict[str, Any]
 
 
 class Descriptions:
@@ -29,44 +38,61 @@ class Descriptions:
         meshes: Where their meshes are.
     """
 
-    def __init__(self, robot: Robot | None, topics: list[str], meshes: MeshTable) -> None:
-        self.robots: dict[int, Robot] = {}
-        self.told: dict[int, dict[str, Any]] = {}
+    def __init__(self, robot: Robot | None, topics: Iterable[str], meshes: MeshTable) -> None:
+        self.known: dict[int, Description] = {}
         self.problems: dict[str, tuple[str, str]] = {}
         self._meshes = meshes
-        self._watched: dict[str, Messages | None] = dict.fromkeys(topics)
-        self._seen: dict[str, int] = {}
-        self._numbers = {topic: number for number, topic in enumerate(topics, 1)}
+        self._watched = [_Watched(number, topic) for number, topic in enumerate(topics, 1)]
         if robot is not None:
-            self._note(robot, 0, str(robot.path or "a file"), None)
+            self.known[0] = Description(robot, describe(robot, 0, str(robot.path or "a file"), None, meshes))
 
-    def refresh(self, source: Source, at: int = 0) -> None:
-        """Takes in what topics tell by now."""
-        for topic, watched in list(self._watched.items()):
-            messages = watched
-            if messages is None:
-                messages = self._watched[topic] = source.open(topic)
-            sighting = None if messages is None else messages.at(at)
-            if sighting is None or self._seen.get(topic) == sighting.key:
-                continue
-            self._seen[topic] = sighting.key
-            self.problems.pop(topic, None)
-            try:
-                text = sighting.message().data
-                if not text.strip():  # robot_state_publisher's successors send an empty one first
-                    continue
-                if len(text) > _LARGEST:
-                    raise RobotDescriptionError(f"it has more than {_LARGEST >> 20} MiB")
-                self._note(parse_urdf(text), self._numbers[topic], topic, topic)
-            except (RobotDescriptionError, DecodeError) as error:
-                self.problems[topic] = (f"{topic} tells of no robot: {error}", error.hint)
+    def refresh(self, source: Source, executor: Executor) -> None:
+        """Takes in what topics tell by now; what takes long is done by the executor."""
+        for watched in self._watched:
+            if watched.work is None:
+                watched.look(source, executor, self._meshes)
+            elif watched.work.done():
+                result, watched.work = watched.work.result(), None
+                self.problems.pop(watched.topic, None)
+                if isinstance(result, Description):
+                    self.known[watched.number] = result
+                elif result is not None:
+                    self.problems[watched.topic] = result
 
     def close(self) -> None:
         """Leaves the topics."""
-        for messages in self._watched.values():
-            if messages is not None:
-                messages.close()
+        for watched in self._watched:
+            if watched.messages is not None:
+                watched.messages.close()
 
-    def _note(self, robot: Robot, number: int, source: str, topic: str | None) -> None:
-        self.robots[number] = robot
-        self.told[number] = describe(robot, number, source, topic, self._meshes)
+
+class _Watched:
+    """A topic that tells of a robot."""
+
+    def __init__(self, number: int, topic: str) -> None:
+        self.number = number
+        self.topic = topic
+        self.messages: Messages | None = None
+        self.work: Future[Description | tuple[str, str] | None] | None = None
+        self._seen: int | None = None
+
+    def look(self, source: Source, executor: Executor, meshes: MeshTable) -> None:
+        """Begins to read what is new."""
+        if self.messages is None:
+            self.messages = source.open(self.topic)
+        sighting = None if self.messages is None else self.messages.at(0)
+        if sighting is not None and sighting.key != self._seen:
+            self._seen = sighting.key
+            self.work = executor.submit(_read, sighting, self.number, self.topic, meshes)
+
+
+def _read(sighting: Sighting, number: int, topic: str, meshes: MeshTable) -> Description | tuple[str, str] | None:
+    """The robot of a message, None where the message is empty, or why there is none and what to do."""
+    try:
+        text = sighting.message().data
+        if not text.strip():  # some programs send an empty one first
+            return None
+        robot = parse_urdf(text)
+    except (RobotDescriptionError, DecodeError) as error:
+        return f"{topic} tells of no robot: {error}", error.hint
+    return Description(robot, describe(robot, number, topic, topic, meshes))

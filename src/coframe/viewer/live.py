@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 __all__ = ["LiveSource"]
 
+# What the viewer listens to besides what it displays.
+OTHER_TYPES = ("std_msgs/msg/String",)
 _KEEP_EVERYTHING = 60_000_000_000  # where the buffer has no end, messages have
 
 
@@ -28,14 +30,15 @@ class LiveSource:
     mode: Mode = "live"
 
     def __init__(self, connection: Connection, *, own: bool = False) -> None:
-        self.connection = connection
+        self._connection = connection
+        self.connection: Connection | None = connection
         self.buffer = connection.buffer
         self.title = f"coframe: ROS domain {connection.participant.domain_id}"
         self._own = own
 
     def topics(self) -> list[Topic]:
         """What somebody publishes or wants, and a display can show."""
-        found = self.connection.participant.topics()
+        found = self._connection.participant.topics()
         return [
             Topic(topic, ros_type, DISPLAYS[ros_type])
             for topic, ros_types in found.items()
@@ -45,23 +48,23 @@ class LiveSource:
 
     def open(self, topic: str) -> LiveMessages | None:
         """Subscribes to a topic, such that every publisher of it that is there fits."""
-        ros_type = next((known.type for known in self.topics() if known.topic == topic), None)
-        if ros_type is None:
-            return None
         from coframe.messages import find  # noqa: PLC0415 - only who looks at messages needs them
 
-        participant = self.connection.participant
-        offered = [publisher.qos for publisher in participant.publishers(topic)]
+        participant = self._connection.participant
+        publishers = [one for one in participant.publishers(topic) if one.ros_type in {*DISPLAYS, *OTHER_TYPES}]
+        if not publishers:
+            return None
+        ros_type = publishers[0].ros_type
         qos = QoS(
             depth=10,
-            reliable=all(one.reliable for one in offered),
-            transient_local=bool(offered) and all(one.transient_local for one in offered),
+            reliable=all(publisher.qos.reliable for publisher in publishers),
+            transient_local=all(publisher.qos.transient_local for publisher in publishers),
         )
-        subscription = participant.subscription(self.connection.node, topic, find(ros_type), qos)
+        subscription = participant.subscription(self._connection.node, topic, find(ros_type), qos)
         keep = self.buffer.cache_ns
         return LiveMessages(subscription, ros_type, keep if keep >= 0 else _KEEP_EVERYTHING)
 
     def close(self) -> None:
         """Leaves the graph, where that is the source's to do."""
         if self._own:
-            self.connection.close()
+            self._connection.close()

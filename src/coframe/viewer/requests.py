@@ -6,7 +6,7 @@ import json
 import math
 from typing import TYPE_CHECKING, Any
 
-from coframe.errors import ViewerError
+from coframe.errors import ViewerError, WireError
 from coframe.viewer.displays import Options
 from coframe.viewer.relations import relate
 from coframe.viewer.rviz import RvizConfig
@@ -216,6 +216,19 @@ async def _timeline(client: Client, request: Request) -> None:
     await client.answer("timeline", revision=revision, bins=bins, edges=edges, **span)
 
 
+async def _joints(client: Client, request: Request) -> None:
+    number = request.integer("robot", 0, _LARGEST_ID)
+    if not request.flag("publish"):
+        client.stop_joints(number)
+        return
+    try:
+        client.publish_joints(number, request.mapping("positions"))
+    except (ValueError, TypeError) as error:
+        raise BadRequestError(f"joint states cannot be sent: {error}") from None
+    except (ViewerError, WireError) as error:
+        raise BadRequestError(f"joint states cannot be sent: {error}", error.hint) from None
+
+
 async def _load_rviz(client: Client, request: Request) -> None:
     try:
         config = await client.work(RvizConfig.parse, request.text("text"))
@@ -243,6 +256,7 @@ async def _save_rviz(client: Client, request: Request) -> None:
 _DEEDS: dict[str, Callable[[Client, Request], Awaitable[None]]] = {
     "fixed": _fixed,
     "frame_timeout": _frame_timeout,
+    "joints": _joints,
     "load_rviz": _load_rviz,
     "ready": _ready,
     "relate": _relate,

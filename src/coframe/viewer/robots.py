@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from coframe.robots import Mesh, PackageError, Packages
@@ -10,6 +9,7 @@ from coframe.viewer.meshes import MeshError, MeshTable
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+    from pathlib import Path
 
     from coframe.robots import Robot
 
@@ -65,9 +65,8 @@ def describe(robot: Robot, number: int, source: str, topic: str | None, meshes: 
 def _files_of(robot: Robot) -> Iterator[str]:
     """The meshes and textures that it names."""
     for link in robot.links.values():
-        for shape in (*link.visuals, *link.collisions):
-            if isinstance(shape.geometry, Mesh):
-                yield shape.geometry.filename
+        geometries = [visual.geometry for visual in link.visuals] + [bump.geometry for bump in link.collisions]
+        yield from (geometry.filename for geometry in geometries if isinstance(geometry, Mesh))
         for visual in link.visuals:
             if visual.material is not None and visual.material.texture:
                 yield visual.material.texture

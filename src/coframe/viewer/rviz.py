@@ -111,6 +111,12 @@ class RvizConfig:
         value = self._global.get("Frame Rate")
         return float(value) if _is_number(value) and 1 <= value <= 1000 else None
 
+    @property
+    def description_topics(self) -> list[str]:
+        """Where its robots are told."""
+        robots = (found for found in _displays(self._manager, "") if found.plain_class == "RobotModel")
+        return [topic for robot in robots if (topic := _topic_of(robot.display)) is not None]
+
     def description(self) -> dict[str, Any]:
         """What the page is told: the fields of an ``rviz`` message."""
         known, unknown = [], []

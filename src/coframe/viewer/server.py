@@ -8,7 +8,7 @@ import logging
 import threading
 from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
-from urllib.parse import unquote, urlsplit
+from urllib.parse import parse_qsl, unquote, urlsplit
 
 from websockets.asyncio.server import Server, ServerConnection, serve
 
@@ -16,6 +16,7 @@ from coframe.errors import ViewerError
 from coframe.viewer.client import Client
 from coframe.viewer.http import STATIC, Visitors, file_response, page_file, response, sentence
 from coframe.viewer.meshes import MESH_TYPES, MeshError
+from coframe.viewer.replay import replay_page
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -150,14 +151,17 @@ class ViewerServer:
         policy = self._visitors.policy
         if not self._visitors.host_is_ours(request.headers.get("Host")):
             return sentence(HTTPStatus.FORBIDDEN, "This server goes by another name.", policy)
-        path = unquote(urlsplit(request.path).path)
+        parts = urlsplit(request.path)
+        path = unquote(parts.path)
         if path == "/ws":
             return self._answer_socket(request)
         if path.startswith("/mesh/"):
             return await self._in_thread(self._answer_mesh, path.removeprefix("/mesh/"))
         if path == "/rviz":
             return self._answer_rviz()
-        return self._answer_page(path)
+        if path == "/replay":
+            return await self._answer_replay(parts.query)
+        return self._answer_page(path, request.headers.get("If-None-Match"))
 
     async def _in_thread(self, deed: Callable[..., Response], *args: Any) -> Response:
         return await self._loop.run_in_executor(self._stage.executor, deed, *args)
@@ -185,10 +189,23 @@ class ViewerServer:
         attachment = {"Content-Disposition": 'attachment; filename="coframe.rviz"'}
         return response(HTTPStatus.OK, text.encode(), "text/yaml; charset=utf-8", policy, attachment)
 
-    def _answer_page(self, path: str) -> Response:
+    async def _answer_replay(self, query: str) -> Response:
+        stage, policy = self._stage, self._visitors.policy
+        try:
+            wanted = stage.replay_request(dict(parse_qsl(query)))
+            template, robots = self._static / "replay.html", list(stage.descriptions.known.values())
+            page = await self._loop.run_in_executor(
+                stage.executor, replay_page, template, stage.source.buffer, wanted, robots, stage.meshes
+            )
+        except ViewerError as error:
+            return sentence(HTTPStatus.BAD_REQUEST, f"{error} {error.hint}".strip(), policy)
+        attachment = {"Content-Disposition": 'attachment; filename="coframe-replay.html"'}
+        return response(HTTPStatus.OK, page, "text/html; charset=utf-8", policy, attachment)
+
+    def _answer_page(self, path: str, known: str | None) -> Response:
         file = page_file("index.html" if path == "/" else path, self._static)
         if file is not None:
-            return file_response(file, self._visitors.policy)
+            return file_response(file, self._visitors.policy, known)
         if path == "/":
             text = "This coframe has no viewer page: build it in viewer/ by `npm ci && npm run build`."
             return sentence(HTTPStatus.SERVICE_UNAVAILABLE, text, self._visitors.policy)

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.buffer import Buffer
 from coframe.errors import ViewerError
-from coframe.viewer.meshes import MeshTable
+from coframe.robots import load
+from coframe.viewer.robots import mesh_table
 from coframe.viewer.rviz import RvizConfig
 from coframe.viewer.sources import BufferSource
 from coframe.viewer.stage import Stage
@@ -73,6 +74,7 @@ def show(
     *,
     fixed: str = "",
     rviz: str | os.PathLike[str] | None = None,
+    robot: str | os.PathLike[str] | None = None,
     mesh_roots: Iterable[str | os.PathLike[str]] = (),
     host: str = "127.0.0.1",
     port: int | None = None,
@@ -84,12 +86,14 @@ def show(
         fixed: The frame that everything is seen from; by default that of the .rviz file, or the root of the largest
             tree.
         rviz: A configuration file of RViz 2 or RViz 1.
+        robot: A robot's URDF or xacro file; others come from the topic ``/robot_description``.
         mesh_roots: Folders below which meshes may be fetched, besides those of ROS packages that are named.
         host: The address to listen on. Others than this machine's own let everybody in who reaches it.
         port: The port; None takes 7676, or any other where that is taken; 0 takes any.
 
     Raises:
         ViewerError: A package is missing, a file cannot be read, or the address cannot be listened on.
+        RobotDescriptionError: The robot's file is none.
 
     Example:
         >>> import coframe
@@ -100,8 +104,10 @@ def show(
         True
     """
     config = None if rviz is None else _read_config(Path(rviz))
-    meshes = MeshTable(_no_package, [Path(root) for root in mesh_roots])
-    stage = Stage(_source_of(source), fixed=fixed, meshes=meshes, rviz=config)
+    roots = [Path(root) for root in mesh_roots]
+    description = None if robot is None else load(robot, packages=roots)
+    meshes = mesh_table(None if robot is None else Path(robot), roots)
+    stage = Stage(_source_of(source), fixed=fixed, rviz=config, robot=description, meshes=meshes)
     return Viewer(stage, host=host, port=port)
 
 
@@ -121,7 +127,3 @@ def _read_config(file: Path) -> RvizConfig:
     except (OSError, UnicodeDecodeError) as error:
         raise ViewerError(f"cannot read {file}: {error}") from None
     return RvizConfig.parse(text, str(file))
-
-
-def _no_package(_name: str) -> None:
-    return None
