@@ -23,8 +23,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Stage"]
 
-# How often the structure is looked at, and how often the topics.
+# How often the structure is looked at, and the topics; of large trees as often as that share of the time allows.
 STRUCTURE_PERIOD, TOPICS_PERIOD = 0.2, 1.0
+STRUCTURE_SHARE = 0.005
 # A float64 is exact up to 2**53 nanoseconds, 104 days.
 _FARTHEST = 2**52
 # For how many seconds a frame is shown that is not heard of any more, as in RViz.
@@ -74,8 +75,9 @@ class Stage:
         """Takes in what has changed, now and then."""
         now = time.monotonic()
         if now >= self._structure_due:
-            self._structure_due = now + STRUCTURE_PERIOD
             self.scene.refresh()
+            spent = time.monotonic() - now
+            self._structure_due = now + max(STRUCTURE_PERIOD, spent / STRUCTURE_SHARE)
             self._choose_origin()
             self.descriptions.refresh(self.source, self.executor)
         if now >= self._topics_due:
