@@ -1,7 +1,6 @@
 """ROS 2's transform system (tf2) for Python: any frame, any time, on any machine."""
 
-from __future__ import annotations
-
+import importlib
 from typing import TYPE_CHECKING, Any
 
 from coframe.buffer import Buffer, EdgeInfo, FrameInfo, Subscription
@@ -23,6 +22,7 @@ from coframe.transform import Transform
 from coframe.wire.connection import Connection, connect
 
 if TYPE_CHECKING:
+    from coframe.bags import open_bag
     from coframe.viewer.show import show
 
 __version__ = "0.1.0"
@@ -48,14 +48,17 @@ __all__ = [
     "WireError",
     "__version__",
     "connect",
+    "open_bag",
     "show",
 ]
 
+_LATE = {"open_bag": "coframe.bags", "show": "coframe.viewer"}
+
 
 def __getattr__(name: str) -> Any:
-    """The viewer, when somebody wants it: `import coframe` stays cheap."""
-    if name == "show":
-        from coframe.viewer.show import show  # noqa: PLC0415 - see above
-
-        return show
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    """What takes long to import, and few need, is imported when it is first used."""
+    if name in _LATE:
+        return getattr(importlib.import_module(_LATE[name]), name)
+    if name in {"bags", "robots", "viewer"}:
+        return importlib.import_module(f"coframe.{name}")
+    raise AttributeError(f"module 'coframe' has no attribute {name!r}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +17,6 @@ from coframe.viewer.stage import Stage
 from coframe.wire.connection import Connection
 
 if TYPE_CHECKING:
-    import os
     from collections.abc import Iterable
 
     from typing_extensions import Self
@@ -82,7 +82,8 @@ def show(
     """Shows transforms in a browser tab: open the ``url`` of what is returned, or leave it to Jupyter.
 
     Args:
-        source: A :class:`coframe.Buffer`, or a connection to the ROS graph (:func:`coframe.connect`).
+        source: A :class:`coframe.Buffer`, a connection to the ROS graph (:func:`coframe.connect`), a recording
+            (:func:`coframe.open_bag`) or the path of one.
         fixed: The frame that everything is seen from; by default that of the .rviz file, or the root of the largest
             tree.
         rviz: A configuration file of RViz 2 or RViz 1.
@@ -94,6 +95,7 @@ def show(
     Raises:
         ViewerError: A package is missing, a file cannot be read, or the address cannot be listened on.
         RobotDescriptionError: The robot's file is none.
+        RecordingError: Nothing of the recording can be read.
 
     Example:
         >>> import coframe
@@ -115,10 +117,19 @@ def _source_of(source: Any) -> Source:
     if isinstance(source, Buffer):
         return BufferSource(source)
     if isinstance(source, Connection):
-        from coframe.viewer.live import LiveSource  # noqa: PLC0415 - joins the graph's message classes
+        from coframe.viewer.live import LiveSource  # noqa: PLC0415 - each kind needs what the others do not
 
         return LiveSource(source)
-    raise TypeError(f"show() takes a coframe.Buffer or a coframe.connect(), not {type(source).__name__}")
+    from coframe.bags import Recording, open_bag  # noqa: PLC0415 - likewise
+    from coframe.viewer.recorded import RecordedSource  # noqa: PLC0415 - likewise
+
+    if isinstance(source, Recording):
+        return RecordedSource(source)
+    if isinstance(source, str | os.PathLike):
+        return RecordedSource(open_bag(source), own=True)
+    raise TypeError(
+        f"show() takes a coframe.Buffer, a coframe.connect() or a coframe.open_bag(), not {type(source).__name__}"
+    )
 
 
 def _read_config(file: Path) -> RvizConfig:
