@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import ipaddress
 import socket
 from http import HTTPStatus
@@ -111,7 +112,11 @@ def page_file(path: str, folder: Path) -> Path | None:
     return file if file.is_relative_to(root) and file.is_file() else None
 
 
-def file_response(file: Path, policy: str) -> Response:
-    """A file of the page."""
+def file_response(file: Path, policy: str, known: str | None) -> Response:
+    """A file of the page, for a browser that knows the one with an ETag, or none."""
     kind = _TYPES.get(file.suffix.lower(), "application/octet-stream")
-    return response(HTTPStatus.OK, file.read_bytes(), kind, policy)
+    body = file.read_bytes()
+    tag = f'"{hashlib.sha256(body).hexdigest()[:32]}"'
+    if tag == known:
+        return response(HTTPStatus.NOT_MODIFIED, b"", kind, policy, {"ETag": tag})
+    return response(HTTPStatus.OK, body, kind, policy, {"ETag": tag})

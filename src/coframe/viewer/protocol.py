@@ -1,46 +1,50 @@
 """What travels between the viewer's server and its page, over one WebSocket.
 
 Text messages are JSON objects with a ``type``. Binary messages are little endian and begin with their kind as uint32.
-Times are nanoseconds relative to the ``origin`` that ``hello`` names (the decimal text of an int64), so that a float64
-holds them exactly. Frame names, topics and robot descriptions are data and never HTML. Poses are x, y, z in metres
-and a quaternion x, y, z, w; NaN where there is none.
+Times are nanoseconds relative to the ``origin`` that ``hello`` names (the decimal text of an int64), so that a
+float64 holds them exactly. Frame names, topics and robot descriptions are data and never HTML. Poses are x, y, z in
+metres and a quaternion x, y, z, w; NaN where there is none.
 
 Server to page, text:
 
 * ``hello`` {version, mode: "live" | "recording" | "buffer", title, origin, span: [first, last] | null, fixed, rviz,
   topics, can_publish}. Sent first, and again where the origin has to be another one: all times start anew.
-* ``tree`` {revision, fixed, frames: [{name, parent: index or -1, static, component: index}], components: [{root, size}]}.
-  Whenever the structure or the chosen fixed frame has changed. Ticks and statistics keep its order and name its revision.
-* ``stats`` {revision, span, frames: [{rate: Hz, age: s, last: ns, publisher, samples, longest_gap: s, state: "static" |
-  "fresh" | "stale" | "gone"}]}, once a second; null for what does not apply. Of roots the state is "static".
+* ``tree`` {revision, fixed, frames: [{name, parent: index or -1, static, component: index}], components: [{root,
+  size}]}. Whenever the structure or the chosen fixed frame has changed. Ticks and statistics keep its order and name
+  its revision.
+* ``stats`` {revision, span, frames: [{rate: Hz, age: s, last: ns, publisher, samples, longest_gap: s, state: "static"
+  | "fresh" | "stale" | "gone"}]}, once a second; null for what does not apply. Of roots the state is "static".
 * ``topics`` {topics: [{topic, type, display}]}: what can be displayed, whenever that has changed.
 * ``robot`` {id, name, source, urdf, meshes: {as written: URL}, problems: [text], joints: [{name, type, lower, upper,
   value}], description_topic}.
 * ``display`` {id, state: "ok" | "waiting" | "error", text}: what became of a subscribed display.
 * ``rviz`` {displays: [{class, name, enabled, options}], global, view, unknown: [{path, class, name}]}.
-* ``relation`` {id, ok, target, source, stamp, translation, quaternion, rpy_deg, matrix, static_command, chain, error, hint,
-  broken_at}: the answer to ``relate``.
+* ``relation`` {id, ok, target, source, stamp, translation, quaternion, rpy_deg, matrix, static_command, chain, error,
+  hint, broken_at}: the answer to ``relate``.
 * ``timeline`` {revision, bins, from, to, edges: [{frame, counts: base64 of uint16[bins], gaps: [[from, to]]}]}.
 * ``saved`` {text}, ``problem`` {text, hint}.
 
 Server to page, binary:
 
-* 1, tick: uint32 kind, revision; float64 time (NaN: nothing yet), origin x, y, z; uint32 frames, entries; for each frame
-  float32[7]; for each frame uint8 state (0 as asked, 1 stale, 2 gone, 3 not connected: seen from its own root); padding to
-  four bytes; for each entry uint32 display, sequence, float32[7] pose of the message's frame, uint32 1 where it cannot be
-  told. A position in the world is the origin plus what is told. Entries are all messages that are to be seen: several of
-  one display where it decays, or where its markers are in several frames. What is not listed any more is gone.
-* 2, cloud: uint32 kind, display, sequence, n, flags (1 scalars, 2 colours); float64 stamp; float32 least and largest scalar;
-  float32[n * 3] in the message's frame; float32[n] scalars or uint8[n * 4] colours.
-* 3, grid: uint32 kind, display, sequence, width, height; float32 resolution; float32[7] pose of the corner; int8 cells.
-* 4, shapes: uint32 kind, display, sequence, length of the JSON; the JSON, padded by spaces to four bytes; float32 payload.
-  The JSON has kind: "poses" | "path" | "odometry" | "markers" | "range" | "camera", frame, stamp and, where numbers are
-  many, [offset, count] in the payload, both in floats.
+* 1, tick: uint32 kind, revision; float64 time (NaN: nothing yet), origin x, y, z; uint32 frames, entries; for each
+  frame float32[7]; for each frame uint8 state (0 as asked, 1 stale, 2 gone, 3 not connected: seen from its own root);
+  padding to four bytes; for each entry uint32 display, sequence, float32[7] pose of the message's frame, uint32 1
+  where it cannot be told. A position in the world is the origin plus what is told. Entries are all messages that are
+  to be seen: several of one display where it decays, or where its markers are in several frames. What is not listed
+  any more is gone.
+* 2, cloud: uint32 kind, display, sequence, n, flags (1 scalars, 2 colours); float64 stamp; float32 least and largest
+  scalar; float32[n * 3] in the message's frame; float32[n] scalars or uint8[n * 4] colours.
+* 3, grid: uint32 kind, display, sequence, width, height; float32 resolution; float32[7] pose of the corner; int8
+  cells.
+* 4, shapes: uint32 kind, display, sequence, length of the JSON; the JSON, padded by spaces to four bytes; float32
+  payload. The JSON has kind: "poses" | "path" | "odometry" | "markers" | "range" | "camera", frame, stamp and, where
+  numbers are many, [offset, count] in the payload, both in floats.
 
-Page to server, text: ``fixed`` {frame}; ``time`` {mode: "live"} or {mode: "at", at, playing, speed, loop: [from, to] | null};
-``step`` {direction}; ``subscribe`` {id, topic, display, options}; ``unsubscribe`` {id}; ``relate`` {id, target, source};
-``timeline`` {from, to, bins}; ``joints`` {robot, positions, publish}; ``load_rviz`` {text}; ``save_rviz`` {displays,
-global, view}; ``frame_timeout`` {seconds}; ``ready`` {drawn}: the last tick is drawn, the next may come.
+Page to server, text: ``fixed`` {frame}; ``time`` {mode: "live"} or {mode: "at", at, playing, speed, loop: [from, to]
+| null}; ``step`` {direction}; ``subscribe`` {id, topic, display, options}; ``unsubscribe`` {id}; ``relate`` {id,
+target, source}; ``timeline`` {from, to, bins}; ``joints`` {robot, positions, publish}; ``load_rviz`` {text};
+``save_rviz`` {displays, global, view}; ``frame_timeout`` {seconds}; ``ready`` {drawn}: the last tick is drawn, the
+next may come.
 
 What is unknown or malformed is answered by a ``problem``; a message of more than 1 MiB ends the connection.
 """
@@ -99,7 +103,8 @@ def near(poses: NDArray[np.float64], origin: NDArray[np.float64]) -> NDArray[np.
     """Poses as float32 without losing what is far away: (..., 7) relative to the local origin."""
     local = poses.copy()
     local[..., :3] -= origin
-    return local.astype("<f4")
+    small: NDArray[np.float32] = local.astype("<f4")
+    return small
 
 
 def cloud(

@@ -6,6 +6,12 @@ import json
 import math
 from typing import TYPE_CHECKING, Any
 
+from coframe.errors import ViewerError, WireError
+from coframe.viewer.displays import Options
+from coframe.viewer.relations import relate
+from coframe.viewer.rviz import RvizConfig
+from coframe.viewer.timeline import MOST_BINS, edge_rows, next_stamp
+
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
@@ -14,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["BadRequestError", "Request", "parse"]
 
 _FARTHEST = 2.0**62  # nanoseconds from the origin
+_LARGEST_ID = 2**32 - 1
 
 
 class BadRequestError(ValueError):
@@ -171,9 +178,92 @@ async def _frame_timeout(client: Client, request: Request) -> None:
     client.frame_timeout = min(max(request.number("seconds"), 0.0), 1e6)
 
 
+async def _subscribe(client: Client, request: Request) -> None:
+    options = Options.of(request.mapping("options"), client.origin)
+    client.subscribe(request.integer("id", 0, _LARGEST_ID), request.text("topic"), options)
+
+
+async def _unsubscribe(client: Client, request: Request) -> None:
+    client.unsubscribe(request.integer("id", 0, _LARGEST_ID))
+
+
+async def _step(client: Client, request: Request) -> None:
+    direction = -1 if request.number("direction") < 0 else 1
+    stage = client.stage
+    span = stage.scene.span
+    at = client.at or (span[1] if span is not None else 0)
+    topics = [display.messages for display in client.displays()]
+    found = await client.work(next_stamp, stage.source.buffer, list(stage.scene.infos), topics, at, direction)
+    client.playhead.move(at if found is None else found)
+
+
+async def _relate(client: Client, request: Request) -> None:
+    number = request.integer("id", 0, _LARGEST_ID)
+    target, source = request.text("target"), request.text("source")
+    fields = relate(client.stage.source.buffer, target, source, client.at, client.origin)
+    await client.answer("relation", id=number, **fields)
+
+
+async def _timeline(client: Client, request: Request) -> None:
+    stage, origin = client.stage, client.origin
+    first, last = request.time("from", origin), request.time("to", origin)
+    bins = request.integer("bins", 1, MOST_BINS)
+    if last <= first:
+        raise BadRequestError("a timeline must end after it begins")
+    revision = stage.scene.revision
+    edges = await client.work(edge_rows, stage.source.buffer, list(stage.scene.infos), first, last, bins, origin)
+    span = {"from": first - origin, "to": last - origin}
+    await client.answer("timeline", revision=revision, bins=bins, edges=edges, **span)
+
+
+async def _joints(client: Client, request: Request) -> None:
+    number = request.integer("robot", 0, _LARGEST_ID)
+    if not request.flag("publish"):
+        client.stop_joints(number)
+        return
+    try:
+        client.publish_joints(number, request.mapping("positions"))
+    except (ValueError, TypeError) as error:
+        raise BadRequestError(f"joint states cannot be sent: {error}") from None
+    except (ViewerError, WireError) as error:
+        raise BadRequestError(f"joint states cannot be sent: {error}", error.hint) from None
+
+
+async def _load_rviz(client: Client, request: Request) -> None:
+    try:
+        config = await client.work(RvizConfig.parse, request.text("text"))
+    except ViewerError as error:
+        raise BadRequestError(str(error), error.hint) from None
+    client.rviz = config
+    if config.fixed_frame:
+        client.wanted_fixed = config.fixed_frame
+    await client.answer("rviz", **config.description())
+
+
+async def _save_rviz(client: Client, request: Request) -> None:
+    config = client.rviz or RvizConfig()
+    displays, options, view = request.sequence("displays"), request.mapping("global"), request.mapping("view")
+    try:
+        merged = config.merged(displays, options, view)
+        text = await client.work(merged.text)
+    except (ViewerError, RecursionError) as error:
+        raise BadRequestError(f"the configuration cannot be written: {error}") from None
+    client.rviz = merged
+    client.stage.saved_rviz = text
+    await client.answer("saved", text=text)
+
+
 _DEEDS: dict[str, Callable[[Client, Request], Awaitable[None]]] = {
     "fixed": _fixed,
     "frame_timeout": _frame_timeout,
+    "joints": _joints,
+    "load_rviz": _load_rviz,
     "ready": _ready,
+    "relate": _relate,
+    "save_rviz": _save_rviz,
+    "step": _step,
+    "subscribe": _subscribe,
     "time": _time,
+    "timeline": _timeline,
+    "unsubscribe": _unsubscribe,
 }

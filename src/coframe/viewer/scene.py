@@ -34,6 +34,7 @@ class Structure(NamedTuple):
         components: The index of each one's tree.
         roots: The frame at the top of each tree; where a tree is a loop, one of its frames.
         order: Indices such that parents come before their children.
+        largest: The root of the tree with the most frames; "" where there is none.
     """
 
     names: list[str]
@@ -42,14 +43,7 @@ class Structure(NamedTuple):
     components: list[int]
     roots: list[str]
     order: list[int]
-
-    @property
-    def largest(self) -> str:
-        """The root of the tree with the most frames; "" where there is none."""
-        if not self.roots:
-            return ""
-        sizes = np.bincount(self.components, minlength=len(self.roots))
-        return self.roots[int(sizes.argmax())]
+    largest: str
 
     def component_of(self, frame: str) -> int | None:
         """Which tree a frame is in; None if nobody knows it."""
@@ -75,10 +69,11 @@ class Scene:
         self.buffer = buffer
         self.ages = ages
         self.revision = 0
-        self.structure = Structure([], [], [], [], [], [])
+        self.structure = Structure([], [], [], [], [], [], "")
         self.span: tuple[int, int] | None = None
         self.infos: list[FrameInfo] = []
         self._changes: int | None = None
+        self._links: list[tuple[str, str, bool]] = []
         self._newest: NDArray[np.int64] = np.zeros(0, np.int64)
         self._heard: NDArray[np.float64] = np.zeros(0)  # of the monotonic clock
         self._periods: NDArray[np.float64] = np.zeros(0)
@@ -93,9 +88,7 @@ class Scene:
         self.infos = self.buffer.frames()
         self._note_structure()
         dynamic = [info for info in self.infos if info.samples and not info.static]
-        self.span = (
-            (min(info.oldest for info in dynamic), max(info.newest for info in dynamic)) if dynamic else None
-        )
+        self.span = (min(info.oldest for info in dynamic), max(info.newest for info in dynamic)) if dynamic else None
         newest = np.array([info.newest for info in self.infos], np.int64)
         periods = np.array([1.0 / info.rate if info.rate > 0.0 else 0.0 for info in self.infos])
         heard = np.full(len(newest), time.monotonic())
@@ -161,9 +154,10 @@ class Scene:
         return roots
 
     def _note_structure(self) -> None:
-        structure = _structure_of(self.infos)
-        if structure != self.structure:
-            self.structure = structure
+        links = [(info.name, info.parent, info.static) for info in self.infos]
+        if links != self._links:
+            self._links = links
+            self.structure = _structure_of(self.infos)
             self.revision += 1
             self._roots.clear()
 
@@ -193,7 +187,8 @@ def _structure_of(infos: list[FrameInfo]) -> Structure:
                     components[child] = len(roots)
                     waiting.append(child)
         roots.append(infos[start].name)
-    return Structure([info.name for info in infos], parents, static, components, roots, order)
+    largest = roots[int(np.bincount(components).argmax())] if roots else ""
+    return Structure([info.name for info in infos], parents, static, components, roots, order, largest)
 
 
 class LocalOrigin:
@@ -212,9 +207,13 @@ class LocalOrigin:
         if fixed is not None:
             shown[fixed] = False  # it lies at zero, wherever the others are
         positions = placed.poses[shown, :3]
-        positions = positions[np.isfinite(positions).all(axis=1)]
-        if len(positions):
-            centre = np.partition(positions, len(positions) // 2, axis=0)[len(positions) // 2]
-            if np.abs(centre - self.xyz).max() > self.NEAR:
-                self.xyz = np.round(centre / self.STEP) * self.STEP
+        if len(positions) and not (np.abs(positions - self.xyz) <= self.NEAR).all():
+            self._move_to(positions[np.isfinite(positions).all(axis=1)])
         return self.xyz
+
+    def _move_to(self, positions: NDArray[np.float64]) -> None:
+        if not len(positions):
+            return
+        centre = np.partition(positions, len(positions) // 2, axis=0)[len(positions) // 2]
+        if np.abs(centre - self.xyz).max() > self.NEAR:
+            self.xyz = np.round(centre / self.STEP) * self.STEP

@@ -7,16 +7,19 @@ import contextlib
 import logging
 import threading
 from http import HTTPStatus
-from typing import TYPE_CHECKING
-from urllib.parse import unquote, urlsplit
+from typing import TYPE_CHECKING, Any
+from urllib.parse import parse_qsl, unquote, urlsplit
 
 from websockets.asyncio.server import Server, ServerConnection, serve
 
 from coframe.errors import ViewerError
 from coframe.viewer.client import Client
-from coframe.viewer.http import STATIC, Visitors, file_response, page_file, sentence
+from coframe.viewer.http import STATIC, Visitors, file_response, page_file, response, sentence
+from coframe.viewer.meshes import MESH_TYPES, MeshError
+from coframe.viewer.replay import replay_page
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     from typing_extensions import Self
@@ -32,6 +35,7 @@ _logger = logging.getLogger("coframe.viewer")
 DEFAULT_PORT = 7676
 LARGEST_REQUEST = 1 << 20
 _END_TIMEOUT = 5.0
+_ANSWER_TIMEOUT = 60.0  # also of a replay, which takes a while to make
 
 
 class ViewerServer:
@@ -93,6 +97,7 @@ class ViewerServer:
             self._loop.run_until_complete(self._serve(port))
         finally:
             self._started.set()
+            self._stage.close()
             self._loop.run_until_complete(self._loop.shutdown_asyncgens())
             self._loop.close()
 
@@ -120,7 +125,7 @@ class ViewerServer:
             return await self._listen_on(0)
 
     async def _listen_on(self, port: int) -> Server:
-        return await serve(
+        server: Server = await serve(
             self._welcome,
             self._host,
             port,
@@ -129,8 +134,10 @@ class ViewerServer:
             max_size=LARGEST_REQUEST,
             max_queue=16,
             server_header=None,
+            open_timeout=_ANSWER_TIMEOUT,
             logger=_quiet_logger(),
         )
+        return server
 
     async def _welcome(self, socket: ServerConnection) -> None:
         try:
@@ -144,10 +151,28 @@ class ViewerServer:
         policy = self._visitors.policy
         if not self._visitors.host_is_ours(request.headers.get("Host")):
             return sentence(HTTPStatus.FORBIDDEN, "This server goes by another name.", policy)
-        path = unquote(urlsplit(request.path).path)
+        parts = urlsplit(request.path)
+        path = unquote(parts.path)
         if path == "/ws":
             return self._answer_socket(request)
-        return self._answer_page(path)
+        if path.startswith("/mesh/"):
+            return await self._in_thread(self._answer_mesh, path.removeprefix("/mesh/"))
+        if path == "/rviz":
+            return self._answer_rviz()
+        if path == "/replay":
+            return await self._answer_replay(parts.query)
+        return self._answer_page(path, request.headers.get("If-None-Match"))
+
+    async def _in_thread(self, deed: Callable[..., Response], *args: Any) -> Response:
+        return await self._loop.run_in_executor(self._stage.executor, deed, *args)
+
+    def _answer_mesh(self, path: str) -> Response:
+        policy = self._visitors.policy
+        try:
+            file = self._stage.meshes.file(path)
+            return response(HTTPStatus.OK, file.read_bytes(), MESH_TYPES[file.suffix.lower()], policy)
+        except (MeshError, OSError) as error:
+            return sentence(HTTPStatus.NOT_FOUND, str(error), policy)
 
     def _answer_socket(self, request: Request) -> Response | None:
         policy = self._visitors.policy
@@ -157,10 +182,30 @@ class ViewerServer:
             return sentence(HTTPStatus.FORBIDDEN, "Pages of other sites may not talk to this server.", policy)
         return None
 
-    def _answer_page(self, path: str) -> Response:
+    def _answer_rviz(self) -> Response:
+        text, policy = self._stage.saved_rviz, self._visitors.policy
+        if text is None:
+            return sentence(HTTPStatus.NOT_FOUND, "Nothing has been saved yet: save it in the page.", policy)
+        attachment = {"Content-Disposition": 'attachment; filename="coframe.rviz"'}
+        return response(HTTPStatus.OK, text.encode(), "text/yaml; charset=utf-8", policy, attachment)
+
+    async def _answer_replay(self, query: str) -> Response:
+        stage, policy = self._stage, self._visitors.policy
+        try:
+            wanted = stage.replay_request(dict(parse_qsl(query)))
+            template, robots = self._static / "replay.html", list(stage.descriptions.known.values())
+            page = await self._loop.run_in_executor(
+                stage.executor, replay_page, template, stage.source.buffer, wanted, robots, stage.meshes
+            )
+        except ViewerError as error:
+            return sentence(HTTPStatus.BAD_REQUEST, f"{error} {error.hint}".strip(), policy)
+        attachment = {"Content-Disposition": 'attachment; filename="coframe-replay.html"'}
+        return response(HTTPStatus.OK, page, "text/html; charset=utf-8", policy, attachment)
+
+    def _answer_page(self, path: str, known: str | None) -> Response:
         file = page_file("index.html" if path == "/" else path, self._static)
         if file is not None:
-            return file_response(file, self._visitors.policy)
+            return file_response(file, self._visitors.policy, known)
         if path == "/":
             text = "This coframe has no viewer page: build it in viewer/ by `npm ci && npm run build`."
             return sentence(HTTPStatus.SERVICE_UNAVAILABLE, text, self._visitors.policy)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 if TYPE_CHECKING:
     from coframe import Buffer
     from coframe.viewer.messages import Messages
+    from coframe.wire.connection import Connection
 
 __all__ = ["BufferSource", "Mode", "Source", "Topic"]
 
@@ -28,11 +29,13 @@ class Source(Protocol):
         mode: What kind it is.
         title: What the tab is called.
         buffer: Its transforms.
+        connection: Where joint states can be sent; None where that is nowhere.
     """
 
     mode: Mode
     title: str
     buffer: Buffer
+    connection: Connection | None
 
     def topics(self) -> list[Topic]:
         """What can be displayed now, in order."""
@@ -48,6 +51,7 @@ class BufferSource:
     """A buffer alone: frames, and no messages."""
 
     mode: Mode = "buffer"
+    connection: Connection | None = None
 
     def __init__(self, buffer: Buffer, title: str = "coframe") -> None:
         self.buffer = buffer
