@@ -153,9 +153,7 @@ function ready(time: number): void {
   source.send({ type: "ready", drawn: Number.isFinite(time) ? time : null });
 }
 
-view.onDrawn((tick) => {
-  if (tick) ready(tick.time);
-});
+view.onTaken((tick) => ready(tick.time));
 
 source.start((event, value) => {
   if (event === "text") receive(value as ServerMessage);

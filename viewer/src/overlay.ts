@@ -7,6 +7,7 @@ import type { View } from "./view";
 
 /** A server that answers within this is not worth a word. */
 const PATIENCE_MS = 900;
+const COUNT_MS = 1000;
 
 export class Overlay {
   private readonly orbit: HTMLButtonElement;
@@ -18,6 +19,7 @@ export class Overlay {
   private readonly corner = h("div", { class: "corner numbers" });
   private readonly nothing: HTMLElement;
   private lost = 0;
+  private counted = 0;
 
   constructor(
     root: HTMLElement,
@@ -100,6 +102,9 @@ export class Overlay {
     if (followed !== null) setText(this.following, `Following ${shorten(followed, 40)}`);
     const pressed = String(followed !== null);
     if (this.follow.getAttribute("aria-pressed") !== pressed) this.tellButtons();
+    const now = performance.now();
+    if (now - this.counted < COUNT_MS) return;
+    this.counted = now;
     setText(this.corner, `${this.view.stage.fps} pictures/s`);
   }
 

@@ -22,6 +22,7 @@ export class Timeline {
     role: "slider",
     aria: { label: "Time", valuemin: "0", valuemax: "0", valuenow: "0" },
   });
+  private readonly head = h("div", { class: "head", aria: { hidden: "true" } });
   private readonly rows = h("canvas", { role: "img", aria: { label: "How often each frame came, and where it has gaps" } });
   private readonly sparks: HTMLElement;
   private message: TimelineMessage | null = null;
@@ -54,7 +55,7 @@ export class Timeline {
         this.live,
         this.loop,
         speed,
-        h("div", { class: "scrub" }, this.canvas),
+        h("div", { class: "scrub" }, this.canvas, this.head),
         this.time,
         this.sparksButton,
       ),
@@ -142,7 +143,19 @@ export class Timeline {
     }
     setText(this.time, format.stamp(this.model.origin, tick.time));
     this.time.title = `${format.offset(tick.time - span[0])} of ${format.offset(span[1] - span[0])}`;
-    this.draw();
+    this.placeHead();
+  }
+
+  private placeHead(): void {
+    const span = this.model.span;
+    const at = this.dragging ?? this.model.tick?.time ?? NaN;
+    const part = span && span[1] > span[0] ? (at - span[0]) / (span[1] - span[0]) : NaN;
+    this.head.hidden = !Number.isFinite(part) && !this.model.clock.live;
+    const shown = this.model.clock.live ? 1 : Math.max(0, Math.min(1, part));
+    this.head.style.left = `${(shown * 100).toFixed(3)}%`;
+    if (!span || !Number.isFinite(part)) return;
+    this.canvas.setAttribute("aria-valuemax", ((span[1] - span[0]) / 1e9).toFixed(1));
+    this.canvas.setAttribute("aria-valuenow", ((at - span[0]) / 1e9).toFixed(1));
   }
 
   private tellButtons(): void {
@@ -164,6 +177,7 @@ export class Timeline {
   }
 
   private draw(): void {
+    this.placeHead();
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement ?? this.canvas;
     const context = prepare(this.canvas, width, height);
     const span = this.model.span;
@@ -174,17 +188,11 @@ export class Timeline {
     if (!span || !(span[1] > span[0])) return;
     const x = (ns: number): number => ((ns - span[0]) / (span[1] - span[0])) * width;
     this.drawDensity(context, colours, x, height);
-    const { loop, live } = this.model.clock;
+    const { loop } = this.model.clock;
     if (loop) {
       context.fillStyle = `${colours.bar}33`;
       context.fillRect(x(loop[0]), 0, Math.max(1, x(loop[1]) - x(loop[0])), height);
     }
-    const at = this.dragging ?? this.model.tick?.time ?? NaN;
-    const head = live ? width - 1 : x(at);
-    context.fillStyle = colours.text;
-    if (Number.isFinite(head)) context.fillRect(Math.max(0, Math.min(width - 2, head - 1)), 0, 2, height);
-    this.canvas.setAttribute("aria-valuemax", String(((span[1] - span[0]) / 1e9).toFixed(2)));
-    this.canvas.setAttribute("aria-valuenow", String(((at - span[0]) / 1e9).toFixed(2)));
     if (!this.sparks.hidden && this.message) drawRows(this.rows, this.edges, this.message, this.model.forest, colours);
   }
 

@@ -50,6 +50,11 @@ export abstract class Display {
   /** New poses are known. */
   place(_placement: Placement, _tick: Tick): void {}
 
+  /** What is to be seen when everything is looked at; nothing for what only helps to see. */
+  bounds(): THREE.Box3 {
+    return new THREE.Box3();
+  }
+
   /** For tests: what is drawn, in few words. */
   probe(): Record<string, unknown> {
     return { class: this.config.class, enabled: this.config.enabled, ...this.status };
@@ -62,6 +67,8 @@ export abstract class Display {
 }
 
 const MOST_WAITING = 16;
+/** One wild point must not make everything else a speck. */
+const FARTHEST_M = 200;
 
 /** Draws what comes on a topic: each message an object, shown where and as long as the server says. */
 export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> extends Display {
@@ -120,6 +127,15 @@ export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> 
       object.quaternion.fromArray(entry.pose, 3);
       this.placed(object, message);
     }
+  }
+
+  override bounds(): THREE.Box3 {
+    const box = new THREE.Box3();
+    for (const { object } of this.drawn.values()) {
+      const own = object.visible ? new THREE.Box3().setFromObject(object) : box;
+      if ([...own.min, ...own.max].every((value) => Math.abs(value) < FARTHEST_M)) box.union(own);
+    }
+    return box;
   }
 
   /** In the fixed frame: where each visible message's frame is. */

@@ -1,5 +1,6 @@
 /** The list of displays: made from an .rviz file, from what was shown last time, or from what there is to see. */
 
+import * as THREE from "three";
 import { Meshes } from "../meshes";
 import type { DisplayMessage, Robot, RvizConfig, RvizDisplay, Topic } from "../protocol";
 import { remember, remembered } from "../storage";
@@ -48,6 +49,11 @@ export class Displays {
     });
     view.onPlaced((placement, tick) => {
       for (const display of this.list) if (display.config.enabled) display.place(placement, tick);
+    });
+    view.onFit(() => {
+      const box = new THREE.Box3();
+      for (const display of this.list) if (display.config.enabled) box.union(display.bounds());
+      return box;
     });
     theme.onChange(() => {
       for (const display of this.list) display.restyle();

@@ -50,6 +50,10 @@ export class RobotDisplay extends Display {
     if (this.robot) this.rebuild();
   }
 
+  override bounds(): THREE.Box3 {
+    return this.model?.visible ? new THREE.Box3().setFromObject(this.model) : new THREE.Box3();
+  }
+
   override probe(): Record<string, unknown> {
     let meshes = 0;
     this.model?.traverse((part) => (meshes += (part as Partial<THREE.Mesh>).isMesh ? 1 : 0));
