@@ -64,11 +64,12 @@ class _Entry:
         if self._fixed == fixed and self.pose is not None and not drawing.locked:
             return True
         self.pose, self._fixed = None, fixed
+        frame = drawing.frame.removeprefix("/")  # as in ROS 1; buffers take it off, too
         try:
             if drawing.locked:
-                found = buffer.lookup(fixed, drawing.frame, at, extrapolate=_HOLD, hold=True)
+                found = buffer.lookup(fixed, frame, at, extrapolate=_HOLD, hold=True)
             else:
-                found = buffer.lookup(fixed, drawing.frame, drawing.stamp)
+                found = buffer.lookup(fixed, frame, drawing.stamp)
         except TransformException as error:
             self.error = error
             return False
