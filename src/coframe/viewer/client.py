@@ -98,19 +98,28 @@ class Client:
 
     async def run(self) -> None:
         """Until the connection ends."""
-        sending = asyncio.create_task(self._send_all())
+        both = [asyncio.create_task(self._send_all()), asyncio.create_task(self._take_all())]
         try:
-            with contextlib.suppress(ConnectionClosed):
-                async for message in self._socket:
-                    await self._take(message)
+            ended, _ = await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
+            for task in ended:
+                task.result()
+        except ConnectionClosed:
+            pass
         finally:
-            sending.cancel()
-            with contextlib.suppress(asyncio.CancelledError, ConnectionClosed):
-                await sending
-            for number in list(self._displays):
-                self.unsubscribe(number)
-            for number in list(self._joints):
-                self.stop_joints(number)
+            for task in both:
+                task.cancel()
+            await asyncio.gather(*both, return_exceptions=True)
+            self._leave()
+
+    def _leave(self) -> None:
+        for number in list(self._displays):
+            self.unsubscribe(number)
+        for number in list(self._joints):
+            self.stop_joints(number)
+
+    async def _take_all(self) -> None:
+        async for message in self._socket:
+            await self._take(message)
 
     async def answer(self, kind: str, **fields: Any) -> None:
         """Sends something that was asked for; waits where the tab does not read."""

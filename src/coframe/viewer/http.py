@@ -107,9 +107,9 @@ def page_file(path: str, folder: Path) -> Path | None:
     root = folder.resolve()
     try:
         file = (root / path.lstrip("/")).resolve()
+        return file if file.is_relative_to(root) and file.is_file() else None
     except (OSError, ValueError):  # a NUL, or too long a name
         return None
-    return file if file.is_relative_to(root) and file.is_file() else None
 
 
 def file_response(file: Path, policy: str, known: str | None) -> Response:

@@ -103,7 +103,8 @@ def near(poses: NDArray[np.float64], origin: NDArray[np.float64]) -> NDArray[np.
     """Poses as float32 without losing what is far away: (..., 7) relative to the local origin."""
     local = poses.copy()
     local[..., :3] -= origin
-    small: NDArray[np.float32] = local.astype("<f4")
+    with np.errstate(over="ignore"):  # what is too far for float32 is infinitely far
+        small: NDArray[np.float32] = local.astype("<f4")
     return small
 
 
