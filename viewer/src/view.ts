@@ -15,6 +15,8 @@ const CLICK_PX = 5;
 /** Trees larger than this are looked through for frames that stand far away. */
 const FAR_APART_M = 300;
 const OUTLIER = 20;
+/** So far around the frames data is looked at, too. */
+const NEAR_M = 1;
 const FIT_AGAIN_MS = [1000, 3000];
 
 export interface TfOptions extends FrameOptions {
@@ -101,7 +103,12 @@ export class View {
     const points: THREE.Vector3[] = [];
     for (let i = 0; i < count; i++) if (drawn[i]) points.push(new THREE.Vector3().fromArray(positions, i * 3));
     const box = new THREE.Box3().setFromPoints(withoutOutliers(points));
-    for (const bounds of this.bounds) box.union(bounds());
+    // Of a scan that reaches far, what is around the frames is seen; all of it where there are no frames.
+    const near = box.clone().expandByScalar(Math.max(NEAR_M, box.getSize(new THREE.Vector3()).length() / 3));
+    for (const bounds of this.bounds) {
+      const own = bounds();
+      box.union(near.isEmpty() ? own : own.intersect(near));
+    }
     if (!box.isEmpty()) this.stage.camera.fit(box.expandByScalar(0.1));
   }
 
