@@ -42,7 +42,7 @@ def test_a_recording_is_travelled_through(shared, view, open_tab):
         )
         seen.add(key)
     assert len(seen) == 2
-    tab.wait("robot", lambda robot: robot["name"] == "turtlebot3_burger")
+    assert tab.has("robot")["name"] == "turtlebot3_burger"
     bag.close()
 
 
