@@ -206,6 +206,11 @@ class Buffer:
     ) -> int:
         """Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts)."""
 
+    def set_plain(
+        self, parent: str, child: str, transform: PublicTransform, stamp: StampLike | None, static: bool
+    ) -> int | None:
+        """set_values() of a dynamic Transform between known frames; None where it is not just that."""
+
     def set_message(self, message: Any, static: bool, authority: str) -> int | None:
         """set_values() of a TransformStamped between known frames; None where it is not just that."""
 
