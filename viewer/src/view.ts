@@ -12,6 +12,12 @@ import type { Theme } from "./theme";
 
 const PICK_PX = 18;
 const CLICK_PX = 5;
+/** Trees larger than this are looked through for frames that stand far away. */
+const FAR_APART_M = 300;
+const OUTLIER = 20;
+/** So far around the frames data is looked at, too. */
+const NEAR_M = 1;
+const FIT_AGAIN_MS = [1000, 3000];
 
 export interface TfOptions extends FrameOptions {
   names: boolean;
@@ -31,8 +37,10 @@ export class View {
   private pending: Tick | null = null;
   private stale = true;
   private fitted = false;
+  private readonly bounds: (() => THREE.Box3)[] = [];
   private chain: number[] = [];
   private readonly placed: ((placement: Placement, tick: Tick) => void)[] = [];
+  private readonly taken: ((tick: Tick) => void)[] = [];
   private readonly finished: ((tick: Tick | null) => void)[] = [];
 
   constructor(
@@ -73,6 +81,11 @@ export class View {
     this.placed.push(listener);
   }
 
+  /** Called when a tick is about to be drawn: the server may make the next one meanwhile. */
+  onTaken(listener: (tick: Tick) => void): void {
+    this.taken.push(listener);
+  }
+
   /** Called after each picture, with the tick that it showed first, if it did. */
   onDrawn(listener: (tick: Tick | null) => void): void {
     this.finished.push(listener);
@@ -86,11 +99,22 @@ export class View {
 
   /** Looks at everything that is drawn. */
   fit(): void {
-    const box = new THREE.Box3();
     const { positions, drawn, count } = this.placement;
-    const point = new THREE.Vector3();
-    for (let i = 0; i < count; i++) if (drawn[i]) box.expandByPoint(point.fromArray(positions, i * 3));
+    const points: THREE.Vector3[] = [];
+    for (let i = 0; i < count; i++) if (drawn[i]) points.push(new THREE.Vector3().fromArray(positions, i * 3));
+    const box = new THREE.Box3().setFromPoints(withoutOutliers(points));
+    // Of a scan that reaches far, what is around the frames is seen; all of it where there are no frames.
+    const near = box.clone().expandByScalar(Math.max(NEAR_M, box.getSize(new THREE.Vector3()).length() / 3));
+    for (const bounds of this.bounds) {
+      const own = bounds();
+      box.union(near.isEmpty() ? own : own.intersect(near));
+    }
     if (!box.isEmpty()) this.stage.camera.fit(box.expandByScalar(0.1));
+  }
+
+  /** Others whose things are to be seen when everything is looked at. */
+  onFit(bounds: () => THREE.Box3): void {
+    this.bounds.push(bounds);
   }
 
   /** The camera was set by somebody: do not move it when the first frames come. */
@@ -112,6 +136,7 @@ export class View {
 
   private prepare(): void {
     const { model, placement } = this;
+    if (this.pending) for (const listener of this.taken) listener(this.pending);
     if (!this.stale || !model.tick) return;
     this.stale = false;
     const moved = placement.update(model, model.tick, performance.now());
@@ -124,11 +149,25 @@ export class View {
       const position = this.position(this.followed);
       if (position) this.stage.camera.follow(position);
     }
-    if (!this.fitted && placement.drawn.includes(1)) {
+    for (const listener of this.placed) listener(placement, model.tick);
+    if (!this.fitted && (placement.drawn.includes(1) || this.bounds.some((bounds) => !bounds().isEmpty()))) {
       this.fitted = true;
       this.fit();
+      this.fitAgain();
     }
-    for (const listener of this.placed) listener(placement, model.tick);
+  }
+
+  /** Data comes a moment after the frames: look at that too, if nobody has touched the camera since. */
+  private fitAgain(): void {
+    const { canvas, camera } = this.stage;
+    let touched = false;
+    for (const event of ["pointerdown", "wheel"] as const)
+      canvas.addEventListener(event, () => (touched = true), { once: true, passive: true });
+    const mode = camera.mode;
+    for (const wait of FIT_AGAIN_MS)
+      setTimeout(() => {
+        if (!touched && camera.mode === mode && this.followed === null) this.fit();
+      }, wait);
   }
 
   private finish(): void {
@@ -217,4 +256,17 @@ export class View {
     }
     return best ? this.model.forest.name(best.i) : null;
   }
+}
+
+/** Where a few frames are kilometres away from all others, the others are what one wants to see. */
+function withoutOutliers(points: THREE.Vector3[]): THREE.Vector3[] {
+  if (new THREE.Box3().setFromPoints(points).getSize(new THREE.Vector3()).length() < FAR_APART_M) return points;
+  const middle = (axis: "x" | "y" | "z"): number => median(points.map((point) => point[axis]));
+  const centre = new THREE.Vector3(middle("x"), middle("y"), middle("z"));
+  const usual = Math.max(1, median(points.map((point) => point.distanceTo(centre))));
+  return points.filter((point) => point.distanceTo(centre) <= OUTLIER * usual);
+}
+
+function median(values: number[]): number {
+  return values.sort((a, b) => a - b)[values.length >> 1] ?? 0;
 }
