@@ -2,7 +2,7 @@
 VENV ?= .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.ready
-NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp') CMakeLists.txt
+NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') CMakeLists.txt
 
 .DEFAULT_GOAL := help
 .PHONY: help setup build demo test test-slow test-long sanitize lint typecheck format conformance bench generate page page-check clean
@@ -24,7 +24,7 @@ demo: $(STAMP) ## the lab's moving transform tree, live in the terminal, spoken 
 	@$(BIN)/coframe demo $(ARGS)
 
 test: $(STAMP) ## the test suite (under 6 minutes)
-	$(BIN)/python -m pytest $(ARGS)
+	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile $(ARGS)
 
 $(VENV)/.oracle: pyproject.toml | $(STAMP)
 	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group oracle && touch $@ || \

@@ -53,6 +53,8 @@ std::string_view text(nb::handle name) {
 }
 
 std::int64_t to_int64(nb::handle number) {
+  std::int64_t quick;
+  if (quick_int64(number.ptr(), quick)) return quick;
   int overflow;
   const long long value = PyLong_AsLongLongAndOverflow(number.ptr(), &overflow);
   if (overflow != 0) {
@@ -71,11 +73,8 @@ Stamp to_stamp(nb::handle stamp) {
 
 std::int64_t to_duration(nb::handle duration) {
   if (duration.is_none()) return 0;
-  if (PyLong_CheckExact(duration.ptr())) {
-    int overflow;
-    const long long nanoseconds = PyLong_AsLongLongAndOverflow(duration.ptr(), &overflow);
-    if (overflow == 0) return nanoseconds;
-  }
+  std::int64_t nanoseconds;
+  if (quick_int64(duration.ptr(), nanoseconds)) return nanoseconds;
   if (PyUnicode_CheckExact(duration.ptr())) return text_duration(duration.ptr());
   return converted("duration_ns", duration);
 }

@@ -3,6 +3,10 @@
 
 #include <nanobind/nanobind.h>
 
+#if PY_VERSION_HEX < 0x030B0000
+#include <longintrepr.h>
+#endif
+
 #include <string_view>
 
 #include "bindings/buffer.hpp"
@@ -14,6 +18,35 @@ namespace nb = nanobind;
 
 // Of a Python object that is one; type_error where __init__ was not called.
 BufferObject& buffer_of(nb::handle object);
+
+// The value of an exact int that fits; false for all else, without an exception. A stamp has three of CPython's digits,
+// and its own conversion takes as long over them as the look-up that they are for.
+inline bool quick_int64(PyObject* number, std::int64_t& value) {
+  if (!PyLong_CheckExact(number)) return false;
+#if PyLong_SHIFT == 30 && PY_VERSION_HEX < 0x030E0000
+  const auto* object = reinterpret_cast<const PyLongObject*>(number);
+#if PY_VERSION_HEX >= 0x030C0000
+  const std::size_t count = object->long_value.lv_tag >> 3;
+  const bool is_negative = (object->long_value.lv_tag & 3) == 2;
+  const auto* digits = object->long_value.ob_digit;
+#else
+  const Py_ssize_t size = Py_SIZE(object);
+  const bool is_negative = size < 0;
+  const std::size_t count = static_cast<std::size_t>(is_negative ? -size : size);
+  const auto* digits = object->ob_digit;
+#endif
+  if (count <= 3 && (count < 3 || digits[2] < 8)) {
+    std::uint64_t magnitude = count > 0 ? digits[0] : 0;
+    if (count > 1) magnitude |= static_cast<std::uint64_t>(digits[1]) << 30;
+    if (count > 2) magnitude |= static_cast<std::uint64_t>(digits[2]) << 60;
+    value = is_negative ? -static_cast<std::int64_t>(magnitude) : static_cast<std::int64_t>(magnitude);
+    return true;
+  }
+#endif
+  int overflow;
+  value = PyLong_AsLongLongAndOverflow(number, &overflow);
+  return overflow == 0;
+}
 
 // Nanoseconds, by coframe.time for what is no int; None is 0.
 std::int64_t to_int64(nb::handle number);

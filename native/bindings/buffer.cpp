@@ -35,7 +35,7 @@ bool answer_within(BufferObject& self, Question& question, std::int64_t timeout_
 // Beyond so many the other Python threads may run meanwhile; below, letting them costs more than it gives.
 constexpr std::size_t kManyLookups = 20'000;
 
-nb::object raise_for(BufferObject& self, Failure failure, nb::handle target, nb::handle source) {
+nb::object raise_for(BufferObject& self, Failure&& failure, nb::handle target, nb::handle source) {
   return raise_failure({std::move(failure), self.core, nb::borrow(target), nb::borrow(source)});
 }
 
@@ -63,20 +63,52 @@ nb::object patient_lookup(BufferObject& self, nb::handle target, nb::handle sour
   return raise_for(self, std::move(failure), target, source);
 }
 
-// The frames of a plain question, where their names were asked for before; false for all that is not plain.
-bool plain(BufferObject& self, PyObject* target, PyObject* source, PyObject* stamp, FrameId& target_id,
-           FrameId& source_id, Stamp& when) {
-  target_id = self.frame(target);
-  source_id = self.frame(source);
-  if (target_id == 0 || source_id == 0 || target_id == source_id) return false;
-  if (!stamp || stamp == Py_None) {
-    when = 0;
-    return true;
+// What is mostly asked: two frames, and a stamp that is an int or none.
+struct PlainQuestion {
+  FrameId target = 0, source = 0;
+  Stamp stamp = 0;
+
+  // False for all that is not plain.
+  bool read(FrameId target_frame, FrameId source_frame, PyObject* when) {
+    target = target_frame;
+    source = source_frame;
+    if (target == 0 || source == 0 || target == source) return false;
+    return !when || when == Py_None || quick_int64(when, stamp);
   }
-  if (!PyLong_CheckExact(stamp)) return false;
-  int overflow;
-  when = PyLong_AsLongLongAndOverflow(stamp, &overflow);
-  return overflow == 0;
+};
+
+PyObject* quick_lookup(BufferObject& self, PlainQuestion& question, PyObject* target, PyObject* source) {
+  Pose pose;
+  if (!self.core->quick_lookup(self.paths, question.target, question.source, question.stamp, pose)) return nullptr;
+  return make_transform(pose, question.stamp, target, source).release().ptr();
+}
+
+// The whole answer, or its exception; nullptr without one where a frame is not known any more.
+PyObject* whole_lookup(BufferObject& self, PlainQuestion& question, PyObject* target, PyObject* source) {
+  if (!self.core->knows(question.target) || !self.core->knows(question.source)) return nullptr;
+  Pose pose;
+  Failure failure;
+  if (!self.core->walk(question.target, question.source, question.stamp, pose, failure)) {
+    return raise_for(self, std::move(failure), target, source).release().ptr();
+  }
+  return make_transform(pose, question.stamp, target, source).release().ptr();
+}
+
+bool quick_check(BufferObject& self, const PlainQuestion& question) {
+  return self.core->quick_check(self.paths, question.target, question.source, question.stamp);
+}
+
+// The shortest way to ask: the arguments are (target, source[, stamp]), and the names were asked for before. nullptr
+// without an exception for all else, and where `ask` has no answer.
+template <class Ask>
+PyObject* ask_known(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords, Ask&& ask) {
+  if (keywords || count < 2 || count > 3 || !nb::inst_ready(object)) return nullptr;
+  return guarded([&]() -> PyObject* {
+    BufferObject& self = *nb::inst_ptr<BufferObject>(object);
+    PlainQuestion question;
+    const FrameId target = self.frames.known(arguments[0]), source = self.frames.known(arguments[1]);
+    return question.read(target, source, count == 3 ? arguments[2] : nullptr) ? ask(self, question) : nullptr;
+  });
 }
 
 nb::handle given(PyObject* object) { return object ? nb::handle(object) : nb::handle(Py_None); }
@@ -87,7 +119,7 @@ bool is_true(PyObject* object) {
   return truth != 0;
 }
 
-PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+PyObject* any_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<6> signature("lookup", {"target", "source", "stamp", "timeout", "extrapolate", "hold"}, 2, 3);
   PyObject* values[6];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
@@ -96,16 +128,22 @@ PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t cou
     // What is wrong with these is told also where they are not needed.
     const std::int64_t timeout = to_duration(given(values[3]));
     std::optional<Extrapolation> extrapolation = extrapolation_of(given(values[4]), is_true(values[5]));
-    FrameId target, source;
-    Stamp stamp;
-    Pose pose;
     // What can be answered now needs neither patience nor a guess.
-    if (plain(self, values[0], values[1], values[2], target, source, stamp) &&
-        self.core->quick_lookup(self.paths, target, source, stamp, pose)) {
-      return make_transform(pose, stamp, values[0], values[1]).release().ptr();
+    PlainQuestion question;
+    if (question.read(self.frame(values[0]), self.frame(values[1]), values[2])) {
+      if (PyObject* found = quick_lookup(self, question, values[0], values[1])) return found;
     }
     return patient_lookup(self, values[0], values[1], given(values[2]), timeout, extrapolation).release().ptr();
   });
+}
+
+PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  const auto ask = [&](BufferObject& self, PlainQuestion& question) {
+    PyObject* found = quick_lookup(self, question, arguments[0], arguments[1]);
+    return found ? found : whole_lookup(self, question, arguments[0], arguments[1]);
+  };
+  PyObject* found = ask_known(object, arguments, count, keywords, ask);
+  return found || PyErr_Occurred() ? found : any_lookup(object, arguments, count, keywords);
 }
 
 nb::object py_lookup_full(BufferObject& self, nb::handle target, nb::handle target_stamp, nb::handle source,
@@ -119,17 +157,15 @@ nb::object py_lookup_full(BufferObject& self, nb::handle target, nb::handle targ
   return make_transform(answer.pose, answer.stamp, target, source);
 }
 
-PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+PyObject* any_can_transform(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<4> signature("can_transform", {"target", "source", "stamp", "timeout"}, 2, 3);
   PyObject* values[4];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&] {
     BufferObject& self = buffer_of(object);
     const std::int64_t timeout = to_duration(given(values[3]));
-    FrameId target, source;
-    Stamp stamp;
-    if (plain(self, values[0], values[1], values[2], target, source, stamp) &&
-        self.core->quick_check(self.paths, target, source, stamp)) {
+    PlainQuestion plain;
+    if (plain.read(self.frame(values[0]), self.frame(values[1]), values[2]) && quick_check(self, plain)) {
       return Py_NewRef(Py_True);
     }
     Question question = question_of(self, values[0], values[1], given(values[2]));
@@ -137,6 +173,14 @@ PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssiz
     Failure failure;
     return PyBool_FromLong(answer_within(self, question, timeout, answer, failure));
   });
+}
+
+PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  const auto ask = [&](BufferObject& self, PlainQuestion& question) {
+    return quick_check(self, question) ? Py_NewRef(Py_True) : nullptr;
+  };
+  PyObject* found = ask_known(object, arguments, count, keywords, ask);
+  return found || PyErr_Occurred() ? found : any_can_transform(object, arguments, count, keywords);
 }
 
 bool py_can_transform_full(BufferObject& self, nb::handle target, nb::handle target_stamp, nb::handle source,
@@ -325,6 +369,27 @@ PyObject* py_set_values(PyObject* object, PyObject* const* arguments, Py_ssize_t
   });
 }
 
+// As coframe.Buffer.set() has it: between known frames, the transform's own if it names any, at a time.
+PyObject* py_set_plain(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<5> signature("set_plain", {"parent", "child", "transform", "stamp", "static"}, 5, 5);
+  PyObject* values[5];
+  if (!signature.parse(arguments, count, keywords, values)) return nullptr;
+  return guarded([&]() -> PyObject* {
+    BufferObject& self = buffer_of(object);
+    const FrameId parent = self.frames.known(values[0]), child = self.frames.known(values[1]);
+    GivenTransform given;
+    const auto is = [](PyObject* name, PyObject* wanted) { return name == Py_None || name == wanted; };
+    const bool is_plain = parent != 0 && child != 0 && parent != child && values[4] == Py_False &&
+                          read_transform(values[2], given) && is(given.target, values[0]) &&
+                          is(given.source, values[1]) && !self.core->frozen();
+    const bool has_time = values[3] == Py_None ? given.has_stamp : quick_int64(values[3], given.stamp);
+    if (!is_plain || !has_time) return Py_NewRef(Py_None);
+    const double *p = given.pose.p, *q = given.pose.q;
+    const TransformValues transform{{p[0], p[1], p[2]}, {q[0], q[1], q[2], q[3]}};
+    return PyLong_FromUnsignedLong(self.core->insert(parent, child, given.stamp, transform, false, 0));
+  });
+}
+
 nb::list py_insert_texts(unsigned refusals, std::string_view parent, std::string_view child, Stamp stamp, double x,
                          double y, double z, double qx, double qy, double qz, double qw, std::string_view authority) {
   nb::list lines;
@@ -433,6 +498,9 @@ void define_buffer(nb::module_& module) {
   add_method(cls, "set_values", &py_set_values,
              "set_values($self, /, parent, child, stamp, x, y, z, qx, qy, qz, qw, static, authority)\n--\n\n"
              "Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts).");
+  add_method(cls, "set_plain", &py_set_plain,
+             "set_plain($self, /, parent, child, transform, stamp, static)\n--\n\n"
+             "set_values() of a dynamic Transform between known frames; None where it is not just that.");
   module.def("insert_texts", &py_insert_texts, arg("refusals"), arg("parent"), arg("child"), arg("stamp"), arg("x"),
              arg("y"), arg("z"), arg("qx"), arg("qy"), arg("qz"), arg("qw"), arg("authority"),
              "tf2's log lines for a transform that set_values refused: (level, text).");

@@ -29,10 +29,15 @@ class IdentityCache {
     for (Entry& entry : entries_) Py_XDECREF(entry.name);
   }
 
+  // 0 where it is not remembered.
+  std::uint32_t known(PyObject* name) const {
+    const Entry& entry = entries_[place(name)];
+    return entry.name == name ? entry.number : 0;
+  }
   // `find` tells the number of a name; 0, there is none yet, is not remembered.
   template <class Find>
   std::uint32_t find(PyObject* name, Find&& find) {
-    Entry& entry = entries_[(reinterpret_cast<std::uintptr_t>(name) >> 4) % entries_.size()];
+    Entry& entry = entries_[place(name)];
     return entry.name == name ? entry.number : remember(entry, name, find(text(name)));
   }
 
@@ -41,9 +46,11 @@ class IdentityCache {
     PyObject* name = nullptr;
     std::uint32_t number = 0;
   };
+  static constexpr std::size_t kEntries = 256;
+  static std::size_t place(PyObject* name) { return (reinterpret_cast<std::uintptr_t>(name) >> 4) % kEntries; }
   static std::uint32_t remember(Entry& entry, PyObject* name, std::uint32_t number);
 
-  std::array<Entry, 256> entries_{};
+  std::array<Entry, kEntries> entries_{};
 };
 
 struct BufferObject {

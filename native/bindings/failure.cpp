@@ -1,14 +1,25 @@
 #include "bindings/failure.hpp"
 
-#include <nanobind/stl/string.h>
+#include <array>
+#include <new>
 
 #include "bindings/bindings.hpp"
+#include "bindings/fast_call.hpp"
 
 namespace coframe::bindings {
 
 namespace {
 
-nb::handle errors_module;  // coframe.errors, owned by sys.modules
+// A class of CPython's own making, as Transform is one: most failed look-ups are caught and forgotten.
+struct Object {
+  PyObject_HEAD
+  FailureObject failure;
+};
+
+PyTypeObject* failure_class = nullptr;  // both for as long as the process lives
+std::array<PyObject*, 6> exceptions{};  // as Raised has them
+
+enum Raised { kTransform, kLookup, kConnectivity, kExtrapolation, kInvalidArgument, kDecode };
 
 const char* code_name(ErrorCode code) {
   switch (code) {
@@ -26,17 +37,16 @@ const char* code_name(ErrorCode code) {
   return "none";
 }
 
-const char* exception_name(const FailureObject& object) {
+Raised exception_of(const FailureObject& object) {
+  // tf2's Python binding has only the base class for what the latest common time meets in the tree.
+  const bool is_time = object.speaker == Speaker::latest_common_time;
   switch (object.failure.code) {
     case ErrorCode::empty_name:
-    case ErrorCode::leading_slash: return "InvalidArgumentException";
-    case ErrorCode::unknown_frame: return "LookupException";
-    // tf2's Python binding has only the base class for what the latest common time meets in the tree.
-    case ErrorCode::loop:
-      return object.speaker == Speaker::latest_common_time ? "TransformException" : "LookupException";
-    case ErrorCode::not_connected:
-      return object.speaker == Speaker::latest_common_time ? "TransformException" : "ConnectivityException";
-    default: return "ExtrapolationException";
+    case ErrorCode::leading_slash: return kInvalidArgument;
+    case ErrorCode::unknown_frame: return kLookup;
+    case ErrorCode::loop: return is_time ? kTransform : kLookup;
+    case ErrorCode::not_connected: return is_time ? kTransform : kConnectivity;
+    default: return kExtrapolation;
   }
 }
 
@@ -55,6 +65,21 @@ nb::object frame_name(const FailureObject& object, FrameId frame, const nb::obje
   return nb::str(name.data(), name.size());
 }
 
+nb::object name_of(const std::string& name) { return nb::str(name.data(), name.size()); }
+
+nb::object code(const FailureObject& object) { return nb::str(code_name(object.failure.code)); }
+nb::object target(const FailureObject& object) { return frame_name(object, object.failure.target, object.target); }
+nb::object source(const FailureObject& object) { return frame_name(object, object.failure.source, object.source); }
+nb::object requested(const FailureObject& object) {
+  return stamp_or_none(has_edge(object.failure.code), object.failure.requested);
+}
+nb::object earliest(const FailureObject& object) {
+  return stamp_or_none(has_window(object.failure.code), object.failure.earliest);
+}
+nb::object latest(const FailureObject& object) {
+  return stamp_or_none(has_window(object.failure.code), object.failure.latest);
+}
+
 nb::object edge(const FailureObject& object) {
   if (!has_edge(object.failure.code)) return nb::none();
   const FrameId child = object.failure.edge;
@@ -62,20 +87,75 @@ nb::object edge(const FailureObject& object) {
     const History::View history = tree.history(child);
     return std::pair(history.exists() ? tree.name(history.parent()) : std::string(), tree.name(child));
   });
-  return nb::make_tuple(parent, name);
+  return nb::make_tuple(name_of(parent), name_of(name));
 }
 
 nb::object roots(const FailureObject& object) {
   const Failure& failure = object.failure;
   if (failure.code != ErrorCode::not_connected) return nb::none();
-  return nb::make_tuple(object.buffer->name(failure.target_end), object.buffer->name(failure.source_end));
+  return nb::make_tuple(name_of(object.buffer->name(failure.target_end)),
+                        name_of(object.buffer->name(failure.source_end)));
 }
 
+nb::object name(const FailureObject& object) { return name_of(object.failure.name); }
+
 // Of all frames, as of now; "" for those that have none.
-nb::dict parents(const FailureObject& object) {
+nb::object parents(const FailureObject& object) {
   nb::dict all;
-  for (const FrameSummary& frame : object.buffer->frames()) all[nb::str(frame.name.data(), frame.name.size())] = frame.parent;
+  for (const FrameSummary& frame : object.buffer->frames()) all[name_of(frame.name)] = name_of(frame.parent);
   return all;
+}
+
+FailureObject& failure_of(PyObject* object) { return reinterpret_cast<Object*>(object)->failure; }
+
+template <nb::object (*Fact)(const FailureObject&)>
+PyObject* get(PyObject* object, void*) {
+  return guarded([&] { return Fact(failure_of(object)).release().ptr(); });
+}
+
+PyObject* describe(PyObject* object) {
+  return guarded([&] { return name_of(text_of(failure_of(object))).release().ptr(); });
+}
+
+void deallocate(PyObject* object) {
+  PyTypeObject* type = Py_TYPE(object);
+  failure_of(object).~FailureObject();
+  type->tp_free(object);
+  Py_DECREF(type);
+}
+
+PyGetSetDef properties[] = {{"code", &get<&code>, nullptr, nullptr, nullptr},
+                            {"target", &get<&target>, nullptr, nullptr, nullptr},
+                            {"source", &get<&source>, nullptr, nullptr, nullptr},
+                            {"requested", &get<&requested>, nullptr, nullptr, nullptr},
+                            {"earliest", &get<&earliest>, nullptr, nullptr, nullptr},
+                            {"latest", &get<&latest>, nullptr, nullptr, nullptr},
+                            {"edge", &get<&edge>, nullptr, nullptr, nullptr},
+                            {"roots", &get<&roots>, nullptr, nullptr, nullptr},
+                            {"name", &get<&name>, nullptr, nullptr, nullptr},
+                            {"parents", &get<&parents>, nullptr, nullptr, nullptr},
+                            {nullptr, nullptr, nullptr, nullptr, nullptr}};
+
+PyType_Slot slots[] = {{Py_tp_doc, const_cast<char*>("The facts of a failed look-up; str() gives tf2's text.")},
+                       {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate)},
+                       {Py_tp_str, reinterpret_cast<void*>(&describe)},
+                       {Py_tp_getset, properties},
+                       {0, nullptr}};
+
+PyType_Spec spec = {"coframe._core.Failure", sizeof(Object), 0,
+                    Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
+
+nb::object make_failure(FailureObject&& failure) {
+  nb::object object = nb::steal(failure_class->tp_alloc(failure_class, 0));
+  if (!object.is_valid()) throw nb::python_error();
+  new (&failure_of(object.ptr())) FailureObject(std::move(failure));
+  return object;
+}
+
+void register_errors(const nb::module_& errors) {
+  constexpr std::array kNames{"TransformException", "LookupException", "ConnectivityException",
+                              "ExtrapolationException", "InvalidArgumentException", "DecodeError"};
+  for (std::size_t i = 0; i < kNames.size(); ++i) exceptions[i] = nb::object(errors.attr(kNames[i])).release().ptr();
 }
 
 }  // namespace
@@ -90,49 +170,27 @@ std::string text_of(const FailureObject& object) {
   });
 }
 
-nb::object raise_failure(FailureObject failure) {
+nb::object raise_failure(FailureObject&& failure) {
   const CallingPython call;
-  nb::object cls = errors_module.attr(exception_name(failure));
-  PyErr_SetObject(cls.ptr(), nb::cast(std::move(failure)).ptr());
+  PyObject* exception = exceptions[exception_of(failure)];
+  PyErr_SetObject(exception, make_failure(std::move(failure)).ptr());
   return nb::object();
 }
 
 void raise_decode_error(const DecodeFailure& failure) {
   const std::string text =
       "tf2_msgs/msg/TFMessage at byte " + std::to_string(failure.offset) + ": " + failure.reason;
-  PyErr_SetString(nb::object(errors_module.attr("DecodeError")).ptr(), text.c_str());
+  PyErr_SetString(exceptions[kDecode], text.c_str());
   throw nb::python_error();
 }
 
 void define_failure(nb::module_& module) {
-  nb::class_<FailureObject>(module, "Failure", "The facts of a failed look-up; str() gives tf2's text.")
-      .def("__str__", &text_of)
-      .def_prop_ro("code", [](const FailureObject& self) { return code_name(self.failure.code); })
-      .def_prop_ro(
-          "target", [](const FailureObject& self) { return frame_name(self, self.failure.target, self.target); },
-          nb::sig("def target(self) -> str"))
-      .def_prop_ro(
-          "source", [](const FailureObject& self) { return frame_name(self, self.failure.source, self.source); },
-          nb::sig("def source(self) -> str"))
-      .def_prop_ro(
-          "requested",
-          [](const FailureObject& self) { return stamp_or_none(has_edge(self.failure.code), self.failure.requested); },
-          nb::sig("def requested(self) -> int | None"))
-      .def_prop_ro(
-          "earliest",
-          [](const FailureObject& self) { return stamp_or_none(has_window(self.failure.code), self.failure.earliest); },
-          nb::sig("def earliest(self) -> int | None"))
-      .def_prop_ro(
-          "latest",
-          [](const FailureObject& self) { return stamp_or_none(has_window(self.failure.code), self.failure.latest); },
-          nb::sig("def latest(self) -> int | None"))
-      .def_prop_ro("edge", &edge, nb::sig("def edge(self) -> tuple[str, str] | None"))
-      .def_prop_ro("roots", &roots, nb::sig("def roots(self) -> tuple[str, str] | None"))
-      .def_prop_ro("name", [](const FailureObject& self) { return self.failure.name; })
-      .def_prop_ro("parents", &parents, nb::sig("def parents(self) -> dict[str, str]"));
+  const nb::object type = nb::steal(PyType_FromSpec(&spec));
+  if (!type.is_valid()) throw nb::python_error();
+  module.attr("Failure") = type;
+  failure_class = reinterpret_cast<PyTypeObject*>(type.inc_ref().ptr());
   module.def(
-      "register_errors", [](nb::object errors) { errors_module = errors.release(); }, nb::arg("errors"),
-      "Failures are raised as the exceptions of this module.");
+      "register_errors", &register_errors, nb::arg("errors"), "Failures are raised as the exceptions of this module.");
 }
 
 }  // namespace coframe::bindings

@@ -26,7 +26,7 @@ std::string text_of(const FailureObject& failure);
 
 // Sets the registered exception that belongs to the failure's code, for the caller to return at once: a C++ throw
 // would cost more than the look-up.
-nb::object raise_failure(FailureObject failure);
+nb::object raise_failure(FailureObject&& failure);
 [[noreturn]] void raise_decode_error(const DecodeFailure& failure);
 
 }  // namespace coframe::bindings

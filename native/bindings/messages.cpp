@@ -58,12 +58,7 @@ SlottedClass<4> quaternion;
 
 bool is_text(PyObject* object) { return object && PyUnicode_CheckExact(object); }
 
-bool read_int(PyObject* object, std::int64_t& value) {
-  if (!object || !PyLong_CheckExact(object)) return false;
-  int overflow;
-  value = PyLong_AsLongLongAndOverflow(object, &overflow);
-  return overflow == 0;
-}
+bool read_int(PyObject* object, std::int64_t& value) { return object && quick_int64(object, value); }
 
 bool read_time(PyObject* object, Stamp& stamp) {
   if (rclpy_time.is(object)) return read_int(rclpy_time.get(object, 0), stamp);

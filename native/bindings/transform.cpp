@@ -112,6 +112,14 @@ nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::
   return nb::steal(object);
 }
 
+bool read_transform(PyObject* object, GivenTransform& given) {
+  if (Py_TYPE(object) != transform_class) return false;
+  const TransformObject* self = self_of(object);
+  if (self->batch != Py_None) return false;
+  given = {self->pose, self->stamp, self->has_stamp, self->target, self->source};
+  return true;
+}
+
 namespace {
 
 // CPython gives every class of Python's the garbage collector's bookkeeping, and a destructor that looks for what such a

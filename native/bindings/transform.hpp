@@ -14,4 +14,15 @@ namespace nb = nanobind;
 // An instance of the registered Python class. `beyond`: nanoseconds that it was extrapolated.
 nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::handle source, Stamp beyond = 0);
 
+// What a transform that was given holds; the frames are borrowed, None where it names none.
+struct GivenTransform {
+  Pose pose;
+  Stamp stamp = 0;
+  bool has_stamp = false;
+  PyObject *target = nullptr, *source = nullptr;
+};
+
+// False for what is no single transform of the registered class.
+bool read_transform(PyObject* object, GivenTransform& given);
+
 }  // namespace coframe::bindings

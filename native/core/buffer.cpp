@@ -277,11 +277,19 @@ bool Buffer::look_till_settled(bool for_latest, const Failure& failure, Look&& l
 }
 
 bool Buffer::lookup(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const {
-  const Stamp asked = stamp;
   const PathLease paths(paths_);
+  return look(paths.get(), target, source, stamp, pose, failure);
+}
+
+bool Buffer::walk(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const {
+  return look(nullptr, target, source, stamp, pose, failure);
+}
+
+bool Buffer::look(PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const {
+  const Stamp asked = stamp;
   return look_till_settled(asked == 0, failure, [&] {
     stamp = asked;
-    return coframe::lookup(tree_, paths.get(), target, source, stamp, pose, failure);
+    return coframe::lookup(tree_, paths, target, source, stamp, pose, failure);
   });
 }
 

@@ -95,6 +95,8 @@ class Buffer {
   // The two legs are answered together: `stamp` is the target leg's, in and out.
   bool lookup_full(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed, Pose& pose,
                    Failure& failure) const;
+  // The same for two frames that a quick_lookup() has not helped.
+  bool walk(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
   // The same without a word of what is missing, for two different frames and with paths that only the caller uses;
   // false may also mean that lookup() has to decide.
   bool quick_lookup(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const;
@@ -147,6 +149,7 @@ class Buffer {
     return read();
   }
 
+  bool look(PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
   template <class Look>
   bool look_till_settled(bool for_latest, const Failure& failure, Look&& look) const;
   bool extrapolate(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,

@@ -36,6 +36,18 @@ struct Failure {
   Stamp requested = 0;
   Stamp earliest = 0, latest = 0;  // what that link has
   std::string name;                // the invalid or unknown name
+
+  // Begins anew, for a leg at a time.
+  void reset(ErrorCode reason, FrameId leg_target, FrameId leg_source, Stamp stamp) {
+    code = reason;
+    argument = Argument::target_frame;
+    target = leg_target;
+    source = leg_source;
+    target_end = source_end = edge = 0;
+    requested = stamp;
+    earliest = latest = 0;
+    name.clear();
+  }
 };
 
 // "lookupTransform argument target_frame", as tf2's messages name an argument of `function`.

@@ -34,45 +34,49 @@ bool repeats(const History::View& samples, std::size_t end, Stamp stamp, const S
 
 }  // namespace
 
-Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
-  const auto take = [&](const SharedSample& found) {
-    found.load(pose);
-    parent = found.parent();
+Found History::View::find(Stamp stamp, Pair& found, std::uint64_t& next) const {
+  const auto alone = [&](const SharedSample& sample) {
+    found = {&sample, &sample, 0.0, 1.0};
     return Found::ok;
   };
   if (empty()) return Found::empty;
-  if (is_static()) return take(*fixed_);
-  const std::uint64_t back = end_ - 1;
-  const Stamp last = stamp_of(back);
-  if (stamp == last || stamp == 0) return take(sample_of(back));
-  if (back == begin_) return Found::only_other;
+  next = end_ - 1;
+  if (is_static()) return alone(*fixed_);
+  const Stamp last = stamp_of(next);
+  if (stamp == last || stamp == 0) return alone(sample_of(next));
+  if (next == begin_) return Found::only_other;
   if (stamp > last) return Found::too_new;
-  std::uint64_t next = back;  // most look-ups are near the newest
-  if (stamp_of(back - 1) >= stamp) {
+  // Most look-ups are near the newest.
+  if (stamp_of(next - 1) >= stamp) {
     const Stamp first = stamp_of(begin_);
-    if (stamp == first) return take(sample_of(begin_));
+    if (stamp == first) return alone(sample_of(begin_));
     if (stamp < first) return Found::too_old;
-    if (stamp_of(back - 1) > stamp) {
+    if (stamp_of(next - 1) > stamp) {
       const Search search(*this);
-      next = search.first_after(stamp, search.guess(stamp));
+      const std::uint64_t guess = search.guess(stamp);
+      prefetch_samples(guess + 1);
+      next = search.next(stamp, guess);
     }
   }
-  const Pair found = pair(next, stamp);
-  if (found.part == 0.0) return take(*found.older);
-  Pose from, to;
-  found.older->load(from);
-  found.newer->load(to);
-  parent = found.older->parent();
-  interpolate(from, to, found.part / found.whole, pose);
+  found = pair(next, stamp);
   return Found::ok;
 }
 
-bool History::View::covers(Stamp stamp, FrameId parent) const {
-  if (empty()) return false;
-  const std::uint64_t back = end_ - 1;
-  if (sample_of(back).parent() != parent) return false;
-  if (is_static() || stamp == 0) return true;
-  return stamp <= stamp_of(back) && stamp >= stamp_of(begin_);
+Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
+  Pair pair;
+  std::uint64_t next;
+  const Found found = find(stamp, pair, next);
+  if (found != Found::ok) return found;
+  parent = pair.older->parent();
+  if (pair.older == pair.newer) {
+    pair.older->load(pose);
+    return found;
+  }
+  Pose from, to;
+  pair.older->load(from);
+  pair.newer->load(to);
+  interpolate(from, to, pair.part / pair.whole, pose);
+  return found;
 }
 
 std::size_t History::View::first_after(Stamp stamp) const {
@@ -116,15 +120,21 @@ History::History() { grow(); }
 
 History::~History() = default;
 
-// The beginning before the end: samples that are dropped in between still stand where they were.
-History::View History::view() const {
-  View view;
-  view.kind_ = kind_;
-  view.fixed_ = &fixed_;
-  view.begin_ = begin_.load(std::memory_order_acquire);
-  view.end_ = end_.load(std::memory_order_acquire);
-  view.directory_ = directory_.load(std::memory_order_acquire);
-  return view;
+bool History::place(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const {
+  const View samples = view();
+  Pair pair;
+  if (!samples.surrounded(stamp, hint, pair)) {
+    if (samples.surrounded(stamp, hint + 1, pair)) {
+      ++hint;
+    } else if (samples.find(stamp, pair, hint) != Found::ok) {
+      return false;
+    }
+  }
+  if (pair.older->parent() != parent || pair.newer->parent() != parent) return false;
+  link.older = pair.older->record();
+  link.newer = pair.older == pair.newer ? link.older : pair.newer->record();
+  link.share = pair.part / pair.whole;
+  return true;
 }
 
 bool History::mentions(FrameId parent) const {

@@ -13,6 +13,7 @@
 #include "core/pose.hpp"
 #include "core/relaxed.hpp"
 #include "core/revision.hpp"
+#include "kernels/kernels.hpp"
 
 namespace coframe {
 
@@ -79,8 +80,30 @@ class History {
 
     // The pose at `stamp` and the frame it is told in. No extrapolation, ever.
     Found at(Stamp stamp, Pose& pose, FrameId& parent) const;
-    // Whether at() would find a pose told in `parent`, where all samples are told in one frame.
-    bool covers(Stamp stamp, FrameId parent) const;
+    // The samples that at() makes its pose of; `next` is the number of the newer one.
+    Found find(Stamp stamp, Pair& pair, std::uint64_t& next) const;
+    // Whether the sample `next` and the one before are those, in the case of most look-ups: between the two of them, in
+    // one chunk. False also for what is no number of a sample.
+    bool surrounded(Stamp stamp, std::uint64_t next, Pair& pair) const {
+      const std::size_t i = next % Chunk::kSize;
+      if (i == 0 || next <= begin_ || next >= end_) return false;
+      const Chunk& chunk = chunk_of(next);
+      const Stamp start = chunk.stamps[i - 1], end = chunk.stamps[i];
+      const auto whole = static_cast<std::int64_t>(distance(start, end));
+      if (start >= stamp || stamp >= end || whole < 0) return false;
+      pair = {&chunk.samples[i - 1], &chunk.samples[i], static_cast<double>(stamp - start), static_cast<double>(whole)};
+      return true;
+    }
+    // Whether there are samples, the newest of them told in `parent`; `first` and `last` get the stamps of both ends.
+    // Not for a static history.
+    bool reach(FrameId parent, Stamp& first, Stamp& last) const {
+      if (empty()) return false;
+      const Chunk& chunk = chunk_of(end_ - 1);
+      const std::size_t back = (end_ - 1) % Chunk::kSize;
+      first = stamp_of(begin_);
+      last = chunk.stamps[back];
+      return chunk.samples[back].parent() == parent;
+    }
     // Index of the first sample newer than `stamp`; size() if there is none.
     std::size_t first_after(Stamp stamp) const;
 
@@ -164,10 +187,22 @@ class History {
   History& operator=(const History&) = delete;
   ~History();
 
-  View view() const;
+  // The beginning before the end: samples that are dropped in between still stand where they were.
+  View view() const {
+    View view;
+    view.kind_ = kind_;
+    view.fixed_ = &fixed_;
+    view.begin_ = begin_.load(std::memory_order_acquire);
+    view.end_ = end_.load(std::memory_order_acquire);
+    view.directory_ = directory_.load(std::memory_order_acquire);
+    return view;
+  }
   // True while every sample has the same parent: paths through this history may then be remembered.
   bool one_parent() const { return one_parent_; }
 
+  // Where on its way the pose at `stamp` lies, if it is told in `parent`; false where View::at() has to say why not.
+  // `hint` is of the caller's last question: the next one is mostly about a time close by.
+  bool place(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const;
   // Whether a sample is told in that frame.
   bool mentions(FrameId parent) const;
 

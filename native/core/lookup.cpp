@@ -1,8 +1,8 @@
 #include "core/lookup.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
-#include <optional>
 
 namespace coframe {
 
@@ -12,48 +12,33 @@ constexpr Stamp kNoTime = std::numeric_limits<Stamp>::max();
 
 // `source_end` is 0 where it is the walk up from the source that does not end.
 bool fail_loop(FrameId target, FrameId source, Stamp stamp, FrameId source_end, Failure& failure) {
-  failure = Failure{};
-  failure.code = ErrorCode::loop;
-  failure.target = target;
-  failure.source = source;
-  failure.requested = stamp;
+  failure.reset(ErrorCode::loop, target, source, stamp);
   failure.source_end = source_end;
   return false;
 }
 
-Failure not_connected(FrameId target, FrameId source, Stamp stamp) {
-  Failure failure;
-  failure.code = ErrorCode::not_connected;
-  failure.target = target;
-  failure.source = source;
-  failure.requested = stamp;
-  return failure;
-}
-
 // The walks up from both frames ended apart.
-bool fail_apart(Failure reason, FrameId target_end, FrameId source_end, Failure& failure) {
-  failure = std::move(reason);
+bool fail_apart(FrameId target_end, FrameId source_end, Failure& failure) {
   failure.target_end = target_end;
   failure.source_end = source_end;
   return false;
 }
 
-Failure missing_sample(const History::View& history, Found found, FrameId edge, FrameId target, FrameId source,
-                       Stamp stamp) {
-  Failure failure;
+ErrorCode code_of(Found found) {
   switch (found) {
-    case Found::only_other: failure.code = ErrorCode::only_other; break;
-    case Found::too_new: failure.code = ErrorCode::too_new; break;
-    case Found::too_old: failure.code = ErrorCode::too_old; break;
-    default: failure.code = ErrorCode::no_data; break;
+    case Found::only_other: return ErrorCode::only_other;
+    case Found::too_new: return ErrorCode::too_new;
+    case Found::too_old: return ErrorCode::too_old;
+    default: return ErrorCode::no_data;
   }
-  failure.target = target;
-  failure.source = source;
+}
+
+void miss_sample(const History::View& history, Found found, FrameId edge, FrameId target, FrameId source, Stamp stamp,
+                 Failure& failure) {
+  failure.reset(code_of(found), target, source, stamp);
   failure.edge = edge;
-  failure.requested = stamp;
   failure.earliest = history.oldest();
   failure.latest = history.newest();
-  return failure;
 }
 
 // What a walk through the tree meets, in both directions, is written here.
@@ -79,7 +64,7 @@ bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source,
   Pose step;
   FrameId parent = 0;
   FrameId top = source;
-  std::optional<Failure> gap;  // the link at which the source's walk stopped
+  bool is_cut = false;  // the source's walk stopped at a link without a sample, of which `failure` tells
   int depth = 0;
   for (FrameId frame = source;; frame = parent) {
     top = frame;
@@ -88,7 +73,8 @@ bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source,
     if (!history.exists()) break;
     const Found found = method.at(history, stamp, step, parent);
     if (found != Found::ok) {
-      gap = missing_sample(history, found, frame, target, source, stamp);
+      miss_sample(history, found, frame, target, source, stamp, failure);
+      is_cut = true;
       break;
     }
     if (frame == target) return true;
@@ -101,11 +87,13 @@ bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source,
     if (walk.down) walk.down->push_back(frame);
     const History::View history = tree.history(frame);
     if (!history.exists()) {
-      return fail_apart(gap ? std::move(*gap) : not_connected(target, source, stamp), frame, top, failure);
+      if (!is_cut) failure.reset(ErrorCode::not_connected, target, source, stamp);
+      return fail_apart(frame, top, failure);
     }
     const Found found = method.at(history, stamp, step, parent);
     if (found != Found::ok) {
-      return fail_apart(missing_sample(history, found, frame, target, source, stamp), frame, top, failure);
+      miss_sample(history, found, frame, target, source, stamp, failure);
+      return fail_apart(frame, top, failure);
     }
     if (frame == source) {  // the source lies on the target's way up: only this side counts
       walk.source_pose = Pose{};
@@ -128,19 +116,23 @@ bool walk_pose(const Tree& tree, Method& method, FrameId target, FrameId source,
   return true;
 }
 
-// Along a remembered path; false where a link has no sample, or one of another parent, and the slow walk has to say
-// what that means.
-bool path_pose(const std::vector<PathCache::Step>& steps, Stamp stamp, Pose& pose) {
-  pose = Pose{};
-  Pose step;
-  FrameId parent;
-  for (const PathCache::Step& link : steps) {
-    if (link.history->view().at(stamp, step, parent) != Found::ok || parent != link.parent) return false;
-    if (link.down) {
-      compose_inverse(step, pose);
-    } else {
-      compose(step, pose);
+// Along a remembered path between two frames, from the target to the source; false where a link has no sample, or one of another parent,
+// and the slow walk has to say what that means.
+bool path_pose(std::vector<PathCache::Step>& steps, Stamp stamp, Pose& pose) {
+  constexpr std::size_t kLinks = 32;
+  std::array<Link, kLinks> links;
+  std::size_t left = steps.size();
+  for (bool first = true; left > 0; first = false) {
+    const std::size_t count = std::min(left, kLinks);
+    for (std::size_t i = 0; i < count; ++i) {
+      PathCache::Step& step = steps[--left];
+      links[i].down = step.down;
+      if (!step.history->place(stamp, step.parent, step.hint, links[i])) return false;
     }
+    Pose end;
+    kernels().chain(links.data(), count, &end);
+    if (!first) compose(pose, end);
+    pose = end;
   }
   return true;
 }
@@ -166,7 +158,7 @@ bool identity(const Tree& tree, FrameId frame, Stamp& stamp, Pose& pose) {
 }  // namespace
 
 bool follow_path(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) {
-  const PathCache::Path* path = paths.find(tree, target, source);
+  PathCache::Path* path = paths.find(tree, target, source);
   if (!path) return false;
   const Stamp when = stamp != 0 ? stamp : path_common_time(path->steps);
   if (!path_pose(path->steps, when, pose)) return false;
@@ -175,14 +167,25 @@ bool follow_path(const Tree& tree, PathCache& paths, FrameId target, FrameId sou
   return true;
 }
 
+// All links have samples at a time that lies in what all of them reach.
 bool check_path(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp stamp) {
   const PathCache::Path* path = paths.find(tree, target, source);
   if (!path) return false;
-  const Stamp when = stamp != 0 ? stamp : path_common_time(path->steps);
+  Stamp begin = std::numeric_limits<Stamp>::min(), end = kNoTime, common = kNoTime;
   for (const PathCache::Step& link : path->steps) {
-    if (!link.history->view().covers(when, link.parent)) return false;
+    const History::View samples = link.history->view();
+    if (samples.is_static()) {
+      if (samples.parent() != link.parent) return false;
+      continue;
+    }
+    Stamp first, last;
+    if (!samples.reach(link.parent, first, last)) return false;
+    begin = std::max(begin, first);
+    end = std::min(end, last);
+    keep_earlier(last, common);
   }
-  return true;
+  const Stamp when = stamp != 0 ? stamp : common;
+  return when == kNoTime || when == 0 || (begin <= when && when <= end);
 }
 
 bool lookup(const Tree& tree, PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
@@ -237,7 +240,10 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
   depth = 0;
   for (FrameId frame = target;;) {
     const History::View history = tree.history(frame);
-    if (history.empty()) return fail_apart(not_connected(target, source, 0), frame, source_root, failure);
+    if (history.empty()) {
+      failure.reset(ErrorCode::not_connected, target, source, 0);
+      return fail_apart(frame, source_root, failure);
+    }
     keep_earlier(history.newest(), common);
     frame = history.parent();
     const auto meeting = std::find_if(links.begin(), links.end(), [&](const Link& l) { return l.parent == frame; });

@@ -2,19 +2,6 @@
 
 namespace coframe {
 
-namespace {
-
-std::uint64_t key_of(FrameId target, FrameId source) { return (static_cast<std::uint64_t>(target) << 32) | source; }
-
-}  // namespace
-
-const PathCache::Path* PathCache::find(const Tree& tree, FrameId target, FrameId source) {
-  if (paths_.empty()) paths_.resize(kEntries);
-  Path& path = paths_[(key_of(target, source) * 0x9e3779b97f4a7c15u) >> 53];
-  update(tree, target, source, path);
-  return path.usable ? &path : nullptr;
-}
-
 void PathCache::update(const Tree& tree, FrameId target, FrameId source, Path& path) {
   const std::uint64_t version = tree.version();
   if (path.frames == key_of(target, source) && path.version == version) return;

@@ -16,6 +16,7 @@ class PathCache {
     const History* history;
     FrameId parent;  // that all its samples had
     bool down;       // from parent to child: the pose is to be inverted
+    std::uint64_t hint = 0;  // for History::place()
   };
   struct Path {
     std::uint64_t frames = 0;   // target and source
@@ -25,7 +26,11 @@ class PathCache {
   };
 
   // The steps from `source` to `target` as of the newest data, or nullptr where the slow walk must decide.
-  const Path* find(const Tree& tree, FrameId target, FrameId source);
+  Path* find(const Tree& tree, FrameId target, FrameId source) {
+    Path& path = place(target, source);
+    if (path.version != tree.version() || path.frames != key_of(target, source)) update(tree, target, source, path);
+    return path.usable ? &path : nullptr;
+  }
 
   // Finds a path again if the tree has changed since, for who keeps one of his own.
   static void update(const Tree& tree, FrameId target, FrameId source, Path& path);
@@ -42,6 +47,14 @@ class PathCache {
   };
   static void walk(const Tree& tree, FrameId target, FrameId source, Path& path);
   static void join(const Tree& tree, std::vector<Link>& up, std::vector<Link>& down, Path& path);
+
+  static std::uint64_t key_of(FrameId target, FrameId source) {
+    return (static_cast<std::uint64_t>(target) << 32) | source;
+  }
+  Path& place(FrameId target, FrameId source) {
+    if (paths_.empty()) paths_.resize(kEntries);
+    return paths_[(key_of(target, source) * 0x9e3779b97f4a7c15u) >> 53];
+  }
 
   std::vector<Path> paths_;
   std::atomic<bool> in_use_{false};

@@ -35,29 +35,24 @@ struct Motion {
   bool inverse;  // from parent to child
 };
 
+// A link of a chain. Its pose lies between two records of eight numbers: x, y, z, w of the quaternion, x, y, z of the
+// translation, and one that says nothing. `share` of the way from one to the other; there is only one where both are the
+// same.
+struct Link {
+  const double *older, *newer;
+  double share;
+  bool down;  // from parent to child
+};
+
 struct Span {
   std::int64_t first, last;
 };
 
 struct Kernels {
   const char* level;
-
-  // out[i] = what interpolate() makes of older[i] and newer[i] for shares[i] in [0, 1], to 1e-15.
-  void (*interpolate_many)(const Pose* older, const Pose* newer, const double* shares, std::size_t n, Pose* out);
-
-  void (*load)(const Column& from, std::size_t n, double* out);
-  void (*store)(const Column& to, std::size_t n, const double* in);
-  // The least and the greatest of at least one time.
-  Span (*span)(const std::int64_t* times, std::size_t n);
-  // How often a time differs from the one before.
-  std::size_t (*changes)(const std::int64_t* times, std::size_t n);
-  // Where each time lies on the way from `start` to `end`, for start <= time <= end and start < end.
-  void (*shares)(const std::int64_t* times, std::int64_t start, std::int64_t end, std::size_t n, double* out);
-
-  // Points seen from the other end: of one pose, of a motion at each point's own share, of each point's own pose.
-  void (*transform)(const Affine& affine, std::size_t n, Points points);
-  void (*transform_moving)(const Motion& motion, const double* shares, std::size_t n, Points points);
-  void (*transform_each)(const Pose* poses, bool inverse, std::size_t n, Points points);
+#define COFRAME_KERNEL(result, name, parameters) result(*name) parameters;
+#include "kernels/entries.inc"
+#undef COFRAME_KERNEL
 };
 
 // std::runtime_error if the environment variable COFRAME_CPU_LEVEL names a level that is not there.

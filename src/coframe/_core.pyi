@@ -206,6 +206,11 @@ class Buffer:
     ) -> int:
         """Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts)."""
 
+    def set_plain(
+        self, parent: str, child: str, transform: PublicTransform, stamp: StampLike | None, static: bool
+    ) -> int | None:
+        """set_values() of a dynamic Transform between known frames; None where it is not just that."""
+
     def set_message(self, message: Any, static: bool, authority: str) -> int | None:
         """set_values() of a TransformStamped between known frames; None where it is not just that."""
 
@@ -378,6 +383,17 @@ def register_time(time: ModuleType) -> None:
 
 CPU_LEVEL: str
 CPU_LEVELS: tuple[str, ...]
+
+def mcap_records(data: Any) -> tuple[bytes, bytes, bytes, bytes, bytes, list[tuple[int, int, int]], int]:
+    """Where the messages lie among records of MCAP, up to the first record that is cut off or of another kind.
+
+    Returns:
+        Of each message its channel (uint16), log time (uint64), and where its record begins, its bytes begin and its
+        bytes end (uint64); of each schema and channel its opcode and the two ends of its content; the bytes dealt with.
+    """
+
+def ingest_slices(buffer: Buffer, data: Any, starts: Any, ends: Any, static: bool, authority: str) -> tuple[int, str]:
+    """Buffer.ingest() of many parts of `data`, told by uint64 arrays: how many are damaged, and why the first is."""
 
 def transform_fields(pose: Sequence[float], fields: Sequence[Sequence[Any]], threads: int) -> None:
     """Moves points by a pose (x, y, z, qx, qy, qz, qw), in place.

@@ -167,6 +167,23 @@ class Buffer(_core.Buffer):
             InvalidArgumentException: tf2 refuses it (empty or equal names, NaN, ...), with tf2's text; or the
                 transform is between other frames, or has no stamp.
         """
+        refusals = self.set_plain(parent, child, transform, stamp, static) if authority is DEFAULT_AUTHORITY else None
+        if refusals is None:
+            refusals = self._set(parent, child, transform, stamp, static, authority)
+        if refusals == 0:
+            return True
+        facts = (parent, child, _stamp_of(transform, stamp), *transform.values)
+        errors_found = [text for level, text in _core.insert_texts(refusals, *facts, authority) if level == "error"]
+        if errors_found:
+            raise InvalidArgumentException.telling(
+                "\n".join(errors_found), target=parent, source=child, edge=(parent, child), hint=_REFUSED_HINT
+            )
+        return False
+
+    def _set(
+        self, parent: str, child: str, transform: Transform, stamp: StampLike | None, static: bool, authority: str
+    ) -> int:
+        """`set` for all that may be given: the reasons for refusal."""
         if not isinstance(transform, _core.Transform):
             raise TypeError(
                 f"set() takes a coframe.Transform, not {type(transform).__name__}: make one by "
@@ -175,21 +192,13 @@ class Buffer(_core.Buffer):
         if transform.shape:
             raise InvalidArgumentException("set() takes a single transform, not a batch")
         _check_frames(parent, child, transform)
-        when = transform.stamp if stamp is None else time.stamp_ns(stamp)
-        if when is None and not static:
+        if stamp is None and transform.stamp is None and not static:
             raise InvalidArgumentException.telling(
                 f"a dynamic transform from {parent!r} to {child!r} needs a stamp",
                 hint="Give stamp=..., or static=True if it never changes.",
             )
         self._check_not_frozen(parent, child)
-        facts = (parent, child, when or 0, *transform.values)
-        refusals = self.set_values(*facts, static, authority)
-        errors_found = [text for level, text in _core.insert_texts(refusals, *facts, authority) if level == "error"]
-        if errors_found:
-            raise InvalidArgumentException.telling(
-                "\n".join(errors_found), target=parent, source=child, edge=(parent, child), hint=_REFUSED_HINT
-            )
-        return refusals == 0
+        return self.set_values(parent, child, _stamp_of(transform, stamp), *transform.values, static, authority)
 
     def set_many(
         self,
@@ -579,6 +588,10 @@ def _cache_ns(cache: DurationLike) -> int:
     if nanoseconds < 0:
         raise ValueError(f"a cache of {nanoseconds} ns: it must not be negative; None keeps everything")
     return nanoseconds
+
+
+def _stamp_of(transform: Transform, stamp: StampLike | None) -> int:
+    return (transform.stamp if stamp is None else time.stamp_ns(stamp)) or 0
 
 
 def _check_frames(parent: str, child: str, transform: Transform) -> None:

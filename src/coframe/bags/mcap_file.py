@@ -6,11 +6,14 @@ import struct
 import zlib
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from coframe import _core
 from coframe.bags.compression import LARGEST, DamagedError, unpack
-from coframe.bags.storage import Channel, ChunkedStorage, Record
+from coframe.bags.storage import Batch, Channel, ChunkedStorage, Slices
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Generator, Iterator
     from pathlib import Path
 
     from coframe.bags.problems import Problems
@@ -24,6 +27,7 @@ _LAST_OPCODE = 0x0F  # those from 0x80 on are somebody's own
 _RECORD = struct.Struct("<BQ")  # opcode, length
 _MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log time, publish time
 _CHUNK_HEAD = struct.Struct("<QQQI")  # first and last log time, unpacked size, its CRC or 0
+_BLOCK = 4 << 20  # bytes of records that are in no chunk are read together
 _FOOTER_RECORD = struct.Struct("<BQQQI")  # opcode, length, start of the summary, of its offsets, CRC
 
 
@@ -35,63 +39,73 @@ class McapStorage(ChunkedStorage):
         self._schemas: dict[int, tuple[str, str, bytes]] = {}
         self._channels: dict[int, Channel] = {}
 
-    def records(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Record]:
+    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """All messages, in the order in which they lie in the file."""
         del wanted  # all data lie together
-        for offset, opcode, end in self._walk():
+        done = 0
+        for offset, opcode, end in self._walk(self._read_summary()):
             if opcode == _CHUNK:
-                yield from self._chunk_records(offset)
+                yield from self._chunk_batches(offset)
                 progress(end)
-            elif opcode == _MESSAGE:
-                yield from self._inner(self.bytes_at(offset, end - offset), offset)
-            elif opcode in {_SCHEMA, _CHANNEL}:
-                self._define(opcode, self.bytes_at(offset + _RECORD.size, end - offset - _RECORD.size))
+            elif opcode in {_SCHEMA, _CHANNEL, _MESSAGE} and offset >= done:
+                if end - offset > LARGEST:
+                    self.problem(f"the record at byte {offset} claims to be {end - offset} bytes")
+                    continue
+                data = self.bytes_at(offset, max(end - offset, _BLOCK))
+                done = offset + (yield from self._inner(data, offset))
+                progress(done)
         progress(self.size)
 
-    def _walk(self) -> Iterator[tuple[int, int, int]]:
-        """Offset, opcode and end of every record of the data; from a damaged one on to the next chunk in the index."""
+    def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, int]]:
+        """Offset, opcode and end of every record of the data; from a damaged one on to the next of the known chunks."""
         offset = len(MAGIC)
         while (head := self.bytes_at(offset, _RECORD.size)) and len(head) == _RECORD.size:
             opcode, length = _RECORD.unpack(head)
             end = offset + _RECORD.size + length
-            if opcode in {_DATA_END, _FOOTER}:
+            whole = _is_record(opcode) and end <= self.size
+            if whole and opcode in {_DATA_END, _FOOTER}:
                 return
-            later = [] if _is_record(opcode) and end <= self.size else [c for c in self._index() if c > offset]
+            later = [] if whole else [chunk for chunk in chunks if chunk > offset]
             if later:
                 self.problem(f"bytes {offset} to {later[0]} are damaged")
                 end = later[0]
-            elif opcode == _CHUNK or (_is_record(opcode) and end <= self.size):
+            elif whole or opcode == _CHUNK:
                 yield offset, opcode, min(end, self.size)
             else:
                 break
             offset = end
         self.problem(f"it breaks off at byte {min(offset, self.size)} of {self.size}: was the recorder stopped hard?")
 
-    def _index(self) -> list[int]:
-        """Where the summary at the end says that chunks begin; nothing if it is not there."""
-        tail = self.bytes_at(max(0, self.size - _FOOTER_RECORD.size - len(MAGIC)), _FOOTER_RECORD.size)
+    def _read_summary(self) -> list[int]:
+        """Takes in the channels that the summary at the end describes; gives where it says that chunks begin."""
+        tail = self.bytes_at(self.size - _FOOTER_RECORD.size - len(MAGIC), _FOOTER_RECORD.size)
         if len(tail) < _FOOTER_RECORD.size:
             return []
         opcode, _, start, *_ = _FOOTER_RECORD.unpack(tail)
-        if opcode != _FOOTER or not 0 < start < self.size:
+        if opcode != _FOOTER or not 0 < start < self.size or self.size - start > LARGEST:
             return []
-        summary = self.bytes_at(start, min(self.size - start, LARGEST))
-        found, position = [], 0
+        summary = self.bytes_at(start, self.size - start)
+        chunks, position = [], 0
         while position + _RECORD.size <= len(summary):
             opcode, length = _RECORD.unpack_from(summary, position)
-            if opcode == _CHUNK_INDEX and length >= 24 and position + 33 <= len(summary):
-                found.append(int.from_bytes(summary[position + 25 : position + 33], "little"))
+            content = summary[position + _RECORD.size : position + _RECORD.size + length]
+            if opcode == _CHUNK_INDEX:
+                chunks.append(int.from_bytes(content[16:24], "little"))
+            elif opcode in {_SCHEMA, _CHANNEL}:
+                self._define(opcode, content)
             position += _RECORD.size + length
-        return sorted(offset for offset in found if 0 < offset < self.size)
+        return sorted(chunk for chunk in chunks if 0 < chunk < self.size)
 
-    def _chunk_records(self, offset: int) -> Iterator[Record]:
+    def _chunk_batches(self, offset: int) -> Iterator[Batch]:
         base = self.add_chunk(offset)
         try:
             data = self.unpack_chunk(offset)
         except DamagedError as error:
             self.problem(f"the chunk at byte {offset} cannot be unpacked: {error}")
             return
-        yield from self._inner(data, base)
+        done = yield from self._inner(data, base)
+        if done < len(data):
+            self.problem(f"{len(data) - done} bytes are damaged or cut off inside a chunk")
 
     def unpack_chunk(self, offset: int) -> bytes:
         """The records of the chunk at this offset of the file."""
@@ -101,38 +115,32 @@ class McapStorage(ChunkedStorage):
         try:
             _, _, size, crc = _CHUNK_HEAD.unpack_from(chunk)
             compression, start = _text(chunk, _CHUNK_HEAD.size)
-        except (struct.error, ValueError) as error:
-            raise DamagedError(str(error)) from None
+        except (struct.error, ValueError):
+            raise DamagedError("its first bytes are damaged or cut off") from None
         packed = chunk[start + 8 :]
         data = unpack(compression, packed, size)
         if crc and zlib.crc32(data) != crc:
             self.problem(f"the chunk at byte {offset} is damaged: its checksum differs")
         return data
 
-    def _inner(self, data: bytes, base: int) -> Iterator[Record]:
-        """The messages among records; their positions are offsets in ``data`` plus ``base``."""
-        position, size = 0, len(data)
-        view = memoryview(data)
-        while position + _RECORD.size <= size:
-            opcode, length = _RECORD.unpack_from(data, position)
-            end = position + _RECORD.size + length
-            if end > size or not _is_record(opcode):
-                break
-            if opcode == _MESSAGE and end - position >= _MESSAGE_RECORD.size:
-                _, _, number, _, received, _ = _MESSAGE_RECORD.unpack_from(data, position)
-                channel = self._channels.get(number)
-                if channel is None:
-                    self.problem(f"messages of channel {number}, which nothing describes")
-                elif received >= _TOO_LATE:
-                    self.problem(f"messages with the time {received} ns, which is no time")
-                else:
-                    payload = view[position + _MESSAGE_RECORD.size : end]
-                    yield Record(channel, received, base + position, payload)
-            elif opcode in {_SCHEMA, _CHANNEL}:
-                self._define(opcode, bytes(view[position + _RECORD.size : end]))
-            position = end
-        if position < size:
-            self.problem(f"{size - position} bytes are damaged or cut off inside a chunk")
+    def _inner(self, data: bytes, base: int) -> Generator[Batch, None, int]:
+        """The messages among records, whose positions are offsets in ``data`` plus ``base``; returns where it ended."""
+        *columns, definitions, done = _core.mcap_records(data)
+        for opcode, start, end in definitions:
+            self._define(opcode, data[start:end])
+        channels = np.frombuffer(columns[0], dtype=np.uint16)
+        times, records, starts, ends = (np.frombuffer(column, dtype=np.uint64) for column in columns[1:])
+        for number in np.unique(channels).tolist():
+            channel = self._channels.get(number)
+            mine = (channels == number) & (times < _TOO_LATE)
+            if channel is None:
+                self.problem(f"messages of channel {number}, which nothing describes", int(np.count_nonzero(mine)))
+            else:
+                messages = Slices(data, starts[mine], ends[mine])
+                yield Batch(channel, times[mine].astype(np.int64), records[mine] + np.uint64(base), messages)
+        if (times >= _TOO_LATE).any():
+            self.problem("messages with times that are none", int(np.count_nonzero(times >= _TOO_LATE)))
+        return done
 
     def payload(self, source: bytes | None, offset: int) -> bytes | memoryview:
         """The message in the record at this offset."""
@@ -159,15 +167,15 @@ class McapStorage(ChunkedStorage):
             number, schema = struct.unpack_from("<HH", data)
             topic, position = _text(data, 4)
             encoding, _ = _text(data, position)
-        except (struct.error, ValueError, IndexError) as error:
-            self.problem(f"a damaged description of a channel: {error}")
+        except (struct.error, ValueError, IndexError):
+            self.problem("a damaged description of a channel")
             return
         if number not in self._channels:
             name, kind, definition = self._schemas.get(schema, ("", "", b""))
             self._channels[number] = Channel(topic, name, encoding, definition, kind)
 
 
-_TOO_LATE = 1 << 63
+_TOO_LATE = np.uint64(1 << 63)
 
 
 def _is_record(opcode: int) -> bool:

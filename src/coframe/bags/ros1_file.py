@@ -5,8 +5,10 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING
 
-from coframe.bags.compression import DamagedError, unpack
-from coframe.bags.storage import Channel, ChunkedStorage, Record
+import numpy as np
+
+from coframe.bags.compression import LARGEST, DamagedError, unpack
+from coframe.bags.storage import Batch, Channel, ChunkedStorage, Slices
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -18,7 +20,7 @@ __all__ = ["MAGIC", "Ros1Storage"]
 
 MAGIC = b"#ROSBAG V2.0\n"
 
-_MESSAGE, _CHUNK, _CONNECTION = 0x02, 0x05, 0x07
+_MESSAGE, _CHUNK, _CHUNK_INFO, _CONNECTION = 0x02, 0x05, 0x06, 0x07
 _KNOWN = {0x02, 0x03, 0x04, 0x05, 0x06, 0x07}
 _LENGTH = struct.Struct("<I")
 _TIME = struct.Struct("<II")
@@ -32,29 +34,57 @@ class Ros1Storage(ChunkedStorage):
         super().__init__(path, problems)
         self._channels: dict[int, Channel] = {}
 
-    def records(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Record]:
+    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """All messages, in the order in which they lie in the file."""
         del wanted  # all data lie together
-        offset = len(MAGIC)
-        while offset < self.size:
-            try:
-                header, start, end = self._record(offset)
-            except DamagedError as error:
-                self.problem(f"it breaks off at byte {offset} of {self.size}: {error}")
-                break
-            opcode = _opcode(header)
+        for offset, opcode, header, start, end in self._walk(self._read_index()):
             if opcode == _CHUNK:
-                yield from self._chunk_records(offset)
+                yield from self._chunk_batches(offset)
                 progress(min(end, self.size))
+            elif end - offset > LARGEST:
+                self.problem(f"the record at byte {offset} claims to be {end - offset} bytes")
             elif opcode == _CONNECTION:
                 self._connect(header, self.bytes_at(start, end - start))
             elif opcode == _MESSAGE:
                 yield from self._inner(self.bytes_at(offset, end - offset), offset)
-            offset = end
         progress(self.size)
 
-    def _record(self, offset: int) -> tuple[dict[bytes, bytes], int, int]:
-        """The header of a record of the file, and where its data begin and end; the end of a chunk may be missing."""
+    def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, dict[bytes, bytes], int, int]]:
+        """Offset, opcode, header, start and end of every record; from a damaged one on to the next known chunk."""
+        offset = len(MAGIC)
+        while offset < self.size:
+            later = [chunk for chunk in chunks if chunk > offset]
+            try:
+                header, start, end = self._record(offset, may_be_cut_off=not later)
+            except DamagedError as error:
+                if not later:
+                    self.problem(f"it breaks off at byte {offset} of {self.size}: {error}")
+                    return
+                self.problem(f"bytes {offset} to {later[0]} are damaged")
+                offset = later[0]
+                continue
+            yield offset, _opcode(header), header, start, end
+            offset = end
+
+    def _read_index(self) -> list[int]:
+        """Takes in the connections that the index at the end describes; gives where it says that chunks begin."""
+        chunks: list[int] = []
+        try:
+            header, _, _ = self._record(len(MAGIC))
+            offset = int.from_bytes(header.get(b"index_pos", b"")[:8], "little")
+            while len(MAGIC) < offset < self.size:
+                header, start, end = self._record(offset)
+                if _opcode(header) == _CONNECTION:
+                    self._connect(header, self.bytes_at(start, end - start))
+                elif _opcode(header) == _CHUNK_INFO:
+                    chunks.append(int.from_bytes(header.get(b"chunk_pos", b"")[:8], "little"))
+                offset = end
+        except DamagedError:
+            pass  # there may be no index: a recorder that is stopped hard leaves none
+        return sorted(chunk for chunk in chunks if len(MAGIC) < chunk < self.size)
+
+    def _record(self, offset: int, *, may_be_cut_off: bool = True) -> tuple[dict[bytes, bytes], int, int]:
+        """The header of a record of the file, and where its data begin and end; of a chunk the end may be missing."""
         length = self._length(offset)
         if length > _LONGEST_HEADER:
             raise DamagedError("a damaged header")
@@ -63,7 +93,7 @@ class Ros1Storage(ChunkedStorage):
             raise DamagedError("a damaged header")
         start = offset + 8 + length
         end = start + self._length(start - 4)
-        if end > self.size and _opcode(header) != _CHUNK:
+        if end > self.size and not (may_be_cut_off and _opcode(header) == _CHUNK):
             raise DamagedError("it is cut off")
         return header, start, end
 
@@ -73,7 +103,7 @@ class Ros1Storage(ChunkedStorage):
             raise DamagedError("it is cut off")
         return int(_LENGTH.unpack(data)[0])
 
-    def _chunk_records(self, offset: int) -> Iterator[Record]:
+    def _chunk_batches(self, offset: int) -> Iterator[Batch]:
         base = self.add_chunk(offset)
         try:
             data = self.unpack_chunk(offset)
@@ -94,27 +124,31 @@ class Ros1Storage(ChunkedStorage):
             self.problem(f"the chunk at byte {offset} is damaged from its byte {len(data)} on")
         return data
 
-    def _inner(self, data: bytes, base: int) -> Iterator[Record]:
+    def _inner(self, data: bytes, base: int) -> Iterator[Batch]:
         """The messages among records; their positions are offsets in ``data`` plus ``base``."""
+        found: dict[int, list[tuple[int, int, int, int]]] = {}
         position = 0
         while position < len(data):
             try:
                 header, start, end = _record_in(data, position)
             except DamagedError:
                 self.problem(f"{len(data) - position} bytes are damaged or cut off inside a chunk")
-                return
+                break
             opcode = _opcode(header)
             if opcode == _CONNECTION:
                 self._connect(header, data[start:end])
             elif opcode == _MESSAGE:
-                channel = self._channels.get(_number(header))
                 seconds, nanoseconds = _TIME.unpack(header.get(b"time", b"").ljust(8, b"\0")[:8])
-                if channel is None:
-                    self.problem("messages of a connection that nothing describes")
-                else:
-                    received = seconds * 1_000_000_000 + nanoseconds
-                    yield Record(channel, received, base + position, memoryview(data)[start:end])
+                row = (seconds * 1_000_000_000 + nanoseconds, base + position, start, end)
+                found.setdefault(_number(header), []).append(row)
             position = end
+        for number, rows in found.items():
+            channel = self._channels.get(number)
+            if channel is None:
+                self.problem("messages of a connection that nothing describes", len(rows))
+                continue
+            received, positions, starts, ends = np.array(rows, dtype=np.uint64).T.copy()
+            yield Batch(channel, received.astype(np.int64), positions, Slices(data, starts, ends))
 
     def payload(self, source: bytes | None, offset: int) -> bytes | memoryview:
         """The message in the record at this offset."""

@@ -1,0 +1,78 @@
+// Four numbers that are worked on together: a quaternion, or a vector and a number beside it. A register where the
+// processor has such (AVX2); what a compiler makes of shorter ones is slower than plain numbers.
+#pragma once
+
+#include <cstring>
+
+#include "kernels/level.hpp"
+
+namespace coframe::COFRAME_LEVEL {
+
+namespace {
+
+#if defined(__AVX2__) && defined(__GNUC__)
+
+using Four = double __attribute__((vector_size(32)));
+using Two = double __attribute__((vector_size(16)));
+
+// The numbers of `v` at these places.
+template <int A, int B, int C, int D>
+COFRAME_INLINE Four ordered(const Four& v) {
+#if defined(__clang__) || __GNUC__ >= 12
+  return __builtin_shufflevector(v, v, A, B, C, D);
+#else
+  using Places = long long __attribute__((vector_size(32)));
+  return __builtin_shuffle(v, Places{A, B, C, D});
+#endif
+}
+
+#else
+
+struct Four {
+  double numbers[4];
+  COFRAME_INLINE double& operator[](int i) { return numbers[i]; }
+  COFRAME_INLINE double operator[](int i) const { return numbers[i]; }
+};
+
+COFRAME_INLINE Four operator+(const Four& a, const Four& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]};
+}
+COFRAME_INLINE Four operator-(const Four& a, const Four& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]};
+}
+COFRAME_INLINE Four operator*(const Four& a, const Four& b) {
+  return {a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]};
+}
+COFRAME_INLINE Four operator*(double a, const Four& b) { return {a * b[0], a * b[1], a * b[2], a * b[3]}; }
+
+template <int A, int B, int C, int D>
+COFRAME_INLINE Four ordered(const Four& v) {
+  return {v[A], v[B], v[C], v[D]};
+}
+
+struct Two {
+  double numbers[2];
+  COFRAME_INLINE double operator[](int i) const { return numbers[i]; }
+};
+COFRAME_INLINE Two operator+(double a, const Two& b) { return {a + b[0], a + b[1]}; }
+COFRAME_INLINE Two operator-(const Two& a, double b) { return {a[0] - b, a[1] - b}; }
+COFRAME_INLINE Two operator*(const Two& a, double b) { return {a[0] * b, a[1] * b}; }
+COFRAME_INLINE Two operator*(const Two& a, const Two& b) { return {a[0] * b[0], a[1] * b[1]}; }
+
+#endif
+
+// One of the numbers, four times.
+template <int I>
+COFRAME_INLINE Four spread(const Four& v) {
+  return ordered<I, I, I, I>(v);
+}
+
+COFRAME_INLINE Four load(const double* numbers) {
+  Four v;
+  std::memcpy(&v, numbers, sizeof(v));
+  return v;
+}
+
+}  // namespace
+
+}  // namespace coframe::COFRAME_LEVEL

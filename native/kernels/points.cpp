@@ -1,0 +1,100 @@
+#include <cstring>
+
+#include "kernels/arc.hpp"
+#include "kernels/level.hpp"
+
+namespace coframe::COFRAME_LEVEL {
+
+namespace {
+
+struct Vector {
+  double x, y, z;
+};
+
+// v + 2 w (u x v) + 2 u x (u x v), u the vector part.
+COFRAME_INLINE Vector rotated(double qx, double qy, double qz, double qw, const Vector& v) {
+  const double tx = 2.0 * (qy * v.z - qz * v.y);
+  const double ty = 2.0 * (qz * v.x - qx * v.z);
+  const double tz = 2.0 * (qx * v.y - qy * v.x);
+  return {v.x + qw * tx + (qy * tz - qz * ty), v.y + qw * ty + (qz * tx - qx * tz),
+          v.z + qw * tz + (qx * ty - qy * tx)};
+}
+
+// One point seen from the other end of a link whose pose is q, p.
+template <bool kInverse>
+COFRAME_INLINE Vector seen(double qx, double qy, double qz, double qw, double px, double py, double pz, const Vector& v) {
+  if constexpr (kInverse) return rotated(-qx, -qy, -qz, qw, {v.x - px, v.y - py, v.z - pz});
+  const Vector turned = rotated(qx, qy, qz, qw, v);
+  return {turned.x + px, turned.y + py, turned.z + pz};
+}
+
+template <bool kInverse, class Way>
+void transform_moving_by(const Motion& motion, const Arc& between, const double* __restrict shares, std::size_t n,
+                         const Points& points) {
+  double aq[4], bq[4], ap[3], bp[3];
+  std::memcpy(aq, motion.older.q, sizeof(aq));
+  std::memcpy(ap, motion.older.p, sizeof(ap));
+  std::memcpy(bp, motion.newer.p, sizeof(bp));
+  for (int k = 0; k < 4; ++k) bq[k] = between.sign * motion.newer.q[k];
+  const double cosine = between.cosine;
+  double *__restrict xs = points.x, *__restrict ys = points.y, *__restrict zs = points.z;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double t = shares[i], rest = 1.0 - t;
+    const double a = Way::weight(rest, cosine), b = Way::weight(t, cosine);
+    const Vector point =
+        seen<kInverse>(a * aq[0] + b * bq[0], a * aq[1] + b * bq[1], a * aq[2] + b * bq[2], a * aq[3] + b * bq[3],
+                       rest * ap[0] + t * bp[0], rest * ap[1] + t * bp[1], rest * ap[2] + t * bp[2],
+                       {xs[i], ys[i], zs[i]});
+    xs[i] = point.x;
+    ys[i] = point.y;
+    zs[i] = point.z;
+  }
+}
+
+template <bool kInverse>
+void transform_each_by(const Pose* poses, std::size_t n, const Points& points) {
+  double *__restrict xs = points.x, *__restrict ys = points.y, *__restrict zs = points.z;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double *q = poses[i].q, *p = poses[i].p;
+    const Vector point = seen<kInverse>(q[0], q[1], q[2], q[3], p[0], p[1], p[2], {xs[i], ys[i], zs[i]});
+    xs[i] = point.x;
+    ys[i] = point.y;
+    zs[i] = point.z;
+  }
+}
+
+}  // namespace
+
+void transform(const Affine& affine, std::size_t n, Points points) {
+  double m[3][4];
+  std::memcpy(m, affine.m, sizeof(m));
+  double *__restrict xs = points.x, *__restrict ys = points.y, *__restrict zs = points.z;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = xs[i], y = ys[i], z = zs[i];
+    xs[i] = m[0][0] * x + m[0][1] * y + m[0][2] * z + m[0][3];
+    ys[i] = m[1][0] * x + m[1][1] * y + m[1][2] * z + m[1][3];
+    zs[i] = m[2][0] * x + m[2][1] * y + m[2][2] * z + m[2][3];
+  }
+}
+
+void transform_moving(const Motion& motion, const double* shares, std::size_t n, Points points) {
+  const Arc between = arc(motion.older.q, motion.newer.q);
+  choose_way(between.cosine, [&](auto way) {
+    using Way = decltype(way);
+    if (motion.inverse) {
+      transform_moving_by<true, Way>(motion, between, shares, n, points);
+    } else {
+      transform_moving_by<false, Way>(motion, between, shares, n, points);
+    }
+  });
+}
+
+void transform_each(const Pose* poses, bool inverse, std::size_t n, Points points) {
+  if (inverse) {
+    transform_each_by<true>(poses, n, points);
+  } else {
+    transform_each_by<false>(poses, n, points);
+  }
+}
+
+}  // namespace coframe::COFRAME_LEVEL
