@@ -5,7 +5,7 @@ STAMP := $(VENV)/.ready
 NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') CMakeLists.txt
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test test-slow test-long sanitize lint typecheck format conformance bench generate clean
+.PHONY: help setup build demo test test-slow test-long sanitize lint typecheck format conformance bench generate page page-check clean
 
 help: ## what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -70,6 +70,13 @@ bench: $(VENV)/.bench ## coframe beside its peers, in one table; fails where a b
 
 generate: $(STAMP) ## message classes from interfaces/
 	$(BIN)/python scripts/generate_messages.py
+
+page: ## the viewer's page from viewer/ into src/coframe/viewer/static (needs Node.js and npm)
+	cd viewer && npm ci --silent && npm run --silent build
+
+page-check: ## the page's types and tests, and that what is committed is what its source makes
+	cd viewer && npm ci --silent && npm run --silent check
+	$(BIN)/python -m pytest -m slow tests/viewer/test_page_bytes.py
 
 clean: ## what was built, and the virtual environment
 	rm -rf build dist $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis

@@ -1,6 +1,6 @@
 """The rows of the table, a file for each of their subjects."""
 
-from benchmarks.rows import batch, history, insertion, listener, recordings, sensors, single, startup
+from benchmarks.rows import batch, history, insertion, listener, recordings, sensors, single, startup, viewer
 
 ROWS = {
     "single": single.ROWS,
@@ -11,5 +11,6 @@ ROWS = {
     "recordings": recordings.ROWS,
     "history": history.ROWS,
     "startup": startup.ROWS,
+    "viewer": viewer.ROWS,
 }
 """By subject."""

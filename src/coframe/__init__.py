@@ -16,6 +16,7 @@ from coframe.errors import (
     RobotDescriptionError,
     TimeoutException,
     TransformException,
+    ViewerError,
     WireError,
 )
 from coframe.transform import Transform
@@ -23,6 +24,7 @@ from coframe.wire.connection import Connection, connect
 
 if TYPE_CHECKING:
     from coframe.bags import open_bag
+    from coframe.viewer.show import show
 
 __version__ = "0.1.0"
 
@@ -44,17 +46,21 @@ __all__ = [
     "TimeoutException",
     "Transform",
     "TransformException",
+    "ViewerError",
     "WireError",
     "__version__",
     "connect",
     "open_bag",
+    "show",
 ]
+
+_LATE = {"open_bag": "coframe.bags", "show": "coframe.viewer"}
 
 
 def __getattr__(name: str) -> Any:
     """What takes long to import, and few need, is imported when it is first used."""
-    if name == "open_bag":
-        return importlib.import_module("coframe.bags").open_bag
-    if name in {"bags", "robots"}:
+    if name in _LATE:
+        return getattr(importlib.import_module(_LATE[name]), name)
+    if name in {"bags", "robots", "viewer"}:
         return importlib.import_module(f"coframe.{name}")
     raise AttributeError(f"module 'coframe' has no attribute {name!r}")

@@ -9,6 +9,7 @@
     │   │   └── FrameMismatchException  composing a<-b with c<-d where b is not c
     │   └── TimeoutException            waited in vain
     ├── WireError(RuntimeError)         the ROS graph could not be joined
+    ├── ViewerError(RuntimeError)       the viewer could not be started, or a file that it was given is none of its kind
     ├── DecodeError(ValueError)         bytes that are not what they claim to be
     ├── RobotDescriptionError(ValueError)  a robot description that contradicts itself
     ├── PackageError(LookupError)       a package, or a file of one, that is not there
@@ -42,6 +43,7 @@ __all__ = [
     "RobotDescriptionError",
     "TimeoutException",
     "TransformException",
+    "ViewerError",
     "WireError",
 ]
 
@@ -183,6 +185,18 @@ class TimeoutException(TransformException):
 
 class WireError(RuntimeError):
     """The ROS graph could not be joined or used.
+
+    Attributes:
+        hint: What to do next, in a sentence; may be empty.
+    """
+
+    def __init__(self, text: str, *, hint: str = "") -> None:
+        super().__init__(text)
+        self.hint = hint
+
+
+class ViewerError(RuntimeError):
+    """The viewer could not be started, or a file that it was given is none of its kind.
 
     Attributes:
         hint: What to do next, in a sentence; may be empty.

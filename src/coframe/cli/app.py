@@ -14,6 +14,7 @@ from coframe.cli.lookup import lookup
 from coframe.cli.robot import robot
 from coframe.cli.static import static
 from coframe.cli.trajectory import trajectory
+from coframe.cli.view import view
 
 __all__ = ["app"]
 
@@ -43,6 +44,7 @@ def _main(
 
 app.command()(demo)
 app.command()(echo)
+app.command()(view)
 app.command()(lookup)
 app.command()(trajectory)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(robot)
