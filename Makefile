@@ -24,7 +24,7 @@ demo: $(STAMP) ## the lab's moving transform tree, live in the terminal, spoken 
 	@$(BIN)/coframe demo $(ARGS)
 
 test: $(STAMP) ## the test suite (under 6 minutes)
-	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile $(ARGS)
+	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile --no-loadscope-reorder $(ARGS)
 
 $(VENV)/.oracle: pyproject.toml | $(STAMP)
 	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group oracle && touch $@ || \
