@@ -26,7 +26,11 @@ demo: $(STAMP) ## the lab's moving transform tree, live in the terminal, spoken 
 test: $(STAMP) ## the test suite (under 6 minutes)
 	$(BIN)/python -m pytest $(ARGS)
 
-test-slow: $(STAMP) ## the tests that take minutes
+$(VENV)/.oracle: pyproject.toml | $(STAMP)
+	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group oracle && touch $@ || \
+		echo "test-slow: Pinocchio could not be installed from the package index; the tests beside it are skipped"
+
+test-slow: $(STAMP) $(VENV)/.oracle ## the tests that take minutes
 	$(BIN)/python -m pytest -m slow $(ARGS)
 
 test-long: $(STAMP) ## ten million random operations beside the real tf2, a new seed each time

@@ -28,12 +28,15 @@ def test_the_wheel_has_everything(tmp_path):
     (wheel,) = tmp_path.glob("coframe-*.whl")
     venv.create(tmp_path / "env", with_pip=True)
     python = tmp_path / "env" / "bin" / "python"
-    run(python, "-m", "pip", "install", "--quiet", f"{wheel}[dds,cli]")
+    run(python, "-m", "pip", "install", "--quiet", f"{wheel}[dds,cli,viewer]")
 
     path, rclpy = run(python, "-c", "import sys, rclpy; print(sys.path[-1]); print(rclpy.__file__)").splitlines()
     assert path.endswith("coframe/ros"), "the ROS packages come last on the path"
     assert rclpy.startswith(path)
     packages = "tf2_ros, tf2_geometry_msgs, tf2_sensor_msgs, tf2_nav_msgs, tf2_visualization_msgs, tf_transformations"
     run(python, "-c", f"import {packages}, sensor_msgs_py")
-    shown = run(tmp_path / "env" / "bin" / "coframe", "demo", "--duration", "5", ROS_DOMAIN_ID="201")
+    shown = run(tmp_path / "env" / "bin" / "coframe", "demo", "--duration", "5", "--no-browser", ROS_DOMAIN_ID="201")
+    assert re.search(r"^http://127\.0\.0\.1:\d+/$", shown, re.MULTILINE)
+    page = "import coframe, urllib.request as u; print(u.urlopen(coframe.show(coframe.Buffer(), port=0).url).read())"
+    assert "viewer.js" in run(python, "-c", page), "the page is in the wheel"
     assert re.search(r"^ *camera_link +end_effector +static", shown, re.MULTILINE)

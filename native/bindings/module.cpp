@@ -12,6 +12,7 @@ NB_MODULE(_core, module) {
   define_buffer(module);
   define_waiting(module);
   define_messages(module);
+  define_poses(module);
   define_event(module);
   define_sensors(module);
   define_wire(module);

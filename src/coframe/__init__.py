@@ -1,5 +1,8 @@
 """ROS 2's transform system (tf2) for Python: any frame, any time, on any machine."""
 
+import importlib
+from typing import TYPE_CHECKING, Any
+
 from coframe.buffer import Buffer, EdgeInfo, FrameInfo, Subscription
 from coframe.errors import (
     ConnectivityException,
@@ -8,12 +11,19 @@ from coframe.errors import (
     FrameMismatchException,
     InvalidArgumentException,
     LookupException,
+    RecordingError,
+    RobotDescriptionError,
     TimeoutException,
     TransformException,
+    ViewerError,
     WireError,
 )
 from coframe.transform import Transform
 from coframe.wire.connection import Connection, connect
+
+if TYPE_CHECKING:
+    from coframe.bags import open_bag
+    from coframe.viewer.show import show
 
 __version__ = "0.1.0"
 
@@ -28,11 +38,27 @@ __all__ = [
     "FrameMismatchException",
     "InvalidArgumentException",
     "LookupException",
+    "RecordingError",
+    "RobotDescriptionError",
     "Subscription",
     "TimeoutException",
     "Transform",
     "TransformException",
+    "ViewerError",
     "WireError",
     "__version__",
     "connect",
+    "open_bag",
+    "show",
 ]
+
+_LATE = {"open_bag": "coframe.bags", "show": "coframe.viewer"}
+
+
+def __getattr__(name: str) -> Any:
+    """What takes long to import, and few need, is imported when it is first used."""
+    if name in _LATE:
+        return getattr(importlib.import_module(_LATE[name]), name)
+    if name in {"bags", "robots", "viewer"}:
+        return importlib.import_module(f"coframe.{name}")
+    raise AttributeError(f"module 'coframe' has no attribute {name!r}")

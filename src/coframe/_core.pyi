@@ -420,6 +420,29 @@ def deskew_fields(
         How many points have no transform, and the first of them. If all of them, none is touched.
     """
 
+def poses_into(
+    buffer: Buffer,
+    fixed: str,
+    frames: list[str],
+    roots: list[str | None],
+    stamp: int,
+    hold: int,
+    poses: Any,
+    told: Any,
+) -> None:
+    """Many frames at one time, seen from one of them.
+
+    Args:
+        buffer: Where they are looked up.
+        fixed: The frame that the poses are told in.
+        frames: N frames.
+        roots: None, or the frame that a frame is seen from instead of `fixed`.
+        stamp: Nanoseconds; 0 is the latest, for each frame its own.
+        hold: How many nanoseconds beyond its samples a link is taken to stand still.
+        poses: (N, 7) float64, gets x, y, z, qx, qy, qz, qw, or NaN.
+        told: (N,) uint8, gets 0: exactly; 1: held beyond the samples of a link; 2: not at all; 3: seen from its root.
+    """
+
 PUBLICATIONS: int
 SUBSCRIPTIONS: int
 

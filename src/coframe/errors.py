@@ -9,7 +9,10 @@
     │   │   └── FrameMismatchException  composing a<-b with c<-d where b is not c
     │   └── TimeoutException            waited in vain
     ├── WireError(RuntimeError)         the ROS graph could not be joined
-    └── DecodeError(ValueError)         bytes that are not what they claim to be
+    ├── ViewerError(RuntimeError)       the viewer could not be started, or a file that it was given is none of its kind
+    ├── DecodeError(ValueError)         bytes that are not what they claim to be
+    ├── RobotDescriptionError(ValueError)  a robot description that contradicts itself
+    └── RecordingError(ValueError)      a recording of which nothing can be read
 
 The names of the transform exceptions are tf2's, and so are their texts (``str(error)``). Each also carries the facts
 behind its text, where they apply, and ``hint``: what to do next.
@@ -34,8 +37,11 @@ __all__ = [
     "FrameMismatchException",
     "InvalidArgumentException",
     "LookupException",
+    "RecordingError",
+    "RobotDescriptionError",
     "TimeoutException",
     "TransformException",
+    "ViewerError",
     "WireError",
 ]
 
@@ -187,8 +193,52 @@ class WireError(RuntimeError):
         self.hint = hint
 
 
+class ViewerError(RuntimeError):
+    """The viewer could not be started, or a file that it was given is none of its kind.
+
+    Attributes:
+        hint: What to do next, in a sentence; may be empty.
+    """
+
+    def __init__(self, text: str, *, hint: str = "") -> None:
+        super().__init__(text)
+        self.hint = hint
+
+
 class DecodeError(ValueError):
     """Bytes that are not what they claim to be; the text says which type, where, and what was expected.
+
+    Attributes:
+        hint: What to do next, in a sentence; may be empty.
+    """
+
+    def __init__(self, text: str, *, hint: str = "") -> None:
+        super().__init__(text)
+        self.hint = hint
+
+
+class RobotDescriptionError(ValueError):
+    """A robot description that contradicts itself, or is none.
+
+    Attributes:
+        line: Where in the text, counted from 1; None where no line is to blame.
+        file: The file's name; None for a text.
+        hint: What to do next, in a sentence; may be empty.
+    """
+
+    def __init__(self, text: str, *, line: int | None = None, file: str | None = None, hint: str = "") -> None:
+        super().__init__(text)
+        self.line = line
+        self.file = file
+        self.hint = hint
+
+    def __str__(self) -> str:
+        places = [self.file or "", f"line {self.line}" if self.line is not None else ""]
+        return ": ".join(filter(None, [", ".join(filter(None, places)), str(self.args[0])]))
+
+
+class RecordingError(ValueError):
+    """A recording of which nothing can be read.
 
     Attributes:
         hint: What to do next, in a sentence; may be empty.

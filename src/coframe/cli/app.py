@@ -10,6 +10,7 @@ import coframe
 from coframe.cli.demo import demo
 from coframe.cli.echo import echo
 from coframe.cli.static import static
+from coframe.cli.view import view
 
 __all__ = ["app"]
 
@@ -39,5 +40,6 @@ def _main(
 
 app.command()(demo)
 app.command()(echo)
+app.command()(view)
 # The numbers of a transform may be negative: this command reads its arguments itself.
 app.command(add_help_option=False, context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(static)

@@ -1,11 +1,12 @@
-"""``coframe demo``: the lab's whole tree, moving, spoken over DDS, live in the terminal."""
+"""``coframe demo``: the lab's whole tree, moving, spoken over DDS, live in the browser and in the terminal."""
 
 from __future__ import annotations
 
+import contextlib
 import threading
 import time
 from collections import Counter
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console, Group
@@ -15,8 +16,12 @@ from rich.text import Text
 import coframe
 from coframe.cli.live import tree_table
 from coframe.cli.session import DomainOption, fail, session
+from coframe.cli.view import PortOption, announce
 from coframe.lab.launcher import Launcher
 from coframe.messages.generated.sensor_msgs.msg import PointCloud2
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 __all__ = ["demo"]
 
@@ -49,10 +54,11 @@ class Clouds:
 
 def demo(
     duration: Annotated[float | None, typer.Option(min=0.0, help="Leave after so many seconds.")] = None,
-    no_browser: Annotated[bool, typer.Option("--no-browser", help="Stay in the terminal.")] = False,  # noqa: ARG001
+    no_browser: Annotated[bool, typer.Option("--no-browser", help="Stay in the terminal.")] = False,
+    port: PortOption = None,
     domain: DomainOption = None,
 ) -> None:
-    """Start the lab's nodes, each in a process of its own, and watch their transform tree live.
+    """Start the lab's nodes, each in a process of its own, and watch them move: in the browser and in the terminal.
 
     The complete tree, the arm, a simulated lidar and the node that turns its scans into clouds in base_link; all of
     it on this machine only, unless ROS_AUTOMATIC_DISCOVERY_RANGE says otherwise.
@@ -60,7 +66,12 @@ def demo(
     Example: coframe demo --duration 10
     """
     console = Console()
-    with session(), coframe.connect("coframe_demo", domain=domain) as ros, Launcher(domain=domain) as nodes:
+    with (
+        session(),
+        coframe.connect("coframe_demo", domain=domain) as ros,
+        Launcher(domain=domain) as nodes,
+        _viewer(ros, port, browser=not no_browser),
+    ):
         clouds = Clouds()
         ros.subscribe("/scan_base_frame", PointCloud2, clouds.take)
         start = time.monotonic()
@@ -77,6 +88,20 @@ def demo(
 
         with Live(get_renderable=picture, console=console, refresh_per_second=1 / REFRESH, transient=False):
             _watch(ros.buffer, nodes, start, duration)
+
+
+@contextlib.contextmanager
+def _viewer(ros: coframe.Connection, port: int | None, *, browser: bool) -> Iterator[None]:
+    """The viewer, where what it needs is installed; else a sentence, and the terminal does."""
+    try:
+        viewer = coframe.show(ros, port=port)
+    except coframe.ViewerError as error:
+        typer.echo(f"coframe: no viewer: {error}", err=True)
+        yield
+        return
+    with viewer:
+        announce(viewer, browser=browser)
+        yield
 
 
 def _others(ros: coframe.Connection, nodes: Launcher) -> list[str]:

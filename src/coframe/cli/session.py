@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 
-from coframe.errors import DecodeError, TransformException, WireError
+from coframe.errors import (
+    DecodeError,
+    RecordingError,
+    RobotDescriptionError,
+    TransformException,
+    ViewerError,
+    WireError,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -55,7 +62,7 @@ def session() -> Iterator[None]:
         pass
     except BrokenPipeError:  # the reader, `head` perhaps, has seen enough
         sys.stderr.close()
-    except (WireError, TransformException, DecodeError) as error:
+    except (WireError, ViewerError, TransformException, DecodeError, RobotDescriptionError, RecordingError) as error:
         fail(str(error), error.hint)
     finally:
         for number, handler in previous.items():

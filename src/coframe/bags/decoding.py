@@ -1,0 +1,143 @@
+"""Recorded bytes to messages: by coframe's classes where they fit, else by what the recording says of its types."""
+
+from __future__ import annotations
+
+import functools
+import json
+import re
+from typing import TYPE_CHECKING, Any
+
+from coframe.errors import DecodeError
+from coframe.messages import deserialize, find
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from coframe.bags.problems import Problems
+    from coframe.bags.storage import Channel
+
+__all__ = ["decoder", "message_class"]
+
+_TYPE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*/msg/[A-Za-z][A-Za-z0-9_]*", re.ASCII)
+_LONGEST_DEFINITION = 1 << 20
+# Other names for types that we have.
+_ALIASES = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
+
+
+def message_class(ros_type: str) -> Any:
+    """The class that coframe has for a type, or None."""
+    try:
+        return find(_ALIASES.get(ros_type, ros_type))
+    except LookupError:
+        return None
+
+
+def decoder(channel: Channel, problems: Problems) -> Callable[[bytes], Any]:
+    """What turns a channel's bytes into messages.
+
+    Messages of types that coframe has, as the recording describes them, are coframe's; others are classes that are
+    made from the recording's definitions; JSON is what ``json`` makes of it. Bytes stay bytes where nothing says what
+    they mean; then there is a problem more.
+
+    Raises:
+        DecodeError: (What is returned, when it is called.) The bytes are damaged.
+    """
+    if channel.encoding == "json":
+        return functools.partial(_guarded, json.loads, channel.type)
+    if channel.encoding not in {"cdr", "ros1"}:
+        problems.add(f"{channel.topic}: messages encoded as {channel.encoding!r} are given as bytes")
+        return bytes
+    try:
+        return _ros_decoder(channel)
+    except _UnknownTypeError as error:
+        problems.add(f"{channel.topic}: messages of the type {channel.type} are given as bytes: {error}")
+        return bytes
+
+
+class _UnknownTypeError(Exception):
+    """Nobody says how messages of a type are to be read."""
+
+
+def _ros_decoder(channel: Channel) -> Callable[[bytes], Any]:
+    own = message_class(channel.type)
+    if not channel.definition and own is not None and channel.encoding == "cdr":
+        return lambda data: deserialize(data, own)
+    store = _store(channel.type, channel.definition, channel.definition_format)
+    own = own if own is not None and _fits(store) else None
+    if channel.encoding == "cdr":
+        if own is not None:
+            return lambda data: deserialize(data, own)
+        return functools.partial(_guarded, store.deserialize_cdr, channel.type)
+    if own is not None:
+        return functools.partial(_guarded, _deserialize_ros1, channel.type)
+    return functools.partial(_guarded, store.deserialize_ros1, channel.type)
+
+
+def _guarded(decode: Callable[..., Any], name: str, data: bytes) -> Any:
+    """The libraries have many ways to say that bytes are damaged."""
+    try:
+        return decode(data) if decode is json.loads else decode(data, name)
+    except Exception as error:  # noqa: BLE001
+        raise DecodeError(
+            f"{name}: {str(error) or type(error).__name__}",
+            hint="The bytes are cut short, damaged, or of another type.",
+        ) from None
+
+
+@functools.lru_cache(maxsize=256)
+def _store(name: str, definition: bytes, definition_format: str) -> Any:
+    """A type store of rosbags in which the type is known.
+
+    Raises:
+        _UnknownTypeError: It is not.
+    """
+    try:
+        from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore  # noqa: PLC0415
+    except ModuleNotFoundError:
+        raise _UnknownTypeError("the package rosbags is not installed (pip install 'coframe[bags]')") from None
+    if not definition:
+        known = get_typestore(Stores.LATEST)
+        if name in known.types:
+            return known
+        raise _UnknownTypeError("the recording does not say what they are made of")
+    if not _TYPE_NAME.fullmatch(name) or len(definition) > _LONGEST_DEFINITION:
+        raise _UnknownTypeError("that cannot be the name of a type, or its definition is too long")
+    text = definition.decode("utf-8", "replace")
+    store = get_typestore(Stores.EMPTY)
+    try:
+        store.register(get_types_from_idl(text) if definition_format == "ros2idl" else get_types_from_msg(text, name))
+        store.get_msgdef(name)
+    except Exception as error:  # noqa: BLE001 - of the parser, of its code, of ours that it makes
+        reason = str(error).partition("\n")[0] or type(error).__name__
+        raise _UnknownTypeError(f"its definition cannot be used ({reason[:200]})") from None
+    return store
+
+
+def _fits(store: Any) -> bool:
+    """Whether all types in there are made of the same fields as ours, which are those of ROS 2 Humble."""
+    humble = _humble()
+    return all(_layout(name, fields) == humble[name] for name, (_, fields) in store.fielddefs.items() if name in humble)
+
+
+@functools.cache
+def _humble_store() -> Any:
+    from rosbags.typesys import Stores, get_typestore  # noqa: PLC0415
+
+    return get_typestore(Stores.ROS2_HUMBLE)
+
+
+@functools.cache
+def _humble() -> dict[str, Any]:
+    return {name: _layout(name, fields) for name, (_, fields) in _humble_store().fielddefs.items()}
+
+
+def _deserialize_ros1(data: bytes, name: str) -> Any:
+    """By way of CDR, which differs in its padding and leaves the numbers of headers out."""
+    name = _ALIASES.get(name, name)
+    return deserialize(_humble_store().ros1_to_cdr(data, name), find(name))
+
+
+def _layout(name: str, fields: Any) -> list[Any]:
+    """Names in lower case and without ROS 1's numbers of headers: what is left tells how the bytes are laid out."""
+    skipped = {"seq"} if name == "std_msgs/msg/Header" else set()
+    return [(field.lower(), type_) for field, type_ in fields if field not in skipped]

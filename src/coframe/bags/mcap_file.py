@@ -1,0 +1,183 @@
+"""MCAP files, chunked or not, whole or not; the format is described at https://mcap.dev/spec."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from typing import TYPE_CHECKING
+
+from coframe.bags.compression import LARGEST, DamagedError, unpack
+from coframe.bags.storage import Channel, ChunkedStorage, Record
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from coframe.bags.problems import Problems
+
+__all__ = ["MAGIC", "McapStorage"]
+
+MAGIC = b"\x89MCAP0\r\n"
+
+_FOOTER, _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _CHUNK_INDEX, _DATA_END = 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0F
+_LAST_OPCODE = 0x0F  # those from 0x80 on are somebody's own
+_RECORD = struct.Struct("<BQ")  # opcode, length
+_MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log time, publish time
+_CHUNK_HEAD = struct.Struct("<QQQI")  # first and last log time, unpacked size, its CRC or 0
+_FOOTER_RECORD = struct.Struct("<BQQQI")  # opcode, length, start of the summary, of its offsets, CRC
+
+
+class McapStorage(ChunkedStorage):
+    """An MCAP file."""
+
+    def __init__(self, path: Path, problems: Problems) -> None:
+        super().__init__(path, problems)
+        self._schemas: dict[int, tuple[str, str, bytes]] = {}
+        self._channels: dict[int, Channel] = {}
+
+    def records(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Record]:
+        """All messages, in the order in which they lie in the file."""
+        del wanted  # all data lie together
+        for offset, opcode, end in self._walk():
+            if opcode == _CHUNK:
+                yield from self._chunk_records(offset)
+                progress(end)
+            elif opcode == _MESSAGE:
+                yield from self._inner(self.bytes_at(offset, end - offset), offset)
+            elif opcode in {_SCHEMA, _CHANNEL}:
+                self._define(opcode, self.bytes_at(offset + _RECORD.size, end - offset - _RECORD.size))
+        progress(self.size)
+
+    def _walk(self) -> Iterator[tuple[int, int, int]]:
+        """Offset, opcode and end of every record of the data; from a damaged one on to the next chunk in the index."""
+        offset = len(MAGIC)
+        while (head := self.bytes_at(offset, _RECORD.size)) and len(head) == _RECORD.size:
+            opcode, length = _RECORD.unpack(head)
+            end = offset + _RECORD.size + length
+            if opcode in {_DATA_END, _FOOTER}:
+                return
+            later = [] if _is_record(opcode) and end <= self.size else [c for c in self._index() if c > offset]
+            if later:
+                self.problem(f"bytes {offset} to {later[0]} are damaged")
+                end = later[0]
+            elif opcode == _CHUNK or (_is_record(opcode) and end <= self.size):
+                yield offset, opcode, min(end, self.size)
+            else:
+                break
+            offset = end
+        self.problem(f"it breaks off at byte {min(offset, self.size)} of {self.size}: was the recorder stopped hard?")
+
+    def _index(self) -> list[int]:
+        """Where the summary at the end says that chunks begin; nothing if it is not there."""
+        tail = self.bytes_at(max(0, self.size - _FOOTER_RECORD.size - len(MAGIC)), _FOOTER_RECORD.size)
+        if len(tail) < _FOOTER_RECORD.size:
+            return []
+        opcode, _, start, *_ = _FOOTER_RECORD.unpack(tail)
+        if opcode != _FOOTER or not 0 < start < self.size:
+            return []
+        summary = self.bytes_at(start, min(self.size - start, LARGEST))
+        found, position = [], 0
+        while position + _RECORD.size <= len(summary):
+            opcode, length = _RECORD.unpack_from(summary, position)
+            if opcode == _CHUNK_INDEX and length >= 24 and position + 33 <= len(summary):
+                found.append(int.from_bytes(summary[position + 25 : position + 33], "little"))
+            position += _RECORD.size + length
+        return sorted(offset for offset in found if 0 < offset < self.size)
+
+    def _chunk_records(self, offset: int) -> Iterator[Record]:
+        base = self.add_chunk(offset)
+        try:
+            data = self.unpack_chunk(offset)
+        except DamagedError as error:
+            self.problem(f"the chunk at byte {offset} cannot be unpacked: {error}")
+            return
+        yield from self._inner(data, base)
+
+    def unpack_chunk(self, offset: int) -> bytes:
+        """The records of the chunk at this offset of the file."""
+        opcode, length = _RECORD.unpack(self.bytes_at(offset, _RECORD.size))
+        assert opcode == _CHUNK
+        chunk = memoryview(self.bytes_at(offset + _RECORD.size, min(length, self.size - offset - _RECORD.size)))
+        try:
+            _, _, size, crc = _CHUNK_HEAD.unpack_from(chunk)
+            compression, start = _text(chunk, _CHUNK_HEAD.size)
+        except (struct.error, ValueError) as error:
+            raise DamagedError(str(error)) from None
+        packed = chunk[start + 8 :]
+        data = unpack(compression, packed, size)
+        if crc and zlib.crc32(data) != crc:
+            self.problem(f"the chunk at byte {offset} is damaged: its checksum differs")
+        return data
+
+    def _inner(self, data: bytes, base: int) -> Iterator[Record]:
+        """The messages among records; their positions are offsets in ``data`` plus ``base``."""
+        position, size = 0, len(data)
+        view = memoryview(data)
+        while position + _RECORD.size <= size:
+            opcode, length = _RECORD.unpack_from(data, position)
+            end = position + _RECORD.size + length
+            if end > size or not _is_record(opcode):
+                break
+            if opcode == _MESSAGE and end - position >= _MESSAGE_RECORD.size:
+                _, _, number, _, received, _ = _MESSAGE_RECORD.unpack_from(data, position)
+                channel = self._channels.get(number)
+                if channel is None:
+                    self.problem(f"messages of channel {number}, which nothing describes")
+                elif received >= _TOO_LATE:
+                    self.problem(f"messages with the time {received} ns, which is no time")
+                else:
+                    payload = view[position + _MESSAGE_RECORD.size : end]
+                    yield Record(channel, received, base + position, payload)
+            elif opcode in {_SCHEMA, _CHANNEL}:
+                self._define(opcode, bytes(view[position + _RECORD.size : end]))
+            position = end
+        if position < size:
+            self.problem(f"{size - position} bytes are damaged or cut off inside a chunk")
+
+    def payload(self, source: bytes | None, offset: int) -> bytes | memoryview:
+        """The message in the record at this offset."""
+        if source is None:
+            source, start = self.bytes_at(offset, _RECORD.size), 0
+            if len(source) == _RECORD.size:
+                source = self.bytes_at(offset, _RECORD.size + _RECORD.unpack(source)[1])
+        else:
+            start = offset
+        if len(source) < start + _MESSAGE_RECORD.size:
+            raise DamagedError("the message is gone")
+        return memoryview(source)[
+            start + _MESSAGE_RECORD.size : start + _RECORD.size + _RECORD.unpack_from(source, start)[1]
+        ]
+
+    def _define(self, opcode: int, data: bytes) -> None:
+        try:
+            if opcode == _SCHEMA:
+                name, position = _text(data, 2)
+                kind, position = _text(data, position)
+                (length,) = struct.unpack_from("<I", data, position)
+                self._schemas[data[0] | data[1] << 8] = (name, kind, data[position + 4 : position + 4 + length])
+                return
+            number, schema = struct.unpack_from("<HH", data)
+            topic, position = _text(data, 4)
+            encoding, _ = _text(data, position)
+        except (struct.error, ValueError, IndexError) as error:
+            self.problem(f"a damaged description of a channel: {error}")
+            return
+        if number not in self._channels:
+            name, kind, definition = self._schemas.get(schema, ("", "", b""))
+            self._channels[number] = Channel(topic, name, encoding, definition, kind)
+
+
+_TOO_LATE = 1 << 63
+
+
+def _is_record(opcode: int) -> bool:
+    return 0 < opcode <= _LAST_OPCODE or opcode >= 0x80
+
+
+def _text(data: bytes | memoryview, position: int) -> tuple[str, int]:
+    """A string behind its length, and where it ends."""
+    (length,) = struct.unpack_from("<I", data, position)
+    end = position + 4 + length
+    if end > len(data):
+        raise ValueError("a text is longer than what it is in")
+    return bytes(data[position + 4 : end]).decode("utf-8", "replace"), end

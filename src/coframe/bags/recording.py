@@ -1,0 +1,415 @@
+"""Recording: every transform of a run, and every other message, at any time."""
+
+from __future__ import annotations
+
+from array import array
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from coframe import time
+from coframe.bags import tree
+from coframe.bags.compression import DamagedError
+from coframe.bags.decoding import decoder
+from coframe.bags.opening import open_files
+from coframe.bags.problems import Problems
+from coframe.bags.stamps import HEAD, stamp_reader
+from coframe.bags.transforms import ingest_for
+from coframe.errors import RecordingError
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Iterator
+
+    from numpy.typing import NDArray
+    from typing_extensions import Self
+
+    from coframe.bags.storage import Channel, Storage
+    from coframe.buffer import Buffer
+    from coframe.time import StampLike
+
+__all__ = ["RecordedMessage", "Recording", "Topic", "open_bag"]
+
+
+class Topic(NamedTuple):
+    """What a recording has of one topic.
+
+    Attributes:
+        name: The topic.
+        type: Of its messages, ``sensor_msgs/msg/Imu``; as recorded, if it is not ROS.
+        messages: How many there are.
+        rate: Messages per second over the time from the first to the last; 0 for fewer than two.
+        encoding: ``cdr``, ``ros1``, ``protobuf``, ``json``, ...
+    """
+
+    name: str
+    type: str
+    messages: int
+    rate: float
+    encoding: str
+
+
+class RecordedMessage:
+    """One message of a recording. All times are nanoseconds.
+
+    Attributes:
+        topic: Where it was sent.
+        type: Of what type it is.
+        stamp: What time it tells of: its header's stamp, or when it was received where it has none.
+        received: When the recorder got it.
+        data: The bytes.
+    """
+
+    __slots__ = ("_decode", "_message", "data", "received", "stamp", "topic", "type")
+
+    def __init__(
+        self, topic: str, type_: str, stamp: int, received: int, data: bytes, decode: Callable[[bytes], Any]
+    ) -> None:
+        self.topic = topic
+        self.type = type_
+        self.stamp = stamp
+        self.received = received
+        self.data = data
+        self._decode = decode
+
+    @property
+    def message(self) -> Any:
+        """The message, decoded when it is first asked for; bytes where nothing says what they mean.
+
+        Raises:
+            DecodeError: The bytes are damaged.
+        """
+        if not hasattr(self, "_message"):
+            self._message = self._decode(self.data)
+        return self._message
+
+    def __repr__(self) -> str:
+        return f"RecordedMessage({self.topic!r}, {self.type}, stamp={self.stamp}, {len(self.data)} bytes)"
+
+
+@dataclass(eq=False)
+class _Track:
+    """Where one channel's messages are."""
+
+    storage: Storage
+    channel: Channel
+    received: array[int] = field(default_factory=lambda: array("q"))
+    positions: array[int] = field(default_factory=lambda: array("Q"))
+    stamps: array[int] = field(default_factory=lambda: array("q"))  # empty where they have not been read
+
+
+class _Index(NamedTuple):
+    """All messages of a topic in the order in which they were received: of which track, and where there."""
+
+    tracks: list[_Track]
+    of_track: NDArray[np.intp]
+    positions: NDArray[np.uint64]
+    received: NDArray[np.int64]
+
+
+def open_bag(
+    path: str | os.PathLike[str],
+    *,
+    namespace: str | None = None,
+    progress: Callable[[int, int], object] | None = None,
+) -> Recording:
+    """Reads a recording: rosbag2 (MCAP or SQLite, any compression), a bag of ROS 1, or MCAP with Foxglove's transforms.
+
+    Args:
+        path: A file, or a folder of rosbag2, with or without its metadata.
+        namespace: Only transforms of this one, such as ``/robot1`` for ``/robot1/tf``; None: all.
+        progress: Called now and then with the bytes that are read and the bytes that there are.
+
+    Returns:
+        The recording. What could not be read of it is among its ``problems``.
+
+    Raises:
+        RecordingError: Nothing of it can be read.
+
+    Example:
+        >>> import coframe
+        >>> coframe.open_bag("nowhere.mcap")
+        Traceback (most recent call last):
+        coframe.errors.RecordingError: nowhere.mcap cannot be read: No such file or directory
+    """
+    recording = Recording(Path(path))
+    try:
+        recording._scan(namespace, progress or (lambda _done, _total: None))  # noqa: SLF001 - the other half of __init__
+    except BaseException:
+        recording.close()
+        raise
+    return recording
+
+
+class Recording:
+    """What :func:`open_bag` gives; usable as a context manager. Any thread may ask.
+
+    Attributes:
+        path: What was opened.
+        buffer: Every transform, with unlimited history. Where the robots of several namespaces use the same names,
+            those of the first one only; see ``buffers``.
+        buffers: The transforms of each namespace: ``""`` for ``/tf``, ``/robot1`` for ``/robot1/tf``.
+        topics: By name.
+    """
+
+    buffer: Buffer
+    buffers: dict[str, Buffer]
+    topics: dict[str, Topic]
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._problems = Problems()
+        self._closing = ExitStack()
+        self._tracks: dict[str, list[_Track]] = {}
+        self._indices: dict[str, _Index] = {}
+        self._stamps: dict[str, NDArray[np.int64]] = {}
+        self._by_stamp: dict[str, tuple[NDArray[np.int64], NDArray[np.intp]]] = {}
+        self._decoders: dict[int, Callable[[bytes], Any]] = {}
+
+    def _scan(self, namespace: str | None, progress: Callable[[int, int], object]) -> None:
+        storages = open_files(self.path, self._problems, self._closing)
+        total = sum(storage.size for storage in storages)
+        done = 0
+        collected = tree.Transforms(self._problems, namespace)
+        for storage in storages:
+            self._scan_file(storage, collected, lambda bytes_, before=done: progress(before + bytes_, total))  # type: ignore[misc]
+            done += storage.size
+        self.topics = {name: self._topic(name) for name in sorted(self._tracks)}
+        self.buffers = collected.buffers()
+        self.buffer = collected.together(self.buffers, self._transform_messages)
+        tree.report(self.buffer, self._problems)
+
+    def _scan_file(self, storage: Storage, collected: tree.Transforms, progress: Callable[[int], object]) -> None:
+        tracks: dict[Channel, tuple[Callable[..., object], Callable[..., object], Callable[[Any], None]]] = {}
+        for channel, received, position, data in storage.records(_has_transforms, progress):
+            known = tracks.get(channel)
+            if known is None:
+                known = tracks[channel] = self._new_track(storage, channel, collected)
+            add_received, add_position, take = known
+            add_received(received)
+            add_position(position)
+            if data is not None:
+                take(data)
+
+    def _new_track(
+        self, storage: Storage, channel: Channel, collected: tree.Transforms
+    ) -> tuple[Callable[[int], None], Callable[[int], None], Callable[[Any], None]]:
+        track = _Track(storage, channel)
+        self._tracks.setdefault(channel.topic, []).append(track)
+        stamp_of = stamp_reader(channel)
+        ingest = collected.ingest(channel)
+        stamps, received = track.stamps, track.received
+
+        def take(data: bytes | memoryview) -> None:
+            stamp = None if stamp_of is None else stamp_of(data)
+            stamps.append(received[-1] if stamp is None else stamp)
+            if ingest is not None:
+                ingest(data)
+
+        return received.append, track.positions.append, take
+
+    def _transform_messages(self) -> Iterator[tuple[Channel, bytes]]:
+        """All messages with transforms once more, as they lie in their files."""
+        for track in (track for tracks in self._tracks.values() for track in tracks):
+            if _has_transforms(track.channel):
+                for position in track.positions:
+                    yield track.channel, track.storage.read(position)
+
+    def _topic(self, name: str) -> Topic:
+        tracks = self._tracks[name]
+        main = max(tracks, key=lambda track: len(track.received))
+        types = {track.channel.type for track in tracks}
+        if len(types) > 1:
+            self._problems.add(f"{name} has messages of several types: {', '.join(sorted(types))}")
+        received = self._index(name).received
+        seconds = (int(received[-1]) - int(received[0])) / time.NANOSECONDS_PER_SECOND if len(received) else 0.0
+        rate = (len(received) - 1) / seconds if seconds > 0 else 0.0
+        return Topic(name, main.channel.type, len(received), rate, main.channel.encoding)
+
+    @property
+    def problems(self) -> list[str]:
+        """What could not be read, or is odd, one sentence each; reading messages may add to it."""
+        return self._problems.sentences()
+
+    @cached_property
+    def start(self) -> int:
+        """When the first message was received, in nanoseconds; 0 if there is none."""
+        return min((int(self._index(name).received[0]) for name in self.topics), default=0)
+
+    @cached_property
+    def end(self) -> int:
+        """When the last message was received, in nanoseconds; 0 if there is none."""
+        return max((int(self._index(name).received[-1]) for name in self.topics), default=0)
+
+    @property
+    def duration(self) -> int:
+        """From :attr:`start` to :attr:`end`, in nanoseconds."""
+        return self.end - self.start
+
+    @cached_property
+    def span(self) -> tuple[int, int]:
+        """The first and the last stamp, in nanoseconds, on the clock that most transforms are told by.
+
+        In a simulation this is not the clock by which messages are received. Without moving transforms: from the first
+        to the last message.
+        """
+        return tree.span(self.buffer) or (self.start, self.end)
+
+    def messages(
+        self, topic: str, start: StampLike | None = None, stop: StampLike | None = None
+    ) -> Iterator[RecordedMessage]:
+        """The messages of a topic in the order in which they were received, read and decoded one by one.
+
+        Args:
+            topic: Its name; the slash in front may be left out.
+            start: Only those whose stamps are at or after this.
+            stop: Only those whose stamps are before this.
+
+        Raises:
+            RecordingError: There is no such topic.
+        """
+        name = self._name(topic)
+        stamps = self.stamps(name)
+        chosen = np.ones(len(stamps), dtype=bool)
+        if start is not None:
+            chosen &= stamps >= time.stamp_ns(start)
+        if stop is not None:
+            chosen &= stamps < time.stamp_ns(stop)
+        return self._read_all(name, np.flatnonzero(chosen))
+
+    def _read_all(self, name: str, rows: NDArray[np.intp]) -> Iterator[RecordedMessage]:
+        for row in rows.tolist():
+            message = self._read(name, row)
+            if message is not None:
+                yield message
+
+    def stamps(self, topic: str) -> NDArray[np.int64]:
+        """What times a topic's messages tell of, in the order in which they were received.
+
+        Args:
+            topic: Its name; the slash in front may be left out.
+
+        Returns:
+            (N,) nanoseconds, not always sorted: the stamp of the header, or of the first of many; of messages without
+            one the time of receipt, on the clock of ``/clock`` where that was recorded.
+
+        Raises:
+            RecordingError: There is no such topic.
+        """
+        name = self._name(topic)
+        if name not in self._stamps:
+            index = self._index(name)
+            stamps = np.concatenate([self._track_stamps(track) for track in index.tracks])
+            order = np.argsort(np.concatenate([_numbers(track.received) for track in index.tracks]), kind="stable")
+            self._stamps[name] = stamps[order]
+            self._stamps[name].setflags(write=False)
+        return self._stamps[name]
+
+    def message_at(self, topic: str, stamp: StampLike) -> RecordedMessage | None:
+        """The newest message of a topic that is no newer than a time; None before the first one.
+
+        Args:
+            topic: Its name; the slash in front may be left out.
+            stamp: When, on the clock of :meth:`stamps`.
+
+        Raises:
+            RecordingError: There is no such topic.
+        """
+        name = self._name(topic)
+        if name not in self._by_stamp:
+            order = np.argsort(self.stamps(name), kind="stable")
+            self._by_stamp[name] = (self.stamps(name)[order], order)
+        stamps, order = self._by_stamp[name]
+        row = int(np.searchsorted(stamps, time.stamp_ns(stamp), side="right")) - 1
+        return None if row < 0 else self._read(name, int(order[row]))
+
+    def _read(self, name: str, row: int) -> RecordedMessage | None:
+        """One message; None, and a problem more, if it can no longer be read."""
+        index = self._index(name)
+        track = index.tracks[index.of_track[row]]
+        try:
+            data = track.storage.read(int(index.positions[row]))
+        except (DamagedError, OSError) as error:
+            track.storage.problem(f"a message on {name} cannot be read again: {error}")
+            return None
+        key = id(track.channel)
+        if key not in self._decoders:
+            self._decoders[key] = decoder(track.channel, self._problems)
+        stamp, received = int(self.stamps(name)[row]), int(index.received[row])
+        return RecordedMessage(name, track.channel.type, stamp, received, data, self._decoders[key])
+
+    def _track_stamps(self, track: _Track) -> NDArray[np.int64]:
+        stamp_of = stamp_reader(track.channel)
+        if stamp_of is None:
+            return self._on_stamps_clock(_numbers(track.received))
+        if len(track.stamps) == len(track.received):
+            return _numbers(track.stamps)
+        found = array("q")
+        for received, position in zip(track.received, track.positions, strict=True):
+            try:
+                stamp = stamp_of(track.storage.head(position, HEAD))
+            except DamagedError:
+                stamp = None
+            found.append(received if stamp is None else stamp)
+        return _numbers(found)
+
+    def _on_stamps_clock(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Times of receipt on the clock that stamps are told by."""
+        ticks = self._clock
+        if ticks is None:
+            return received
+        wall, simulated = ticks
+        between = np.interp((received - wall[0]).astype(np.float64), wall - wall[0], simulated - simulated[0])
+        return np.asarray(simulated[0] + np.rint(between).astype(np.int64))
+
+    @cached_property
+    def _clock(self) -> tuple[NDArray[np.int64], NDArray[np.int64]] | None:
+        """Times of receipt and what /clock said then."""
+        topic = self.topics.get("/clock")
+        if topic is None or topic.type != "rosgraph_msgs/msg/Clock":
+            return None
+        return self._index("/clock").received, self.stamps("/clock")
+
+    def _index(self, name: str) -> _Index:
+        if name not in self._indices:
+            tracks = self._tracks[name]
+            received = np.concatenate([_numbers(track.received) for track in tracks])
+            of_track = np.repeat(np.arange(len(tracks)), [len(track.received) for track in tracks])
+            positions = np.concatenate([np.array(track.positions, dtype=np.uint64) for track in tracks])
+            order = np.argsort(received, kind="stable")
+            self._indices[name] = _Index(tracks, of_track[order], positions[order], received[order])
+        return self._indices[name]
+
+    def _name(self, topic: str) -> str:
+        name = topic if topic in self._tracks else f"/{topic}"
+        if name not in self._tracks:
+            raise RecordingError(
+                f"{self.path} has no topic {topic!r}", hint=f"It has {', '.join(sorted(self._tracks)) or 'none'}."
+            )
+        return name
+
+    def close(self) -> None:
+        """Lets go of the files; the transforms stay."""
+        self._closing.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        seconds = self.duration / time.NANOSECONDS_PER_SECOND
+        return f"Recording({str(self.path)!r}, {len(self.topics)} topics, {seconds:.1f} s)"
+
+
+def _has_transforms(channel: Channel) -> bool:
+    return ingest_for(channel) is not None
+
+
+def _numbers(values: array[int]) -> NDArray[np.int64]:
+    return np.array(values, dtype=np.int64)

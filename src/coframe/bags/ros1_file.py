@@ -1,0 +1,177 @@
+"""Bags of ROS 1, version 2.0 (described at http://wiki.ros.org/Bags/Format/2.0), with or without their index."""
+
+from __future__ import annotations
+
+import struct
+from typing import TYPE_CHECKING
+
+from coframe.bags.compression import DamagedError, unpack
+from coframe.bags.storage import Channel, ChunkedStorage, Record
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from coframe.bags.problems import Problems
+
+__all__ = ["MAGIC", "Ros1Storage"]
+
+MAGIC = b"#ROSBAG V2.0\n"
+
+_MESSAGE, _CHUNK, _CONNECTION = 0x02, 0x05, 0x07
+_KNOWN = {0x02, 0x03, 0x04, 0x05, 0x06, 0x07}
+_LENGTH = struct.Struct("<I")
+_TIME = struct.Struct("<II")
+_LONGEST_HEADER = 1 << 20
+
+
+class Ros1Storage(ChunkedStorage):
+    """A bag of ROS 1."""
+
+    def __init__(self, path: Path, problems: Problems) -> None:
+        super().__init__(path, problems)
+        self._channels: dict[int, Channel] = {}
+
+    def records(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Record]:
+        """All messages, in the order in which they lie in the file."""
+        del wanted  # all data lie together
+        offset = len(MAGIC)
+        while offset < self.size:
+            try:
+                header, start, end = self._record(offset)
+            except DamagedError as error:
+                self.problem(f"it breaks off at byte {offset} of {self.size}: {error}")
+                break
+            opcode = _opcode(header)
+            if opcode == _CHUNK:
+                yield from self._chunk_records(offset)
+                progress(min(end, self.size))
+            elif opcode == _CONNECTION:
+                self._connect(header, self.bytes_at(start, end - start))
+            elif opcode == _MESSAGE:
+                yield from self._inner(self.bytes_at(offset, end - offset), offset)
+            offset = end
+        progress(self.size)
+
+    def _record(self, offset: int) -> tuple[dict[bytes, bytes], int, int]:
+        """The header of a record of the file, and where its data begin and end; the end of a chunk may be missing."""
+        length = self._length(offset)
+        if length > _LONGEST_HEADER:
+            raise DamagedError("a damaged header")
+        header = _fields(self.bytes_at(offset + 4, length))
+        if _opcode(header) not in _KNOWN:
+            raise DamagedError("a damaged header")
+        start = offset + 8 + length
+        end = start + self._length(start - 4)
+        if end > self.size and _opcode(header) != _CHUNK:
+            raise DamagedError("it is cut off")
+        return header, start, end
+
+    def _length(self, offset: int) -> int:
+        data = self.bytes_at(offset, _LENGTH.size)
+        if len(data) < _LENGTH.size:
+            raise DamagedError("it is cut off")
+        return int(_LENGTH.unpack(data)[0])
+
+    def _chunk_records(self, offset: int) -> Iterator[Record]:
+        base = self.add_chunk(offset)
+        try:
+            data = self.unpack_chunk(offset)
+        except DamagedError as error:
+            self.problem(f"the chunk at byte {offset} cannot be unpacked: {error}")
+            return
+        yield from self._inner(data, base)
+
+    def unpack_chunk(self, offset: int) -> bytes:
+        """The records of the chunk at this offset of the file."""
+        header, start, end = self._record(offset)
+        compression = header.get(b"compression", b"none").decode("ascii", "replace")
+        size = int.from_bytes(header.get(b"size", b"")[:4], "little")
+        data = unpack(compression, self.bytes_at(start, min(end, self.size) - start), size)
+        if end > self.size:
+            self.problem(f"it ends inside the chunk at byte {offset}")
+        elif len(data) < size:
+            self.problem(f"the chunk at byte {offset} is damaged from its byte {len(data)} on")
+        return data
+
+    def _inner(self, data: bytes, base: int) -> Iterator[Record]:
+        """The messages among records; their positions are offsets in ``data`` plus ``base``."""
+        position = 0
+        while position < len(data):
+            try:
+                header, start, end = _record_in(data, position)
+            except DamagedError:
+                self.problem(f"{len(data) - position} bytes are damaged or cut off inside a chunk")
+                return
+            opcode = _opcode(header)
+            if opcode == _CONNECTION:
+                self._connect(header, data[start:end])
+            elif opcode == _MESSAGE:
+                channel = self._channels.get(_number(header))
+                seconds, nanoseconds = _TIME.unpack(header.get(b"time", b"").ljust(8, b"\0")[:8])
+                if channel is None:
+                    self.problem("messages of a connection that nothing describes")
+                else:
+                    received = seconds * 1_000_000_000 + nanoseconds
+                    yield Record(channel, received, base + position, memoryview(data)[start:end])
+            position = end
+
+    def payload(self, source: bytes | None, offset: int) -> bytes | memoryview:
+        """The message in the record at this offset."""
+        if source is None:
+            _, start, end = self._record(offset)
+            return self.bytes_at(start, end - start)
+        _, start, end = _record_in(source, offset)
+        return memoryview(source)[start:end]
+
+    def _connect(self, header: dict[bytes, bytes], data: bytes) -> None:
+        number = _number(header)
+        if number in self._channels:
+            return
+        try:
+            about = _fields(data)
+        except DamagedError as error:
+            self.problem(f"the description of a connection: {error}")
+            return
+        package, _, name = about.get(b"type", b"").decode("utf-8", "replace").rpartition("/")
+        self._channels[number] = Channel(
+            topic=(header.get(b"topic") or about.get(b"topic", b"")).decode("utf-8", "replace"),
+            type=f"{package}/msg/{name}" if package else name,
+            encoding="ros1",
+            definition=about.get(b"message_definition", b""),
+            definition_format="ros1msg",
+        )
+
+
+def _record_in(data: bytes, position: int) -> tuple[dict[bytes, bytes], int, int]:
+    """The header of a record of a chunk, and where its data begin and end."""
+    try:
+        (length,) = _LENGTH.unpack_from(data, position)
+        start = position + 8 + length
+        (size,) = _LENGTH.unpack_from(data, start - 4)
+    except struct.error:
+        raise DamagedError("it is cut off") from None
+    if start + size > len(data):
+        raise DamagedError("it is cut off")
+    return _fields(data[position + 4 : start - 4]), start, start + size
+
+
+def _fields(header: bytes) -> dict[bytes, bytes]:
+    fields, position = {}, 0
+    while position + _LENGTH.size <= len(header):
+        (length,) = _LENGTH.unpack_from(header, position)
+        position += _LENGTH.size
+        name, separator, value = header[position : position + length].partition(b"=")
+        if not separator or position + length > len(header):
+            raise DamagedError("a damaged header")
+        fields[name] = value
+        position += length
+    return fields
+
+
+def _opcode(header: dict[bytes, bytes]) -> int:
+    return int.from_bytes(header.get(b"op", b"\0")[:1], "little")
+
+
+def _number(header: dict[bytes, bytes]) -> int:
+    return int.from_bytes(header.get(b"conn", b"")[:4], "little")

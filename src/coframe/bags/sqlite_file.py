@@ -1,0 +1,128 @@
+"""rosbag2's SQLite files, of every schema version."""
+
+from __future__ import annotations
+
+import sqlite3
+import threading
+from typing import TYPE_CHECKING, Any
+
+from coframe.bags.compression import DamagedError
+from coframe.bags.storage import Channel, Record, Storage
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from coframe.bags.problems import Problems
+
+__all__ = ["MAGIC", "SqliteStorage"]
+
+MAGIC = b"SQLite format 3\0"
+
+_STEP = 2000  # messages between two reports of progress
+
+
+class SqliteStorage(Storage):
+    """A ``.db3`` file; a position is a row's id."""
+
+    def __init__(self, path: Path, problems: Problems) -> None:
+        super().__init__(path, problems)
+        self._lock = threading.Lock()
+        self._database = self._open()
+        self._channels: dict[int, Channel] = {}
+
+    def _open(self) -> sqlite3.Connection:
+        # With a journal beside it the recorder was stopped: SQLite mends that, unless the folder is read-only.
+        journals = [self.path.with_name(f"{self.path.name}-{kind}") for kind in ("wal", "journal")]
+        if any(journal.exists() for journal in journals):
+            mended = sqlite3.connect(f"{self.path.absolute().as_uri()}?mode=ro", uri=True, check_same_thread=False)
+            try:
+                mended.execute("SELECT count(*) FROM sqlite_master").fetchone()
+            except sqlite3.Error as error:
+                mended.close()
+                self.problem(f"the journal beside it cannot be used ({error}): what was written last is missing")
+            else:
+                return mended
+        uri = f"{self.path.absolute().as_uri()}?mode=ro&immutable=1"
+        return sqlite3.connect(uri, uri=True, check_same_thread=False)
+
+    def records(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Record]:
+        """Those of the wanted channels with their data, then the others without."""
+        try:
+            self._database.execute("PRAGMA trusted_schema = OFF")
+            self._channels = self._read_channels()
+            (total,) = self._database.execute("SELECT max(id) FROM messages").fetchone()
+        except (sqlite3.Error, TypeError) as error:
+            self.problem(f"the database cannot be read: {error}")
+            return
+        if not isinstance(total, int):
+            return
+        whole = [number for number, channel in self._channels.items() if wanted(channel)]
+        rest = [number for number in self._channels if number not in whole]
+        for numbers, column in ((whole, "data"), (rest, "NULL")):
+            yield from self._rows(numbers, column, lambda row: progress(self.size * row // max(total, 1)))
+        progress(self.size)
+
+    def _rows(self, numbers: list[int], column: str, progress: Callable[[int], object]) -> Iterator[Record]:
+        if not numbers:
+            return
+        # All that goes into the text are integers and our own words.
+        query = (
+            f"SELECT id, topic_id, timestamp, {column} FROM messages "  # noqa: S608
+            f"WHERE topic_id IN ({', '.join(map(str, numbers))}) ORDER BY id"
+        )
+        try:
+            for i, (row, number, received, data) in enumerate(self._database.execute(query)):
+                if i % _STEP == 0:
+                    progress(row)
+                if isinstance(received, int) and (column == "NULL" or isinstance(data, bytes)):
+                    yield Record(self._channels[number], received, row, data)
+                else:
+                    self.problem("rows whose time or data are not what they should be")
+        except sqlite3.Error as error:
+            self.problem(f"the database is damaged, and not all of it was read: {error}")
+
+    def _read_channels(self) -> dict[int, Channel]:
+        tables = dict(self._query("SELECT name, sql FROM sqlite_master WHERE type = 'table'"))
+        for name in ("topics", "messages"):
+            if not str(tables.get(name)).upper().startswith("CREATE TABLE"):
+                raise sqlite3.DatabaseError(f"there is no table {name}: it is no recording of rosbag2")
+        definitions = {}
+        if "message_definitions" in tables:
+            for type_, kind, text in self._query(
+                "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions"
+            ):
+                definitions[type_] = (str(text).encode(), str(kind))
+        return {
+            number: Channel(str(topic), str(type_), str(encoding), *definitions.get(type_, (b"", "")))
+            for number, topic, type_, encoding in self._query("SELECT id, name, type, serialization_format FROM topics")
+            if isinstance(number, int)
+        }
+
+    def _query(self, query: str) -> list[Any]:
+        return self._database.execute(query).fetchall()
+
+    def read(self, position: int) -> bytes:
+        """The data of the row with this id."""
+        try:
+            with self._lock:
+                row = self._database.execute("SELECT data FROM messages WHERE id = ?", (position,)).fetchone()
+        except sqlite3.Error as error:
+            raise DamagedError(f"the database is damaged: {error}") from None
+        if row is None or not isinstance(row[0], bytes):
+            raise DamagedError("the message is gone")
+        return bytes(row[0])
+
+    def head(self, position: int, size: int) -> bytes:
+        """The first bytes of the row with this id; the rest, of an image perhaps, is not read."""
+        if not hasattr(self._database, "blobopen"):  # before Python 3.11
+            return super().head(position, size)
+        try:
+            with self._lock, self._database.blobopen("messages", "data", position, readonly=True) as blob:
+                return bytes(blob.read(size))
+        except sqlite3.Error as error:
+            raise DamagedError(f"the database is damaged: {error}") from None
+
+    def close(self) -> None:
+        """Lets go of the file."""
+        self._database.close()

@@ -1,0 +1,205 @@
+"""Recorded transforms into a buffer: TFMessage as bytes, others decoded here."""
+
+from __future__ import annotations
+
+import json
+import struct
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from coframe.errors import DecodeError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from coframe.bags.storage import Channel
+    from coframe.buffer import Buffer
+
+__all__ = ["Ingest", "ingest_for", "is_static"]
+
+_SECOND = 1_000_000_000
+# Behind the count, the stamp and the name's length, and in ROS 1 the number, in CDR the header.
+_FIRST_PARENT = 20
+# What damaged bytes make the functions below raise.
+_DAMAGE = (struct.error, ValueError, TypeError, KeyError, IndexError, AttributeError, OverflowError, RecursionError)
+
+
+class _Stamped(NamedTuple):
+    """One transform."""
+
+    parent: str
+    child: str
+    stamp: int
+    values: tuple[float, float, float, float, float, float, float]
+
+
+class Ingest:
+    """Takes in messages of one channel.
+
+    Args:
+        decode: From bytes to transforms; None: the buffer reads them itself.
+        static: Valid for all time.
+        authority: Who says so.
+    """
+
+    def __init__(
+        self, decode: Callable[[bytes | memoryview], Iterator[_Stamped]] | None, static: bool, authority: str
+    ) -> None:
+        self._decode = decode
+        self.static = static
+        self._authority = authority
+
+    def names_begin_with_slash(self, data: bytes | memoryview) -> bool:
+        """Whether the first transform's parent does; of messages of ROS."""
+        return self._decode in {None, _ros1} and data[_FIRST_PARENT : _FIRST_PARENT + 1] == b"/"
+
+    def __call__(self, buffer: Buffer, data: bytes | memoryview) -> None:
+        """Takes in one message, whole or not at all.
+
+        Raises:
+            DecodeError: It is damaged.
+        """
+        if self._decode is None:
+            buffer.ingest(data, static=self.static, authority=self._authority)
+            return
+        try:
+            for transform in list(self._decode(data)):
+                buffer.set_values(
+                    transform.parent, transform.child, transform.stamp, *transform.values, self.static, self._authority
+                )
+        except _DAMAGE as error:
+            raise DecodeError(f"{type(error).__name__}: {error}") from None
+
+
+def is_static(topic: str) -> bool:
+    """Whether the transforms of a topic are valid for all time."""
+    return topic.rpartition("/")[2] == "tf_static"
+
+
+def ingest_for(channel: Channel) -> Ingest | None:
+    """What takes in a channel's messages; None if they are no transforms."""
+    kind = (channel.encoding, channel.type.replace("/msg/", "/"))
+    if kind not in _DECODINGS:
+        return None
+    return Ingest(_DECODINGS[kind], is_static(channel.topic), channel.topic)
+
+
+def _ros1(data: bytes | memoryview) -> Iterator[_Stamped]:
+    """tf2_msgs/TFMessage and tf/tfMessage of ROS 1."""
+    (count,) = struct.unpack_from("<I", data)
+    position = 4
+    for _ in range(count):
+        _, seconds, nanoseconds = struct.unpack_from("<III", data, position)
+        parent, position = _text(data, position + 12)
+        child, position = _text(data, position)
+        values = struct.unpack_from("<7d", data, position)
+        position += 56
+        yield _Stamped(parent, child, seconds * _SECOND + nanoseconds, values)
+
+
+def _text(data: bytes | memoryview, position: int) -> tuple[str, int]:
+    (length,) = struct.unpack_from("<I", data, position)
+    end = position + 4 + length
+    if end > len(data):
+        raise ValueError("a text is longer than the message")
+    return str(data[position + 4 : end], "utf-8"), end
+
+
+def _foxglove_cdr(data: bytes | memoryview) -> Iterator[_Stamped]:
+    """foxglove_msgs/FrameTransform: one transform, without the count that a TFMessage begins with."""
+    order = "<" if data[1:2] == b"\x01" else ">"
+    body = data[4:]
+    seconds, nanoseconds = struct.unpack_from(order + "iI", body)
+    position, names = 8, []
+    for _ in range(2):
+        position = (position + 3) & ~3
+        (length,) = struct.unpack_from(order + "I", body, position)
+        if position + 4 + length > len(body):
+            raise ValueError("a text is longer than the message")
+        names.append(str(body[position + 4 : position + 4 + length], "utf-8").removesuffix("\0"))
+        position += 4 + length
+    values = struct.unpack_from(order + "7d", body, (position + 7) & ~7)
+    yield _Stamped(names[0], names[1], seconds * _SECOND + nanoseconds, values)
+
+
+def _json_one(data: bytes | memoryview) -> Iterator[_Stamped]:
+    yield _from_object(json.loads(bytes(data)))
+
+
+def _json_many(data: bytes | memoryview) -> Iterator[_Stamped]:
+    yield from map(_from_object, json.loads(bytes(data))["transforms"])
+
+
+def _from_object(transform: Any) -> _Stamped:
+    """Foxglove's FrameTransform as JSON; what is left out is zero."""
+    stamp, t, q = (transform.get(name, {}) for name in ("timestamp", "translation", "rotation"))
+    values = [t.get(axis, 0.0) for axis in "xyz"] + [q.get(axis, 0.0) for axis in "xyzw"]
+    x, y, z, qx, qy, qz, qw = map(float, values)
+    nanoseconds = int(stamp.get("sec", 0)) * _SECOND + int(stamp.get("nsec", 0))
+    return _Stamped(transform["parent_frame_id"], transform["child_frame_id"], nanoseconds, (x, y, z, qx, qy, qz, qw))
+
+
+def _protobuf_many(data: bytes | memoryview) -> Iterator[_Stamped]:
+    """foxglove.FrameTransforms: field 1, repeated."""
+    for number, value in _fields(data):
+        if number == 1:
+            yield from _protobuf_one(value)
+
+
+def _protobuf_one(data: bytes | memoryview) -> Iterator[_Stamped]:
+    """foxglove.FrameTransform: timestamp, parent, child, translation, rotation are the fields 1 to 5."""
+    parts = dict(_fields(data))
+    stamp = dict(_fields(parts.get(1, b"")))
+    t, q = (dict(_fields(parts.get(number, b""))) for number in (4, 5))
+    x, y, z = (_double(t.get(number)) for number in (1, 2, 3))
+    qx, qy, qz, qw = (_double(q.get(number)) for number in (1, 2, 3, 4))
+    seconds = (stamp.get(1, 0) + (1 << 63)) % (1 << 64) - (1 << 63)  # two's complement in 64 bits
+    nanoseconds = seconds * _SECOND + stamp.get(2, 0)
+    yield _Stamped(
+        str(parts.get(2, b""), "utf-8"), str(parts.get(3, b""), "utf-8"), nanoseconds, (x, y, z, qx, qy, qz, qw)
+    )
+
+
+def _double(value: Any) -> float:
+    return 0.0 if value is None else float(struct.unpack("<d", value)[0])
+
+
+def _fields(data: Any) -> Iterator[tuple[int, Any]]:
+    """A protobuf message's fields: integers, or the bytes of anything else."""
+    position = 0
+    while position < len(data):
+        key, position = _varint(data, position)
+        if key & 7 == 0:
+            value: Any
+            value, position = _varint(data, position)
+        else:
+            size, position = _varint(data, position) if key & 7 == 2 else ({1: 8, 5: 4}[key & 7], position)
+            if position + size > len(data):
+                raise ValueError("a field is longer than the message")
+            value = data[position : position + size]
+            position += size
+        yield key >> 3, value
+
+
+def _varint(data: Any, position: int) -> tuple[int, int]:
+    value = 0
+    for shift in range(0, 64, 7):
+        byte = data[position]
+        position += 1
+        value |= (byte & 0x7F) << shift
+        if byte < 0x80:
+            return value, position
+    raise ValueError("an integer of more than 64 bits")
+
+
+# By encoding and type; None: the buffer decodes it. Foxglove's CDR of many transforms is laid out as a TFMessage.
+_DECODINGS: dict[tuple[str, str], Callable[[bytes | memoryview], Iterator[_Stamped]] | None] = {
+    ("cdr", "tf2_msgs/TFMessage"): None,
+    ("cdr", "foxglove_msgs/FrameTransforms"): None,
+    ("cdr", "foxglove_msgs/FrameTransform"): _foxglove_cdr,
+    ("ros1", "tf2_msgs/TFMessage"): _ros1,
+    ("ros1", "tf/tfMessage"): _ros1,
+    ("protobuf", "foxglove.FrameTransform"): _protobuf_one,
+    ("protobuf", "foxglove.FrameTransforms"): _protobuf_many,
+    ("json", "foxglove.FrameTransform"): _json_one,
+    ("json", "foxglove.FrameTransforms"): _json_many,
+}

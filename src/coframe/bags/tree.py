@@ -1,0 +1,164 @@
+"""The transforms of a recording: by namespace, statics apart, and what is odd about them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coframe.bags.transforms import ingest_for
+from coframe.buffer import Buffer
+from coframe.errors import DecodeError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from coframe.bags.problems import Problems
+    from coframe.bags.storage import Channel
+    from coframe.buffer import EdgeInfo
+
+__all__ = ["Transforms", "report", "span"]
+
+_HOUR = 3_600_000_000_000
+
+
+class _Tree:
+    """One namespace's transforms.
+
+    Statics are kept apart until the end: they are valid for all time, and a frame that changes between static and
+    dynamic would start anew.
+    """
+
+    def __init__(self) -> None:
+        self.moving = Buffer(None)
+        self.static = Buffer(None)
+
+    def joined(self, problems: Problems) -> Buffer:
+        """All in one buffer; of what is said both ways, what moves."""
+        moving = {edge.child for edge in self.moving.edges() if edge.stored}
+        for edge in self.static.edges():
+            if edge.child in moving:
+                problems.add(
+                    f"{edge.parent} -> {edge.child} is both on {edge.authority} and on a topic of moving transforms: "
+                    "the moving ones are kept"
+                )
+            elif edge.parent:
+                transform = self.static.lookup(edge.parent, edge.child)
+                self.moving.set(edge.parent, edge.child, transform, 0, static=True, authority=edge.authority)
+        return self.moving
+
+
+class Transforms:
+    """Takes in all transforms of a recording.
+
+    Args:
+        problems: Gets what is damaged or odd.
+        namespace: Only topics in this one; None: all.
+    """
+
+    def __init__(self, problems: Problems, namespace: str | None) -> None:
+        self._problems = problems
+        self._namespace = None if namespace is None else _bare(namespace)
+        self._trees: dict[str, _Tree] = {}
+
+    def ingest(self, channel: Channel) -> Callable[[bytes | memoryview], None] | None:
+        """What takes in a channel's messages; None if they are no transforms, or not wanted."""
+        namespace = _namespace(channel.topic)
+        take = ingest_for(channel)
+        if take is None or self._namespace not in {None, namespace}:
+            return None
+        tree = self._trees.setdefault(namespace, _Tree())
+        buffer = tree.static if take.static else tree.moving
+
+        def ingest(data: bytes | memoryview) -> None:
+            if take.names_begin_with_slash(data):
+                self._problems.add(f"{channel.topic}: names of frames begin with '/': it is left off, as tf2 does", 0)
+            try:
+                take(buffer, data)
+            except DecodeError as error:
+                self._problems.add(f"{channel.topic}: damaged messages: {error}")
+
+        return ingest
+
+    def buffers(self) -> dict[str, Buffer]:
+        """By namespace."""
+        for tree in self._trees.values():
+            refused = tree.moving.statistics["refused"] + tree.static.statistics["refused"]
+            if refused:
+                self._problems.add(
+                    "transforms that tf2 refuses: no numbers, no rotation, no name, or a frame in itself", refused
+                )
+        return {name: self._trees[name].joined(self._problems) for name in sorted(self._trees)}
+
+    def together(self, buffers: dict[str, Buffer], messages: Callable[[], Iterable[tuple[Channel, bytes]]]) -> Buffer:
+        """All namespaces in one buffer, or the first one if they use the same names."""
+        if not buffers:
+            return Buffer(None)
+        first = next(iter(buffers))
+        if len(buffers) == 1:
+            return buffers[first]
+        seen: dict[str, str] = {}
+        for namespace, buffer in buffers.items():
+            for edge in buffer.edges():
+                other = seen.setdefault(edge.child, namespace)
+                if other != namespace and edge.parent:
+                    self._problems.add(
+                        f"{other}/tf and {namespace}/tf both tell of {edge.child!r}: `buffer` holds those of "
+                        f"{first or '/'} only; `buffers`, and open_bag(..., namespace=...), those of the others"
+                    )
+                    return buffers[first]
+        return self._merged(messages())
+
+    def _merged(self, messages: Iterable[tuple[Channel, bytes]]) -> Buffer:
+        tree = _Tree()
+        for channel, data in messages:
+            take = ingest_for(channel)
+            if take is not None and self._namespace in {None, _namespace(channel.topic)}:
+                try:
+                    take(tree.static if take.static else tree.moving, data)
+                except DecodeError:
+                    continue  # said before
+        return tree.joined(self._problems)
+
+
+def _namespace(topic: str) -> str:
+    return _bare(topic.rpartition("/")[0])
+
+
+def _bare(namespace: str) -> str:
+    stripped = namespace.strip("/")
+    return f"/{stripped}" if stripped else ""
+
+
+def _moving(buffer: Buffer) -> list[EdgeInfo]:
+    return [edge for edge in buffer.edges() if not edge.static and edge.samples]
+
+
+def _clocks(buffer: Buffer) -> list[list[EdgeInfo]]:
+    """Edges whose stamps are within an hour of each other's, the most talkative clock first."""
+    clocks: list[list[EdgeInfo]] = []
+    latest = 0
+    for edge in sorted(_moving(buffer), key=lambda edge: edge.oldest):
+        if not clocks or edge.oldest > latest + _HOUR:
+            clocks.append([])
+            latest = edge.newest
+        clocks[-1].append(edge)
+        latest = max(latest, edge.newest)
+    return sorted(clocks, key=lambda clock: -sum(edge.samples for edge in clock))
+
+
+def span(buffer: Buffer) -> tuple[int, int] | None:
+    """The first and the last stamp on the clock that most transforms are told by; None if nothing moves."""
+    clocks = _clocks(buffer)
+    if not clocks:
+        return None
+    return min(edge.oldest for edge in clocks[0]), max(edge.newest for edge in clocks[0])
+
+
+def report(buffer: Buffer, problems: Problems) -> None:
+    """Notes clocks that do not fit together."""
+    main, *others = _clocks(buffer) or [[]]
+    for clock in others:
+        names = ", ".join(f"{edge.parent} -> {edge.child}" for edge in clock[:5])
+        problems.add(
+            f"two clocks are mixed: {names} {'is' if len(clock) == 1 else 'are'} told hours apart from "
+            f"{main[0].parent} -> {main[0].child}"
+        )

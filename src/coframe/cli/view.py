@@ -1,0 +1,73 @@
+"""``coframe view``: the viewer in a browser tab."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+import threading
+import webbrowser
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+import coframe
+from coframe.cli.session import DomainOption, TfStaticTopicOption, TfTopicOption, session
+from coframe.viewer.show import Viewer, show
+
+__all__ = ["announce", "view"]
+
+HostOption = Annotated[str, typer.Option(help="The address to listen on; others than this machine's let others in.")]
+PortOption = Annotated[
+    int | None,
+    typer.Option(min=0, max=65535, help="The port; 0 is any.", show_default="7676, or any other where it is taken"),
+]
+NoBrowserOption = Annotated[bool, typer.Option("--no-browser", help="Print the address only.")]
+
+
+def view(
+    bag: Annotated[str, typer.Argument(metavar="[BAG|live]", help="A recording, or the ROS graph as it is.")] = "live",
+    rviz: Annotated[Path | None, typer.Option("--display-config", "-d", help="A .rviz file of RViz 2 or 1.")] = None,
+    fixed: Annotated[str, typer.Option(help="The frame that everything is seen from.", show_default="")] = "",
+    port: PortOption = None,
+    host: HostOption = "127.0.0.1",
+    no_browser: NoBrowserOption = False,
+    robot: Annotated[
+        Path | None, typer.Option(help="A robot's URDF or xacro file, besides what /robot_description tells.")
+    ] = None,
+    mesh_root: Annotated[
+        list[Path] | None, typer.Option(help="A folder below which meshes may lie; may be given several times.")
+    ] = None,
+    domain: DomainOption = None,
+    tf_topic: TfTopicOption = "/tf",
+    tf_static_topic: TfStaticTopicOption = "/tf_static",
+) -> None:
+    """See all frames and the data in them in a browser tab, live or from a recording, at any time of it.
+
+    Example: coframe view run.mcap -d lab.rviz
+    """
+    with session(), contextlib.ExitStack() as stack:
+        source = (
+            stack.enter_context(
+                coframe.connect("coframe_view", domain=domain, tf_topic=tf_topic, tf_static_topic=tf_static_topic)
+            )
+            if bag == "live"
+            else Path(bag)
+        )
+        viewer = stack.enter_context(
+            show(source, fixed=fixed, host=host, port=port, rviz=rviz, robot=robot, mesh_roots=mesh_root or [])
+        )
+        announce(viewer, browser=not no_browser)
+        threading.Event().wait()
+
+
+def announce(viewer: Viewer, *, browser: bool) -> None:
+    """Prints the address on a line of its own, and opens the browser where there is somebody to look at it."""
+    print(viewer.url, flush=True)
+    if browser and sys.stdout.isatty():
+        threading.Thread(target=_open_browser, args=(viewer.url,), daemon=True).start()
+
+
+def _open_browser(url: str) -> None:
+    with contextlib.suppress(Exception):  # the address is there for all who have none
+        webbrowser.open(url)

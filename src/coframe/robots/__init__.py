@@ -1,0 +1,51 @@
+"""Robots from their descriptions: links, joints, and where every link is.
+
+>>> import coframe.robots
+>>> robot = coframe.robots.parse_urdf('<robot name="stone"><link name="base"/></robot>')
+>>> list(robot.frames())
+['base']
+"""
+
+from coframe.errors import RobotDescriptionError
+from coframe.robots.files import expand_xacro, load
+from coframe.robots.packages import PackageError, Packages
+from coframe.robots.parts import (
+    Box,
+    Capsule,
+    Collision,
+    Cylinder,
+    Inertial,
+    Joint,
+    Limits,
+    Link,
+    Material,
+    Mesh,
+    Mimic,
+    Sphere,
+    Visual,
+)
+from coframe.robots.robot import Robot
+from coframe.robots.urdf import parse_urdf
+
+__all__ = [
+    "Box",
+    "Capsule",
+    "Collision",
+    "Cylinder",
+    "Inertial",
+    "Joint",
+    "Limits",
+    "Link",
+    "Material",
+    "Mesh",
+    "Mimic",
+    "PackageError",
+    "Packages",
+    "Robot",
+    "RobotDescriptionError",
+    "Sphere",
+    "Visual",
+    "expand_xacro",
+    "load",
+    "parse_urdf",
+]

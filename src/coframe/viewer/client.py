@@ -1,0 +1,345 @@
+"""One tab: what it looks at, and what it is sent.
+
+The newest wins: a tick is made only when the tab has drawn the last one and the connection has taken it, so a tab that
+is slow or stuck skips ticks. What it asks is answered in order; who asks without reading is not listened to any more.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import math
+import time
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from websockets.exceptions import ConnectionClosed
+
+from coframe.errors import WireError
+from coframe.viewer import protocol
+from coframe.viewer.clock import Playhead
+from coframe.viewer.display import Display, Status
+from coframe.viewer.requests import BadRequestError, parse
+from coframe.viewer.scene import LocalOrigin
+from coframe.viewer.stage import FRAME_TIMEOUT
+from coframe.viewer.statistics import frame_rows
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from websockets.asyncio.server import ServerConnection
+
+    from coframe.viewer.descriptions import Description
+    from coframe.viewer.displays import Options
+    from coframe.viewer.joints import JointPublisher
+    from coframe.viewer.stage import Stage
+
+__all__ = ["Client"]
+
+T = TypeVar("T")
+
+# Who asks more than this without reading the answers waits.
+MOST_ANSWERS = 64
+STATISTICS_PERIOD = 1.0
+# Where nothing changes, a tick comes all the same once in a while.
+IDLE_PERIOD = 1.0
+_RATE = 30.0
+_MOST_DISPLAYS = 100
+
+
+class _Wanted:
+    """A display that the tab has subscribed to; open once its topic is there."""
+
+    def __init__(self, topic: str, options: Options) -> None:
+        self.topic = topic
+        self.options = options
+        self.display: Display | None = None
+        self.told: Status | None = None
+
+
+class Client:
+    """A tab.
+
+    Args:
+        socket: Its connection.
+        stage: What all tabs see.
+    """
+
+    def __init__(self, socket: ServerConnection, stage: Stage) -> None:
+        self._socket = socket
+        self._stage = stage
+        self.playhead = Playhead()
+        self.frame_timeout = FRAME_TIMEOUT
+        self.rviz = stage.rviz
+        self.wanted_fixed = stage.fixed
+        self.bad_requests = 0
+        self._displays: dict[int, _Wanted] = {}
+        self._joints: dict[int, JointPublisher] = {}
+        self._told_robots: dict[int, Description] = {}
+        self._told_problems: dict[str, tuple[str, str]] = {}
+        self._origin = LocalOrigin()
+        self._answers: asyncio.Queue[str] = asyncio.Queue(MOST_ANSWERS)
+        self._ready = True
+        self._told_origin: int | None = None
+        self._told_tree: tuple[int, str] | None = None
+        self._told_topics: object = None
+        self._told_statistics = -math.inf
+        self._last_tick: tuple[Any, ...] | None = None
+        self._ticked = -math.inf
+
+    @property
+    def fixed(self) -> str:
+        """The frame that everything is told in."""
+        return self.wanted_fixed or self._stage.scene.structure.largest
+
+    @property
+    def origin(self) -> int:
+        """What the times of this tab are relative to."""
+        return self._stage.origin if self._told_origin is None else self._told_origin
+
+    async def run(self) -> None:
+        """Until the connection ends."""
+        both = [asyncio.create_task(self._send_all()), asyncio.create_task(self._take_all())]
+        try:
+            ended, _ = await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
+            for task in ended:
+                task.result()
+        except ConnectionClosed:
+            pass
+        finally:
+            for task in both:
+                task.cancel()
+            await asyncio.gather(*both, return_exceptions=True)
+            self._leave()
+
+    def _leave(self) -> None:
+        for number in list(self._displays):
+            self.unsubscribe(number)
+        for number in list(self._joints):
+            self.stop_joints(number)
+
+    async def _take_all(self) -> None:
+        async for message in self._socket:
+            await self._take(message)
+
+    async def answer(self, kind: str, **fields: Any) -> None:
+        """Sends something that was asked for; waits where the tab does not read."""
+        await self._answers.put(protocol.text(kind, **fields))
+
+    async def work(self, deed: Callable[..., T], *args: Any) -> T:
+        """Does what takes long where it keeps nobody waiting."""
+        return await asyncio.get_running_loop().run_in_executor(self._stage.executor, deed, *args)
+
+    async def _take(self, message: str | bytes) -> None:
+        try:
+            request = parse(message)
+            await request.run(self)
+        except BadRequestError as error:
+            self.bad_requests += 1
+            await self.answer("problem", text=str(error), hint=error.hint)
+
+    @property
+    def stage(self) -> Stage:
+        """What all tabs see."""
+        return self._stage
+
+    @property
+    def at(self) -> int:
+        """The time that the tab looks at, in nanoseconds; 0 is the newest."""
+        return 0 if self.playhead.live else self.playhead.at(self._stage.scene.span)
+
+    def displays(self) -> list[Display]:
+        """What is open."""
+        return [wanted.display for wanted in self._displays.values() if wanted.display is not None]
+
+    def subscribe(self, number: int, topic: str, options: Options) -> None:
+        """Displays a topic from now on; under a number that is in use, instead of what that was.
+
+        Raises:
+            BadRequestError: There are too many.
+        """
+        self.unsubscribe(number)
+        if len(self._displays) >= _MOST_DISPLAYS:
+            raise BadRequestError(f"a tab has {_MOST_DISPLAYS} displays at most", "Remove one.")
+        self._displays[number] = _Wanted(topic, options)
+        self._open_display(number, self._displays[number])
+
+    def unsubscribe(self, number: int) -> None:
+        """Displays it no longer; whether it was there or not."""
+        wanted = self._displays.pop(number, None)
+        if wanted is not None and wanted.display is not None:
+            wanted.display.close()
+            self._stage.release(wanted.topic)
+
+    def publish_joints(self, number: int, positions: dict[str, Any]) -> None:
+        """Sends the positions of a robot's joints from now on.
+
+        Raises:
+            ValueError: There is no such robot or joint, or a position is no number.
+            WireError: They cannot be sent.
+        """
+        known = self._stage.descriptions.known.get(number)
+        if known is None:
+            raise ValueError(f"there is no robot with the number {number}")
+        publisher = self._joints.get(number)
+        if publisher is None:
+            publisher = self._joints[number] = self._stage.joint_publisher(known.robot)
+        publisher.set(positions)
+
+    def stop_joints(self, number: int) -> None:
+        """Sends them no longer."""
+        publisher = self._joints.pop(number, None)
+        if publisher is not None:
+            publisher.close()
+
+    def _open_display(self, number: int, wanted: _Wanted) -> None:
+        messages = self._stage.open(wanted.topic)
+        if messages is not None:
+            wanted.display = Display(
+                number, messages, wanted.options, self._stage.meshes.url_or_problem, self._stage.executor
+            )
+
+    def is_ready(self) -> None:
+        """The tab has drawn the last tick."""
+        self._ready = True
+
+    async def _send_all(self) -> None:
+        due = time.monotonic()
+        while True:
+            while not self._answers.empty():
+                await self._socket.send(self._answers.get_nowait())
+            self._send_joints()
+            if self._ready:
+                await self._send_news()
+            due = max(due + 1.0 / _RATE, time.monotonic())
+            await asyncio.sleep(due - time.monotonic())
+
+    async def _send_news(self) -> None:
+        self._stage.refresh()
+        if self._told_origin != self._stage.origin:
+            await self._send_hello()
+        if self._told_tree != (self._stage.scene.revision, self.fixed):
+            await self._send_tree()
+        now = time.monotonic()
+        if now - self._told_statistics >= STATISTICS_PERIOD:
+            self._told_statistics = now
+            await self._send_statistics()
+            self._open_late_displays()
+        await self._send_robots()
+        await self._send_displays()
+        await self._send_tick()
+
+    def _send_joints(self) -> None:
+        for publisher in self._joints.values():
+            with contextlib.suppress(WireError):  # somebody who listens to them hangs
+                publisher.send_if_due()
+
+    async def _send_robots(self) -> None:
+        descriptions = self._stage.descriptions
+        for number, known in list(descriptions.known.items()):
+            if self._told_robots.get(number) is not known:
+                self._told_robots[number] = known
+                await self._socket.send(protocol.text("robot", **known.told))
+        for topic, problem in list(descriptions.problems.items()):
+            if self._told_problems.get(topic) != problem:
+                self._told_problems[topic] = problem
+                await self._socket.send(protocol.text("problem", text=problem[0], hint=problem[1]))
+
+    async def _send_hello(self) -> None:
+        stage = self._stage
+        self._told_origin, self._told_tree, self._last_tick = stage.origin, None, None
+        for wanted in self._displays.values():
+            wanted.told = None
+        self._told_topics = topics = stage.topics
+        await self._socket.send(
+            protocol.text(
+                "hello",
+                version=protocol.VERSION,
+                mode=stage.source.mode,
+                title=stage.source.title,
+                origin=str(stage.origin),
+                span=stage.relative_span(),
+                fixed=self.fixed,
+                rviz=None if self.rviz is None else self.rviz.description(),
+                topics=[topic._asdict() for topic in topics],
+                can_publish=stage.can_publish,
+            )
+        )
+
+    async def _send_tree(self) -> None:
+        scene = self._stage.scene
+        structure = scene.structure
+        self._told_tree = (scene.revision, self.fixed)
+        sizes = [0] * len(structure.roots)
+        for component in structure.components:
+            sizes[component] += 1
+        frames = zip(structure.names, structure.parents, structure.static, structure.components, strict=True)
+        await self._socket.send(
+            protocol.text(
+                "tree",
+                revision=scene.revision,
+                fixed=self.fixed,
+                frames=[
+                    {"name": name, "parent": parent, "static": static, "component": component}
+                    for name, parent, static, component in frames
+                ],
+                components=[{"root": root, "size": size} for root, size in zip(structure.roots, sizes, strict=True)],
+            )
+        )
+
+    async def _send_statistics(self) -> None:
+        stage = self._stage
+        if self._told_topics != stage.topics:
+            self._told_topics = stage.topics
+            await self._socket.send(protocol.text("topics", topics=[topic._asdict() for topic in stage.topics]))
+        rows = frame_rows(stage.scene, stage.origin, self.frame_timeout)
+        revision = stage.scene.revision
+        await self._socket.send(protocol.text("stats", revision=revision, span=stage.relative_span(), frames=rows))
+
+    def _open_late_displays(self) -> None:
+        for number, wanted in self._displays.items():
+            if wanted.display is None:
+                self._open_display(number, wanted)
+
+    async def _send_displays(self) -> None:
+        """What is new of the displays, one message each, and what became of them."""
+        scene, at = self._stage.scene, self.at
+        now = scene.span[1] if scene.span is not None else 0
+        for number, wanted in list(self._displays.items()):
+            display = wanted.display
+            if display is None:
+                status = Status("waiting", f"nobody publishes {wanted.topic}")
+            else:
+                display.advance(scene.buffer, self.fixed, at, now)
+                for drawing in display.take_unsent():
+                    await self._socket.send(drawing)
+                    drawing.clear()
+                status = display.status
+            if status != wanted.told:
+                wanted.told = status
+                await self._socket.send(protocol.text("display", id=number, **status._asdict()))
+
+    async def _send_tick(self) -> None:
+        scene, fixed, at = self._stage.scene, self.fixed, self.at
+        entries = [pose for display in self.displays() for pose in display.poses()]
+        listed = [(entry.display, entry.sequence) for entry in entries]
+        now = time.monotonic()
+        state = (scene.revision, fixed, at, scene.buffer.changes, listed)
+        if state == self._last_tick and now - self._ticked < IDLE_PERIOD:
+            return
+        self._last_tick, self._ticked = state, now
+        placed = scene.place(fixed, at, self.frame_timeout)
+        names = scene.structure.names
+        origin = self._origin.follow(placed, names.index(fixed) if fixed in names else None)
+        self._ready = False
+        await self._socket.send(
+            protocol.tick(scene.revision, self._moment(at), origin, placed.poses, placed.states, entries)
+        )
+
+    def _moment(self, at: int) -> float:
+        """The time that is shown, relative to the origin; NaN where there is nothing yet."""
+        if at == 0:
+            span = self._stage.scene.span
+            if span is None:
+                return math.nan
+            at = span[1]
+        return float(at - self._stage.origin)

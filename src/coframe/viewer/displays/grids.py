@@ -1,0 +1,24 @@
+"""Occupancy grids."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from coframe.time import stamp_ns
+from coframe.viewer import protocol
+from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options, pose_row
+
+__all__ = ["draw_grid"]
+
+
+def draw_grid(grid: Any, _options: Options) -> Drawing:
+    """An OccupancyGrid: -1 is unknown, 0 free, 100 occupied."""
+    info = grid.info
+    cells = np.asarray(grid.data, dtype=np.int8)
+    if cells.size != info.width * info.height:
+        raise CannotDrawError(f"a grid of {info.width} x {info.height} cells comes with {cells.size}")
+    corner = pose_row(info.origin)
+    data = protocol.grid(float(info.resolution), corner, cells.reshape(info.height, info.width))
+    return Drawing(grid.header.frame_id, stamp_ns(grid.header.stamp), data)

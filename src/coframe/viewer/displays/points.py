@@ -1,0 +1,100 @@
+"""Laser scans and point clouds as points with a number or a colour each."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from coframe.sensors import project_scan
+from coframe.sensors.layout import field_of, grid_of
+from coframe.time import stamp_ns
+from coframe.viewer import protocol
+from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["draw_cloud", "draw_scan"]
+
+MOST_POINTS = 4_000_000
+
+
+def draw_scan(scan: Any, options: Options) -> Drawing:
+    """A LaserScan: what its beams have hit."""
+    hits = project_scan(scan)
+    points = hits.points.astype(np.float32)
+    intensities = hits.intensities if options.color_by in {None, "intensity"} else None
+    scalars = _scalars(points, options, intensities)
+    return Drawing(hits.frame, hits.stamp, protocol.cloud(float(hits.stamp - options.origin), points, scalars, None))
+
+
+def draw_cloud(cloud: Any, options: Options) -> Drawing:
+    """A PointCloud2; points without a place (NaN) are left out."""
+    stamp = stamp_ns(cloud.header.stamp)
+    try:
+        points = _places(cloud)
+        names = {field.name for field in cloud.fields}
+        seen = np.isfinite(points).all(axis=1)
+        dense = bool(seen.all())
+        points = points if dense else points[seen]
+        colours = None
+        scalars = None
+        name = next((name for name in ("rgb", "rgba") if name in names), None)
+        if name is not None and options.color_by in {None, "rgb"}:
+            colours = _colours(field_of(cloud, name), alpha=name == "rgba")
+            colours = colours if dense else colours[seen]
+        else:
+            intensities = None
+            if options.color_by in {None, "intensity"}:
+                intensities = _intensities(cloud, names)
+                intensities = intensities if dense or intensities is None else intensities[seen]
+            scalars = _scalars(points, options, intensities)
+    except ValueError as error:
+        raise CannotDrawError(str(error)) from None
+    return Drawing(
+        cloud.header.frame_id, stamp, protocol.cloud(float(stamp - options.origin), points, scalars, colours)
+    )
+
+
+def _places(cloud: Any) -> NDArray[np.float32]:
+    count = int(np.prod(grid_of(cloud)))
+    if count > MOST_POINTS:
+        raise CannotDrawError(f"a cloud of {count} points: the viewer draws up to {MOST_POINTS}")
+    points = np.empty((count, 3), np.float32)
+    for column, name in enumerate("xyz"):
+        with np.errstate(over="ignore"):
+            points[:, column] = field_of(cloud, name).reshape(-1)
+    return points
+
+
+def _intensities(cloud: Any, names: set[str]) -> NDArray[np.float32] | None:
+    name = next((name for name in ("intensity", "intensities", "i") if name in names), None)
+    return None if name is None else field_of(cloud, name).reshape(-1).astype(np.float32)
+
+
+def _scalars(
+    points: NDArray[np.float32], options: Options, intensities: NDArray[np.float32] | None
+) -> NDArray[np.float32] | None:
+    """The number that a point's colour tells: what was asked for, else the intensity, else the distance."""
+    if options.color_by == "flat":
+        return None
+    if options.color_by == "axis":
+        return points[:, options.axis]
+    if intensities is not None:
+        return intensities
+    with np.errstate(over="ignore"):
+        distances: NDArray[np.float32] = np.sqrt(np.einsum("ij,ij->i", points, points))
+    return distances
+
+
+def _colours(packed: NDArray[Any], *, alpha: bool) -> NDArray[np.uint8]:
+    """Red, green, blue, alpha from 0xAARRGGBB, which is often stored as if it were a float32."""
+    if packed.dtype.itemsize != 4:
+        raise CannotDrawError(f"colours must be packed into four bytes, not {packed.dtype}")
+    words = np.ascontiguousarray(packed.reshape(-1)).astype(packed.dtype.newbyteorder("<")).view("<u4")
+    blue_first = words.view(np.uint8).reshape(-1, 4)
+    colours = blue_first[:, [2, 1, 0, 3]]
+    if not alpha:
+        colours[:, 3] = 255
+    return colours

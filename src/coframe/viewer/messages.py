@@ -1,0 +1,156 @@
+"""The messages of a topic, as displays ask for them: by time, or the newest."""
+
+from __future__ import annotations
+
+import itertools
+import struct
+import threading
+import time
+from bisect import bisect_right
+from collections import deque
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from coframe.wire.endpoints import Subscription
+
+__all__ = ["LiveMessages", "Messages", "Sighting", "header_stamp"]
+
+_NS = 1_000_000_000
+
+
+class Sighting(NamedTuple):
+    """A message of a topic.
+
+    Attributes:
+        key: Tells it from all others of the topic.
+        time: Where it lies on the timeline, in nanoseconds.
+        message: Gives the message; raises ValueError where its bytes are not of its type.
+    """
+
+    key: int
+    time: int
+    message: Callable[[], Any]
+
+
+class Messages(Protocol):
+    """The messages of one topic; may be asked by any thread."""
+
+    type: str
+
+    def at(self, time: int) -> Sighting | None:
+        """The last message at or before a time in nanoseconds; 0 is the newest of all."""
+
+    def before(self, time: int, count: int) -> list[Sighting]:
+        """The last messages at or before a time, 0 is the newest, the oldest first, at most so many."""
+
+    def times(self) -> NDArray[np.int64]:
+        """Where all messages lie on the timeline, in order."""
+
+    def close(self) -> None:
+        """Ends it."""
+
+
+class _Stored(NamedTuple):
+    key: int
+    time: int
+    data: bytes
+
+
+class LiveMessages:
+    """The last messages of a topic, as bytes until somebody wants to see them.
+
+    Args:
+        subscription: Where they come from.
+        ros_type: Their type.
+        keep: For how many nanoseconds they are kept, beside the newest.
+    """
+
+    MOST_BYTES = 64 << 20
+    MOST = 4000
+
+    def __init__(self, subscription: Subscription, ros_type: str, keep: int) -> None:
+        from coframe.messages import deserialize, find  # noqa: PLC0415 - only who looks at messages needs them
+
+        self.type = ros_type
+        self._subscription = subscription
+        self._class = find(ros_type)
+        self._deserialize = deserialize
+        self._keep = keep
+        self._stored: deque[_Stored] = deque()
+        self._bytes = 0
+        self._keys = itertools.count(1)
+        self._lock = threading.Lock()
+
+    def at(self, time: int) -> Sighting | None:
+        """The last message at or before a time in nanoseconds; 0 is the newest of all."""
+        with self._lock:
+            self._take()
+            if not self._stored:
+                return None
+            index = self._index_behind(time) - 1
+            return None if index < 0 else self._sighting(self._stored[index])
+
+    def before(self, time: int, count: int) -> list[Sighting]:
+        """The last messages at or before a time, 0 is the newest, the oldest first, at most so many."""
+        with self._lock:
+            self._take()
+            end = self._index_behind(time)
+            return [self._sighting(one) for one in itertools.islice(self._stored, max(0, end - count), end)]
+
+    def times(self) -> NDArray[np.int64]:
+        """Where all messages lie on the timeline, in order."""
+        with self._lock:
+            self._take()
+            return np.array([stored.time for stored in self._stored], np.int64)
+
+    def close(self) -> None:
+        """Leaves the topic."""
+        self._subscription.close()
+
+    def _take(self) -> None:
+        if not self._subscription.pending():
+            return
+        for sample in self._subscription.take():
+            stamp = header_stamp(self.type, sample.data) or time.time_ns()
+            # The timeline goes forward: what comes late lies where it came.
+            newest = self._stored[-1].time if self._stored else stamp
+            if stamp < newest - self._keep:  # a simulation that began anew
+                self._stored.clear()
+                self._bytes = 0
+                newest = stamp
+            self._stored.append(_Stored(next(self._keys), max(stamp, newest), sample.data))
+            self._bytes += len(sample.data)
+            self._forget()
+
+    def _forget(self) -> None:
+        newest = self._stored[-1].time
+        while len(self._stored) > 1 and (
+            self._stored[0].time < newest - self._keep or self._bytes > self.MOST_BYTES or len(self._stored) > self.MOST
+        ):
+            self._bytes -= len(self._stored.popleft().data)
+
+    def _index_behind(self, time: int) -> int:
+        if time == 0:
+            return len(self._stored)
+        return bisect_right(self._stored, time, key=lambda stored: stored.time)
+
+    def _sighting(self, stored: _Stored) -> Sighting:
+        return Sighting(stored.key, stored.time, lambda: self._deserialize(stored.data, self._class))
+
+
+_WITHOUT_HEADER = {"visualization_msgs/msg/MarkerArray": 8}  # a sequence's length comes before its first header
+
+
+def header_stamp(ros_type: str, data: bytes) -> int:
+    """The stamp in a message's bytes, in nanoseconds; 0 where there is none."""
+    offset = _WITHOUT_HEADER.get(ros_type, 4)
+    if len(data) < offset + 8 or (offset == 8 and data[4:8] == bytes(4)):
+        return 0
+    seconds, nanoseconds = struct.unpack_from("<iI" if data[1] & 1 else ">iI", data, offset)
+    return max(0, int(seconds) * _NS + int(nanoseconds))

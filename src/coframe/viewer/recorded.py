@@ -1,0 +1,103 @@
+"""A recording: all of its frames and messages, at any time."""
+
+from __future__ import annotations
+
+import threading
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from coframe.errors import DecodeError
+from coframe.viewer.displays import DISPLAYS
+from coframe.viewer.messages import Sighting
+from coframe.viewer.sources import Mode, Topic
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from coframe.bags import Recording
+    from coframe.wire.connection import Connection
+
+__all__ = ["RecordedSource"]
+
+
+class RecordedSource:
+    """A recording.
+
+    Args:
+        recording: What is shown.
+        own: Whether it is closed with the source.
+    """
+
+    mode: Mode = "recording"
+    connection: Connection | None = None
+
+    def __init__(self, recording: Recording, *, own: bool = False) -> None:
+        self.buffer = recording.buffer
+        self.title = recording.path.name
+        self._recording = recording
+        self._own = own
+
+    def topics(self) -> list[Topic]:
+        """What a display can show."""
+        known = self._recording.topics.values()
+        return [Topic(topic.name, topic.type, DISPLAYS[topic.type]) for topic in known if topic.type in DISPLAYS]
+
+    def open(self, topic: str) -> RecordedMessages | None:
+        """The messages of a topic."""
+        if topic not in self._recording.topics:
+            return None
+        return RecordedMessages(self._recording, topic)
+
+    def close(self) -> None:
+        """Lets go of the files, where that is the source's to do."""
+        if self._own:
+            self._recording.close()
+
+
+class RecordedMessages:
+    """The messages of a topic, by the times that they tell of.
+
+    Args:
+        recording: Where they are.
+        topic: The topic.
+    """
+
+    def __init__(self, recording: Recording, topic: str) -> None:
+        self.type = recording.topics[topic].type
+        self._recording = recording
+        self._topic = topic
+        self._times = np.sort(recording.stamps(topic))
+        self._reading = threading.Lock()
+
+    def at(self, time: int) -> Sighting | None:
+        """The last message at or before a time in nanoseconds; 0 is the newest of all."""
+        end = self._index_behind(time)
+        return self._sighting(end - 1) if end else None
+
+    def before(self, time: int, count: int) -> list[Sighting]:
+        """The last messages at or before a time, 0 is the newest, the oldest first, at most so many."""
+        end = self._index_behind(time)
+        return [self._sighting(index) for index in range(max(0, end - count), end)]
+
+    def times(self) -> NDArray[np.int64]:
+        """Where all messages lie on the timeline, in order."""
+        return self._times
+
+    def close(self) -> None:
+        """The recording stays open."""
+
+    def _index_behind(self, time: int) -> int:
+        return len(self._times) if time == 0 else int(np.searchsorted(self._times, time, side="right"))
+
+    def _sighting(self, index: int) -> Sighting:
+        return Sighting(index + 1, int(self._times[index]), lambda: self._read(index))
+
+    def _read(self, index: int) -> Any:
+        time = int(self._times[index])
+        earlier = index - int(np.searchsorted(self._times, time, side="left"))
+        with self._reading:
+            for skipped, found in enumerate(self._recording.messages(self._topic, start=time, stop=time + 1)):
+                if skipped == earlier:
+                    return found.message
+        raise DecodeError(f"a message on {self._topic} can no longer be read")

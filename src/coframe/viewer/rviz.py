@@ -1,0 +1,349 @@
+"""RViz's configuration files, of RViz 2 and RViz 1: read, and written such that what was not understood is kept."""
+
+from __future__ import annotations
+
+import copy
+import math
+import re
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from coframe.errors import ViewerError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+    from typing import TypeGuard
+
+__all__ = ["DISPLAY_CLASSES", "RvizConfig"]
+
+LARGEST_FILE = 1 << 20
+
+DISPLAY_CLASSES = frozenset(
+    {
+        "Axes",
+        "Camera",
+        "CameraInfo",
+        "Grid",
+        "LaserScan",
+        "Map",
+        "Marker",
+        "MarkerArray",
+        "Odometry",
+        "Path",
+        "PointCloud2",
+        "Pose",
+        "PoseArray",
+        "PoseWithCovariance",
+        "Range",
+        "RobotModel",
+        "TF",
+    }
+)
+"""RViz's displays that the page has, by the name of their class without its package."""
+
+VIEW_CLASSES = frozenset({"FPS", "FrameAligned", "Orbit", "ThirdPersonFollower", "TopDownOrtho", "XYOrbit"})
+
+_MANAGER = "Visualization Manager"
+_NEW: dict[str, Any] = {
+    "Panels": [{"Class": "rviz_common/Displays", "Name": "Displays"}, {"Class": "rviz_common/Views", "Name": "Views"}],
+    _MANAGER: {
+        "Class": "",
+        "Displays": [],
+        "Enabled": True,
+        "Global Options": {},
+        "Name": "root",
+        "Tools": [{"Class": f"rviz_default_plugins/{name}"} for name in ("MoveCamera", "Select", "FocusCamera")],
+        "Views": {"Current": {}},
+    },
+}
+_TOPIC_KEYS = ("Topic", "Description Topic", "Marker Topic", "Image Topic")
+
+
+class _Found(NamedTuple):
+    """A display of a file, in its group."""
+
+    path: str
+    siblings: list[Any]
+    display: dict[str, Any]
+
+    @property
+    def plain_class(self) -> str:
+        return _plain_class(self.display.get("Class"))
+
+    @property
+    def name(self) -> str:
+        return str(self.display.get("Name") or self.plain_class)
+
+
+class RvizConfig:
+    """A configuration: what the page understands of it, and all the rest.
+
+    Args:
+        document: What the YAML holds.
+    """
+
+    def __init__(self, document: dict[str, Any] | None = None) -> None:
+        self._document = copy.deepcopy(_NEW) if document is None else document
+
+    @classmethod
+    def parse(cls, text: str, source: str = "the file") -> RvizConfig:
+        """From the text of a file.
+
+        Raises:
+            ViewerError: It is no YAML, or none of RViz; or PyYAML is missing.
+        """
+        document = _load(text, source)
+        if not isinstance(document, dict) or not isinstance(document.get(_MANAGER), dict):
+            raise ViewerError(
+                f"{source} is no configuration of RViz: it has no {_MANAGER!r}",
+                hint="RViz writes one by File, Save Config As.",
+            )
+        return cls(document)
+
+    @property
+    def fixed_frame(self) -> str:
+        """The fixed frame; "" where there is none."""
+        value = self._global.get("Fixed Frame")
+        return value if isinstance(value, str) and value != "<Fixed Frame>" else ""
+
+    @property
+    def frame_rate(self) -> float | None:
+        """Pictures a second; None where nothing sensible is said."""
+        value = self._global.get("Frame Rate")
+        return float(value) if _is_number(value) and 1 <= value <= 1000 else None
+
+    @property
+    def description_topics(self) -> list[str]:
+        """Where its robots are told."""
+        robots = (found for found in _displays(self._manager, "") if found.plain_class == "RobotModel")
+        return [topic for robot in robots if (topic := _topic_of(robot.display)) is not None]
+
+    def description(self) -> dict[str, Any]:
+        """What the page is told: the fields of an ``rviz`` message."""
+        known, unknown = [], []
+        for found in _displays(self._manager, ""):
+            if found.plain_class in DISPLAY_CLASSES:
+                options = {str(key): _plain(value) for key, value in found.display.items() if key not in _OWN_KEYS}
+                enabled = found.display.get("Enabled", True) is not False
+                known.append(
+                    {
+                        "class": found.plain_class,
+                        "name": found.name,
+                        "enabled": enabled,
+                        "topic": _topic_of(found.display),
+                        "options": options,
+                    }
+                )
+            elif found.plain_class != "Group":
+                told = found.display.get("Class")
+                unknown.append({"path": found.path, "class": str(told or ""), "name": found.name})
+        view = self._view
+        view_class = _plain_class(view.get("Class"))
+        if view and view_class not in VIEW_CLASSES:
+            unknown.append({"path": "Views/Current", "class": str(view.get("Class") or ""), "name": view_class})
+        return {
+            "displays": known,
+            "global": {
+                "fixed_frame": self.fixed_frame or None,
+                "background": _colour_of(self._global.get("Background Color")),
+                "frame_rate": self.frame_rate,
+            },
+            "view": {"class": view_class, "options": _plain({k: v for k, v in view.items() if k != "Class"})}
+            if view
+            else None,
+            "unknown": unknown,
+        }
+
+    def merged(self, displays: list[Any], options: Mapping[str, Any], view: Mapping[str, Any]) -> RvizConfig:
+        """This configuration with what the page shows now; all that the page does not understand stays.
+
+        Args:
+            displays: As in `description`.
+            options: Likewise, what is global.
+            view: Likewise.
+        """
+        changed = RvizConfig(copy.deepcopy(self._document))
+        changed._merge_displays(displays)
+        changed._merge_global(options)
+        changed._merge_view(view)
+        return changed
+
+    def text(self) -> str:
+        """The text of a file.
+
+        Raises:
+            ViewerError: PyYAML is missing.
+        """
+        return str(_yaml().safe_dump(self._document, sort_keys=False, allow_unicode=True, width=1000))
+
+    @property
+    def _manager(self) -> dict[str, Any]:
+        manager: dict[str, Any] = self._document[_MANAGER]
+        return manager
+
+    @property
+    def _global(self) -> dict[str, Any]:
+        return _mapping(self._manager, "Global Options")
+
+    @property
+    def _view(self) -> dict[str, Any]:
+        return _mapping(_mapping(self._manager, "Views"), "Current")
+
+    @property
+    def _package(self) -> str:
+        """What the classes of this file are of: RViz 2's or RViz 1's."""
+        classes = [str(found.display.get("Class")) for found in _displays(self._manager, "")]
+        return "rviz" if any(name.startswith("rviz/") for name in classes) else "rviz_default_plugins"
+
+    def _merge_displays(self, displays: list[Any]) -> None:
+        left = [found for found in _displays(self._manager, "") if found.plain_class in DISPLAY_CLASSES]
+        package = self._package
+        for told in displays:
+            if not isinstance(told, dict) or told.get("class") not in DISPLAY_CLASSES:
+                continue
+            key = (told["class"], str(told.get("name") or told["class"]))
+            match = next((found for found in left if (found.plain_class, found.name) == key), None)
+            if match is not None:
+                left.remove(match)
+                display = match.display
+            else:
+                display = {"Class": f"{package}/{key[0]}", "Name": key[1]}
+                self._manager["Displays"] = [*_sequence(self._manager, "Displays"), display]
+            display["Enabled"] = told.get("enabled") is not False
+            _update(display, told.get("options"))
+            if match is None:
+                _set_topic(display, told.get("topic"), package)
+        for found in left:  # the page has it no more
+            found.siblings[:] = [one for one in found.siblings if one is not found.display]
+
+    def _merge_global(self, options: Mapping[str, Any]) -> None:
+        values = dict(self._global)
+        if isinstance(options.get("fixed_frame"), str):
+            values["Fixed Frame"] = options["fixed_frame"]
+        background = options.get("background")
+        if isinstance(background, list) and len(background) == 3 and all(_is_number(part) for part in background):
+            values["Background Color"] = "; ".join(str(min(max(int(part), 0), 255)) for part in background)
+        if _is_number(options.get("frame_rate")):
+            values["Frame Rate"] = int(options["frame_rate"])
+        self._manager["Global Options"] = values
+
+    def _merge_view(self, view: Mapping[str, Any]) -> None:
+        if not view:
+            return
+        current = dict(self._view)
+        if isinstance(view.get("class"), str) and _plain_class(current.get("Class")) != view["class"]:
+            current["Class"] = f"{self._package}/{view['class']}"
+        _update(current, view.get("options"))
+        views = dict(_mapping(self._manager, "Views"))
+        views["Current"] = current
+        self._manager["Views"] = views
+
+
+_OWN_KEYS = ("Class", "Name", "Enabled")
+
+
+def _displays(parent: dict[str, Any], path: str) -> Iterator[_Found]:
+    """All displays, those in groups behind their group."""
+    for display in _sequence(parent, "Displays"):
+        if isinstance(display, dict):
+            found = _Found("", parent["Displays"], display)
+            found = found._replace(path=f"{path}{found.name}")
+            yield found
+            if found.plain_class == "Group":
+                yield from _displays(display, f"{found.path}/")
+
+
+def _mapping(parent: dict[str, Any], key: str) -> dict[str, Any]:
+    value = parent.get(key)
+    return value if isinstance(value, dict) else {}
+
+
+def _sequence(parent: dict[str, Any], key: str) -> list[Any]:
+    if not isinstance(parent.get(key), list):
+        return []
+    value: list[Any] = parent[key]
+    return value
+
+
+def _plain_class(name: Any) -> str:
+    """Without the package: rviz_default_plugins/TF and rviz/TF are TF."""
+    return str(name or "").rpartition("/")[2]
+
+
+def _topic_of(display: Mapping[str, Any]) -> str | None:
+    for key in _TOPIC_KEYS:
+        value = display.get(key)
+        value = value.get("Value") if isinstance(value, dict) else value
+        if isinstance(value, str) and value:
+            return value
+    return None
+
+
+def _set_topic(display: dict[str, Any], topic: Any, package: str) -> None:
+    if not isinstance(topic, str) or not topic or _topic_of(display) is not None:
+        return
+    if package == "rviz":
+        display["Topic"] = topic
+        return
+    qos = {"Depth": 5, "Durability Policy": "Volatile", "History Policy": "Keep Last"}
+    display["Topic"] = {**qos, "Reliability Policy": "Reliable", "Value": topic}
+
+
+def _colour_of(value: Any) -> list[int] | None:
+    """RViz 2 and 1 write "48; 48; 48"."""
+    parts = re.fullmatch(r"\s*(\d{1,3})\s*[;,]\s*(\d{1,3})\s*[;,]\s*(\d{1,3})\s*", str(value))
+    return [min(int(part), 255) for part in parts.groups()] if parts else None
+
+
+def _is_number(value: Any) -> TypeGuard[float]:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def _plain(value: Any) -> Any:
+    """As JSON can say it."""
+    if isinstance(value, dict):
+        return {str(key): _plain(part) for key, part in value.items()}
+    if isinstance(value, list | tuple | set):
+        return [_plain(part) for part in value]
+    if value is None or isinstance(value, bool | str | int) or _is_number(value):
+        return value
+    return str(value)
+
+
+def _update(target: dict[str, Any], options: Any) -> None:
+    """Takes over what is told; what is not told stays."""
+    if not isinstance(options, dict):
+        return
+    for key, value in options.items():
+        if key in _OWN_KEYS:
+            continue
+        if isinstance(value, dict) and isinstance(target.get(key), dict):
+            _update(target[key], value)
+        else:
+            target[key] = value
+
+
+def _yaml() -> Any:
+    try:
+        import yaml  # noqa: PLC0415 - only who reads RViz's files needs it
+    except ModuleNotFoundError:
+        raise ViewerError("RViz's files need the package PyYAML: pip install 'coframe[viewer]'") from None
+    return yaml
+
+
+def _load(text: str, source: str) -> Any:
+    if len(text) > LARGEST_FILE:
+        raise ViewerError(f"{source} has more than the {LARGEST_FILE >> 20} MiB that a configuration of RViz may have")
+    yaml = _yaml()
+
+    class Loader(yaml.SafeLoader):  # type: ignore[misc,name-defined]
+        def fetch_alias(self) -> None:
+            """RViz writes none, and a few of them make a small file endless."""
+            raise yaml.YAMLError("aliases (*) are not taken")
+
+    try:
+        return yaml.load(text, Loader)
+    except RecursionError:
+        raise ViewerError(f"{source} is no configuration of RViz: it is nested too deeply") from None
+    except (yaml.YAMLError, ValueError, OverflowError) as error:
+        reason = " ".join(str(error).split())
+        raise ViewerError(f"{source} is no YAML: {reason}", hint="Is it a .rviz file?") from None

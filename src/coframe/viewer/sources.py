@@ -1,0 +1,69 @@
+"""What is viewed: the ROS graph, a recording, or a buffer."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
+
+if TYPE_CHECKING:
+    from coframe import Buffer
+    from coframe.viewer.messages import Messages
+    from coframe.wire.connection import Connection
+
+__all__ = ["BufferSource", "Mode", "Source", "Topic"]
+
+Mode = Literal["live", "recording", "buffer"]
+
+
+class Topic(NamedTuple):
+    """A topic that can be displayed."""
+
+    topic: str
+    type: str
+    display: str
+
+
+class Source(Protocol):
+    """What is viewed.
+
+    Attributes:
+        mode: What kind it is.
+        title: What the tab is called.
+        buffer: Its transforms.
+        connection: Where joint states can be sent; None where that is nowhere.
+    """
+
+    mode: Mode
+    title: str
+    buffer: Buffer
+    connection: Connection | None
+
+    def topics(self) -> list[Topic]:
+        """What can be displayed now, in order."""
+
+    def open(self, topic: str) -> Messages | None:
+        """The messages of a topic, to be closed again; None where there is none of that name."""
+
+    def close(self) -> None:
+        """Gives back what the source itself has opened."""
+
+
+class BufferSource:
+    """A buffer alone: frames, and no messages."""
+
+    mode: Mode = "buffer"
+    connection: Connection | None = None
+
+    def __init__(self, buffer: Buffer, title: str = "coframe") -> None:
+        self.buffer = buffer
+        self.title = title
+
+    def topics(self) -> list[Topic]:
+        """None."""
+        return []
+
+    def open(self, _topic: str) -> Messages | None:
+        """None."""
+        return None
+
+    def close(self) -> None:
+        """The buffer is the caller's."""

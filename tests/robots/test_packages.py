@@ -1,0 +1,116 @@
+"""Files of packages, with and without ROS."""
+
+import os
+
+import pytest
+
+from coframe.robots import PackageError, Packages, RobotDescriptionError, load
+
+PATHS = ("COFRAME_PACKAGE_PATH", "AMENT_PREFIX_PATH", "ROS_PACKAGE_PATH")
+
+
+@pytest.fixture(autouse=True)
+def no_ros(monkeypatch):
+    for variable in PATHS:
+        monkeypatch.delenv(variable, raising=False)
+
+
+def make_package(folder, name=None):
+    (folder / "meshes").mkdir(parents=True)
+    (folder / "meshes" / "hand.stl").write_text("solid")
+    (folder / "package.xml").write_text(f"<package><name>{name or folder.name}</name></package>")
+    return folder
+
+
+def test_packages_are_found_in_every_place(tmp_path, monkeypatch):
+    own = make_package(tmp_path / "ws" / "src" / "own")
+    make_package(tmp_path / "ws" / "src" / "neighbour")
+    make_package(tmp_path / "listed" / "deep" / "folder_of_another_name", "by_manifest")
+    make_package(tmp_path / "prefix" / "share" / "installed")
+    make_package(tmp_path / "old" / "noetic")
+    (tmp_path / "listed" / "plain").mkdir()
+    monkeypatch.setenv("COFRAME_PACKAGE_PATH", os.pathsep.join([str(tmp_path / "listed"), str(tmp_path / "gone")]))
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path / "prefix"))
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path / "old"))
+    packages = Packages(own / "urdf" / "robot.urdf")
+    for name in ("own", "neighbour", "by_manifest", "plain", "installed", "noetic"):
+        assert packages.find(name).is_dir(), name
+    assert packages.resolve("package://by_manifest/meshes/hand.stl").read_text() == "solid"
+    assert packages.resolve("../own/meshes/hand.stl" if (own / "urdf").mkdir() else "../meshes/hand.stl").is_file()
+    with pytest.raises(PackageError, match="no package 'folder_of_another'") as caught:
+        packages.find("folder_of_another")
+    assert "COFRAME_PACKAGE_PATH" in caught.value.hint
+
+
+@pytest.mark.parametrize(
+    "url",
+    [
+        "package://own/../secret",
+        "package://own/meshes/../../secret",
+        "package://own/%2e%2e/secret",
+        "package://own//etc/hostname",
+        "package://own/link_out",
+        "package://own/link_up/secret",
+        "package://../own/meshes/hand.stl",
+        "package://./own/meshes/hand.stl",
+        "package:///etc/hostname",
+        "package://own/loop",
+        "package://own/\0",
+        "package://own/" + "a" * 5000,
+        "package://own",
+        "package://own/meshes",
+        "file:///etc/hostname",
+        "http://example.org/x.stl",
+        "../../secret",
+        "/etc/hostname",
+    ],
+)
+def test_nothing_leads_out_of_a_package(tmp_path, url):
+    own = make_package(tmp_path / "own")
+    (tmp_path / "secret").write_text("secret")
+    (own / "link_out").symlink_to(tmp_path / "secret")
+    (own / "link_up").symlink_to(tmp_path)
+    (own / "loop").symlink_to(own / "loop")
+    (own / "link_inside").symlink_to(own / "meshes" / "hand.stl")
+    packages = Packages(own / "meshes" / "robot.urdf")
+    assert packages.resolve("package://own/link_inside").name == "hand.stl"
+    assert packages.resolve("hand.stl").name == "hand.stl"
+    with pytest.raises(PackageError):
+        packages.resolve(url)
+
+
+XACRO = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:arg name="tool" default="hand"/>
+  <xacro:include filename="$(find parts)/parts.xacro"/>
+  <link name="base"/>
+  <xacro:limb name="$(arg tool)" length="${0.25 * 2}"/>
+</robot>"""
+PARTS = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="limb" params="name length">
+    <link name="${name}"/>
+    <joint name="${name}_joint" type="fixed">
+      <parent link="base"/><child link="${name}"/><origin xyz="${length} 0 0"/>
+    </joint>
+  </xacro:macro>
+</robot>"""
+
+
+def test_xacro_is_expanded_and_finds_packages_without_ros(tmp_path, monkeypatch):
+    pytest.importorskip("xacro")
+    (tmp_path / "somewhere" / "parts").mkdir(parents=True)
+    (tmp_path / "somewhere" / "parts" / "parts.xacro").write_text(PARTS)
+    (tmp_path / "arm.urdf.xacro").write_text(XACRO)
+    with pytest.raises(RobotDescriptionError, match=r"arm.urdf.xacro: xacro: .*no package 'parts'"):
+        load(tmp_path / "arm.urdf.xacro")
+    monkeypatch.setenv("COFRAME_PACKAGE_PATH", str(tmp_path / "somewhere"))
+    robot = load(tmp_path / "arm.urdf.xacro", arguments={"tool": "gripper"})
+    assert robot.path == tmp_path / "arm.urdf.xacro"
+    assert robot.frames()["gripper"].translation.tolist() == [0.5, 0, 0]
+
+
+def test_what_cannot_be_loaded_is_named(tmp_path):
+    with pytest.raises(RobotDescriptionError, match=r"gone.urdf: cannot be read: No such file"):
+        load(tmp_path / "gone.urdf")
+    (tmp_path / "bad.urdf").write_text("<robot name='r'>\n<link/></robot>")
+    with pytest.raises(RobotDescriptionError, match=r"bad.urdf, line 2: <link> needs the attribute name"):
+        load(tmp_path / "bad.urdf")

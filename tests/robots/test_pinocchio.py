@@ -1,0 +1,70 @@
+"""Real robots, beside Pinocchio: an implementation we did not write. `make test-slow` installs both."""
+
+import importlib.metadata
+
+import numpy as np
+import pytest
+
+from coframe.robots import RobotDescriptionError, load
+
+pytestmark = pytest.mark.slow
+pinocchio = pytest.importorskip("pinocchio", reason="Pinocchio (pip install --group oracle) is not installed")
+
+BROKEN = {
+    "alex_psyonic_hands.urdf": "mimics 'index_q1', which is not a joint",
+    "ur3.urdf": "the robot has no links",
+}
+
+
+def robots():
+    try:
+        files = importlib.metadata.files("example-robot-data") or []
+    except importlib.metadata.PackageNotFoundError:
+        return []
+    return sorted(file.locate() for file in files if file.suffix == ".urdf")
+
+
+def test_all_example_robots_load_or_are_refused_for_a_true_reason():
+    if not robots():
+        pytest.skip("example-robot-data is not installed")
+    refused = {}
+    for path in robots():
+        try:
+            load(path)
+        except RobotDescriptionError as error:
+            refused[path.name] = str(error)
+    assert refused.keys() == BROKEN.keys()
+    assert all(BROKEN[name] in text for name, text in refused.items())
+
+
+@pytest.mark.parametrize("path", [p for p in robots() if p.name not in BROKEN], ids=lambda p: p.stem)
+def test_a_hundred_configurations_equal_pinocchio(path):
+    robot = load(path)
+    model = pinocchio.buildModelFromUrdf(str(path))
+    data = model.createData()
+    rng = np.random.default_rng(1)
+    moving = [joint for joint in robot.joints.values() if joint.size]
+    positions = {joint.name: rng.uniform(-np.pi, np.pi, 100) for joint in moving}
+    batch = robot.frames(positions)
+    frames = {
+        link: (model.getFrameId(link, pinocchio.FrameType.BODY), np.broadcast_to(batch[link].matrix, (100, 4, 4)))
+        for link in robot.links
+    }
+    some = list(robot.links)[-1]
+    follows_nothing = all(joint.mimic is None for joint in moving)
+    for i in range(100):
+        q = pinocchio.neutral(model)
+        for joint in moving:
+            theirs = model.joints[model.getJointId(joint.name)]
+            angle = positions[joint.name][i]
+            q[theirs.idx_q : theirs.idx_q + theirs.nq] = angle if theirs.nq == 1 else (np.cos(angle), np.sin(angle))
+        pinocchio.framesForwardKinematics(model, data, q)
+        for frame, ours in frames.values():
+            np.testing.assert_allclose(ours[i], data.oMf[frame].homogeneous, rtol=0, atol=1e-12)
+        if follows_nothing and i < 10:
+            jacobian = pinocchio.computeFrameJacobian(
+                model, data, q, frames[some][0], pinocchio.ReferenceFrame.LOCAL_WORLD_ALIGNED
+            )
+            columns = [model.joints[model.getJointId(name)].idx_v for name in robot.free_joints]
+            ours = robot.jacobian(some, {name: values[i] for name, values in positions.items()})
+            np.testing.assert_allclose(ours, jacobian[:, columns], rtol=0, atol=1e-12)

@@ -1,0 +1,309 @@
+"""The server and those who come to it: strangers, garbage, stuck tabs; and how it begins and ends."""
+
+import http.client
+import json
+import socket
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import numpy as np
+import pytest
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import connect
+
+import coframe
+from coframe.viewer.http import Visitors
+from coframe.viewer.server import ViewerServer
+from coframe.viewer.sources import BufferSource
+from coframe.viewer.stage import Stage
+
+SECOND = 1_000_000_000
+
+
+def small_buffer():
+    buffer = coframe.Buffer(None)
+    for second in range(100):
+        buffer.set("map", "base", coframe.Transform([second, 0.0, 0.0]), second * SECOND)
+    return buffer
+
+
+def get(url, path="/", **headers):
+    """Status, headers and body, without what a browser would do to the path."""
+    address = urlsplit(url)
+    connection = http.client.HTTPConnection(address.hostname, address.port, timeout=20)
+    connection.putrequest("GET", path, skip_host="Host" in headers)
+    for name, value in headers.items():
+        connection.putheader(name.replace("_", "-"), value)
+    connection.endheaders()
+    answer = connection.getresponse()
+    body = answer.read()
+    connection.close()
+    return answer.status, answer.headers, body
+
+
+@pytest.fixture
+def page(tmp_path):
+    """A page that is no page, with something beside it that is nobody's business."""
+    folder = tmp_path / "static"
+    (folder / "assets").mkdir(parents=True)
+    (folder / "index.html").write_text("<title>page</title>")
+    (folder / "assets" / "viewer.js").write_text("1")
+    (folder / "assets" / "link.js").symlink_to(tmp_path / "secret.js")
+    (tmp_path / "secret.js").write_text("secret")
+    with ViewerServer(Stage(BufferSource(small_buffer())), port=0, static=folder) as server:
+        yield server.url
+
+
+def test_the_page_comes_with_headers_that_keep_it_in_its_place(page):
+    status, headers, body = get(page)
+    assert (status, body) == (200, b"<title>page</title>")
+    policy = headers["Content-Security-Policy"]
+    assert "default-src 'none'; script-src 'self';" in policy
+    assert "unsafe-eval" not in policy
+    assert "http://127.0.0.1:*" in policy.partition("frame-ancestors")[2], "Jupyter shows it in a frame"
+    assert headers["X-Content-Type-Options"] == "nosniff"
+    status, headers, body = get(page, "/assets/viewer.js")
+    assert (status, headers["Content-Type"], body) == (200, "text/javascript; charset=utf-8", b"1")
+    assert get(page, "/assets/viewer.js", If_None_Match=headers["ETag"])[0] == 304
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["/../secret.js", "/assets/../../secret.js", "/assets/%2e%2e/%2e%2e/secret.js", "/assets/link.js", "//etc/passwd"]
+    + ["/%00", "/" + "a" * 5000, "/assets", "/nothing", "/mesh/", "/mesh/x/../../secret.js", "/rviz"],
+)
+def test_nothing_else_can_be_fetched(page, path):
+    status, _, body = get(page, path)
+    assert status == 404
+    assert b"secret" not in body
+    assert b"root:" not in body
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "evil.example:{port}", "127.0.0.1:1", "", "localhost.evil.example:{port}"]
+)
+def test_names_that_others_made_to_point_here_are_refused(page, host):
+    port = urlsplit(page).port
+    assert get(page, Host=host.format(port=port))[0] == 403
+    assert get(page, Host=f"localhost:{port}")[0] == 200
+
+
+@pytest.mark.parametrize("origin", ["http://evil.example", "https://127.0.0.1:{port}", "http://127.0.0.1:1", "null"])
+def test_pages_of_other_sites_cannot_talk_to_it(page, origin):
+    port = urlsplit(page).port
+    address = page.replace("http", "ws") + "ws"
+    with pytest.raises(InvalidStatus) as refused, connect(address, origin=origin.format(port=port)):
+        pass
+    assert refused.value.response.status_code == 403
+    with connect(address, origin=f"http://127.0.0.1:{port}") as own:
+        assert json.loads(own.recv(20))["type"] == "hello"
+    assert get(page, "/ws")[0] == 426
+
+
+def test_on_all_addresses_any_of_them_is_ours_but_no_strange_name():
+    visitors = Visitors("0.0.0.0", 7676)  # noqa: S104
+    assert visitors.host_is_ours("192.168.1.5:7676")
+    assert visitors.host_is_ours("[::1]:7676")
+    assert not visitors.host_is_ours("evil.example:7676")
+    assert not Visitors("127.0.0.1", 7676).host_is_ours("192.168.1.5:7676")
+
+
+GARBAGE = [
+    "",
+    "nonsense",
+    "[]",
+    "{}",
+    '{"type": 3}',
+    '{"type": "launch"}',
+    '{"type": "fixed"}',
+    '{"type": "fixed", "frame": ["map"]}',
+    '{"type": "time", "mode": "backwards"}',
+    '{"type": "time", "mode": "at", "at": 1e400}',
+    '{"type": "time", "mode": "at", "at": NaN}',
+    '{"type": "time", "mode": "at", "at": 0, "speed": "fast"}',
+    '{"type": "time", "mode": "at", "at": 0, "loop": [1, null]}',
+    '{"type": "time", "mode": "at", "at": ' + "9" * 400 + "}",
+    '{"type": "step"}',
+    '{"type": "subscribe", "id": -1, "topic": "/scan"}',
+    '{"type": "subscribe", "id": 1.5, "topic": "/scan"}',
+    '{"type": "subscribe", "id": 1, "topic": 7, "options": []}',
+    '{"type": "unsubscribe", "id": "one"}',
+    '{"type": "relate", "id": 1, "target": "map"}',
+    '{"type": "timeline", "from": 0, "to": 0, "bins": 10}',
+    '{"type": "timeline", "from": 0, "to": 1, "bins": 1e9}',
+    '{"type": "joints", "robot": 0, "positions": {"a": 1}, "publish": true}',
+    '{"type": "load_rviz", "text": "a: [b"}',
+    '{"type": "save_rviz", "displays": {}}',
+    "[" * 100_000,
+    b"\x00\x01\x02\x03",
+]
+
+
+def test_garbage_is_answered_and_survived(view, open_tab):
+    viewer = view(small_buffer())
+    tab = open_tab(viewer)
+    for garbage in GARBAGE:
+        tab.socket.send(garbage)
+        assert tab.wait("problem")["text"], garbage
+    tab.send("subscribe", id=1, topic="/no_such_topic")
+    assert tab.wait("display") == {
+        "type": "display",
+        "id": 1,
+        "state": "waiting",
+        "text": "nobody publishes /no_such_topic",
+    }
+    assert tab.tick().time is not None
+    with pytest.raises(ConnectionClosed):
+        tab.socket.send("x" * (2 << 20))
+        while True:
+            tab.read()
+    assert open_tab(viewer).tick().revision == 1
+
+
+def test_raw_bytes_on_the_port_are_survived(view, open_tab):
+    viewer = view(small_buffer())
+    address = urlsplit(viewer.url)
+    for data in (
+        b"",
+        b"\x00" * 1000,
+        b"GET / HTTP/1.1\r\n" * 3000,
+        b"POST / HTTP/1.1\r\nContent-Length: 9999999999\r\n\r\n",
+    ):
+        with socket.create_connection((address.hostname, address.port), timeout=20) as stranger:
+            stranger.sendall(data)
+    assert open_tab(viewer).tick().revision == 1
+
+
+def test_a_stuck_tab_costs_nothing_and_the_others_go_on(view, open_tab):
+    """One that neither reads nor draws, one that asks and says that it draws but reads nothing; beside a good one."""
+    buffer = coframe.Buffer(None)
+    for frame in range(1000):
+        buffer.set("map", f"f{frame}", coframe.Transform([frame, 0.0, 0.0]), SECOND)
+        buffer.set("map", f"f{frame}", coframe.Transform([frame, 1.0, 0.0]), 100 * SECOND)
+    viewer = view(buffer)
+    stuck = open_tab(viewer)
+    stuck.socket.recv(20)
+    asking = open_tab(viewer)
+    relate = json.dumps({"type": "relate", "id": 1, "target": "f1", "source": "f2"})
+    ended = threading.Event()
+
+    def ask():
+        try:
+            while not ended.wait(0.005):
+                for _ in range(20):
+                    asking.socket.send(relate)
+                asking.send("ready")
+        except (ConnectionClosed, OSError):
+            pass
+
+    asker = threading.Thread(target=ask, daemon=True)
+    asker.start()
+    good = open_tab(viewer)
+    good.tick()
+    good.send("time", mode="at", at=2 * SECOND - int(good.last["hello"]["origin"]), playing=True, speed=1.0)
+    memory = []
+    for _ in range(4):
+        begin = time.monotonic()
+        ticks = 0
+        while time.monotonic() < begin + 1.0:
+            ticks += good.read()[0] == "tick"
+        memory.append(resident_bytes())
+        assert ticks >= 5  # of thirty, where nobody else uses the machine
+    ended.set()
+    for tab in (asking, stuck):  # a closing handshake would be in vain
+        tab.socket.socket.shutdown(socket.SHUT_RDWR)
+    asker.join(20)
+    # A tick is 28 kB: thirty a second for three seconds would be 2.5 MB, and the questions much more.
+    assert memory[-1] - memory[0] < 1_500_000
+
+
+def resident_bytes():
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4096 if sys.platform == "linux" else 0
+
+
+def test_ticks_wait_until_the_last_one_is_drawn(view, open_tab):
+    buffer = small_buffer()
+    tab = open_tab(view(buffer))
+    tab.tick()
+    with pytest.raises(TimeoutError):  # `ready` was sent: one more comes, and is not said to be drawn
+        while True:
+            message = tab.socket.recv(1.2)
+            assert not isinstance(message, str) or "tick" not in message
+            buffer.set("map", "base", coframe.Transform(), 200 * SECOND + time.time_ns())
+
+
+def test_it_ends_with_all_of_its_threads(open_tab):
+    before = set(threading.enumerate())
+    viewer = coframe.show(small_buffer(), port=0)
+    tab = open_tab(viewer)
+    tab.tick()
+    url = viewer.url
+    viewer.close()
+    viewer.close()
+    with pytest.raises(ConnectionClosed):
+        while True:
+            tab.read()
+    ours = [thread for thread in set(threading.enumerate()) - before if thread.name.startswith("coframe")]
+    assert not ours
+    with pytest.raises(OSError):
+        get(url)
+
+
+def test_a_port_that_is_taken_is_a_sentence_and_the_usual_one_gives_way(view):
+    viewer = view(small_buffer())
+    port = urlsplit(viewer.url).port
+    with pytest.raises(coframe.ViewerError, match=f"cannot listen on 127.0.0.1:{port}") as error:
+        coframe.show(small_buffer(), port=port)
+    assert "--port" in error.value.hint
+    with coframe.show(small_buffer()) as first, coframe.show(small_buffer()) as second:
+        assert first.url != second.url
+        assert get(second.url)[0] == 200
+
+
+def test_it_shows_itself_in_a_notebook(view):
+    viewer = view(small_buffer())
+    assert f'<iframe src="{viewer.url}"' in viewer._repr_html_()
+    with pytest.raises(TypeError, match=r"coframe\.Buffer"):
+        coframe.show(3)
+
+
+def test_what_is_missing_is_one_sentence_and_importing_stays_cheap():
+    code = """
+import sys
+class Missing:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in {"websockets", "yaml"}:
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+sys.meta_path.insert(0, Missing())
+import coframe
+assert not [name for name in sys.modules if name.startswith(("coframe.viewer", "coframe.robots", "asyncio"))]
+for options in ({}, {"rviz": sys.argv[1]}):
+    try:
+        coframe.show(coframe.Buffer(), **options)
+    except coframe.ViewerError as error:
+        print(error)
+"""
+    result = subprocess.run([sys.executable, "-c", code, __file__], capture_output=True, text=True, check=False)
+    assert result.stderr == ""
+    assert result.stdout.splitlines() == [
+        "the viewer needs the package websockets: pip install 'coframe[viewer]'",
+        "RViz's files need the package PyYAML: pip install 'coframe[viewer]'",
+    ]
+
+
+def test_numbers_that_are_none_pass_as_data(view, open_tab):
+    """A pose that cannot be told is NaN on the wire, and hurts nobody."""
+    buffer = coframe.Buffer(None)
+    buffer.set("map", "late", coframe.Transform(), 100 * SECOND)
+    buffer.set("map", "huge", coframe.Transform([1e300, 0.0, 0.0]), 100 * SECOND)
+    tab = open_tab(view(buffer, fixed="map"))
+    tick = tab.tick()
+    assert np.isinf(tab.world(tick, "huge")[0]) or tab.world(tick, "huge")[0] > 1e290
+    tab.send("time", mode="at", at=SECOND - int(tab.last["hello"]["origin"]))
+    tick = tab.tick(lambda tick: tick.time < 0)
+    assert tab.state(tick, "late") == 2
+    assert np.isnan(tab.world(tick, "late")).all()

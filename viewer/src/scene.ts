@@ -1,0 +1,84 @@
+/** The canvas: renderer, light, and a picture only when something changed. */
+
+import * as THREE from "three";
+import { Camera } from "./camera";
+import type { Palette } from "./theme";
+
+const FPS_WINDOW_MS = 1000;
+
+export class Stage {
+  readonly scene = new THREE.Scene();
+  readonly camera: Camera;
+  readonly renderer: THREE.WebGLRenderer;
+  width = 1;
+  height = 1;
+  private requested = false;
+  private readonly drawn: number[] = [];
+  private readonly light = new THREE.DirectionalLight(0xffffff, 1.6);
+
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    palette: Palette,
+    private readonly beforeDraw: () => void,
+    private readonly afterDraw: () => void,
+  ) {
+    THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
+    // The drawing stays readable for a PNG only right after it: see `picture`.
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    this.camera = new Camera(canvas, () => this.invalidate());
+    this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f96, 1.7), this.light, this.light.target);
+    this.setPalette(palette);
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement as HTMLElement);
+    canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+    canvas.addEventListener("webglcontextrestored", () => this.invalidate());
+    this.resize();
+  }
+
+  get fps(): number {
+    const now = performance.now();
+    while (this.drawn.length && now - (this.drawn[0] as number) > FPS_WINDOW_MS) this.drawn.shift();
+    return this.drawn.length;
+  }
+
+  setPalette(palette: Palette): void {
+    this.scene.background = new THREE.Color(palette.background);
+    this.invalidate();
+  }
+
+  /** Asks for a new picture; several askers get one. */
+  invalidate(): void {
+    if (this.requested) return;
+    this.requested = true;
+    requestAnimationFrame(() => {
+      this.requested = false;
+      this.draw();
+    });
+  }
+
+  picture(): Promise<Blob> {
+    this.draw();
+    return new Promise((resolve, reject) =>
+      this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/png"),
+    );
+  }
+
+  private draw(): void {
+    this.beforeDraw();
+    const camera = this.camera.current;
+    this.light.position.copy(camera.position).add(new THREE.Vector3(1, 1, 3));
+    this.light.target.position.copy(this.camera.target);
+    this.renderer.render(this.scene, camera);
+    this.drawn.push(performance.now());
+    this.afterDraw();
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.canvas.parentElement as HTMLElement;
+    this.width = Math.max(1, clientWidth);
+    this.height = Math.max(1, clientHeight);
+    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
+    this.renderer.setSize(this.width, this.height, false);
+    this.camera.resize(this.width, this.height);
+    this.invalidate();
+  }
+}

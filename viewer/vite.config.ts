@@ -1,0 +1,73 @@
+import { createHash } from "node:crypto";
+import type { Plugin } from "vite";
+import { defineConfig } from "vitest/config";
+
+/** Puts the script and the style into the page itself, so that a replay is one file that opens from disk. */
+function oneFile(): Plugin {
+  return {
+    name: "one-file",
+    enforce: "post",
+    generateBundle(_options, bundle) {
+      const page = bundle["index.html"];
+      if (page?.type !== "asset") throw new Error("the build made no index.html");
+      let html = String(page.source);
+      for (const [name, part] of Object.entries(bundle)) {
+        if (part.type === "chunk") {
+          // `</script` would end the element early; the escape means the same to JavaScript's strings.
+          const code = part.code.replaceAll("</script", "<\\/script");
+          const hash = createHash("sha256").update(code).digest("base64");
+          html = html
+            .replace(/<script type="module"[^>]*><\/script>/, "")
+            .replace("%SCRIPT_HASH%", () => `sha256-${hash}`)
+            .replace("</body>", () => `<script type="module">${code}</script></body>`);
+        } else if (name.endsWith(".css")) {
+          html = html.replace(/<link rel="stylesheet"[^>]*>/, () => `<style>${String(part.source)}</style>`);
+        } else continue;
+        delete bundle[name];
+      }
+      page.source = html;
+      page.fileName = "replay.html";
+    },
+  };
+}
+
+const REPLAY_HEAD =
+  `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src '%SCRIPT_HASH%'; ` +
+  `style-src 'unsafe-inline'; img-src data: blob:; connect-src data: blob:">`;
+
+/** What tells a replay from the live page: it may reach nothing at all, and it has a place for the recording. */
+function replayPage(): Plugin {
+  return {
+    name: "replay-page",
+    transformIndexHtml: (html) =>
+      html
+        .replace("<head>", `<head>\n    ${REPLAY_HEAD}`)
+        .replace("</body>", `  <script type="application/json" id="replay">null</script>\n  </body>`),
+  };
+}
+
+export default defineConfig(({ mode }) => {
+  const replay = mode === "replay";
+  return {
+    base: "./",
+    publicDir: false,
+    plugins: replay ? [replayPage(), oneFile()] : [],
+    build: {
+      outDir: "../src/coframe/viewer/static",
+      emptyOutDir: !replay,
+      target: "es2022",
+      modulePreload: false,
+      cssCodeSplit: false,
+      chunkSizeWarningLimit: 2000,
+      // Fixed names: a rebuild gives the same files, and the server answers with an ETag.
+      rollupOptions: {
+        output: {
+          codeSplitting: false,
+          entryFileNames: "assets/viewer.js",
+          assetFileNames: "assets/viewer[extname]",
+        },
+      },
+    },
+    test: { include: ["test/**/*.test.ts"] },
+  };
+});
