@@ -11,6 +11,8 @@ import type { Palette } from "./theme";
 
 /** RViz draws a frame with axes of 0.2 m at Marker Scale 1. */
 export const AXIS_M = 0.2;
+/** From here on axes have four sides and no ends: a fifth of the corners, for computers that draw without a graphics card. */
+const MANY = 200;
 
 export interface FrameOptions {
   scale: number;
@@ -31,7 +33,7 @@ export class FramesView {
 
   constructor(palette: Palette) {
     this.palette = palette;
-    this.axes = new THREE.InstancedMesh(axesGeometry(palette), this.material, 0);
+    this.axes = new THREE.InstancedMesh(new THREE.BufferGeometry(), this.material, 0);
     this.axes.frustumCulled = false;
     this.edges = new THREE.LineSegments(
       new THREE.BufferGeometry(),
@@ -48,9 +50,7 @@ export class FramesView {
 
   setPalette(palette: Palette): void {
     this.palette = palette;
-    this.axes.geometry.dispose();
-    this.axes.geometry = axesGeometry(palette);
-    this.axes.geometry.setAttribute("fade", this.fade);
+    this.rebuildAxes();
     (this.material.uniforms.background as THREE.IUniform<THREE.Vector3>).value = displayed(palette.background);
     this.chainMaterial.color.set(palette.chain);
     this.edges.geometry.deleteAttribute("position");
@@ -93,12 +93,18 @@ export class FramesView {
     this.axes.instanceMatrix.needsUpdate = true;
   }
 
+  private rebuildAxes(): void {
+    this.axes.geometry.dispose();
+    this.axes.geometry = axesGeometry(this.palette, undefined, this.axesCapacity > MANY);
+    this.axes.geometry.setAttribute("fade", this.fade);
+  }
+
   private reserve(count: number): void {
     this.axesCapacity = Math.ceil(count * 1.25) + 16;
     this.axes.dispose();
     this.axes.instanceMatrix = new THREE.InstancedBufferAttribute(new Float32Array(this.axesCapacity * 16), 16);
     this.fade = new THREE.InstancedBufferAttribute(new Float32Array(this.axesCapacity), 1);
-    this.axes.geometry.setAttribute("fade", this.fade);
+    this.rebuildAxes();
   }
 
   private updateEdges(placement: Placement, forest: Forest, options: FrameOptions): void {
@@ -157,9 +163,9 @@ function writeMatrix(out: Float32Array, o: number, placement: Placement, i: numb
 }
 
 /** Three cylinders of length 1, coloured, as one geometry. */
-export function axesGeometry(palette: Palette, radius = 0.055): THREE.BufferGeometry {
+export function axesGeometry(palette: Palette, radius = 0.055, plain = false): THREE.BufferGeometry {
   const parts = palette.axes.map((colour, axis) => {
-    const part = new THREE.CylinderGeometry(radius, radius, 1, 8);
+    const part = new THREE.CylinderGeometry(radius, radius, 1, plain ? 4 : 8, 1, plain);
     part.translate(0, 0.5, 0);
     if (axis === 0) part.rotateZ(-Math.PI / 2);
     if (axis === 2) part.rotateX(Math.PI / 2);

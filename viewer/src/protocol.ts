@@ -19,6 +19,7 @@ export interface RvizDisplay {
   class: string;
   name: string;
   enabled: boolean;
+  topic?: string | null;
   options: JsonObject;
 }
 
@@ -173,6 +174,7 @@ export type ClientMessage =
   | { type: "joints"; robot: string | number; positions: Record<string, number>; publish: boolean }
   | { type: "load_rviz"; text: string }
   | { type: "save_rviz"; displays: RvizDisplay[]; global: JsonObject; view: JsonObject }
+  | { type: "frame_timeout"; seconds: number }
   | { type: "ready"; drawn: number | null };
 
 export const FrameState = { ok: 0, stale: 1, gone: 2, otherTree: 3 } as const;
@@ -227,30 +229,30 @@ export interface MarkerItem {
   ns: string;
   id: number;
   type: number;
-  action: number;
   pose: number[];
   scale: Vector;
-  rgba: [number, number, number, number];
-  frame: string;
-  frame_locked: boolean;
+  rgba: (number | null)[];
   text: string;
+  /** Where the mesh is served, and as the marker named it. */
   mesh: string | null;
-  /** [offset, count] into the payload's floats: count points of 3, count colours of 4. */
+  mesh_name?: string;
+  mesh_problem?: string | null;
+  use_materials?: boolean;
   points: [number, number] | null;
   colors: [number, number] | null;
 }
 
-/** Offsets are [offset in floats, number of elements]; a pose is 7 floats, a point 3, a colour 4. */
+/** Pairs are [offset in floats, number of rows] in the payload: a pose is a row of 7 floats, a point of 3, a colour of 4. */
 export type ShapesHead =
   | { kind: "poses"; frame: string; stamp: number; poses: [number, number] }
   | { kind: "path"; frame: string; stamp: number; poses: [number, number] }
-  | { kind: "odometry"; frame: string; stamp: number; poses: [number, number]; child_frame?: string }
+  | { kind: "odometry"; frame: string; stamp: number; poses: [number, number] }
   | { kind: "markers"; frame: string; stamp: number; items: MarkerItem[] }
   | {
       kind: "range";
       frame: string;
       stamp: number;
-      range: number;
+      range: number | null;
       min_range: number;
       max_range: number;
       field_of_view: number;
@@ -395,11 +397,10 @@ function decodeShapes(reader: Reader): Shapes {
   return { kind: "shapes", id, sequence, head, payload: reader.floats(Math.floor(reader.rest() / 4)) };
 }
 
-/** Part of a payload, or nothing where the offsets point outside of it. */
+/** Rows of a payload, or none where the pair points outside of it. */
 export function slice(payload: Float32Array, at: [number, number] | null | undefined, width: number): Float32Array {
-  if (!at) return new Float32Array(0);
-  const [offset, count] = at;
-  const end = offset + count * width;
-  if (!(offset >= 0 && count >= 0 && end <= payload.length)) return new Float32Array(0);
+  const [offset, rows] = at ?? [0, 0];
+  const end = offset + rows * width;
+  if (!(offset >= 0 && rows >= 0 && end <= payload.length)) return new Float32Array(0);
   return payload.subarray(offset, end);
 }

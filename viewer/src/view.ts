@@ -12,6 +12,7 @@ import type { Theme } from "./theme";
 
 const PICK_PX = 18;
 const CLICK_PX = 5;
+const FIT_AGAIN_MS = 1500;
 
 export interface TfOptions extends FrameOptions {
   names: boolean;
@@ -31,8 +32,10 @@ export class View {
   private pending: Tick | null = null;
   private stale = true;
   private fitted = false;
+  private readonly bounds: (() => THREE.Box3)[] = [];
   private chain: number[] = [];
   private readonly placed: ((placement: Placement, tick: Tick) => void)[] = [];
+  private readonly taken: ((tick: Tick) => void)[] = [];
   private readonly finished: ((tick: Tick | null) => void)[] = [];
 
   constructor(
@@ -73,6 +76,11 @@ export class View {
     this.placed.push(listener);
   }
 
+  /** Called when a tick is about to be drawn: the server may make the next one meanwhile. */
+  onTaken(listener: (tick: Tick) => void): void {
+    this.taken.push(listener);
+  }
+
   /** Called after each picture, with the tick that it showed first, if it did. */
   onDrawn(listener: (tick: Tick | null) => void): void {
     this.finished.push(listener);
@@ -90,7 +98,13 @@ export class View {
     const { positions, drawn, count } = this.placement;
     const point = new THREE.Vector3();
     for (let i = 0; i < count; i++) if (drawn[i]) box.expandByPoint(point.fromArray(positions, i * 3));
+    for (const bounds of this.bounds) box.union(bounds());
     if (!box.isEmpty()) this.stage.camera.fit(box.expandByScalar(0.1));
+  }
+
+  /** Others whose things are to be seen when everything is looked at. */
+  onFit(bounds: () => THREE.Box3): void {
+    this.bounds.push(bounds);
   }
 
   /** The camera was set by somebody: do not move it when the first frames come. */
@@ -112,6 +126,7 @@ export class View {
 
   private prepare(): void {
     const { model, placement } = this;
+    if (this.pending) for (const listener of this.taken) listener(this.pending);
     if (!this.stale || !model.tick) return;
     this.stale = false;
     const moved = placement.update(model, model.tick, performance.now());
@@ -127,8 +142,21 @@ export class View {
     if (!this.fitted && placement.drawn.includes(1)) {
       this.fitted = true;
       this.fit();
+      this.fitAgain();
     }
     for (const listener of this.placed) listener(placement, model.tick);
+  }
+
+  /** Data comes a moment after the frames: look at that too, if nobody has touched the camera since. */
+  private fitAgain(): void {
+    const { canvas, camera } = this.stage;
+    const before = camera.current.position.clone();
+    let touched = false;
+    for (const event of ["pointerdown", "wheel"] as const)
+      canvas.addEventListener(event, () => (touched = true), { once: true, passive: true });
+    setTimeout(() => {
+      if (!touched && before.equals(camera.current.position)) this.fit();
+    }, FIT_AGAIN_MS);
   }
 
   private finish(): void {

@@ -1,0 +1,184 @@
+/** LaserScan and PointCloud2: points, coloured on the graphics card. */
+
+import * as THREE from "three";
+import { displayed } from "../frames";
+import type { Cloud, SubscribeOptions } from "../protocol";
+import { MessageDisplay } from "./display";
+import type { OptionSpec } from "./options";
+
+const TRANSFORMERS = ["Intensity", "AxisColor", "RGB8", "FlatColor", "Distance"] as const;
+const MODES: Record<string, SubscribeOptions["color_by"]> = {
+  Intensity: "intensity",
+  AxisColor: "axis",
+  RGB8: "rgb",
+  FlatColor: "flat",
+  Distance: "distance",
+};
+const SAMPLES = 4096;
+
+export function cloudSpecs(size: number, colourBy: (typeof TRANSFORMERS)[number]): readonly OptionSpec[] {
+  return [
+    { key: "Color Transformer", label: "Colour by", kind: "choice", value: colourBy, choices: TRANSFORMERS },
+    { key: "Axis", kind: "choice", value: "Z", choices: ["X", "Y", "Z"] },
+    { key: "Color", label: "Flat colour", kind: "colour", value: "#ff5a36" },
+    { key: "Style", kind: "choice", value: "Points", choices: ["Points", "Flat Squares", "Spheres", "Boxes", "Squares"] },
+    { key: "Size (Pixels)", kind: "number", value: 3, min: 1, max: 40, step: 1 },
+    { key: "Size (m)", kind: "number", value: size, min: 0.001, max: 10, step: 0.01 },
+    { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
+    { key: "Decay Time", kind: "number", value: 0, min: 0, max: 3600, step: 0.5, unit: "s" },
+  ];
+}
+
+export class CloudDisplay extends MessageDisplay<Cloud> {
+  override subscription(): SubscribeOptions {
+    return {
+      color_by: MODES[this.options.choice("Color Transformer")] ?? "flat",
+      axis: this.options.choice("Axis").toLowerCase() as "x" | "y" | "z",
+      decay: this.options.number("Decay Time"),
+    };
+  }
+
+  protected build(message: Cloud): THREE.Object3D {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(message.points, 3));
+    const mode = this.mode(message);
+    if (mode === "rgb" && message.rgba) geometry.setAttribute("rgba", new THREE.BufferAttribute(message.rgba, 4, true));
+    if (mode === "scalar" && message.scalar)
+      geometry.setAttribute("scalar", new THREE.BufferAttribute(message.scalar, 1));
+    const points = new THREE.Points(geometry, this.material(mode, message));
+    points.frustumCulled = false;
+    return points;
+  }
+
+  protected override describe(message: Cloud): Record<string, unknown> {
+    return { points: message.count, first: Array.from(message.points.subarray(0, 3 * 1024)) };
+  }
+
+  private mode(message: Cloud): "rgb" | "scalar" | "axis" | "flat" {
+    const wanted = this.options.choice("Color Transformer");
+    if (wanted === "RGB8" && message.rgba) return "rgb";
+    if (wanted === "AxisColor") return "axis";
+    if ((wanted === "Intensity" || wanted === "Distance") && message.scalar) return "scalar";
+    return "flat";
+  }
+
+  private material(mode: "rgb" | "scalar" | "axis" | "flat", message: Cloud): THREE.ShaderMaterial {
+    const alpha = this.options.number("Alpha");
+    const style = this.options.choice("Style");
+    const material = new THREE.ShaderMaterial({
+      transparent: alpha < 1,
+      depthWrite: alpha >= 0.5,
+      defines: {
+        [`BY_${mode.toUpperCase()}`]: 1,
+        ...(style === "Points" ? {} : { IN_METRES: 1 }),
+        ...(style === "Spheres" ? { ROUND: 1 } : {}),
+        ...(this.context.distinct() ? { DISTINCT: 1 } : {}),
+      },
+      uniforms: {
+        alpha: { value: alpha },
+        flatColour: { value: displayed(this.options.colour("Color")) },
+        axis: { value: "XYZ".indexOf(this.options.choice("Axis")) },
+        range: { value: new THREE.Vector2(...message.range) },
+        size: { value: this.options.number(style === "Points" ? "Size (Pixels)" : "Size (m)") },
+        height: { value: 1 },
+      },
+      vertexShader: VERTEX,
+      fragmentShader: FRAGMENT,
+    });
+    material.onBeforeRender = (renderer): void => {
+      const height = style === "Points" ? renderer.getPixelRatio() : renderer.domElement.height;
+      (material.uniforms.height as THREE.IUniform<number>).value = height;
+      material.uniformsNeedUpdate = true;
+    };
+    return material;
+  }
+
+  protected override placed(object: THREE.Object3D, message: Cloud): void {
+    if (this.mode(message) !== "axis" || object.userData.ranged === this.context.model.fixed) return;
+    object.userData.ranged = this.context.model.fixed;
+    object.updateMatrixWorld();
+    const axis = "XYZ".indexOf(this.options.choice("Axis"));
+    const material = (object as THREE.Points).material as THREE.ShaderMaterial;
+    const range = material.uniforms.range as THREE.IUniform<THREE.Vector2>;
+    range.value.set(...axisRange(message, object.matrixWorld, axis));
+  }
+}
+
+/** The lowest and highest along an axis of the scene, from a sample of the points. */
+function axisRange(message: Cloud, pose: THREE.Matrix4, axis: number): [number, number] {
+  const step = Math.max(1, Math.floor(message.count / SAMPLES));
+  const e = pose.elements;
+  let low = Infinity;
+  let high = -Infinity;
+  for (let i = 0; i < message.count; i += step) {
+    const [x, y, z] = message.points.subarray(i * 3, i * 3 + 3) as unknown as [number, number, number];
+    const value =
+      (e[axis] as number) * x + (e[4 + axis] as number) * y + (e[8 + axis] as number) * z + (e[12 + axis] as number);
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
+  // A flat scan has one height: one colour in the middle of the scale rather than noise.
+  return high - low > 1e-3 ? [low, high] : [low - 0.5, low + 0.5];
+}
+
+const VERTEX = `
+  uniform float size, height;
+  uniform vec2 range;
+  uniform int axis;
+  uniform vec3 flatColour;
+  #ifdef BY_RGB
+    attribute vec4 rgba;
+  #endif
+  #ifdef BY_SCALAR
+    attribute float scalar;
+  #endif
+  varying vec3 shown;
+
+  // Polynomial fits: Turbo (A. Mikhailov) for all colours, a blue-to-yellow scale for eyes that lack some.
+  vec3 scale(float t) {
+    t = clamp(t, 0.0, 1.0);
+    #ifdef DISTINCT
+      return mix(mix(vec3(0.13, 0.35, 0.72), vec3(0.62, 0.62, 0.6), smoothstep(0.0, 0.55, t)), vec3(0.99, 0.91, 0.2), smoothstep(0.45, 1.0, t));
+    #else
+      const vec4 r4 = vec4(0.13572138, 4.61539260, -42.66032258, 132.13108234);
+      const vec4 g4 = vec4(0.09140261, 2.19418839, 4.84296658, -14.18503333);
+      const vec4 b4 = vec4(0.10667330, 12.64194608, -60.58204836, 110.36276771);
+      const vec2 r2 = vec2(-152.94239396, 59.28637943);
+      const vec2 g2 = vec2(4.27729857, 2.82956604);
+      const vec2 b2 = vec2(-89.90310912, 27.34824973);
+      vec4 v4 = vec4(1.0, t, t * t, t * t * t);
+      vec2 v2 = v4.zw * v4.z;
+      return vec3(dot(v4, r4) + dot(v2, r2), dot(v4, g4) + dot(v2, g2), dot(v4, b4) + dot(v2, b2));
+    #endif
+  }
+
+  void main() {
+    vec4 world = modelMatrix * vec4(position, 1.0);
+    vec4 seen = viewMatrix * world;
+    gl_Position = projectionMatrix * seen;
+    float spread = max(range.y - range.x, 1e-6);
+    #if defined(BY_RGB)
+      shown = rgba.rgb;
+    #elif defined(BY_SCALAR)
+      shown = scale((scalar - range.x) / spread);
+    #elif defined(BY_AXIS)
+      shown = scale((world[axis] - range.x) / spread);
+    #else
+      shown = flatColour;
+    #endif
+    #ifdef IN_METRES
+      gl_PointSize = max(1.5, 0.5 * size * height * projectionMatrix[1][1] / max(gl_Position.w, 1e-3));
+    #else
+      gl_PointSize = size * height;
+    #endif
+  }`;
+
+const FRAGMENT = `
+  uniform float alpha;
+  varying vec3 shown;
+  void main() {
+    #ifdef ROUND
+      if (length(gl_PointCoord - 0.5) > 0.5) discard;
+    #endif
+    gl_FragColor = vec4(shown, alpha);
+  }`;

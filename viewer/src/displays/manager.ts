@@ -1,0 +1,270 @@
+/** The list of displays: made from an .rviz file, from what was shown last time, or from what there is to see. */
+
+import * as THREE from "three";
+import { Meshes } from "../meshes";
+import type { DisplayMessage, Robot, RvizConfig, RvizDisplay, Topic } from "../protocol";
+import { remember, remembered } from "../storage";
+import type { Theme } from "../theme";
+import type { View } from "../view";
+import type { Model } from "../model";
+import { MessageDisplay, type Context, type Display, type DisplayConfig } from "./display";
+import { KINDS, kindName } from "./registry";
+import { RobotDisplay } from "./robot";
+import { TfDisplay } from "./tf";
+
+const MOST_AT_FIRST = 8;
+
+export class Displays {
+  list: Display[] = [];
+  private readonly meshes = new Meshes();
+  private readonly context: Context;
+  private readonly listeners: (() => void)[] = [];
+  private readonly offered = new Set<string>();
+  private nextId = 1;
+  /** Until the user or a file decides, new topics are shown by themselves. */
+  private automatic = true;
+  private started = false;
+
+  constructor(
+    private readonly model: Model,
+    private readonly view: View,
+    theme: Theme,
+  ) {
+    this.context = {
+      model,
+      palette: () => theme.palette(),
+      distinct: () => theme.distinct,
+      height: () => view.stage.height,
+      redraw: () => view.refresh(),
+    };
+    model.on("hello", (hello) => this.start(hello.rviz));
+    model.on("topics", (topics) => this.offer(topics));
+    model.on("robot", (robot) => this.setRobot(robot));
+    model.on("message", (message) => this.receive(message));
+    model.on("display", ({ id, state, text }) => this.tell(id, state, text));
+    model.on("connected", (connected) => {
+      if (!connected) return;
+      for (const display of this.list) this.subscribe(display);
+      this.sendTimeout();
+    });
+    view.onPlaced((placement, tick) => {
+      for (const display of this.list) if (display.config.enabled) display.place(placement, tick);
+    });
+    view.onFit(() => {
+      const box = new THREE.Box3();
+      for (const display of this.list) if (display.config.enabled) box.union(display.bounds());
+      return box;
+    });
+    theme.onChange(() => {
+      for (const display of this.list) display.restyle();
+    });
+  }
+
+  onChange(listener: () => void): void {
+    this.listeners.push(listener);
+  }
+
+  get robots(): RobotDisplay[] {
+    return this.list.filter((display) => display instanceof RobotDisplay);
+  }
+
+  /** Adds what the user asked for. */
+  add(className: string, topic: string | null, name = kindName(className)): void {
+    this.automatic = false;
+    this.create({ class: className, name: this.freeName(name), enabled: true, topic, options: {} });
+    this.changed();
+  }
+
+  remove(display: Display): void {
+    this.automatic = false;
+    this.discard(display);
+    this.list = this.list.filter((other) => other !== display);
+    this.changed();
+  }
+
+  setEnabled(display: Display, enabled: boolean): void {
+    display.config.enabled = enabled;
+    display.object.visible = enabled;
+    if (display instanceof MessageDisplay) {
+      if (enabled) this.subscribe(display);
+      else {
+        this.model.send({ type: "unsubscribe", id: display.id });
+        display.clear();
+      }
+    }
+    this.changed();
+  }
+
+  /** An option was changed in the panel; its value stands in the display's config. */
+  optionChanged(display: Display): void {
+    if (display instanceof MessageDisplay) this.resubscribeIfNeeded(display);
+    display.restyle();
+    this.changed();
+  }
+
+  /** Replaces all displays by a file's. */
+  apply(rviz: RvizConfig): void {
+    this.automatic = false;
+    for (const display of this.list) this.discard(display);
+    this.list = [];
+    for (const display of rviz.displays) this.create({ ...display, topic: display.topic ?? null });
+    for (const robot of this.model.robots.values()) this.giveRobot(robot);
+    this.changed();
+  }
+
+  /** As an .rviz file has them. */
+  save(): RvizDisplay[] {
+    return this.list.map(({ config }) => ({ ...config }));
+  }
+
+  private start(rviz: RvizConfig | null): void {
+    if (this.started) return;
+    this.started = true;
+    const last = remembered<DisplayConfig[]>("displays", []);
+    if (rviz) this.apply(rviz);
+    else if (Array.isArray(last) && last.length > 0 && last.every(isConfig)) {
+      this.automatic = false;
+      for (const config of last) this.create(config);
+      this.changed();
+    } else {
+      this.create({ class: "Grid", name: "Grid", enabled: true, topic: null, options: {} });
+      this.create({ class: "TF", name: "TF", enabled: true, topic: null, options: {} });
+      this.changed();
+    }
+    this.offer(this.model.topics);
+  }
+
+  private offer(topics: Topic[]): void {
+    if (!this.automatic || !this.started) return;
+    for (const { topic, display } of topics) {
+      const shown = this.list.filter((other) => other instanceof MessageDisplay).length;
+      if (this.offered.has(topic) || !KINDS[display]?.topic || shown >= MOST_AT_FIRST) continue;
+      this.offered.add(topic);
+      this.create({ class: display, name: this.freeName(display), enabled: true, topic, options: {} });
+    }
+    this.tellListeners();
+  }
+
+  private setRobot(robot: Robot): void {
+    this.giveRobot(robot);
+    this.tellListeners();
+    this.view.refresh();
+  }
+
+  /** The robot goes to the display that shows it, waits for it, or is made for it. */
+  private giveRobot(robot: Robot): void {
+    const wanted = (display: RobotDisplay): string | null => display.config.topic;
+    const display =
+      this.robots.find((other) => other.robot?.id === robot.id) ??
+      this.robots.find((other) => !other.robot && (!wanted(other) || wanted(other) === robot.description_topic)) ??
+      this.robots.find((other) => !other.robot);
+    if (display) display.setRobot(robot);
+    else {
+      const config = { class: "RobotModel", name: this.freeName("RobotModel"), enabled: true, options: {} };
+      const made = this.create({ ...config, topic: robot.description_topic });
+      if (made instanceof RobotDisplay) made.setRobot(robot);
+    }
+  }
+
+  private create(config: DisplayConfig): Display | null {
+    const kind = KINDS[kindName(config.class)];
+    if (!kind) return null;
+    const id = this.nextId++;
+    const display = kind.make(id, { ...config, options: { ...config.options } }, kind.specs, this.context, this.meshes);
+    if (kind.topic && !config.topic) display.status = { state: "waiting", text: "No topic is chosen" };
+    this.list.push(display);
+    this.view.stage.scene.add(display.object);
+    if (!(display instanceof RobotDisplay)) display.restyle();
+    this.subscribe(display);
+    return display;
+  }
+
+  private discard(display: Display): void {
+    if (display instanceof MessageDisplay) this.model.send({ type: "unsubscribe", id: display.id });
+    display.dispose();
+  }
+
+  private readonly subscriptions = new Map<number, string>();
+
+  private subscribe(display: Display): void {
+    if (!(display instanceof MessageDisplay) || !display.config.topic || !display.config.enabled) return;
+    const options = display.subscription();
+    this.subscriptions.set(display.id, JSON.stringify(options));
+    display.clear();
+    const { topic } = display.config;
+    this.model.send({ type: "subscribe", id: display.id, topic, display: kindName(display.config.class), options });
+  }
+
+  private resubscribeIfNeeded(display: MessageDisplay): void {
+    if (this.subscriptions.get(display.id) === JSON.stringify(display.subscription())) return;
+    this.model.send({ type: "unsubscribe", id: display.id });
+    this.subscribe(display);
+  }
+
+  private receive(message: DisplayMessage): void {
+    const display = this.list.find((other) => other.id === message.id);
+    if (display instanceof MessageDisplay) display.receive(message);
+  }
+
+  private tell(id: number, state: Display["status"]["state"], text: string): void {
+    const display = this.list.find((other) => other.id === id);
+    if (!display) return;
+    display.status = { state, text };
+    this.tellListeners();
+  }
+
+  private changed(): void {
+    if (!this.automatic) remember("displays", this.save());
+    this.applyTf();
+    this.view.refresh();
+    this.tellListeners();
+  }
+
+  /** The TF display says how the frames are drawn. */
+  private applyTf(): void {
+    const tf = this.list.find((display) => display instanceof TfDisplay);
+    this.view.tfShown = tf?.config.enabled ?? false;
+    if (!tf) return;
+    const { options } = tf;
+    this.view.tf = {
+      scale: options.number("Marker Scale"),
+      axes: options.flag("Show Axes"),
+      arrows: options.flag("Show Arrows"),
+      names: options.flag("Show Names"),
+    };
+    this.view.placement.frameTimeout = options.number("Frame Timeout");
+    this.sendTimeout();
+  }
+
+  private sentTimeout = 0;
+
+  private sendTimeout(): void {
+    const seconds = this.view.placement.frameTimeout;
+    if (seconds === this.sentTimeout && this.model.connected) return;
+    if (this.model.connected) this.sentTimeout = seconds;
+    this.model.send({ type: "frame_timeout", seconds });
+  }
+
+  private freeName(name: string): string {
+    const taken = new Set(this.list.map((display) => display.config.name));
+    if (!taken.has(name)) return name;
+    let n = 2;
+    while (taken.has(`${name} ${n}`)) n++;
+    return `${name} ${n}`;
+  }
+
+  private tellListeners(): void {
+    for (const listener of this.listeners) listener();
+  }
+}
+
+function isConfig(value: unknown): value is DisplayConfig {
+  const config = value as Partial<DisplayConfig> | null;
+  return (
+    typeof config?.class === "string" &&
+    typeof config.name === "string" &&
+    typeof config.enabled === "boolean" &&
+    typeof config.options === "object" &&
+    config.options !== null
+  );
+}

@@ -1,0 +1,75 @@
+/** Map: an occupancy grid as a picture on the ground. */
+
+import * as THREE from "three";
+import type { Grid } from "../protocol";
+import { MessageDisplay } from "./display";
+import type { OptionSpec } from "./options";
+
+export const MAP_SPECS: readonly OptionSpec[] = [
+  { key: "Alpha", kind: "number", value: 0.7, min: 0, max: 1, step: 0.05 },
+  { key: "Color Scheme", label: "Colour scheme", kind: "choice", value: "map", choices: ["map", "costmap", "raw"] },
+  { key: "Draw Behind", kind: "flag", value: false },
+];
+
+const LARGEST_TEXTURE = 8192;
+
+export class MapDisplay extends MessageDisplay<Grid> {
+  protected build(message: Grid): THREE.Object3D {
+    const { width, height, resolution } = message;
+    const group = new THREE.Group();
+    if (width === 0 || height === 0) return group;
+    if (Math.max(width, height) > LARGEST_TEXTURE) {
+      this.status = { state: "error", text: `A grid of ${width} × ${height} cells is too large to draw.` };
+      return group;
+    }
+    const cells = new Uint8Array(message.cells.buffer, message.cells.byteOffset, message.cells.length);
+    const texture = new THREE.DataTexture(cells, width, height, THREE.RedFormat, THREE.UnsignedByteType);
+    texture.unpackAlignment = 1;
+    texture.needsUpdate = true;
+    const plane = new THREE.PlaneGeometry(width * resolution, height * resolution);
+    plane.translate((width * resolution) / 2, (height * resolution) / 2, 0);
+    const mesh = new THREE.Mesh(plane, this.material(texture));
+    if (this.options.flag("Draw Behind")) mesh.renderOrder = -1;
+    mesh.position.set(...(message.origin.subarray(0, 3) as unknown as [number, number, number]));
+    mesh.quaternion.fromArray(message.origin, 3);
+    group.add(mesh);
+    return group;
+  }
+
+  private material(texture: THREE.Texture): THREE.ShaderMaterial {
+    return new THREE.ShaderMaterial({
+      transparent: true,
+      depthWrite: false,
+      side: THREE.DoubleSide,
+      polygonOffset: true,
+      polygonOffsetFactor: 1,
+      polygonOffsetUnits: 1,
+      uniforms: {
+        cells: { value: texture },
+        alpha: { value: this.options.number("Alpha") },
+        scheme: { value: ["map", "costmap", "raw"].indexOf(this.options.choice("Color Scheme")) },
+      },
+      vertexShader: `
+        varying vec2 at;
+        void main() { at = uv; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`,
+      fragmentShader: `
+        uniform sampler2D cells;
+        uniform float alpha;
+        uniform int scheme;
+        varying vec2 at;
+        void main() {
+          float cell = floor(texture2D(cells, at).r * 255.0 + 0.5);
+          float part = cell / 100.0;
+          if (scheme == 2) { gl_FragColor = vec4(vec3(cell / 255.0), alpha); return; }
+          if (scheme == 1) {
+            if (cell == 0.0) discard;
+            vec3 cost = cell == 100.0 ? vec3(1.0, 0.0, 1.0) : cell == 99.0 ? vec3(0.0, 1.0, 1.0) : vec3(part, 0.0, 1.0 - part);
+            gl_FragColor = vec4(cell > 100.0 ? vec3(0.44, 0.54, 0.53) : cost, alpha);
+            return;
+          }
+          vec3 shown = cell <= 100.0 ? vec3(1.0 - part) : vec3(0.44, 0.54, 0.53);
+          gl_FragColor = vec4(shown, alpha);
+        }`,
+    });
+  }
+}

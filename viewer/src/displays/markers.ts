@@ -1,0 +1,274 @@
+/** Marker and MarkerArray: whatever a program wants drawn. The numbers are visualization_msgs' own. */
+
+import * as THREE from "three";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
+import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
+import { materialsOf, type Meshes } from "../meshes";
+import { slice, type MarkerItem, type Shapes } from "../protocol";
+import { arrowGeometry } from "./arrows";
+import { MessageDisplay, type Context, type DisplayConfig } from "./display";
+import type { OptionSpec } from "./options";
+
+export const MARKER_SPECS: readonly OptionSpec[] = [];
+
+const MOST_TEXT = 200;
+const TEXT_PX = 48;
+
+export class MarkersDisplay extends MessageDisplay<Shapes> {
+  constructor(
+    id: number,
+    config: DisplayConfig,
+    specs: readonly OptionSpec[],
+    context: Context,
+    private readonly meshes: Meshes,
+  ) {
+    super(id, config, specs, context);
+  }
+
+  protected build({ head, payload }: Shapes): THREE.Object3D {
+    const group = new THREE.Group();
+    if (head.kind !== "markers") return group;
+    for (const item of head.items) {
+      if (!this.namespaceShown(item.ns) || !finite(item)) continue;
+      const object = this.marker(item, payload);
+      if (!object) continue;
+      object.position.fromArray(item.pose);
+      object.quaternion.fromArray(item.pose, 3).normalize();
+      group.add(object);
+    }
+    return group;
+  }
+
+  private namespaceShown(name: string): boolean {
+    const all = this.config.options["Namespaces"];
+    return !(all && typeof all === "object" && !Array.isArray(all) && all[name] === false);
+  }
+
+  private marker(item: MarkerItem, payload: Float32Array): THREE.Object3D | null {
+    const points = slice(payload, item.points, 3);
+    const colours = slice(payload, item.colors, 4);
+    switch (item.type) {
+      case 0:
+        return arrow(item, points);
+      case 1:
+        return solid(new THREE.BoxGeometry(1, 1, 1), item);
+      case 2:
+        return solid(new THREE.SphereGeometry(0.5, 24, 16), item);
+      case 3:
+        return solid(new THREE.CylinderGeometry(0.5, 0.5, 1, 32).rotateX(Math.PI / 2), item);
+      case 4:
+        return lines(item, pairs(points, 3), pairs(colours, 4));
+      case 5:
+        return lines(item, points, colours);
+      case 6:
+        return many(new THREE.BoxGeometry(1, 1, 1), item, points, colours);
+      case 7:
+        return many(new THREE.SphereGeometry(0.5, 12, 8), item, points, colours);
+      case 8:
+        return many(new THREE.BoxGeometry(1, 1, 0.01), item, points, colours);
+      case 9:
+        return text(item);
+      case 10:
+        return this.mesh(item);
+      case 11:
+        return triangles(item, points, colours);
+      case 12:
+        return arrowStrip(item, points);
+      default:
+        this.status = { state: "error", text: `There is no marker type ${item.type}.` };
+        return null;
+    }
+  }
+
+  private mesh(item: MarkerItem): THREE.Object3D {
+    const group = new THREE.Group();
+    group.scale.set(...item.scale);
+    if (!item.mesh) {
+      if (item.mesh_problem) this.status = { state: "error", text: item.mesh_problem };
+      return group;
+    }
+    this.meshes.load(item.mesh, item.mesh_name ?? item.mesh).then(
+      ({ object, coloured }) => {
+        if (!(coloured && item.use_materials !== false))
+          object.traverse((part) => {
+            if ((part as Partial<THREE.Mesh>).isMesh) (part as THREE.Mesh).material = material(item);
+          });
+        for (const part of materialsOf(object)) part.side = THREE.DoubleSide;
+        group.add(object);
+        this.context.redraw();
+      },
+      (error: unknown) => {
+        this.status = { state: "error", text: error instanceof Error ? error.message : String(error) };
+      },
+    );
+    return group;
+  }
+}
+
+function finite(item: MarkerItem): boolean {
+  return item.pose.length === 7 && item.pose.every(Number.isFinite) && item.scale.every(Number.isFinite);
+}
+
+function colourOf([r, g, b]: readonly (number | null)[]): THREE.Color {
+  return new THREE.Color().setRGB(r ?? 1, g ?? 1, b ?? 1, THREE.SRGBColorSpace);
+}
+
+function alphaOf(item: MarkerItem): number {
+  return Math.max(0, Math.min(1, item.rgba[3] ?? 1));
+}
+
+function material(item: MarkerItem): THREE.MeshLambertMaterial {
+  const alpha = alphaOf(item);
+  return new THREE.MeshLambertMaterial({
+    color: colourOf(item.rgba),
+    transparent: alpha < 1,
+    opacity: alpha,
+    depthWrite: alpha >= 1,
+  });
+}
+
+function solid(geometry: THREE.BufferGeometry, item: MarkerItem): THREE.Mesh {
+  const mesh = new THREE.Mesh(geometry, material(item));
+  mesh.scale.set(...item.scale);
+  return mesh;
+}
+
+/** By pose and scale (length, width, height), or from the first point to the second. */
+function arrow(item: MarkerItem, points: Float32Array): THREE.Object3D {
+  const [x, y, z] = item.scale;
+  if (points.length < 6) {
+    const shape = { shaftLength: 0.77, shaftRadius: 0.5, headLength: 0.23, headRadius: 1 };
+    const mesh = new THREE.Mesh(arrowGeometry(shape), material(item));
+    mesh.scale.set(x, y / 2, z / 2);
+    return mesh;
+  }
+  return arrowBetween(item, points, x / 2, y / 2, z);
+}
+
+function arrowBetween(
+  item: MarkerItem,
+  points: Float32Array,
+  shaftRadius: number,
+  headRadius: number,
+  headLength: number,
+): THREE.Object3D {
+  const from = new THREE.Vector3().fromArray(points);
+  const to = new THREE.Vector3().fromArray(points, 3);
+  const length = from.distanceTo(to);
+  const head = Math.min(length, headLength > 0 ? headLength : length * 0.23);
+  const shape = { shaftLength: length - head, shaftRadius, headLength: head, headRadius };
+  const mesh = new THREE.Mesh(arrowGeometry(shape), material(item));
+  const group = new THREE.Group();
+  mesh.position.copy(from);
+  if (length > 0) mesh.quaternion.setFromUnitVectors(new THREE.Vector3(1, 0, 0), to.sub(from).normalize());
+  group.add(mesh);
+  return group;
+}
+
+function arrowStrip(item: MarkerItem, points: Float32Array): THREE.Object3D {
+  const group = new THREE.Group();
+  for (let i = 0; i + 6 <= points.length; i += 3)
+    group.add(arrowBetween(item, points.subarray(i, i + 6), item.scale[0] / 2, item.scale[1] / 2, item.scale[2]));
+  return group;
+}
+
+/** A strip's points twice each, but its ends: segments. */
+function pairs(values: Float32Array, width: number): Float32Array {
+  const count = Math.max(0, values.length / width - 1);
+  const out = new Float32Array(count * 2 * width);
+  for (let i = 0; i < count; i++) out.set(values.subarray(i * width, (i + 2) * width), i * 2 * width);
+  return out;
+}
+
+function lines(item: MarkerItem, points: Float32Array, colours: Float32Array): THREE.Object3D {
+  const group = new THREE.Group();
+  if (points.length < 6 || !points.every(Number.isFinite)) return group;
+  const even = points.subarray(0, Math.floor(points.length / 6) * 6);
+  const geometry = new LineSegmentsGeometry().setPositions(even);
+  const coloured = colours.length / 4 >= even.length / 3;
+  if (coloured) geometry.setColors(linear(colours, even.length / 3));
+  const alpha = alphaOf(item);
+  const segments = new LineSegments2(
+    geometry,
+    new LineMaterial({
+      color: coloured ? 0xffffff : colourOf(item.rgba).getHex(),
+      vertexColors: coloured,
+      worldUnits: true,
+      linewidth: Math.max(1e-4, item.scale[0]),
+      transparent: alpha < 1 && !coloured,
+      opacity: coloured ? 1 : alpha,
+    }),
+  );
+  segments.frustumCulled = false;
+  group.add(segments);
+  return group;
+}
+
+function linear(colours: Float32Array, count: number): Float32Array {
+  const out = new Float32Array(count * 3);
+  for (let i = 0; i < count; i++)
+    colourOf(colours.subarray(i * 4, i * 4 + 3) as unknown as number[]).toArray(out, i * 3);
+  return out;
+}
+
+function many(
+  geometry: THREE.BufferGeometry,
+  item: MarkerItem,
+  points: Float32Array,
+  colours: Float32Array,
+): THREE.Object3D {
+  const count = Math.floor(points.length / 3);
+  const coloured = colours.length / 4 >= count;
+  const made = material(item);
+  if (coloured) made.color.set(0xffffff);
+  const mesh = new THREE.InstancedMesh(geometry, made, count);
+  const matrix = new THREE.Matrix4();
+  const [x, y, z] = item.type === 8 ? [item.scale[0], item.scale[1], item.scale[0]] : item.scale;
+  for (let i = 0; i < count; i++) {
+    matrix.makeScale(x, y, z).setPosition(new THREE.Vector3().fromArray(points, i * 3));
+    mesh.setMatrixAt(i, matrix);
+    if (coloured) mesh.setColorAt(i, colourOf(colours.subarray(i * 4, i * 4 + 3) as unknown as number[]));
+  }
+  mesh.frustumCulled = false;
+  return mesh;
+}
+
+function triangles(item: MarkerItem, points: Float32Array, colours: Float32Array): THREE.Object3D {
+  const count = Math.floor(points.length / 9) * 3;
+  const geometry = new THREE.BufferGeometry();
+  const scaled = points.slice(0, count * 3).map((value, i) => value * (item.scale[i % 3] as number));
+  geometry.setAttribute("position", new THREE.BufferAttribute(scaled, 3));
+  geometry.computeVertexNormals();
+  const made = material(item);
+  made.side = THREE.DoubleSide;
+  if (colours.length / 4 >= count) {
+    geometry.setAttribute("color", new THREE.BufferAttribute(linear(colours, count), 3));
+    made.vertexColors = true;
+    made.color.set(0xffffff);
+  }
+  return new THREE.Mesh(geometry, made);
+}
+
+/** Text that faces the viewer, scale.z metres high. */
+function text(item: MarkerItem): THREE.Object3D | null {
+  const lines = item.text.slice(0, MOST_TEXT).split("\n");
+  const canvas = document.createElement("canvas");
+  const context = canvas.getContext("2d");
+  if (!context || !item.text.trim()) return null;
+  const font = `600 ${TEXT_PX}px system-ui, sans-serif`;
+  context.font = font;
+  canvas.width = Math.ceil(Math.max(...lines.map((line) => context.measureText(line).width))) + 8;
+  canvas.height = Math.ceil(lines.length * TEXT_PX * 1.2);
+  context.font = font;
+  context.textBaseline = "middle";
+  context.textAlign = "center";
+  context.fillStyle = `#${colourOf(item.rgba).getHexString()}`;
+  lines.forEach((line, i) => context.fillText(line, canvas.width / 2, (i + 0.5) * TEXT_PX * 1.2));
+  const texture = new THREE.CanvasTexture(canvas);
+  texture.colorSpace = THREE.SRGBColorSpace;
+  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map: texture, opacity: alphaOf(item), depthWrite: false }));
+  const height = item.scale[2] * lines.length * 1.2;
+  sprite.scale.set((height * canvas.width) / canvas.height, height, 1);
+  return sprite;
+}

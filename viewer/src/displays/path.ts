@@ -1,0 +1,64 @@
+/** Path: a line through poses, with axes or arrows at each if wanted. */
+
+import * as THREE from "three";
+import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
+import { Line2 } from "three/examples/jsm/lines/Line2.js";
+import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
+import { slice, type Shapes } from "../protocol";
+import { arrowGeometry, instances, poseAxes } from "./arrows";
+import { MessageDisplay } from "./display";
+import type { OptionSpec } from "./options";
+
+export const PATH_SPECS: readonly OptionSpec[] = [
+  { key: "Color", label: "Colour", kind: "colour", value: "#19d245" },
+  { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
+  { key: "Line Style", kind: "choice", value: "Lines", choices: ["Lines", "Billboards"] },
+  { key: "Line Width", kind: "number", value: 0.03, min: 0.001, max: 10, step: 0.01, unit: "m" },
+  { key: "Pose Style", kind: "choice", value: "None", choices: ["None", "Axes", "Arrows"] },
+  { key: "Length", kind: "number", value: 0.3, min: 0.001, max: 100, step: 0.05, unit: "m" },
+  { key: "Radius", kind: "number", value: 0.03, min: 0.0005, max: 10, step: 0.005, unit: "m" },
+];
+
+export class PathDisplay extends MessageDisplay<Shapes> {
+  protected build({ head, payload }: Shapes): THREE.Object3D {
+    const group = new THREE.Group();
+    if (head.kind !== "path") return group;
+    const poses = slice(payload, head.poses, 7);
+    const points: number[] = [];
+    for (let i = 0; i + 7 <= poses.length; i += 7) {
+      const row = poses.subarray(i, i + 3);
+      if (row.every(Number.isFinite)) points.push(...row);
+    }
+    if (points.length >= 6) group.add(this.line(points));
+    const style = this.options.choice("Pose Style");
+    const length = this.options.number("Length");
+    if (style === "Axes") group.add(poseAxes(poses, this.context.palette(), length, this.options.number("Radius")));
+    if (style === "Arrows") {
+      const geometry = arrowGeometry({
+        shaftLength: length * 0.75,
+        shaftRadius: length * 0.04,
+        headLength: length * 0.25,
+        headRadius: length * 0.1,
+      });
+      group.add(instances(geometry, new THREE.MeshLambertMaterial({ color: this.options.colour("Color") }), poses));
+    }
+    return group;
+  }
+
+  private line(points: number[]): THREE.Object3D {
+    const alpha = this.options.number("Alpha");
+    const wide = this.options.choice("Line Style") === "Billboards";
+    const line = new Line2(
+      new LineGeometry().setPositions(points),
+      new LineMaterial({
+        color: this.options.colour("Color"),
+        transparent: alpha < 1,
+        opacity: alpha,
+        worldUnits: wide,
+        linewidth: wide ? this.options.number("Line Width") : 2,
+      }),
+    );
+    line.frustumCulled = false;
+    return line;
+  }
+}

@@ -1,0 +1,82 @@
+/** Pose, PoseArray and Odometry: arrows or axes, the newest bright and its trail behind it. */
+
+import * as THREE from "three";
+import { slice, type Shapes, type SubscribeOptions } from "../protocol";
+import { arrowGeometry, instances, poseAxes } from "./arrows";
+import { MessageDisplay } from "./display";
+import type { OptionSpec } from "./options";
+
+export const POSE_SPECS: readonly OptionSpec[] = [
+  { key: "Shape", kind: "choice", value: "Arrow", choices: ["Arrow", "Axes"] },
+  { key: "Color", label: "Colour", kind: "colour", value: "#ff8a1f" },
+  { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
+  { key: "Shaft Length", kind: "number", value: 0.35, min: 0.001, max: 100, step: 0.05, unit: "m" },
+  { key: "Shaft Radius", kind: "number", value: 0.02, min: 0.0005, max: 10, step: 0.005, unit: "m" },
+  { key: "Head Length", kind: "number", value: 0.12, min: 0.001, max: 100, step: 0.01, unit: "m" },
+  { key: "Head Radius", kind: "number", value: 0.045, min: 0.001, max: 10, step: 0.005, unit: "m" },
+  { key: "Axes Length", kind: "number", value: 0.3, min: 0.001, max: 100, step: 0.05, unit: "m" },
+  { key: "Axes Radius", kind: "number", value: 0.02, min: 0.0005, max: 10, step: 0.005, unit: "m" },
+];
+
+export const ODOMETRY_SPECS: readonly OptionSpec[] = [
+  ...POSE_SPECS,
+  { key: "Keep", kind: "number", value: 100, min: 1, max: 1000, step: 10 },
+];
+
+export class PosesDisplay extends MessageDisplay<Shapes> {
+  override subscription(): SubscribeOptions {
+    return this.specs === ODOMETRY_SPECS ? { trail: Math.round(this.options.number("Keep")) } : {};
+  }
+
+  protected build({ head, payload }: Shapes): THREE.Object3D {
+    const group = new THREE.Group();
+    if (head.kind !== "poses" && head.kind !== "odometry") return group;
+    const poses = slice(payload, head.poses, 7);
+    const count = Math.floor(poses.length / 7);
+    if (count === 0) return group;
+    if (head.kind === "poses") {
+      group.add(this.shape(poses, 1));
+      return group;
+    }
+    group.add(this.shape(poses.subarray((count - 1) * 7), 1));
+    if (count > 1) group.add(trail(poses, this.options.colour("Color")));
+    return group;
+  }
+
+  private shape(poses: Float32Array, scale: number): THREE.Object3D {
+    const o = this.options;
+    if (o.choice("Shape") === "Axes")
+      return poseAxes(poses, this.context.palette(), o.number("Axes Length"), o.number("Axes Radius"));
+    const geometry = arrowGeometry({
+      shaftLength: o.number("Shaft Length"),
+      shaftRadius: o.number("Shaft Radius"),
+      headLength: o.number("Head Length"),
+      headRadius: o.number("Head Radius"),
+    });
+    const alpha = o.number("Alpha");
+    const material = new THREE.MeshLambertMaterial({
+      color: o.colour("Color"),
+      transparent: alpha < 1,
+      opacity: alpha,
+    });
+    return instances(geometry, material, poses, scale);
+  }
+}
+
+/** Where it was: a line that gets fainter into the past. */
+function trail(poses: Float32Array, colour: string): THREE.Line {
+  const count = Math.floor(poses.length / 7);
+  const points = new Float32Array(count * 3);
+  const colours = new Float32Array(count * 4);
+  const { r, g, b } = new THREE.Color(colour);
+  for (let i = 0; i < count; i++) {
+    points.set(poses.subarray(i * 7, i * 7 + 3), i * 3);
+    colours.set([r, g, b, (i + 1) / count], i * 4);
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(points, 3));
+  geometry.setAttribute("color", new THREE.BufferAttribute(colours, 4));
+  const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ vertexColors: true, transparent: true }));
+  line.frustumCulled = false;
+  return line;
+}

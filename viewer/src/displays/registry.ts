@@ -1,0 +1,57 @@
+/** Which displays there are, by RViz's names. */
+
+import type { Meshes } from "../meshes";
+import { Axes, AXES_SPECS } from "./axes";
+import { CameraDisplay, CAMERA_SPECS } from "./camera_info";
+import { CloudDisplay, cloudSpecs } from "./cloud";
+import type { Context, Display, DisplayConfig } from "./display";
+import { Ground, GROUND_SPECS } from "./ground";
+import { MapDisplay, MAP_SPECS } from "./map";
+import { MarkersDisplay, MARKER_SPECS } from "./markers";
+import type { OptionSpec } from "./options";
+import { PathDisplay, PATH_SPECS } from "./path";
+import { ODOMETRY_SPECS, POSE_SPECS, PosesDisplay } from "./poses";
+import { RANGE_SPECS, RangeDisplay } from "./range";
+import { ROBOT_SPECS, RobotDisplay } from "./robot";
+import { TF_SPECS, TfDisplay } from "./tf";
+
+interface Kind {
+  specs: readonly OptionSpec[];
+  /** Whether it shows what comes on a topic. */
+  topic: boolean;
+  make(id: number, config: DisplayConfig, specs: readonly OptionSpec[], context: Context, meshes: Meshes): Display;
+}
+
+type Maker = new (id: number, config: DisplayConfig, specs: readonly OptionSpec[], context: Context) => Display;
+
+function plain(specs: readonly OptionSpec[], Class: Maker, topic = true): Kind {
+  return { specs, topic, make: (id, config, own, context) => new Class(id, config, own, context) };
+}
+
+const markers: Kind = { specs: MARKER_SPECS, topic: true, make: (...all) => new MarkersDisplay(...all) };
+
+export const KINDS: Record<string, Kind> = {
+  TF: plain(TF_SPECS, TfDisplay, false),
+  Grid: plain(GROUND_SPECS, Ground, false),
+  Axes: plain(AXES_SPECS, Axes, false),
+  RobotModel: { specs: ROBOT_SPECS, topic: false, make: (...all) => new RobotDisplay(...all) },
+  LaserScan: plain(cloudSpecs(0.03, "Intensity"), CloudDisplay),
+  PointCloud2: plain(cloudSpecs(0.01, "AxisColor"), CloudDisplay),
+  PointCloud: plain(cloudSpecs(0.01, "AxisColor"), CloudDisplay),
+  Map: plain(MAP_SPECS, MapDisplay),
+  Path: plain(PATH_SPECS, PathDisplay),
+  Pose: plain(POSE_SPECS, PosesDisplay),
+  PoseWithCovariance: plain(POSE_SPECS, PosesDisplay),
+  PoseArray: plain(POSE_SPECS, PosesDisplay),
+  Odometry: plain(ODOMETRY_SPECS, PosesDisplay),
+  Marker: markers,
+  MarkerArray: markers,
+  Range: plain(RANGE_SPECS, RangeDisplay),
+  Camera: plain(CAMERA_SPECS, CameraDisplay),
+  CameraInfo: plain(CAMERA_SPECS, CameraDisplay),
+};
+
+/** "rviz_default_plugins/TF" and "rviz/TF" are both TF. */
+export function kindName(className: string): string {
+  return className.replace(/^.*\//, "");
+}

@@ -1,0 +1,209 @@
+/** RobotModel: a URDF's links, each where its frame is; where there is no such frame, where the joints put it. */
+
+import * as THREE from "three";
+import URDFLoader, { type URDFJoint, type URDFRobot } from "urdf-loader";
+import { materialsOf, type Meshes } from "../meshes";
+import type { Placement } from "../placement";
+import type { Robot, Tick } from "../protocol";
+import { Display, release, type Context, type DisplayConfig } from "./display";
+import type { OptionSpec } from "./options";
+
+export const ROBOT_SPECS: readonly OptionSpec[] = [
+  { key: "Visual Enabled", kind: "flag", value: true },
+  { key: "Collision Enabled", kind: "flag", value: false },
+  { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
+  { key: "TF Prefix", label: "Frame prefix", kind: "frame", value: "" },
+];
+
+export class RobotDisplay extends Display {
+  robot: Robot | null = null;
+  model: URDFRobot | null = null;
+  /** Joint values that the user tries out without telling anybody; they go before the frames. */
+  trial: Record<string, number> | null = null;
+  /** How many meshes are still to come, and how many never will. */
+  loading = 0;
+  private readonly problems: string[] = [];
+
+  constructor(
+    id: number,
+    config: DisplayConfig,
+    specs: readonly OptionSpec[],
+    context: Context,
+    private readonly meshes: Meshes,
+  ) {
+    super(id, config, specs, context);
+    this.status = { state: "waiting", text: "Waiting for a robot description" };
+  }
+
+  setRobot(robot: Robot): void {
+    this.robot = robot;
+    this.rebuild();
+  }
+
+  setTrial(positions: Record<string, number> | null): void {
+    this.trial = positions;
+    for (const [name, value] of Object.entries(positions ?? {})) this.model?.setJointValue(name, value);
+    this.context.redraw();
+  }
+
+  override restyle(): void {
+    if (this.robot) this.rebuild();
+  }
+
+  override bounds(): THREE.Box3 {
+    return this.model?.visible ? new THREE.Box3().setFromObject(this.model) : new THREE.Box3();
+  }
+
+  override probe(): Record<string, unknown> {
+    let meshes = 0;
+    this.model?.traverse((part) => (meshes += (part as Partial<THREE.Mesh>).isMesh ? 1 : 0));
+    const visible = (this.model?.visible ?? false) && this.object.visible;
+    return { ...super.probe(), robot: this.robot?.name ?? null, meshes, loading: this.loading, visible };
+  }
+
+  private rebuild(): void {
+    if (this.model) {
+      release(this.model);
+      this.model.removeFromParent();
+      this.model = null;
+    }
+    const robot = this.robot as Robot;
+    this.problems.splice(0, Infinity, ...robot.problems);
+    this.loading = 0;
+    try {
+      this.model = this.parse(robot);
+    } catch (error) {
+      this.status = { state: "error", text: `The robot description cannot be drawn: ${String(error)}` };
+      return;
+    }
+    this.model.visible = false;
+    for (const joint of robot.joints) this.model.setJointValue(joint.name, joint.value);
+    this.setTrial(this.trial);
+    this.object.add(this.model);
+    this.tell();
+  }
+
+  private parse(robot: Robot): URDFRobot {
+    const loader = new URDFLoader(blockedManager());
+    // Names stay as they were written: the server's table says where each file is.
+    loader.packages = (name: string): string => `package://${name}`;
+    loader.parseVisual = this.options.flag("Visual Enabled");
+    loader.parseCollision = this.options.flag("Collision Enabled");
+    loader.loadMeshCb = (path, _manager, material, done): void => {
+      const url = Object.hasOwn(robot.meshes, path) ? robot.meshes[path] : undefined;
+      if (!url) {
+        this.problems.push(`No mesh ${path.slice(0, 200)} could be found.`);
+        return;
+      }
+      this.loading++;
+      this.meshes
+        .load(url, path)
+        .then(({ object, coloured }) => {
+          this.paint(object, coloured ? null : material);
+          done(object);
+        })
+        .catch((error: unknown) => this.problems.push(error instanceof Error ? error.message : String(error)))
+        .finally(() => {
+          this.loading--;
+          this.tell();
+          this.context.redraw();
+        });
+    };
+    const model = loader.parse(robot.urdf);
+    model.traverse((part) => {
+      if ((part as Partial<THREE.Mesh>).isMesh && !part.userData.shared) this.paint(part, null);
+    });
+    return model;
+  }
+
+  /** Copies shared materials, since one robot may be transparent and another not. */
+  private paint(object: THREE.Object3D, material: THREE.Material | null): void {
+    const alpha = this.options.number("Alpha");
+    object.traverse((part) => {
+      const mesh = part as THREE.Mesh;
+      if (!mesh.isMesh) return;
+      const painted = (material ? [material] : materialsOf(mesh)).map((m) => {
+        const copy = m.clone();
+        copy.side = THREE.DoubleSide;
+        if (alpha < 1) Object.assign(copy, { transparent: true, opacity: copy.opacity * alpha, depthWrite: false });
+        if (copy instanceof THREE.MeshPhongMaterial) copy.shininess = Math.min(copy.shininess, 20);
+        return copy;
+      });
+      mesh.material = painted.length === 1 ? (painted[0] as THREE.Material) : painted;
+    });
+  }
+
+  private tell(): void {
+    const first = this.problems[0];
+    const more = this.problems.length > 1 ? ` (and ${this.problems.length - 1} more)` : "";
+    if (first) this.status = { state: "error", text: first + more };
+    else if (this.loading > 0) this.status = { state: "waiting", text: `Loading ${this.loading} meshes` };
+    else this.status = { state: "ok", text: this.robot?.name ?? "" };
+  }
+
+  override place(placement: Placement, _tick: Tick): void {
+    const { model } = this;
+    if (!model) return;
+    const prefix = this.options.text("TF Prefix");
+    const pose = (link: string): THREE.Matrix4 | null => matrixOf(placement, this.context.model, prefix, link);
+    const root = pose(model.name);
+    const start = root ?? this.rootFromAnyLink(model, pose);
+    model.visible = start !== null;
+    if (!start) {
+      if (!this.problems.length) this.status = { state: "waiting", text: `No frame is called ${prefix}${model.name} yet` };
+      return;
+    }
+    if (this.status.state === "waiting" && this.loading === 0) this.tell();
+    model.matrixAutoUpdate = false;
+    model.matrix.copy(start);
+    for (const joint of Object.values(model.joints)) this.placeJoint(joint, pose);
+    model.matrixWorldNeedsUpdate = true;
+  }
+
+  /** A joint's own matrix is what tf says between its two links, when it says anything. */
+  private placeJoint(joint: URDFJoint, pose: (link: string) => THREE.Matrix4 | null): void {
+    const parent = this.trial ? null : pose(joint.parent?.name ?? "");
+    const child = parent ? pose(joint.children[0]?.name ?? "") : null;
+    joint.matrixAutoUpdate = !(parent && child);
+    if (parent && child) joint.matrix.copy(parent.invert().multiply(child));
+    else joint.updateMatrix();
+    joint.matrixWorldNeedsUpdate = true;
+  }
+
+  /** Without a frame for the root, the model hangs on the first link that has one. */
+  private rootFromAnyLink(model: URDFRobot, pose: (link: string) => THREE.Matrix4 | null): THREE.Matrix4 | null {
+    for (const [name, link] of Object.entries(model.links)) {
+      const known = pose(name);
+      if (!known) continue;
+      const chain = new THREE.Matrix4();
+      for (let at: THREE.Object3D | null = link; at && at !== model; at = at.parent) {
+        if (at.matrixAutoUpdate) at.updateMatrix();
+        chain.premultiply(at.matrix);
+      }
+      return known.multiply(chain.invert());
+    }
+    return null;
+  }
+}
+
+function matrixOf(
+  placement: Placement,
+  model: Context["model"],
+  prefix: string,
+  link: string,
+): THREE.Matrix4 | null {
+  const i = model.forest.index.get(prefix + link) ?? -1;
+  if (i < 0 || i >= placement.count || !Number.isFinite(placement.positions[i * 3] as number)) return null;
+  return new THREE.Matrix4().compose(
+    new THREE.Vector3().fromArray(placement.positions, i * 3),
+    new THREE.Quaternion().fromArray(placement.quaternions, i * 4),
+    new THREE.Vector3(1, 1, 1),
+  );
+}
+
+/** The loader's own requests, for textures named in the URDF, would go to addresses the server does not know. */
+function blockedManager(): THREE.LoadingManager {
+  const manager = new THREE.LoadingManager();
+  manager.setURLModifier(() => "data:,");
+  return manager;
+}

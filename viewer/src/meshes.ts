@@ -1,0 +1,161 @@
+/** Mesh files: fetched with a limit, parsed by their ending, shared by all who name them. */
+
+import * as THREE from "three";
+import { ColladaLoader } from "three/examples/jsm/loaders/ColladaLoader.js";
+import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
+import { STLLoader } from "three/examples/jsm/loaders/STLLoader.js";
+
+const MOST_BYTES = 200e6;
+/** Text is parsed in one go, during which the page stands still. */
+const MOST_TEXT_BYTES = 60e6;
+const MOST_VERTICES = 6e6;
+const BLANK = "data:image/gif;base64,R0lGODlhAQABAAAAACH5BAEKAAEALAAAAAABAAEAAAICTAEAOw==";
+
+export interface LoadedMesh {
+  object: THREE.Object3D;
+  /** Whether the file brought its own colours: a DAE's and a GLB's are kept, an STL has none. */
+  coloured: boolean;
+}
+
+export class MeshError extends Error {}
+
+export class Meshes {
+  private readonly loading = new Map<string, Promise<LoadedMesh>>();
+
+  /**
+   * @param url Where it is.
+   * @param name As the robot wrote it: its ending says what it is.
+   * @returns A copy that shares its geometry with all others of this file.
+   */
+  async load(url: string, name: string): Promise<LoadedMesh> {
+    let promise = this.loading.get(url);
+    if (!promise) {
+      promise = fetchMesh(url, name);
+      this.loading.set(url, promise);
+    }
+    const { object, coloured } = await promise;
+    return { object: object.clone(), coloured };
+  }
+}
+
+async function fetchMesh(url: string, name: string): Promise<LoadedMesh> {
+  const bytes = await fetchBytes(url, name);
+  const loaded = await parse(bytes, url, name);
+  let vertices = 0;
+  loaded.object.traverse((part) => {
+    part.userData.shared = true;
+    vertices += (part as Partial<THREE.Mesh>).geometry?.getAttribute("position")?.count ?? 0;
+  });
+  if (vertices > MOST_VERTICES) throw new MeshError(`${short(name)} has ${vertices} vertices, too many to draw`);
+  loaded.object.position.set(0, 0, 0);
+  loaded.object.quaternion.identity();
+  return loaded;
+}
+
+async function fetchBytes(url: string, name: string): Promise<ArrayBuffer> {
+  if (!isOurs(url)) throw new MeshError(`${short(name)} is not served by this viewer`);
+  const stop = new AbortController();
+  const response = await fetch(url, { signal: stop.signal });
+  if (!response.ok) throw new MeshError(`${short(name)}: ${(await response.text()).slice(0, 200) || response.status}`);
+  const tooLarge = (size: number): never => {
+    stop.abort();
+    throw new MeshError(`${short(name)} is larger than the ${MOST_BYTES / 1e6} MB that are drawn (${Math.round(size / 1e6)} MB)`);
+  };
+  const announced = Number(response.headers.get("Content-Length") ?? 0);
+  if (announced > MOST_BYTES) tooLarge(announced);
+  const parts: Uint8Array[] = [];
+  let size = 0;
+  const reader = response.body?.getReader();
+  for (let part = await reader?.read(); part && !part.done; part = await reader?.read()) {
+    size += part.value.length;
+    if (size > MOST_BYTES) tooLarge(size);
+    parts.push(part.value);
+  }
+  const bytes = new Uint8Array(size);
+  let at = 0;
+  for (const part of parts) {
+    bytes.set(part, at);
+    at += part.length;
+  }
+  return bytes.buffer;
+}
+
+async function parse(bytes: ArrayBuffer, url: string, name: string): Promise<LoadedMesh> {
+  const ending = /\.([a-z0-9]+)$/i.exec(name.split(/[?#]/)[0] ?? "")?.[1]?.toLowerCase() ?? "";
+  const manager = new THREE.LoadingManager();
+  manager.setURLModifier((wanted) => (isOurs(wanted) ? wanted : BLANK));
+  // What stands beside the file is served below its own address.
+  const folder = url.startsWith("data:") ? "" : `${url}/`;
+  switch (ending) {
+    case "stl":
+      return { object: new THREE.Mesh(parseStl(bytes, name)), coloured: false };
+    case "dae": {
+      const scene = new ColladaLoader(manager).parse(text(bytes, name), folder)?.scene;
+      if (!scene) throw new MeshError(`${short(name)} is no COLLADA file`);
+      mendTextures(scene, manager);
+      return { object: scene, coloured: true };
+    }
+    case "obj":
+      return { object: new OBJLoader(manager).parse(text(bytes, name)), coloured: false };
+    case "glb":
+    case "gltf":
+      return { object: (await new GLTFLoader(manager).parseAsync(bytes, folder)).scene, coloured: true };
+    default:
+      throw new MeshError(`${short(name)}: only STL, DAE, OBJ and GLB meshes can be drawn`);
+  }
+}
+
+function parseStl(bytes: ArrayBuffer, name: string): THREE.BufferGeometry {
+  const binary = bytes.byteLength >= 84 && 84 + new DataView(bytes).getUint32(80, true) * 50 === bytes.byteLength;
+  if (!binary) text(bytes, name);
+  const geometry = new STLLoader().parse(bytes);
+  if (!geometry.getAttribute("position")?.count) throw new MeshError(`${short(name)} holds no triangles`);
+  // Exporters disagree on the normals; those of the triangles are always right.
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
+function text(bytes: ArrayBuffer, name: string): string {
+  if (bytes.byteLength > MOST_TEXT_BYTES)
+    throw new MeshError(`${short(name)} is a text file of ${Math.round(bytes.byteLength / 1e6)} MB, too large to draw`);
+  return new TextDecoder().decode(bytes);
+}
+
+/** A texture that cannot be had would be drawn black. */
+function mendTextures(object: THREE.Object3D, manager: THREE.LoadingManager): void {
+  const mend = (): void =>
+    object.traverse((part) => {
+      for (const material of materialsOf(part)) {
+        const textured = material as THREE.MeshPhongMaterial;
+        const image = textured.map?.image as { width?: number } | undefined;
+        if (textured.map && !image?.width) {
+          textured.map = null;
+          textured.color.set("#b8bcc0");
+          textured.needsUpdate = true;
+        }
+      }
+    });
+  manager.onLoad = mend;
+  manager.onError = mend;
+}
+
+export function materialsOf(object: THREE.Object3D): THREE.Material[] {
+  const material = (object as Partial<THREE.Mesh>).material;
+  return material ? (Array.isArray(material) ? material : [material]) : [];
+}
+
+/** Files may name anything; only this server and what is in the page itself are asked. */
+function isOurs(url: string): boolean {
+  if (/^(data|blob):/.test(url)) return true;
+  try {
+    return new URL(url, location.href).origin === location.origin && location.protocol !== "file:";
+  } catch {
+    return false;
+  }
+}
+
+function short(name: string): string {
+  const file = name.split("/").pop() ?? name;
+  return file.length > 80 ? `${file.slice(0, 80)}…` : file;
+}
