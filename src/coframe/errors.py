@@ -12,6 +12,7 @@
     ├── ViewerError(RuntimeError)       the viewer could not be started, or a file that it was given is none of its kind
     ├── DecodeError(ValueError)         bytes that are not what they claim to be
     ├── RobotDescriptionError(ValueError)  a robot description that contradicts itself
+    ├── PackageError(LookupError)       a package, or a file of one, that is not there
     └── RecordingError(ValueError)      a recording of which nothing can be read
 
 The names of the transform exceptions are tf2's, and so are their texts (``str(error)``). Each also carries the facts
@@ -37,6 +38,7 @@ __all__ = [
     "FrameMismatchException",
     "InvalidArgumentException",
     "LookupException",
+    "PackageError",
     "RecordingError",
     "RobotDescriptionError",
     "TimeoutException",
@@ -235,6 +237,18 @@ class RobotDescriptionError(ValueError):
     def __str__(self) -> str:
         places = [self.file or "", f"line {self.line}" if self.line is not None else ""]
         return ": ".join(filter(None, [", ".join(filter(None, places)), str(self.args[0])]))
+
+
+class PackageError(LookupError):
+    """A package or a file of it that is not there, or a file that is not inside its package.
+
+    Attributes:
+        hint: What to do next, in a sentence; may be empty.
+    """
+
+    def __init__(self, text: str, *, hint: str = "") -> None:
+        super().__init__(text)
+        self.hint = hint
 
 
 class RecordingError(ValueError):

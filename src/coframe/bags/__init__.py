@@ -1,6 +1,24 @@
 """Recordings without ROS: rosbag2 (MCAP, SQLite) and bags of ROS 1."""
 
+from coframe.bags.instants import parse_instant
 from coframe.bags.recording import RecordedMessage, Recording, Topic, open_bag
+from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
+from coframe.bags.trajectories import FORMATS, format_of, write_trajectory
 from coframe.errors import RecordingError
 
-__all__ = ["RecordedMessage", "Recording", "RecordingError", "Topic", "open_bag"]
+__all__ = [
+    "FORMATS",
+    "EdgeSummary",
+    "RecordedMessage",
+    "Recording",
+    "RecordingError",
+    "SensorSummary",
+    "Summary",
+    "Topic",
+    "TreeSummary",
+    "format_of",
+    "open_bag",
+    "parse_instant",
+    "summarize",
+    "write_trajectory",
+]

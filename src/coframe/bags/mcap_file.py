@@ -38,51 +38,57 @@ class McapStorage(ChunkedStorage):
     def records(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Record]:
         """All messages, in the order in which they lie in the file."""
         del wanted  # all data lie together
-        for offset, opcode, end in self._walk():
+        for offset, opcode, end in self._walk(self._read_summary()):
             if opcode == _CHUNK:
                 yield from self._chunk_records(offset)
                 progress(end)
+            elif end - offset > LARGEST:
+                self.problem(f"the record at byte {offset} claims to be {end - offset} bytes")
             elif opcode == _MESSAGE:
                 yield from self._inner(self.bytes_at(offset, end - offset), offset)
             elif opcode in {_SCHEMA, _CHANNEL}:
                 self._define(opcode, self.bytes_at(offset + _RECORD.size, end - offset - _RECORD.size))
         progress(self.size)
 
-    def _walk(self) -> Iterator[tuple[int, int, int]]:
-        """Offset, opcode and end of every record of the data; from a damaged one on to the next chunk in the index."""
+    def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, int]]:
+        """Offset, opcode and end of every record of the data; from a damaged one on to the next of the known chunks."""
         offset = len(MAGIC)
         while (head := self.bytes_at(offset, _RECORD.size)) and len(head) == _RECORD.size:
             opcode, length = _RECORD.unpack(head)
             end = offset + _RECORD.size + length
-            if opcode in {_DATA_END, _FOOTER}:
+            whole = _is_record(opcode) and end <= self.size
+            if whole and opcode in {_DATA_END, _FOOTER}:
                 return
-            later = [] if _is_record(opcode) and end <= self.size else [c for c in self._index() if c > offset]
+            later = [] if whole else [chunk for chunk in chunks if chunk > offset]
             if later:
                 self.problem(f"bytes {offset} to {later[0]} are damaged")
                 end = later[0]
-            elif opcode == _CHUNK or (_is_record(opcode) and end <= self.size):
+            elif whole or opcode == _CHUNK:
                 yield offset, opcode, min(end, self.size)
             else:
                 break
             offset = end
         self.problem(f"it breaks off at byte {min(offset, self.size)} of {self.size}: was the recorder stopped hard?")
 
-    def _index(self) -> list[int]:
-        """Where the summary at the end says that chunks begin; nothing if it is not there."""
-        tail = self.bytes_at(max(0, self.size - _FOOTER_RECORD.size - len(MAGIC)), _FOOTER_RECORD.size)
+    def _read_summary(self) -> list[int]:
+        """Takes in the channels that the summary at the end describes; gives where it says that chunks begin."""
+        tail = self.bytes_at(self.size - _FOOTER_RECORD.size - len(MAGIC), _FOOTER_RECORD.size)
         if len(tail) < _FOOTER_RECORD.size:
             return []
         opcode, _, start, *_ = _FOOTER_RECORD.unpack(tail)
-        if opcode != _FOOTER or not 0 < start < self.size:
+        if opcode != _FOOTER or not 0 < start < self.size or self.size - start > LARGEST:
             return []
-        summary = self.bytes_at(start, min(self.size - start, LARGEST))
-        found, position = [], 0
+        summary = self.bytes_at(start, self.size - start)
+        chunks, position = [], 0
         while position + _RECORD.size <= len(summary):
             opcode, length = _RECORD.unpack_from(summary, position)
-            if opcode == _CHUNK_INDEX and length >= 24 and position + 33 <= len(summary):
-                found.append(int.from_bytes(summary[position + 25 : position + 33], "little"))
+            content = summary[position + _RECORD.size : position + _RECORD.size + length]
+            if opcode == _CHUNK_INDEX:
+                chunks.append(int.from_bytes(content[16:24], "little"))
+            elif opcode in {_SCHEMA, _CHANNEL}:
+                self._define(opcode, content)
             position += _RECORD.size + length
-        return sorted(offset for offset in found if 0 < offset < self.size)
+        return sorted(chunk for chunk in chunks if 0 < chunk < self.size)
 
     def _chunk_records(self, offset: int) -> Iterator[Record]:
         base = self.add_chunk(offset)
@@ -101,8 +107,8 @@ class McapStorage(ChunkedStorage):
         try:
             _, _, size, crc = _CHUNK_HEAD.unpack_from(chunk)
             compression, start = _text(chunk, _CHUNK_HEAD.size)
-        except (struct.error, ValueError) as error:
-            raise DamagedError(str(error)) from None
+        except (struct.error, ValueError):
+            raise DamagedError("its first bytes are damaged or cut off") from None
         packed = chunk[start + 8 :]
         data = unpack(compression, packed, size)
         if crc and zlib.crc32(data) != crc:
@@ -159,8 +165,8 @@ class McapStorage(ChunkedStorage):
             number, schema = struct.unpack_from("<HH", data)
             topic, position = _text(data, 4)
             encoding, _ = _text(data, position)
-        except (struct.error, ValueError, IndexError) as error:
-            self.problem(f"a damaged description of a channel: {error}")
+        except (struct.error, ValueError, IndexError):
+            self.problem("a damaged description of a channel")
             return
         if number not in self._channels:
             name, kind, definition = self._schemas.get(schema, ("", "", b""))

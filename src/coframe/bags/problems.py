@@ -5,6 +5,7 @@ from __future__ import annotations
 __all__ = ["Problems"]
 
 _MOST = 200
+_LONGEST = 1000
 
 
 class Problems:
@@ -16,6 +17,8 @@ class Problems:
 
     def add(self, sentence: str, times: int = 1) -> None:
         """Notes a sentence, 0 times if it is told once in any case; in the end only that there were more of them."""
+        # Names in recordings may hold anything, and sentences end up in terminals.
+        sentence = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in sentence[:_LONGEST])
         if sentence not in self._counts and len(self._counts) >= _MOST:
             self._left_out += times
             return

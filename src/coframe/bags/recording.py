@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from array import array
 from contextlib import ExitStack
 from dataclasses import dataclass, field
@@ -164,6 +165,7 @@ class Recording:
         self.path = path
         self._problems = Problems()
         self._closing = ExitStack()
+        weakref.finalize(self, self._closing.close)  # for those who never close()
         self._tracks: dict[str, list[_Track]] = {}
         self._indices: dict[str, _Index] = {}
         self._stamps: dict[str, NDArray[np.int64]] = {}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING
 
-from coframe.bags.compression import DamagedError, unpack
+from coframe.bags.compression import LARGEST, DamagedError, unpack
 from coframe.bags.storage import Channel, ChunkedStorage, Record
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ __all__ = ["MAGIC", "Ros1Storage"]
 
 MAGIC = b"#ROSBAG V2.0\n"
 
-_MESSAGE, _CHUNK, _CONNECTION = 0x02, 0x05, 0x07
+_MESSAGE, _CHUNK, _CHUNK_INFO, _CONNECTION = 0x02, 0x05, 0x06, 0x07
 _KNOWN = {0x02, 0x03, 0x04, 0x05, 0x06, 0x07}
 _LENGTH = struct.Struct("<I")
 _TIME = struct.Struct("<II")
@@ -35,26 +35,54 @@ class Ros1Storage(ChunkedStorage):
     def records(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Record]:
         """All messages, in the order in which they lie in the file."""
         del wanted  # all data lie together
-        offset = len(MAGIC)
-        while offset < self.size:
-            try:
-                header, start, end = self._record(offset)
-            except DamagedError as error:
-                self.problem(f"it breaks off at byte {offset} of {self.size}: {error}")
-                break
-            opcode = _opcode(header)
+        for offset, opcode, header, start, end in self._walk(self._read_index()):
             if opcode == _CHUNK:
                 yield from self._chunk_records(offset)
                 progress(min(end, self.size))
+            elif end - offset > LARGEST:
+                self.problem(f"the record at byte {offset} claims to be {end - offset} bytes")
             elif opcode == _CONNECTION:
                 self._connect(header, self.bytes_at(start, end - start))
             elif opcode == _MESSAGE:
                 yield from self._inner(self.bytes_at(offset, end - offset), offset)
-            offset = end
         progress(self.size)
 
-    def _record(self, offset: int) -> tuple[dict[bytes, bytes], int, int]:
-        """The header of a record of the file, and where its data begin and end; the end of a chunk may be missing."""
+    def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, dict[bytes, bytes], int, int]]:
+        """Offset, opcode, header, start and end of every record; from a damaged one on to the next known chunk."""
+        offset = len(MAGIC)
+        while offset < self.size:
+            later = [chunk for chunk in chunks if chunk > offset]
+            try:
+                header, start, end = self._record(offset, may_be_cut_off=not later)
+            except DamagedError as error:
+                if not later:
+                    self.problem(f"it breaks off at byte {offset} of {self.size}: {error}")
+                    return
+                self.problem(f"bytes {offset} to {later[0]} are damaged")
+                offset = later[0]
+                continue
+            yield offset, _opcode(header), header, start, end
+            offset = end
+
+    def _read_index(self) -> list[int]:
+        """Takes in the connections that the index at the end describes; gives where it says that chunks begin."""
+        chunks: list[int] = []
+        try:
+            header, _, _ = self._record(len(MAGIC))
+            offset = int.from_bytes(header.get(b"index_pos", b"")[:8], "little")
+            while len(MAGIC) < offset < self.size:
+                header, start, end = self._record(offset)
+                if _opcode(header) == _CONNECTION:
+                    self._connect(header, self.bytes_at(start, end - start))
+                elif _opcode(header) == _CHUNK_INFO:
+                    chunks.append(int.from_bytes(header.get(b"chunk_pos", b"")[:8], "little"))
+                offset = end
+        except DamagedError:
+            pass  # there may be no index: a recorder that is stopped hard leaves none
+        return sorted(chunk for chunk in chunks if len(MAGIC) < chunk < self.size)
+
+    def _record(self, offset: int, *, may_be_cut_off: bool = True) -> tuple[dict[bytes, bytes], int, int]:
+        """The header of a record of the file, and where its data begin and end; of a chunk the end may be missing."""
         length = self._length(offset)
         if length > _LONGEST_HEADER:
             raise DamagedError("a damaged header")
@@ -63,7 +91,7 @@ class Ros1Storage(ChunkedStorage):
             raise DamagedError("a damaged header")
         start = offset + 8 + length
         end = start + self._length(start - 4)
-        if end > self.size and _opcode(header) != _CHUNK:
+        if end > self.size and not (may_be_cut_off and _opcode(header) == _CHUNK):
             raise DamagedError("it is cut off")
         return header, start, end
 

@@ -19,6 +19,8 @@ __all__ = ["MAGIC", "SqliteStorage"]
 
 MAGIC = b"SQLite format 3\0"
 
+# SQLite quotes what is damaged, and that need not be text.
+_DAMAGE = (sqlite3.Error, UnicodeDecodeError)
 _STEP = 2000  # messages between two reports of progress
 
 
@@ -38,7 +40,7 @@ class SqliteStorage(Storage):
             mended = sqlite3.connect(f"{self.path.absolute().as_uri()}?mode=ro", uri=True, check_same_thread=False)
             try:
                 mended.execute("SELECT count(*) FROM sqlite_master").fetchone()
-            except sqlite3.Error as error:
+            except _DAMAGE as error:
                 mended.close()
                 self.problem(f"the journal beside it cannot be used ({error}): what was written last is missing")
             else:
@@ -49,10 +51,11 @@ class SqliteStorage(Storage):
     def records(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Record]:
         """Those of the wanted channels with their data, then the others without."""
         try:
+            self._database.text_factory = lambda text: text.decode("utf-8", "replace")
             self._database.execute("PRAGMA trusted_schema = OFF")
             self._channels = self._read_channels()
             (total,) = self._database.execute("SELECT max(id) FROM messages").fetchone()
-        except (sqlite3.Error, TypeError) as error:
+        except (*_DAMAGE, TypeError) as error:
             self.problem(f"the database cannot be read: {error}")
             return
         if not isinstance(total, int):
@@ -79,7 +82,7 @@ class SqliteStorage(Storage):
                     yield Record(self._channels[number], received, row, data)
                 else:
                     self.problem("rows whose time or data are not what they should be")
-        except sqlite3.Error as error:
+        except _DAMAGE as error:
             self.problem(f"the database is damaged, and not all of it was read: {error}")
 
     def _read_channels(self) -> dict[int, Channel]:
@@ -107,7 +110,7 @@ class SqliteStorage(Storage):
         try:
             with self._lock:
                 row = self._database.execute("SELECT data FROM messages WHERE id = ?", (position,)).fetchone()
-        except sqlite3.Error as error:
+        except _DAMAGE as error:
             raise DamagedError(f"the database is damaged: {error}") from None
         if row is None or not isinstance(row[0], bytes):
             raise DamagedError("the message is gone")
@@ -120,7 +123,7 @@ class SqliteStorage(Storage):
         try:
             with self._lock, self._database.blobopen("messages", "data", position, readonly=True) as blob:
                 return bytes(blob.read(size))
-        except sqlite3.Error as error:
+        except _DAMAGE as error:
             raise DamagedError(f"the database is damaged: {error}") from None
 
     def close(self) -> None:

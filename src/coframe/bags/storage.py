@@ -131,6 +131,8 @@ class ChunkedStorage(Storage):
 
     def bytes_at(self, offset: int, size: int) -> bytes:
         """Bytes of the file; fewer at its end."""
+        if not 0 <= offset < self.size:
+            return b""
         if size > LARGEST:
             raise DamagedError(f"a record of {size} bytes")
         with self._lock:

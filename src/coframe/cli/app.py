@@ -7,9 +7,12 @@ from typing import Annotated
 import typer
 
 import coframe
+from coframe.cli.bag import bag
 from coframe.cli.demo import demo
 from coframe.cli.echo import echo
+from coframe.cli.lookup import lookup
 from coframe.cli.static import static
+from coframe.cli.trajectory import trajectory
 from coframe.cli.view import view
 
 __all__ = ["app"]
@@ -41,5 +44,8 @@ def _main(
 app.command()(demo)
 app.command()(echo)
 app.command()(view)
+app.command()(lookup)
+app.command()(trajectory)
+app.add_typer(bag, name="bag")
 # The numbers of a transform may be negative: this command reads its arguments itself.
 app.command(add_help_option=False, context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(static)

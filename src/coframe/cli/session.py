@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import FrameType
 
-__all__ = ["DomainOption", "TfStaticTopicOption", "TfTopicOption", "fail", "log", "session"]
+__all__ = ["DomainOption", "TfStaticTopicOption", "TfTopicOption", "fail", "log", "printable", "session"]
 
 DomainOption = Annotated[
     int | None, typer.Option(min=0, max=232, help="The ROS domain; by default ROS_DOMAIN_ID, or 0.", show_default=False)
@@ -40,8 +40,13 @@ TfStaticTopicOption = Annotated[str, typer.Option(help="Where static transforms 
 
 def fail(text: str, hint: str = "", *, code: int = 1) -> NoReturn:
     """Ends the command with one plain sentence and, below it, what to do."""
-    typer.echo(f"coframe: {text}" + (f"\n  {hint}" if hint else ""), err=True)
+    typer.echo(f"coframe: {printable(text)}" + (f"\n  {printable(hint)}" if hint else ""), err=True)
     raise typer.Exit(code)
+
+
+def printable(text: str) -> str:
+    """Without what would steer a terminal: names from recordings and the wire may hold anything."""
+    return "".join(c if c.isprintable() or c == "\n" else "\N{REPLACEMENT CHARACTER}" for c in text)
 
 
 def log(level: str, node: str, text: str) -> None:

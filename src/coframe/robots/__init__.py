@@ -6,9 +6,9 @@
 ['base']
 """
 
-from coframe.errors import RobotDescriptionError
+from coframe.errors import PackageError, RobotDescriptionError
 from coframe.robots.files import expand_xacro, load
-from coframe.robots.packages import PackageError, Packages
+from coframe.robots.packages import Packages
 from coframe.robots.parts import (
     Box,
     Capsule,

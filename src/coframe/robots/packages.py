@@ -8,26 +8,16 @@ from typing import TYPE_CHECKING
 from urllib.parse import unquote
 from xml.etree import ElementTree as ET
 
+from coframe.errors import PackageError
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-__all__ = ["PackageError", "Packages"]
+__all__ = ["Packages"]
 
 _MANIFEST = "package.xml"
 _DEEPEST = 4  # folders between a workspace and its packages
 _NOT_SEARCHED = {"build", "install", "log", "node_modules", "__pycache__"}
-
-
-class PackageError(LookupError):
-    """A package or a file of it that is not there, or not inside it.
-
-    Attributes:
-        hint: What to do next.
-    """
-
-    def __init__(self, text: str, *, hint: str = "") -> None:
-        super().__init__(text)
-        self.hint = hint
 
 
 class Packages:

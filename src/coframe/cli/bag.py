@@ -1,0 +1,98 @@
+"""``coframe bag info``: what a recording holds."""
+
+from __future__ import annotations
+
+import json
+from datetime import datetime, timezone
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from coframe.bags import summarize
+from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, seconds
+from coframe.cli.session import printable, session
+
+if TYPE_CHECKING:
+    from coframe.bags import Summary
+
+__all__ = ["bag"]
+
+bag = typer.Typer(help="What is in recordings.", no_args_is_help=True)
+
+
+@bag.callback()
+def _bag() -> None:
+    pass
+
+
+@bag.command()
+def info(
+    bag: BagArgument,
+    namespace: NamespaceOption = None,
+    as_json: Annotated[bool, typer.Option("--json", help="As JSON, with all digits.")] = False,
+) -> None:
+    """Tell what the recording BAG holds: topics, trees of frames, gaps, and which sensors could be transformed.
+
+    Example: coframe bag info run.mcap
+    """
+    with session(), opened(bag, namespace) as recording:
+        summary = summarize(recording)
+        if as_json:
+            print(json.dumps(_plain(summary), indent=2))
+        else:
+            _print(summary)
+
+
+def _print(summary: Summary) -> None:
+    # What is written to a file or another program is not cut to the width of a terminal that is not there.
+    console = Console()
+    if not console.is_terminal:
+        console = Console(width=200)
+    console.print(_text(summary.path, style="bold"))
+    console.print(f"received  {_when(summary.start)} to {_when(summary.end)}, {seconds(summary.end - summary.start)} s")
+    console.print(f"stamps    {seconds(summary.span[0])} to {seconds(summary.span[1])}")
+    topics = _table("topic", "type", "messages", "Hz")
+    for topic in summary.topics:
+        topics.add_row(_text(topic.name), _text(topic.type), str(topic.messages), f"{topic.rate:.1f}")
+    console.print(topics)
+    for tree in summary.trees:
+        console.print(_text(f"tree of {tree.root}: {tree.size} frames", style="bold"))
+    edges = _table("parent", "child", "samples", "Hz", "longest gap", "from", "to")
+    for edge in summary.edges:
+        moving = (f"{edge.rate:.1f}", f"{edge.longest_gap / SECOND:.3f} s", seconds(edge.oldest), seconds(edge.newest))
+        cells: tuple[Any, ...] = ("static", "", "", "") if edge.static else moving
+        edges.add_row(_text(edge.parent), _text(edge.child), str(edge.samples), *cells)
+    console.print(edges)
+    sensors = _table("sensor", "frame", "could be transformed", "why not")
+    for sensor in summary.sensors:
+        share = f"{sensor.possible} of {sensor.messages} into {sensor.root}" if sensor.root else "none"
+        sensors.add_row(_text(sensor.topic), _text(sensor.frame), _text(share), _text(sensor.why_not))
+    if summary.sensors:
+        console.print(sensors)
+
+
+def _text(text: str, style: str = "") -> Text:
+    return Text(printable(text), style=style)
+
+
+def _plain(value: Any) -> Any:
+    """Named tuples by their names."""
+    if isinstance(value, (list, tuple)):
+        parts = [_plain(part) for part in value]
+        return dict(zip(value._fields, parts, strict=True)) if hasattr(value, "_fields") else parts
+    return value
+
+
+def _table(*columns: str) -> Table:
+    table = Table(box=None, pad_edge=False, header_style="dim")
+    for column in columns:
+        table.add_column(column, justify="right" if column in {"messages", "Hz", "samples"} else "left")
+    return table
+
+
+def _when(nanoseconds: int) -> str:
+    date = datetime.fromtimestamp(nanoseconds // SECOND, timezone.utc)
+    return f"{date:%Y-%m-%d %H:%M:%S}.{nanoseconds % SECOND // 1_000_000:03d} UTC"

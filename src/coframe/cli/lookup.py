@@ -1,0 +1,64 @@
+"""``coframe lookup``: where a frame was, in a recording."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from coframe.cli.echo import MOST_DIGITS, format_transform
+from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened
+from coframe.cli.session import fail, session
+
+if TYPE_CHECKING:
+    from coframe import Transform
+
+__all__ = ["lookup"]
+
+_WHEN = "1666859837.363141536, 10s (from the start), -2s (from the end), 2022-10-27T08:43:57Z, start or end."
+
+
+def lookup(
+    bag: BagArgument,
+    target: Annotated[str, typer.Argument(help="The frame the answer is told in.")],
+    source: Annotated[str, typer.Argument(help="The frame that is asked about.")],
+    at: Annotated[
+        str | None, typer.Option("--at", "-t", help=f"When: {_WHEN}", show_default="the latest possible")
+    ] = None,
+    fixed: Annotated[
+        str | None, typer.Option(help="Time travel: the frame that does not move meanwhile.", show_default=False)
+    ] = None,
+    source_time: Annotated[
+        str | None, typer.Option(help="Time travel: the source as it was then, told in the target as of --at.")
+    ] = None,
+    namespace: NamespaceOption = None,
+    precision: Annotated[int, typer.Option("--precision", "-p", min=0, max=MOST_DIGITS, help="Digits.")] = 6,
+    as_json: Annotated[bool, typer.Option("--json", help="One line of JSON with all digits.")] = False,
+) -> None:
+    """Print where SOURCE was, seen from TARGET, at a time of the recording BAG.
+
+    Example: coframe lookup run.mcap map base_link --at 10s
+    """
+    if (fixed is None) != (source_time is None):
+        fail("time travel takes both --fixed and --source-time", code=2)
+    with session(), opened(bag, namespace) as recording:
+        when = 0 if at is None else instant("--at", at, recording)
+        buffer = recording.buffer
+        if fixed is None or source_time is None:
+            found = buffer.lookup(target, source, when)
+        else:
+            found = buffer.lookup_full(target, when, source, instant("--source-time", source_time, recording), fixed)
+        print(_json(found) if as_json else format_transform(found, precision))
+
+
+def _json(transform: Transform) -> str:
+    return json.dumps(
+        {
+            "target": transform.target,
+            "source": transform.source,
+            "stamp_ns": transform.stamp,
+            "translation": transform.translation.tolist(),
+            "quaternion": transform.quaternion.tolist(),
+        }
+    )

@@ -1,0 +1,63 @@
+"""What the commands about recordings share: opening with a progress bar, times, what could not be read."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, DownloadColumn, Progress, TextColumn, TimeRemainingColumn
+
+from coframe.bags import open_bag, parse_instant
+from coframe.cli.session import fail
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from coframe.bags import Recording
+
+__all__ = ["BagArgument", "NamespaceOption", "instant", "opened", "seconds"]
+
+SECOND = 1_000_000_000
+
+BagArgument = Annotated[Path, typer.Argument(metavar="BAG", help="A .mcap, .db3 or .bag file, or a rosbag2 folder.")]
+NamespaceOption = Annotated[
+    str | None, typer.Option(help="Only the transforms of this namespace, such as /robot1.", show_default=False)
+]
+
+
+@contextmanager
+def opened(path: Path, namespace: str | None = None) -> Iterator[Recording]:
+    """The recording, read with a progress bar if that takes long; what could not be read goes to stderr."""
+    console = Console(stderr=True)
+    columns = (TextColumn("reading"), BarColumn(), DownloadColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+        task = bar.add_task("reading", total=None)
+        recording = open_bag(path, namespace=namespace, progress=lambda d, t: bar.update(task, completed=d, total=t))
+    with recording:
+        told = recording.problems
+        for problem in told:
+            print(f"coframe: {problem}", file=sys.stderr)
+        try:
+            yield recording
+        finally:
+            for problem in recording.problems:
+                if problem not in told:
+                    print(f"coframe: {problem}", file=sys.stderr)
+
+
+def instant(option: str, text: str, recording: Recording) -> int:
+    """The time that an option names, in nanoseconds; anything else ends the command."""
+    try:
+        return parse_instant(text, recording.span)
+    except ValueError as error:
+        fail(f"{option}: {error}", code=2)
+
+
+def seconds(nanoseconds: int) -> str:
+    """All nine digits."""
+    sign, size = ("-", -nanoseconds) if nanoseconds < 0 else ("", nanoseconds)
+    return f"{sign}{size // SECOND}.{size % SECOND:09d}"

@@ -1,0 +1,235 @@
+"""coframe lookup, trajectory and bag info, as a user types them."""
+
+import json
+
+import numpy as np
+import pytest
+import recordings
+from recordings import COUNT, SECOND, START
+from typer.testing import CliRunner
+
+import coframe
+from coframe.cli.app import app
+
+
+@pytest.fixture(scope="module")
+def bag(tmp_path_factory):
+    return recordings.write_mcap(tmp_path_factory.mktemp("bag") / "walk.mcap")
+
+
+def run(*arguments):
+    """(exit code, stdout, stderr)."""
+    result = CliRunner().invoke(app, [str(argument) for argument in arguments])
+    assert result.exception is None or isinstance(result.exception, SystemExit)
+    assert "Traceback" not in result.output
+    return result.exit_code, result.stdout, result.stderr
+
+
+@pytest.mark.parametrize(
+    ("text", "stamp"),
+    [
+        ("1700000001.050000021", START + 1_050_000_021),
+        ("1700000001050000021", START + 1_050_000_021),
+        ("1700000001", START + SECOND),
+        ("1s", START + SECOND),
+        ("+1050ms", START + 1_050_000_000),
+        ("-1s", START + (COUNT - 1) * (SECOND // 20 + 1) - SECOND),
+        ("2023-11-14T22:13:21.050000021Z", START + 1_050_000_021),
+        ("2023-11-15 00:13:21.05+02:00", START + 1_050_000_000),
+        ("start", START),
+        ("end", START + (COUNT - 1) * (SECOND // 20 + 1)),
+    ],
+)
+def test_no_digit_of_a_time_is_lost(bag, text, stamp):
+    code, out, _ = run("lookup", bag, "odom", "lidar", "--at", text, "--json")
+    assert code == 0
+    found = json.loads(out)
+    assert found["stamp_ns"] == stamp
+    expected = recordings.expected().lookup("odom", "lidar", stamp)
+    assert found["translation"] == pytest.approx(expected.translation.tolist(), abs=1e-14)
+    assert found["quaternion"] == pytest.approx(expected.quaternion.tolist(), abs=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("soon", "is no point in time"),
+        ("1.0000000001", "nine after the point"),
+        ("2023-11-14T22:13:21", "has no time zone"),
+        ("2023-13-14T22:13:21Z", "is no point in time"),
+        ("10 parsecs", "is not a duration"),
+        ("99999999999999999999", "does not fit 64-bit nanoseconds"),
+        ("9" * 5000, "does not fit 64-bit nanoseconds"),
+        ("nan", "is no point in time"),
+        ("", "is no point in time"),
+    ],
+)
+def test_times_that_are_none(bag, text, reason):
+    code, out, error = run("lookup", bag, "odom", "lidar", "--at", text)
+    assert (code, out) == (2, "")
+    assert reason in error
+    assert error.startswith("coframe: --at: ")
+
+
+def test_lookup_prints_as_echo_does(bag):
+    code, out, error = run("lookup", bag, "base", "lidar", "-p", "2")
+    assert (code, error) == (0, "")
+    assert "- Translation: [0.10, 0.00, 0.30]\n" in out
+    assert "- Rotation: in RPY (degree) [0.00, 0.00, 57.30]\n" in out
+
+
+def test_time_travel(bag):
+    code, out, _ = run("lookup", bag, "base", "base", "--at", "2s", "--fixed", "odom", "--source-time", "1s", "--json")
+    assert code == 0
+    expected = recordings.expected().lookup_full("base", START + 2 * SECOND, "base", START + SECOND, "odom")
+    assert json.loads(out)["translation"] == pytest.approx(expected.translation.tolist(), abs=1e-12)
+    code, _, error = run("lookup", bag, "base", "base", "--fixed", "odom")
+    assert (code, error) == (2, "coframe: time travel takes both --fixed and --source-time\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason", "hint"),
+    [
+        (("odom", "lider"), '"lider" passed to lookupTransform argument source_frame does not exist', "'lidar'"),
+        (("odom", "base", "--at", "1h"), "Lookup would require extrapolation into the future", "odom -> base"),
+    ],
+)
+def test_what_cannot_be_looked_up_is_one_sentence_and_a_hint(bag, arguments, reason, hint):
+    code, out, error = run("lookup", bag, *arguments)
+    assert (code, out) == (1, "")
+    assert reason in error
+    assert hint in error
+    assert len(error.splitlines()) == 2
+
+
+def test_a_recording_that_is_not_there(tmp_path):
+    for command in (
+        ("lookup", tmp_path / "x", "a", "b"),
+        ("trajectory", tmp_path / "x", "a", "b"),
+        ("bag", "info", "x"),
+    ):
+        code, out, error = run(*command)
+        assert (code, out) == (1, "")
+        assert "cannot be read: No such file" in error
+
+
+def samples():
+    stamps = np.array([at for topic, at, *_ in recordings.walk() if topic == "/tf"])
+    poses = recordings.expected().lookup_many("odom", "lidar", stamps)
+    return stamps, np.concatenate([poses.translation, poses.quaternion], axis=1), poses.matrix
+
+
+def test_trajectories_in_every_format(bag, tmp_path):
+    stamps, values, matrices = samples()
+    for name in ("a.tum", "a.kitti", "a.csv", "a.npz", "a.parquet"):
+        if name.endswith("parquet"):
+            pytest.importorskip("pyarrow")
+        code, out, error = run("trajectory", bag, "odom", "lidar", "-o", tmp_path / name)
+        assert (code, error) == (0, "")
+        assert f"{COUNT} poses from 1700000000.000000000 to 1700000002.950000059" in out
+    lines = [line.split() for line in (tmp_path / "a.tum").read_text().splitlines()]
+    assert [int(line[0].replace(".", "")) for line in lines] == stamps.tolist()
+    np.testing.assert_allclose([[float(word) for word in line[1:]] for line in lines], values, atol=1e-14)
+    np.testing.assert_allclose(np.loadtxt(tmp_path / "a.kitti").reshape(-1, 3, 4), matrices[:, :3], atol=1e-14)
+    table = (tmp_path / "a.csv").read_text().splitlines()
+    assert table[0] == "stamp_ns,x,y,z,qx,qy,qz,qw"
+    assert [int(line.partition(",")[0]) for line in table[1:]] == stamps.tolist()
+    with np.load(tmp_path / "a.npz") as arrays:
+        assert (arrays["stamps"] == stamps).all()
+        assert (str(arrays["target"]), str(arrays["source"])) == ("odom", "lidar")
+        np.testing.assert_allclose(arrays["quaternion"], values[:, 3:], atol=1e-14)
+    from pyarrow import parquet
+
+    read = parquet.read_table(tmp_path / "a.parquet")
+    assert read["stamp_ns"].to_pylist() == stamps.tolist()
+    np.testing.assert_allclose(read["x"].to_numpy(), values[:, 0], atol=1e-14)
+    assert read.schema.metadata[b"target"] == b"odom"
+
+
+def test_trajectories_at_other_times(bag, tmp_path):
+    code, out, _ = run("trajectory", bag, "odom", "base", "--rate", "100", "--start", "1s", "--stop", "2s")
+    assert code == 0
+    stamps = [int(line.split()[0].replace(".", "")) for line in out.splitlines()]
+    assert stamps == [START + SECOND + i * SECOND // 100 for i in range(101)]
+
+    early = ("/other", START - SECOND, recordings.cdr("x", "y", coframe.Transform(), START - SECOND))
+    late = ("/other", START + SECOND, recordings.cdr("x", "y", coframe.Transform(), START + SECOND))
+    other = recordings.write_mcap(tmp_path / "b.mcap", rows=[*recordings.messages(), early, late])
+    code, out, error = run("trajectory", other, "odom", "base", "--stamps-of", "other", "-f", "csv")
+    assert code == 0
+    assert out.splitlines()[1].startswith(f"{START + SECOND},")
+    assert len(out.splitlines()) == 2
+    assert error == "coframe: 1 of 2 times have no transform and were left out\n"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "reason"),
+    [
+        (("-o", "x.mat"), 2, "does not say which format"),
+        (("-f", "xls"), 2, "no format 'xls'"),
+        (("-f", "npz"), 2, "name a file with -o"),
+        (("--rate", "0"), 2, "must be above 0"),
+        (("--rate", "nan"), 2, "must be above 0"),
+        (("--rate", "1", "--stamps-of", "tf"), 2, "exclude each other"),
+        (("--stamps-of", "gone"), 1, "has no topic 'gone'"),
+        (("--rate", "1", "--start", "1h"), 1, "nothing between these times"),
+        (("--start", "1h"), 1, "nothing between these times"),
+        (("-o", "/nowhere/x.tum"), 1, "cannot be written: No such file"),
+    ],
+)
+def test_trajectories_that_are_refused(bag, arguments, code, reason):
+    found, out, error = run("trajectory", bag, "odom", "base", *arguments)
+    assert (found, out) == (code, "")
+    assert reason in error
+
+
+def test_bag_info(bag):
+    code, out, error = run("bag", "info", bag)
+    assert (code, error) == (0, "")
+    assert "received  2023-11-14 22:13:20.000 UTC to 2023-11-14 22:13:22.950 UTC, 2.950000059 s" in out
+    assert "tree of odom: 3 frames" in out
+    code, out, _ = run("bag", "info", bag, "--json")
+    summary = json.loads(out)
+    assert summary["trees"] == [{"root": "odom", "size": 3}]
+    assert summary["span"] == [START, START + (COUNT - 1) * (SECOND // 20 + 1)]
+    edges = {edge["child"]: edge for edge in summary["edges"]}
+    assert edges["lidar"]["static"]
+    assert edges["base"]["samples"] == COUNT
+    assert edges["base"]["longest_gap"] == SECOND // 20 + 1
+    assert {topic["name"]: topic["messages"] for topic in summary["topics"]} == {"/tf": COUNT, "/tf_static": 1}
+
+
+def test_bag_info_tells_which_sensors_could_be_transformed(shared):
+    code, out, _ = run("bag", "info", shared / "recordings" / "tilt_laser.bag", "--json")
+    assert code == 0
+    sensors = {sensor["topic"]: sensor for sensor in json.loads(out)["sensors"]}
+    assert sensors["/imu_data"]["why_not"] == "no transform tells of 'base_imu'"
+    assert sensors["/scan"]["root"] == "tilt_base"
+    assert 170 < sensors["/scan"]["possible"] <= 178
+
+
+def test_bag_info_of_two_trees(shared):
+    code, out, _ = run("bag", "info", shared / "recordings" / "tb3_tf_missing_static")
+    assert code == 0
+    assert "tree of base_link: 3 frames" in out
+    assert "tree of odom: 2 frames" in out
+
+
+def test_problems_go_to_stderr(bag, tmp_path):
+    cut = tmp_path / "cut.mcap"
+    cut.write_bytes(bag.read_bytes()[:4000])
+    code, out, error = run("lookup", cut, "odom", "base", "--json")
+    assert code == 0
+    assert json.loads(out)["target"] == "odom"
+    assert error.endswith("coframe: cut.mcap: it breaks off at byte 4000 of 4000: was the recorder stopped hard?\n")
+
+
+def test_names_cannot_harm_the_terminal(tmp_path):
+    evil = "\x1b]0;evil\x07"
+    rows = [(topic, at, data.replace(b"lidar", b"\x1b[2Jx")) for topic, at, data in recordings.messages()]
+    rows.append((f"/{evil}", START, b"?"))
+    path = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={f"/{evil}": ("a/msg/B", "", b"", "odd")})
+    code, out, error = run("bag", "info", path)
+    assert code == 0
+    assert "\x1b" not in out + error
+    assert "\x07" not in out + error

@@ -1,0 +1,273 @@
+"""Recordings that were cut off, scratched and made up: what is left of them is read, the rest is told of."""
+
+import itertools
+import random
+import sqlite3
+import time
+
+import numpy as np
+import pytest
+import recordings
+from mcap.reader import make_reader
+from mcap.writer import CompressionType
+from recordings import COUNT, START, messages
+from rosbags.rosbag1 import Writer as Rosbag1Writer
+
+import coframe
+
+KINDS = [
+    "zstd.mcap",
+    "lz4.mcap",
+    "plain.mcap",
+    "unchunked.mcap",
+    "plain.bag",
+    "bz2.bag",
+    "lz4.bag",
+    "a.db3",
+    "zstd.db3.zstd",
+]
+
+
+def write(folder, kind):
+    """A recording of that kind; its path."""
+    name, _, suffix = kind.partition(".")
+    path = folder / kind
+    if suffix == "mcap":
+        packed = {"zstd": CompressionType.ZSTD, "lz4": CompressionType.LZ4}.get(name, CompressionType.NONE)
+        return recordings.write_mcap(path, packed, chunked=name != "unchunked")
+    if suffix == "bag":
+        return recordings.write_rosbag1(path, {f.name.lower(): f for f in Rosbag1Writer.CompressionFormat}.get(name))
+    database = recordings.write_sqlite(folder / "plain.db3", 4)
+    if suffix == "db3":
+        return database.rename(path)
+    import zstandard
+
+    path.write_bytes(zstandard.compress(database.read_bytes()))
+    return path
+
+
+def survives(path):
+    """How many transforms there are; None if the recording was refused. All messages are decoded."""
+    started = time.monotonic()
+    try:
+        recording = coframe.open_bag(path)
+    except coframe.RecordingError:
+        return None
+    with recording:
+        count = sum(edge.stored for edge in recording.buffer.edges())
+        for topic in recording.topics:
+            recording.message_at(topic, START)
+            for message in recording.messages(topic):
+                try:
+                    _ = message.message
+                except coframe.DecodeError:
+                    continue
+        assert all("\n" not in problem for problem in recording.problems)
+    assert time.monotonic() - started < 5
+    return count
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_recording_that_is_cut_off_is_read_up_to_there(tmp_path, kind):
+    whole = write(tmp_path, kind).read_bytes()
+    path = tmp_path / f"cut_{kind}"
+    found = []
+    for size in np.linspace(0, len(whole), 60).astype(int).tolist():
+        path.write_bytes(whole[:size])
+        found.append(survives(path) or 0)
+    assert found[0] == 0
+    assert found[-1] == COUNT + 1
+    if "db3" not in kind:  # of a database the first page alone may be all that is left
+        assert all(a <= b for a, b in itertools.pairwise(found))
+        assert any(0 < count < COUNT for count in found)
+
+
+@pytest.mark.parametrize("chunked", [True, False])
+def test_an_mcap_whose_recorder_was_killed(tmp_path, chunked):
+    path = recordings.write_mcap(tmp_path / "a.mcap", CompressionType.NONE, chunked=chunked, finish=False)
+    recording = coframe.open_bag(path)
+    assert 40 < recording.topics["/tf"].messages <= COUNT
+    (problem,) = recording.problems
+    assert "it breaks off at byte" in problem
+
+
+def test_a_damaged_chunk_costs_only_itself(tmp_path):
+    path = recordings.write_mcap(tmp_path / "a.mcap")
+    data = bytearray(path.read_bytes())
+    with path.open("rb") as stream:
+        second = make_reader(stream).get_summary().chunk_indexes[1]
+    frame = data.index(b"zstd", second.chunk_start_offset) + len("zstd") + 8
+    data[frame : frame + 4] = bytes(4)
+    path.write_bytes(data)
+    recording = coframe.open_bag(path)
+    assert COUNT - 20 < recording.topics["/tf"].messages < COUNT
+    assert "cannot be unpacked: zstd says" in recording.problems[0]
+
+
+def test_a_length_that_lies_is_skipped_with_the_help_of_the_index(tmp_path):
+    path = recordings.write_mcap(tmp_path / "a.mcap")
+    data = bytearray(path.read_bytes())
+    first = data.index(b"zstd") - 4 - 28 - 9  # opcode and length of the first chunk
+    assert data[first] == 0x06
+    data[first + 1 : first + 9] = b"\xff" * 8
+    path.write_bytes(data)
+    recording = coframe.open_bag(path)
+    assert COUNT / 2 < recording.topics["/tf"].messages < COUNT
+    assert "are damaged" in recording.problems[0]
+
+
+def test_a_flipped_bit_is_noticed(tmp_path):
+    path = recordings.write_mcap(tmp_path / "a.mcap", CompressionType.NONE)
+    data = bytearray(path.read_bytes())
+    data[data.index(b"odom") + 60] ^= 1
+    path.write_bytes(data)
+    recording = coframe.open_bag(path)
+    assert recording.topics["/tf"].messages == COUNT
+    assert "its checksum differs" in recording.problems[0]
+
+
+def test_a_bag_of_ros_1_without_its_index(tmp_path):
+    path = recordings.write_rosbag1(tmp_path / "a.bag")
+    data = path.read_bytes()
+    where = data.index(b"index_pos=") + len("index_pos=")
+    path.write_bytes(data[: int.from_bytes(data[where : where + 8], "little")])
+    recordings.assert_same(coframe.open_bag(path).buffer)
+
+
+def test_a_damaged_chunk_of_ros_1_costs_only_itself(tmp_path):
+    path = recordings.write_rosbag1(tmp_path / "a.bag")
+    data = bytearray(path.read_bytes())
+    second = data.index(b"op=\x05", data.index(b"op=\x05") + 1)
+    data[second - 8 : second - 4] = b"\xff\xff\xff\x7f"  # the length of the chunk's header
+    path.write_bytes(data)
+    recording = coframe.open_bag(path)
+    assert COUNT / 2 < recording.topics["/tf"].messages < COUNT
+    assert "are damaged" in recording.problems[0]
+
+
+def test_damaged_messages_are_counted_and_left_out(tmp_path):
+    rows = [*messages(), *[("/tf", START + i, b"\0\1\0\0\xff\xff\xff\xff") for i in range(5)]]
+    recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows))
+    recordings.assert_same(recording.buffer)
+    (problem,) = recording.problems
+    assert problem.startswith("/tf: damaged messages: ")
+    assert problem.endswith("(5 times)")
+
+
+def test_transforms_that_tf2_refuses_are_told_of(tmp_path):
+    good = messages()[1][2]
+    rows = [*messages(), ("/tf", START, good[:-8] + np.array(np.nan).tobytes())]
+    recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows))
+    recordings.assert_same(recording.buffer)
+    assert recording.problems == ["transforms that tf2 refuses: no numbers, no rotation, no name, or a frame in itself"]
+
+
+def test_two_clocks_are_told_of(tmp_path):
+    later = recordings.cdr("odom", "ball", coframe.Transform(), START + 10_000 * recordings.SECOND)
+    recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=[*messages(), ("/tf", START, later)]))
+    assert recording.problems == ["two clocks are mixed: odom -> ball is told hours apart from odom -> base"]
+    assert recording.span[1] < START + 10 * recordings.SECOND
+
+
+def test_what_claims_to_be_huge_is_not_believed(tmp_path):
+    import zstandard
+
+    bomb = zstandard.compress(bytes(1 << 28), 19)
+    chunk = b"".join(
+        [(0).to_bytes(8, "little")] * 2
+        + [(1 << 40).to_bytes(8, "little"), bytes(4), b"\4\0\0\0zstd", len(bomb).to_bytes(8, "little"), bomb]
+    )
+    path = tmp_path / "a.mcap"
+    path.write_bytes(b"\x89MCAP0\r\n" + b"\x06" + len(chunk).to_bytes(8, "little") + chunk)
+    recording = coframe.open_bag(path)
+    assert "claims to be 1099511627776 bytes" in recording.problems[0]
+
+
+def test_databases_that_are_traps(tmp_path):
+    """Views that never end, tables without what is needed, values of other types."""
+    trap = tmp_path / "view.db3"
+    with sqlite3.connect(trap) as database:
+        database.execute("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT)")
+        database.execute(
+            "CREATE VIEW messages AS WITH RECURSIVE n(id) AS (SELECT 1 UNION ALL SELECT id + 1 FROM n)"
+            " SELECT id, 1 AS topic_id, id AS timestamp, x'00' AS data FROM n"
+        )
+    database.close()
+    assert "no table messages" in coframe.open_bag(trap).problems[0]
+    odd = tmp_path / "odd.db3"
+    with sqlite3.connect(odd) as database:
+        database.execute("CREATE TABLE topics(id, name, type, serialization_format)")
+        database.execute("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data)")
+        database.execute("INSERT INTO topics VALUES (1, '/tf', 'tf2_msgs/msg/TFMessage', 'cdr'), ('x', 2, 3, NULL)")
+        database.execute("INSERT INTO messages VALUES (1, 1, 'soon', x'00'), (2, 1, 5, NULL), (3, 1, 5, 'text')")
+    database.close()
+    assert coframe.open_bag(odd).problems == ["odd.db3: rows whose time or data are not what they should be (3 times)"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "[1, 2",
+        "rosbag2_bagfile_information: 5",
+        "rosbag2_bagfile_information: {relative_file_paths: [1, null, ../../etc/passwd]}",
+        "a: &a [x]\n" + "\n".join(f"b{i}: &b{i} [*a, *a]" for i in range(50)),
+        "\0",
+        "!!python/object/apply:os.system ['true']",
+    ],
+)
+def test_damaged_metadata_do_no_harm(tmp_path, text):
+    bag = recordings.write_rosbag2(tmp_path / "bag")
+    (bag / "metadata.yaml").write_text(text)
+    recording = coframe.open_bag(bag)
+    recordings.assert_same(recording.buffer)
+    assert recording.problems
+
+
+def mutated(rng, data):
+    """The bytes with some of them changed, left out, doubled or swapped."""
+    out = bytearray(data)
+    for _ in range(rng.choice([1, 1, 2, 4, 16])):
+        if not out:
+            break
+        where = rng.randrange(len(out))
+        kind = rng.random()
+        if kind < 0.5:
+            out[where] = rng.choice([0, 1, 0x7F, 0x80, 0xFF, rng.randrange(256)])
+        elif kind < 0.7:
+            out[where : where + rng.choice([4, 8])] = rng.choice(
+                [b"\xff" * 8, b"\0" * 8, rng.randbytes(8), b"\0\0\0\x80"]
+            )
+        elif kind < 0.8:
+            del out[where : where + rng.choice([1, 4, 50])]
+        elif kind < 0.9:
+            out[where:where] = out[where : where + 100]
+        else:
+            del out[where:]
+    return bytes(out) or b"\0"
+
+
+def fuzz(folder, kind, cases, seed):
+    whole = write(folder, kind).read_bytes()
+    path = folder / f"mutated_{kind}"
+    rng = random.Random(seed)
+    refused = partly = 0
+    for _ in range(cases):
+        path.write_bytes(mutated(rng, whole))
+        count = survives(path)
+        refused += count is None
+        partly += count is not None and 0 < count < COUNT + 1
+    assert refused < cases
+    assert partly > 0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_mutated_recordings_are_survived(tmp_path, kind):
+    fuzz(tmp_path, kind, 200, 5)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1200)
+@pytest.mark.parametrize("kind", KINDS)
+def test_twenty_thousand_mutated_recordings_are_survived(tmp_path, kind):
+    fuzz(tmp_path, kind, 20_000 // len(KINDS), time.time_ns())

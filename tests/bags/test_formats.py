@@ -1,0 +1,331 @@
+"""One walk in every format that there is gives the same answers."""
+
+import itertools
+
+import numpy as np
+import pytest
+import recordings
+import zstandard
+from mcap.writer import CompressionType
+from recordings import COUNT, SECOND, START, cdr, humble, messages, ros1
+from rosbags.rosbag1 import Writer as Rosbag1Writer
+from rosbags.rosbag2 import CompressionMode, StoragePlugin
+
+import coframe
+
+RANGE_OF_IRON = b"""std_msgs/Header header
+uint8 radiation_type
+float32 field_of_view
+float32 min_range
+float32 max_range
+float32 range
+float32 variance
+================================================================================
+MSG: std_msgs/Header
+builtin_interfaces/Time stamp
+string frame_id
+================================================================================
+MSG: builtin_interfaces/Time
+int32 sec
+uint32 nanosec
+"""
+
+
+def read(path):
+    """The recording, which has nothing to complain of."""
+    recording = coframe.open_bag(path)
+    assert recording.problems == []
+    return recording
+
+
+@pytest.mark.parametrize("chunked", [True, False])
+@pytest.mark.parametrize("compression", CompressionType)
+def test_mcap_of_any_compression(tmp_path, compression, chunked):
+    with read(recordings.write_mcap(tmp_path / "a.mcap", compression, chunked=chunked)) as recording:
+        recordings.assert_same(recording.buffer)
+        assert recording.topics["/tf"].messages == COUNT
+        assert recording.span == (START, START + (COUNT - 1) * (SECOND // 20 + 1))
+        for (_, at, data), message in zip(messages()[1:], recording.messages("/tf"), strict=True):
+            assert (message.received, message.stamp, message.data) == (at, at - 1000, data)
+            assert message.message.transforms[0].child_frame_id == "base"
+
+
+@pytest.mark.parametrize("plugin", StoragePlugin)
+@pytest.mark.parametrize("compression", [None, CompressionMode.FILE, CompressionMode.MESSAGE, CompressionMode.STORAGE])
+def test_rosbag2_of_any_compression(tmp_path, plugin, compression):
+    if compression is CompressionMode.STORAGE and plugin is not StoragePlugin.MCAP:
+        pytest.skip("SQLite has no compression of its own")
+    with read(recordings.write_rosbag2(tmp_path / "bag", plugin, compression)) as recording:
+        recordings.assert_same(recording.buffer)
+        assert [m.message.transforms[0].child_frame_id for m in recording.messages("tf_static")] == ["lidar"]
+        assert recording.message_at("/tf", START + SECOND).stamp == START + SECOND - SECOND // 20 + 19
+
+
+def test_rosbag2_without_its_metadata_and_by_the_name_of_the_metadata(tmp_path):
+    bag = recordings.write_rosbag2(tmp_path / "bag")
+    recordings.assert_same(read(bag / "metadata.yaml").buffer)
+    (bag / "metadata.yaml").unlink()
+    (bag / "notes.txt").write_text("not part of it")
+    recordings.assert_same(read(bag).buffer)
+    recordings.assert_same(read(next(bag.glob("*.db3"))).buffer)
+
+
+@pytest.mark.parametrize("version", [1, 2, 3, 4])
+def test_every_schema_of_sqlite(tmp_path, version):
+    with read(recordings.write_sqlite(tmp_path / "bag" / "a.db3", version)) as recording:
+        recordings.assert_same(recording.buffer)
+        assert next(recording.messages("/tf")).message.transforms[0].header.frame_id == "odom"
+
+
+@pytest.mark.parametrize("compression", [None, *Rosbag1Writer.CompressionFormat])
+def test_bags_of_ros_1(tmp_path, compression):
+    with read(recordings.write_rosbag1(tmp_path / "a.bag", compression)) as recording:
+        recordings.assert_same(recording.buffer)
+        message = next(recording.messages("/tf")).message
+        assert type(message).__module__ == "tf2_msgs.msg"
+        assert message.transforms[0].header.stamp.sec == START // SECOND
+
+
+@pytest.mark.parametrize(
+    ("name", "encoding", "encode"),
+    [
+        ("foxglove.FrameTransform", "json", recordings.foxglove_json),
+        ("foxglove.FrameTransforms", "json", recordings.foxglove_json_many),
+        ("foxglove.FrameTransform", "protobuf", recordings.foxglove_protobuf),
+        ("foxglove.FrameTransforms", "protobuf", recordings.foxglove_protobuf_many),
+        ("foxglove_msgs/msg/FrameTransform", "cdr", recordings.foxglove_cdr),
+        ("foxglove_msgs/msg/FrameTransforms", "cdr", cdr),
+        ("tf2_msgs/TFMessage", "ros1", ros1),
+        ("tf/tfMessage", "ros1", ros1),
+    ],
+)
+def test_transforms_of_others_in_mcap(tmp_path, name, encoding, encode):
+    types = dict.fromkeys(["/tf", "/tf_static"], (name, "", b"", encoding))
+    with read(recordings.write_mcap(tmp_path / "a.mcap", rows=messages(encode), types=types)) as recording:
+        recordings.assert_same(recording.buffer)
+        if encoding == "json":
+            assert "timestamp" in str(next(recording.messages("/tf")).message)
+
+
+@pytest.mark.parametrize("metadata", [True, False])
+def test_a_recording_in_many_files(tmp_path, metadata):
+    bag = tmp_path / "bag"
+    bag.mkdir()
+    rows = messages()
+    parts = [rows[0:1] + rows[1:20], rows[0:1] + rows[20:40], rows[0:1] + rows[40:]]  # statics again in every file
+    names = ["run_2.mcap", "run_9.mcap", "run_10.mcap"]
+    for name, part in zip(names, parts, strict=True):
+        recordings.write_mcap(bag / name, rows=part)
+    if metadata:
+        listed = "\n".join(f"    - {name}" for name in names)
+        (bag / "metadata.yaml").write_text(f"rosbag2_bagfile_information:\n  relative_file_paths:\n{listed}\n")
+    with read(bag) as recording:
+        recordings.assert_same(recording.buffer)
+        assert (np.diff(recording.stamps("/tf")) > 0).all()
+        assert len(list(recording.messages("/tf"))) == COUNT
+
+
+def test_a_file_that_was_compressed_as_a_whole(tmp_path):
+    plain = recordings.write_mcap(tmp_path / "a.mcap")
+    packed = tmp_path / "packed.mcap.zstd"
+    packed.write_bytes(zstandard.compress(plain.read_bytes()))
+    with read(packed) as recording:
+        recordings.assert_same(recording.buffer)
+
+
+def test_statics_that_are_told_again_do_not_wipe_what_moved(tmp_path):
+    rows = messages()
+    rows.insert(40, ("/tf_static", rows[40][1], cdr("base", "lidar", coframe.Transform([9, 9, 9]), 0)))
+    rows.insert(41, rows[0])
+    recordings.assert_same(read(recordings.write_mcap(tmp_path / "a.mcap", rows=rows)).buffer)
+
+
+def test_a_frame_that_is_static_and_moves_keeps_moving(tmp_path):
+    rows = [*messages(), ("/tf_static", START, cdr("odom", "base", coframe.Transform(), 0))]
+    recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows))
+    recordings.assert_same(recording.buffer)
+    (problem,) = recording.problems
+    assert "odom -> base is both on /tf_static" in problem
+
+
+def test_robots_of_several_namespaces(tmp_path):
+    def rows(namespace, prefix):
+        for topic, at, parent, child, transform in recordings.walk():
+            yield namespace + topic, at, cdr(prefix + parent, prefix + child, transform, at)
+
+    apart = [*rows("/one", "one/"), *rows("/two", "two/")]
+    recording = read(recordings.write_mcap(tmp_path / "apart.mcap", rows=apart))
+    assert sorted(recording.buffers) == ["/one", "/two"]
+    assert recording.buffer.lookup("one/odom", "one/lidar", START).source == "one/lidar"
+    assert recording.buffer.lookup("two/odom", "two/lidar", START).source == "two/lidar"
+
+    alike = recordings.write_mcap(tmp_path / "alike.mcap", rows=[*rows("/one", ""), *rows("/two", "")])
+    recording = coframe.open_bag(alike)
+    assert "/one/tf and /two/tf both tell of 'base'" in recording.problems[0]
+    recordings.assert_same(recording.buffer)
+    recordings.assert_same(recording.buffers["/two"])
+    chosen = coframe.open_bag(alike, namespace="two")
+    assert chosen.problems == []
+    assert list(chosen.buffers) == ["/two"]
+
+
+def imu(at, frame="imu"):
+    Imu = humble.types["sensor_msgs/msg/Imu"]  # noqa: N806
+    Header, Time = humble.types["std_msgs/msg/Header"], humble.types["builtin_interfaces/msg/Time"]  # noqa: N806
+    Quaternion, Vector3 = (humble.types[f"geometry_msgs/msg/{n}"] for n in ("Quaternion", "Vector3"))  # noqa: N806
+    header = Header(Time(*divmod(at, SECOND)), frame)
+    nothing = np.zeros(9)
+    message = Imu(header, Quaternion(0, 0, 0, 1), nothing, Vector3(1, 2, 3), nothing, Vector3(4, 5, 6), nothing)
+    return bytes(humble.serialize_cdr(message, "sensor_msgs/msg/Imu"))
+
+
+@pytest.mark.parametrize("kind", ["mcap", "sqlite", "message"])
+def test_messages_by_their_stamps(tmp_path, kind):
+    """Stamps 100 ms before they are received, two of them the wrong way round."""
+    order = [0, 1, 3, 2, 4, 5]
+    rows = [("/imu", START + i * SECOND, imu(START + at * SECOND - SECOND // 10)) for i, at in enumerate(order)]
+    types = {"/imu": "sensor_msgs/msg/Imu"}
+    if kind == "mcap":
+        schema = (
+            "sensor_msgs/msg/Imu",
+            "ros2msg",
+            humble.generate_msgdef(types["/imu"], ros_version=2)[0].encode(),
+            "cdr",
+        )
+        path = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/imu": schema})
+    else:
+        mode = CompressionMode.MESSAGE if kind == "message" else None
+        path = recordings.write_rosbag2(tmp_path / "bag", StoragePlugin.SQLITE3, mode, rows, types)
+    with read(path) as recording:
+        assert (recording.start, recording.duration) == (START, 5 * SECOND)
+        assert recording.topics["/imu"].rate == pytest.approx(1.0)
+        stamps = [START + at * SECOND - SECOND // 10 for at in order]
+        assert recording.stamps("/imu").tolist() == stamps
+        assert [m.stamp for m in recording.messages("/imu")] == stamps
+        assert [m.stamp for m in recording.messages("imu", stamps[1], stamps[4])] == [stamps[i] for i in (1, 2, 3)]
+        assert recording.message_at("/imu", START + 2 * SECOND).stamp == stamps[3]
+        assert recording.message_at("/imu", stamps[2]).stamp == stamps[2]
+        assert recording.message_at("/imu", stamps[0] - 1) is None
+        assert recording.message_at("/imu", stamps[0]).message.linear_acceleration.z == 6
+        with pytest.raises(coframe.RecordingError, match="no topic 'imus'") as caught:
+            recording.messages("imus")
+        assert "/imu" in caught.value.hint
+
+
+def test_messages_without_a_header_are_on_the_clock_of_the_simulation(tmp_path):
+    """Half as fast as the wall's."""
+    Clock, Time = humble.types["rosgraph_msgs/msg/Clock"], humble.types["builtin_interfaces/msg/Time"]  # noqa: N806
+    String = humble.types["std_msgs/msg/String"]  # noqa: N806
+    rows = [
+        ("/clock", START + i * SECOND, bytes(humble.serialize_cdr(Clock(Time(i // 2, i % 2 * SECOND // 2)), CLOCK)))
+        for i in range(10)
+    ]
+    rows.append(("/said", START + 5 * SECOND, bytes(humble.serialize_cdr(String("hello"), "std_msgs/msg/String"))))
+    types = {"/clock": CLOCK, "/said": "std_msgs/msg/String"}
+    with read(recordings.write_rosbag2(tmp_path / "bag", rows=rows, types=types)) as recording:
+        (said,) = recording.messages("/said")
+        assert (said.stamp, said.received, said.message.data) == (5 * SECOND // 2, START + 5 * SECOND, "hello")
+
+
+CLOCK = "rosgraph_msgs/msg/Clock"
+
+
+def test_types_are_read_as_the_recording_describes_them(tmp_path):
+    """Range has a field more since Iron; one type nobody else knows; one nobody describes."""
+    iron = b"\0\1\0\0" + bytes(4) + bytes(4) + b"\2\0\0\0u\0" + b"\1\0" + np.arange(5, dtype="<f4").tobytes()
+    types = {
+        "/range": ("sensor_msgs/msg/Range", "ros2msg", RANGE_OF_IRON, "cdr"),
+        "/own": ("own_msgs/msg/Own", "ros2msg", b"int32 number\nstring<=5 text\n", "cdr"),
+        "/secret": ("secret_msgs/msg/Secret", "ros2msg", b"", "cdr"),
+        "/broken": ("own_msgs/msg/Other", "ros2msg", b"no definition at all", "cdr"),
+        "/evil": ("own_msgs/msg/X\nimport os", "ros2msg", b"int32 x", "cdr"),
+        "/blob": ("any.Thing", "protobuf", b"", "protobuf"),
+    }
+    rows = [
+        ("/range", START, iron),
+        ("/own", START, b"\0\1\0\0" + b"\5\0\0\0" + b"\3\0\0\0hi\0"),
+        *((topic, START, b"\0\1\0\0\7") for topic in ("/secret", "/broken", "/evil", "/blob")),
+    ]
+    recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types=types))
+    first = {topic: next(recording.messages(topic)).message for topic in recording.topics}
+    assert (first["/range"].variance, first["/range"].header.frame_id) == (4, "u")
+    assert (first["/own"].number, first["/own"].text) == (5, "hi")
+    assert {first[topic] for topic in ("/secret", "/broken", "/evil", "/blob")} == {b"\0\1\0\0\7"}
+    assert len(recording.problems) == 4
+    assert any(
+        "/secret: messages of the type secret_msgs/msg/Secret are given as bytes" in p for p in recording.problems
+    )
+
+
+def test_ros_1_messages_come_as_our_classes_where_they_fit(tmp_path):
+    scan = b"\1\0\0\0" + b"\5\0\0\0\6\0\0\0" + b"\5\0\0\0laser" + np.arange(7, dtype="<f4").tobytes()
+    scan += b"\2\0\0\0" + np.array([1.5, 2.5], "<f4").tobytes() + bytes(4)
+    types = {"/scan": "sensor_msgs/msg/LaserScan", "/note": "diagnostic_msgs/msg/KeyValue"}
+    rows = [("/scan", START, scan), ("/note", START, b"\1\0\0\0k\2\0\0\0vv")]
+    with read(recordings.write_rosbag1(tmp_path / "a.bag", rows=rows, types=types)) as recording:
+        (message,) = recording.messages("/scan")
+        assert type(message.message).__module__ == "sensor_msgs.msg"
+        assert (message.stamp, message.message.header.frame_id) == (5 * SECOND + 6, "laser")
+        assert list(message.message.ranges) == [1.5, 2.5]
+        assert next(recording.messages("/note")).message.value == "vv"
+
+
+def test_progress_goes_up_to_the_end(tmp_path):
+    bag = tmp_path / "bag"
+    bag.mkdir()
+    for name in ("a", "b"):
+        recordings.write_mcap(bag / f"{name}.mcap")
+    recordings.write_sqlite(bag / "c.db3", 3)
+    told = []
+    coframe.open_bag(bag, progress=lambda done, total: told.append((done, total)))
+    size = sum(file.stat().st_size for file in bag.iterdir())
+    assert told[-1] == (size, size)
+    assert all(a[0] <= b[0] for a, b in itertools.pairwise(told))
+    assert len(told) > 6
+
+
+def test_any_thread_may_read(tmp_path):
+    from concurrent.futures import ThreadPoolExecutor
+
+    for path in (recordings.write_mcap(tmp_path / "a.mcap"), recordings.write_sqlite(tmp_path / "b" / "b.db3", 3)):
+        with read(path) as recording, ThreadPoolExecutor(4) as pool:
+            stamps = recording.stamps("/tf").tolist()
+            found = list(pool.map(lambda stamp: recording.message_at("/tf", stamp).stamp, stamps * 20))
+            assert found == stamps * 20
+
+
+def test_a_folder_that_cannot_be_written_to(tmp_path):
+    bag = recordings.write_rosbag2(tmp_path / "bag")
+    before = sorted(bag.iterdir())
+    bag.chmod(0o555)
+    try:
+        recordings.assert_same(read(bag).buffer)
+        assert sorted(bag.iterdir()) == before
+    finally:
+        bag.chmod(0o755)
+
+
+def test_what_is_no_recording(tmp_path):
+    (tmp_path / "empty.mcap").touch()
+    (tmp_path / "text.db3").write_text("hello, here is no database")
+    (tmp_path / "old.bag").write_bytes(b"#ROSBAG V1.2\n")
+    (tmp_path / "folder").mkdir()
+    for name, reason in [
+        ("empty.mcap", "it is empty"),
+        ("text.db3", "neither MCAP nor SQLite"),
+        ("old.bag", "bags of version 1"),
+        ("folder", "is no recording"),
+        ("gone", "cannot be read: No such file"),
+    ]:
+        with pytest.raises(coframe.RecordingError, match=reason) as caught:
+            coframe.open_bag(tmp_path / name)
+        assert "\n" not in str(caught.value)
+
+
+def test_import_coframe_stays_cheap():
+    import subprocess
+    import sys
+
+    late = ["coframe.bags", "coframe.robots", "rosbags", "mcap", "sqlite3"]
+    code = f"import sys, coframe; print([name for name in {late} if name in sys.modules])"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"

@@ -1,0 +1,189 @@
+"""The recordings of `shared/recordings`, each with its oddities, beside `rosbags`."""
+
+import numpy as np
+import pytest
+from rosbags.highlevel import AnyReader
+from rosbags.typesys import Stores, get_typestore
+
+import coframe
+from coframe.robots import RobotDescriptionError, parse_urdf
+
+SECOND = 1_000_000_000
+
+
+@pytest.fixture(scope="module")
+def folder(shared):
+    folder = shared / "recordings"
+    if not folder.is_dir():
+        pytest.skip("no folder shared/recordings")
+    return folder
+
+
+def assert_close(ours, theirs, tolerance):
+    """Poses (..., 7); a quaternion and its negative are one rotation, and tf2 makes them of unit length."""
+    theirs = theirs.copy()
+    theirs[..., 3:] /= np.linalg.norm(theirs[..., 3:], axis=-1, keepdims=True)
+    theirs[..., 3:] *= np.sign((ours[..., 3:] * theirs[..., 3:]).sum(axis=-1, keepdims=True))
+    np.testing.assert_allclose(ours, theirs, rtol=0, atol=tolerance)
+
+
+def by_rosbags(path):
+    """(topic, received, [(parent, child, stamp, seven numbers)]) of every message with transforms."""
+    with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as reader:
+        connections = [c for c in reader.connections if c.msgtype in {"tf2_msgs/msg/TFMessage", "tf/msg/tfMessage"}]
+        for connection, received, data in reader.messages(connections):
+            transforms = []
+            for t in reader.deserialize(data, connection.msgtype).transforms:
+                stamp = t.header.stamp.sec * SECOND + t.header.stamp.nanosec
+                p, q = t.transform.translation, t.transform.rotation
+                values = (p.x, p.y, p.z, q.x, q.y, q.z, q.w)
+                transforms.append((t.header.frame_id.lstrip("/"), t.child_frame_id.lstrip("/"), stamp, values))
+            yield connection.topic, received, transforms
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "turtlesim_tf_demo.bag",
+        "turtlesim_tf_demo_lz4.bag",
+        "turtlesim_tf_demo_bz2.bag",
+        "tilt_laser.bag",
+        "tb3_gazebo_walker",
+        "epuck_webots",
+        "tb3_tf_missing_static",
+        "world_talk_1hz",
+    ],
+)
+def test_every_transform_is_there(folder, name):
+    with coframe.open_bag(folder / name) as recording:
+        statics, moving, last = {}, {}, {}
+        for topic, received, transforms in by_rosbags(folder / name):
+            last[topic] = received
+            for parent, child, stamp, values in transforms:
+                if topic == "/tf_static":
+                    statics[parent, child] = values
+                else:
+                    moving.setdefault((parent, child), {})[stamp] = values  # the last one said of a stamp holds
+        for (parent, child), values in statics.items():
+            found = recording.buffer.lookup(parent, child)
+            assert_close(np.array([*found.translation, *found.quaternion]), np.array(values), 1e-12)
+        for (parent, child), samples in moving.items():
+            stamps = np.array(list(samples))
+            found = recording.buffer.lookup_many(parent, child, stamps)
+            ours = np.concatenate([found.translation, found.quaternion], axis=1)
+            assert_close(ours, np.array(list(samples.values())), 1e-12)
+        assert {edge.child for edge in recording.buffer.edges() if edge.parent} == {
+            child for _, child in [*statics, *moving]
+        }
+        for topic, received in last.items():
+            assert list(recording.messages(topic))[-1].received == received
+
+
+def test_compressed_bags_of_ros_1_are_the_same(folder):
+    plain, *packed = (coframe.open_bag(folder / f"turtlesim_tf_demo{kind}.bag") for kind in ("", "_lz4", "_bz2"))
+    assert (plain.topics["/tf"].messages, plain.topics["/tf_static"].messages) == (2688, 1)
+    assert plain.topics["/tf"].type == "tf/msg/tfMessage"
+    assert plain.duration == pytest.approx(21.7 * SECOND, rel=0.01)
+    for other in packed:
+        assert other.topics == plain.topics
+        stamps = plain.stamps("/turtle1/pose")
+        assert (other.stamps("/turtle1/pose") == stamps).all()
+        inside = np.linspace(*plain.buffer.span("turtle2", "carrot"), 50)[1:-1].astype(np.int64)
+        assert other.buffer.lookup_many("turtle2", "carrot", inside) == plain.buffer.lookup_many(
+            "turtle2", "carrot", inside
+        )
+
+
+def test_tilt_laser(folder):
+    """Real hardware: slashes, types that nobody knows, one sensor without any transform."""
+    with coframe.open_bag(folder / "tilt_laser.bag") as recording:
+        assert recording.problems == ["/tf: names of frames begin with '/': it is left off, as tf2 does"]
+        counts = {name: recording.topics[name].messages for name in ("/scan", "/imu_data", "/position_gps", "/tf")}
+        assert counts == {"/scan": 178, "/imu_data": 356, "/position_gps": 356, "/tf": 711}
+        scan = next(recording.messages("/scan")).message
+        assert type(scan).__module__ == "sensor_msgs.msg"
+        assert recording.buffer.lookup("tilt_base", scan.header.frame_id.lstrip("/"), recording.span[0] + SECOND)
+        (temperature, *_) = recording.messages("/temperature")
+        assert type(temperature.message).__name__.endswith("Thermistor")  # as the bag describes it
+        assert "base_imu" not in recording.buffer
+
+
+def test_forward_kinematics_give_what_robot_state_publisher_sent(folder):
+    """The oracle: its description and joint states, and its own transforms."""
+    with coframe.open_bag(folder / "tb3_gazebo_walker") as recording:
+        robot = parse_urdf(next(recording.messages("/robot_description")).message.data)
+        states = {message.stamp: message.message for message in recording.messages("/joint_states")}
+        by_child = {joint.child: joint for joint in robot.joints.values()}
+        compared = 0
+        for message in recording.messages("/tf"):
+            for sent in message.message.transforms:
+                stamp = sent.header.stamp.sec * SECOND + sent.header.stamp.nanosec
+                if sent.child_frame_id not in by_child:
+                    continue  # odom's
+                state = states[stamp]
+                ours = robot.joint_transforms(dict(zip(state.name, state.position, strict=True)))
+                transform = ours[by_child[sent.child_frame_id].name]
+                p, q = sent.transform.translation, sent.transform.rotation
+                assert (transform.target, transform.source) == (sent.header.frame_id, sent.child_frame_id)
+                assert_close(np.array(transform.values), np.array([p.x, p.y, p.z, q.x, q.y, q.z, q.w]), 1e-12)
+                compared += 1
+        fixed = [edge for edge in recording.buffer.edges() if edge.static]
+        for edge in fixed:
+            sent = np.array(recording.buffer.lookup(edge.parent, edge.child).values)
+            ours = robot.joint_transforms()[by_child[edge.child].name]
+            assert ours.target == edge.parent
+            assert_close(np.array(ours.values), sent, 1e-12)
+        assert compared + len(fixed) == 768
+        assert recording.span[0] < 60 * SECOND < recording.start  # simulated time, received in the wall's
+
+
+def test_epuck(folder):
+    """An empty message, statics of earlier runs by the wall's clock, doubled stamps, an empty description."""
+    with coframe.open_bag(folder / "epuck_webots") as recording:
+        assert len(recording.buffer.frames()) == 64
+        assert recording.span == (280_000_000, 16_160_000_000)
+        assert recording.buffer.lookup("odom", "cap screw(0)", recording.span[1])
+        assert any(not message.message.transforms for message in recording.messages("/tf_static"))
+        empty, described = (message.message.data for message in recording.messages("/robot_description"))
+        with pytest.raises(RobotDescriptionError, match="line 1: <link> needs the attribute name"):
+            parse_urdf(empty)
+        robot = parse_urdf(described)
+        stamps = recording.stamps("/joint_states")
+        assert len(stamps) - len(np.unique(stamps)) == 184
+        # The same as above, where a stamp was used once: a state beats what its joint mimics.
+        unique, counts = np.unique(stamps, return_counts=True)
+        once = set(unique[counts == 1].tolist())
+        states = {m.stamp: m.message for m in recording.messages("/joint_states") if m.stamp in once}
+        by_child = {joint.child: joint for joint in robot.joints.values()}
+        compared = 0
+        for message in recording.messages("/tf"):
+            for sent in message.message.transforms:
+                state = states.get(sent.header.stamp.sec * SECOND + sent.header.stamp.nanosec)
+                joint = by_child.get(sent.child_frame_id)
+                if state is None or joint is None or joint.name not in state.name:
+                    continue
+                known = {n: p for n, p in zip(state.name, state.position, strict=True) if n in robot.joints}
+                p, q = sent.transform.translation, sent.transform.rotation
+                ours = robot.joint_transforms(known)[joint.name].values
+                assert_close(np.array(ours), np.array([p.x, p.y, p.z, q.x, q.y, q.z, q.w]), 1e-12)
+                compared += 1
+        assert compared > 100
+
+
+def test_missing_statics_are_two_trees(folder):
+    with coframe.open_bag(folder / "tb3_tf_missing_static") as recording:
+        with pytest.raises(coframe.ConnectivityException) as caught:
+            recording.buffer.lookup("odom", "base_link")
+        assert "'odom' with base_footprint" in caught.value.hint
+        assert "wheel_left_link" in caught.value.hint
+
+
+def test_renamed_files_are_read_with_a_warning(folder):
+    with coframe.open_bag(folder / "broken" / "db3_renamed_metadata_stale") as recording:
+        assert recording.problems == [
+            "metadata.yaml names rosbag2_2023_11_29-19_52_49_0.db3, which is not there",
+            "metadata.yaml does not name rosbag2.db3: read all the same",
+        ]
+        assert recording.topics["/tf"].messages == 60
+        whole = coframe.open_bag(folder / "world_talk_1hz")
+        assert recording.buffer.lookup("world", "talk") == whole.buffer.lookup("world", "talk")
