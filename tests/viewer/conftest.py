@@ -138,3 +138,9 @@ def open_tab() -> Iterator[Callable[..., Tab]]:
     yield start
     for tab in tabs:
         tab.close()
+
+
+@pytest.fixture
+def decoded() -> Callable[[bytes], SimpleNamespace]:
+    """Reads a binary message by the protocol's documentation."""
+    return lambda data: decode(bytes(data))[1]

@@ -19,6 +19,8 @@ export class Bar {
   private readonly pill = h("span", { class: "pill", role: "status", data: { state: "off" } });
   private readonly fixed: HTMLSelectElement;
   private names = "";
+  /** The frame that was fixed at the last visit, until it is there again. */
+  private wanted = "";
 
   constructor(
     root: HTMLElement,
@@ -61,9 +63,8 @@ export class Bar {
     model.on("fixed", () => this.refill());
     for (const event of ["connected", "clock", "hello"] as const) model.on(event, () => this.tellState());
     this.tellState();
+    this.refill();
   }
-
-  private wanted = "";
 
   private refill(): void {
     const { forest, fixed } = this.model;
@@ -78,11 +79,8 @@ export class Bar {
     const key = JSON.stringify(names);
     if (key !== this.names) {
       this.names = key;
-      fillSelect(
-        this.fixed,
-        names.map((name) => [name, name] as const),
-        fixed,
-      );
+      const options = names.map((name) => [name, name] as const);
+      fillSelect(this.fixed, options.length ? options : [["", "no frames yet"]], fixed);
     }
     this.fixed.value = fixed;
   }

@@ -67,7 +67,12 @@ export class JointsPanel {
       { class: "section" },
       h("h3", {}, shorten(robot.name, 60)),
       h("p", {}, `${movable.length} movable joints · ${shorten(robot.source, 80)}`),
-      h("label", { class: "field" }, publish, h("span", {}, this.model.hello?.can_publish ? "Publish /joint_states" : "Publishing needs a live graph")),
+      h(
+        "label",
+        { class: "check" },
+        publish,
+        h("span", {}, this.model.hello?.can_publish ? "Publish on /joint_states" : "Publishing needs a live graph"),
+      ),
       h(
         "div",
         { class: "buttons" },

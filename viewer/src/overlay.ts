@@ -55,7 +55,7 @@ export class Overlay {
       this.nothing,
     );
     model.on("connected", (connected) => this.tellConnection(connected));
-    model.on("tree", () => this.tellNothing());
+    for (const event of ["tree", "robot"] as const) model.on(event, () => this.tellNothing());
     model.on("hello", () => setTimeout(() => this.tellNothing(), PATIENCE_MS));
     model.on("selection", () => this.tellButtons());
     view.onDrawn(() => this.tellPicture());
@@ -109,7 +109,8 @@ export class Overlay {
   }
 
   private tellNothing(): void {
-    this.nothing.hidden = this.model.forest.frames.length > 0 || !this.model.hello;
+    const { forest, hello, robots } = this.model;
+    this.nothing.hidden = forest.frames.length > 0 || !hello || robots.size > 0;
   }
 
   private tellConnection(connected: boolean): void {

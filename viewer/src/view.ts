@@ -12,7 +12,7 @@ import type { Theme } from "./theme";
 
 const PICK_PX = 18;
 const CLICK_PX = 5;
-const FIT_AGAIN_MS = 1500;
+const FIT_AGAIN_MS = [1000, 3000];
 
 export interface TfOptions extends FrameOptions {
   names: boolean;
@@ -139,24 +139,25 @@ export class View {
       const position = this.position(this.followed);
       if (position) this.stage.camera.follow(position);
     }
-    if (!this.fitted && placement.drawn.includes(1)) {
+    for (const listener of this.placed) listener(placement, model.tick);
+    if (!this.fitted && (placement.drawn.includes(1) || this.bounds.some((bounds) => !bounds().isEmpty()))) {
       this.fitted = true;
       this.fit();
       this.fitAgain();
     }
-    for (const listener of this.placed) listener(placement, model.tick);
   }
 
   /** Data comes a moment after the frames: look at that too, if nobody has touched the camera since. */
   private fitAgain(): void {
     const { canvas, camera } = this.stage;
-    const before = camera.current.position.clone();
     let touched = false;
     for (const event of ["pointerdown", "wheel"] as const)
       canvas.addEventListener(event, () => (touched = true), { once: true, passive: true });
-    setTimeout(() => {
-      if (!touched && before.equals(camera.current.position)) this.fit();
-    }, FIT_AGAIN_MS);
+    const mode = camera.mode;
+    for (const wait of FIT_AGAIN_MS)
+      setTimeout(() => {
+        if (!touched && camera.mode === mode && this.followed === null) this.fit();
+      }, wait);
   }
 
   private finish(): void {

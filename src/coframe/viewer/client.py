@@ -40,6 +40,8 @@ T = TypeVar("T")
 # Who asks more than this without reading the answers waits.
 MOST_ANSWERS = 64
 STATISTICS_PERIOD = 1.0
+# How often a topic that nobody publishes yet is looked for.
+LATE_PERIOD = 0.25
 # Where nothing changes, a tick comes all the same once in a while.
 IDLE_PERIOD = 1.0
 _RATE = 30.0
@@ -83,6 +85,7 @@ class Client:
         self._told_tree: tuple[int, str] | None = None
         self._told_topics: object = None
         self._told_statistics = -math.inf
+        self._late_due = 0.0
         self._last_tick: tuple[Any, ...] | None = None
         self._ticked = -math.inf
 
@@ -145,7 +148,7 @@ class Client:
     @property
     def at(self) -> int:
         """The time that the tab looks at, in nanoseconds; 0 is the newest."""
-        return 0 if self.playhead.live else self.playhead.at(self._stage.scene.span)
+        return 0 if self.playhead.live else self.playhead.at(self._stage.span)
 
     def displays(self) -> list[Display]:
         """What is open."""
@@ -223,6 +226,8 @@ class Client:
         if now - self._told_statistics >= STATISTICS_PERIOD:
             self._told_statistics = now
             await self._send_statistics()
+        if now >= self._late_due:
+            self._late_due = now + LATE_PERIOD
             self._open_late_displays()
         await self._send_robots()
         await self._send_displays()
@@ -303,7 +308,7 @@ class Client:
     async def _send_displays(self) -> None:
         """What is new of the displays, one message each, and what became of them."""
         scene, at = self._stage.scene, self.at
-        now = scene.span[1] if scene.span is not None else 0
+        now = self._stage.span[1] if self._stage.span is not None else 0
         for number, wanted in list(self._displays.items()):
             display = wanted.display
             if display is None:
@@ -338,7 +343,7 @@ class Client:
     def _moment(self, at: int) -> float:
         """The time that is shown, relative to the origin; NaN where there is nothing yet."""
         if at == 0:
-            span = self._stage.scene.span
+            span = self._stage.span
             if span is None:
                 return math.nan
             at = span[1]

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
-from coframe.errors import ConnectivityException, LookupException, TransformException
+from coframe.errors import ConnectivityException, ExtrapolationException, LookupException, TransformException
 from coframe.viewer import protocol
 from coframe.viewer.artists import artist_for
 
@@ -78,8 +78,11 @@ class _Entry:
 
     @property
     def is_hopeless(self) -> bool:
-        """Whether waiting will hardly help: there is no such frame, or no way to it."""
-        return isinstance(self.error, LookupException | ConnectivityException)
+        """Whether waiting will hardly help: there is no such frame, no way to it, or that time is forgotten."""
+        error = self.error
+        if isinstance(error, ExtrapolationException) and error.requested is not None and error.earliest is not None:
+            return error.requested < error.earliest
+        return isinstance(error, LookupException | ConnectivityException)
 
 
 class _Layer(NamedTuple):

@@ -56,7 +56,9 @@ class Visitors:
             names.add(socket.gethostname())
         self._port = port
         self._hosts = {f"{name.lower()}:{port}" for name in names} | ({*names} if port == 80 else set())
-        self.policy = _POLICY.format(sockets=" ".join(f"ws://{host}" for host in sorted(self._hosts)))
+        # Chromium takes no address in brackets here, and needs none.
+        sockets = [f"ws://{host}" for host in sorted(self._hosts) if "[" not in host]
+        self.policy = _POLICY.format(sockets=" ".join(sockets))
 
     def host_is_ours(self, host: str | None) -> bool:
         """Whether a Host header names this server. A name that somebody else made to point here does not."""

@@ -28,6 +28,7 @@ class LiveSource:
     """
 
     mode: Mode = "live"
+    span: tuple[int, int] | None = None
 
     def __init__(self, connection: Connection, *, own: bool = False) -> None:
         self._connection = connection

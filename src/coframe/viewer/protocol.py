@@ -118,11 +118,11 @@ def cloud(
     flags = (SCALARS if scalars is not None else 0) | (COLOURS if colours is not None else 0)
     least, largest = _range_of(scalars)
     head = struct.pack("<IIIIIdff", CLOUD, 0, 0, len(points), flags, stamp, least, largest)
-    parts = [head, np.ascontiguousarray(points, "<f4").data.cast("B")]
+    parts: list[Any] = [head, np.ascontiguousarray(points, "<f4")]
     if scalars is not None:
-        parts.append(np.ascontiguousarray(scalars, "<f4").data.cast("B"))
+        parts.append(np.ascontiguousarray(scalars, "<f4"))
     if colours is not None:
-        parts.append(np.ascontiguousarray(colours).data.cast("B"))
+        parts.append(np.ascontiguousarray(colours))
     return _joined(parts)
 
 
@@ -130,14 +130,14 @@ def grid(resolution: float, corner: Sequence[float], cells: NDArray[np.int8]) ->
     """The cells of an occupancy grid, (height, width), and the pose of its corner."""
     height, width = cells.shape
     head = struct.pack("<IIIII8f", GRID, 0, 0, width, height, resolution, *corner)
-    return _joined([head, np.ascontiguousarray(cells).data.cast("B")])
+    return _joined([head, np.ascontiguousarray(cells)])
 
 
 def shapes(description: dict[str, Any], payload: NDArray[np.float32]) -> bytearray:
     """A description with the numbers that it points to."""
     words = json.dumps(description, separators=(",", ":"), allow_nan=False).encode()
     words += b" " * (-len(words) % 4)
-    return _joined([struct.pack("<IIII", SHAPES, 0, 0, len(words)), words, payload.astype("<f4").tobytes()])
+    return _joined([struct.pack("<IIII", SHAPES, 0, 0, len(words)), words, payload.astype("<f4")])
 
 
 def stamp_drawing(drawing: bytearray, display: int, sequence: int) -> None:

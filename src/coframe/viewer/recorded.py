@@ -35,6 +35,8 @@ class RecordedSource:
     def __init__(self, recording: Recording, *, own: bool = False) -> None:
         self.buffer = recording.buffer
         self.title = recording.path.name
+        first, last = recording.span
+        self.span: tuple[int, int] | None = (first, last) if last > first else None
         self._recording = recording
         self._own = own
 

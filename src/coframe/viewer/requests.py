@@ -190,7 +190,7 @@ async def _unsubscribe(client: Client, request: Request) -> None:
 async def _step(client: Client, request: Request) -> None:
     direction = -1 if request.number("direction") < 0 else 1
     stage = client.stage
-    span = stage.scene.span
+    span = stage.span
     at = client.at or (span[1] if span is not None else 0)
     topics = [display.messages for display in client.displays()]
     found = await client.work(next_stamp, stage.source.buffer, list(stage.scene.infos), topics, at, direction)

@@ -30,12 +30,14 @@ class Source(Protocol):
         title: What the tab is called.
         buffer: Its transforms.
         connection: Where joint states can be sent; None where that is nowhere.
+        span: The first and the last time that it has, in nanoseconds; None where its transforms tell.
     """
 
     mode: Mode
     title: str
     buffer: Buffer
     connection: Connection | None
+    span: tuple[int, int] | None
 
     def topics(self) -> list[Topic]:
         """What can be displayed now, in order."""
@@ -52,6 +54,7 @@ class BufferSource:
 
     mode: Mode = "buffer"
     connection: Connection | None = None
+    span: tuple[int, int] | None = None
 
     def __init__(self, buffer: Buffer, title: str = "coframe") -> None:
         self.buffer = buffer

@@ -84,10 +84,14 @@ class Stage:
             self._topics_due = now + TOPICS_PERIOD
             self.topics = self.source.topics()
 
+    @property
+    def span(self) -> tuple[int, int] | None:
+        """From when until when there is something to be seen, in nanoseconds; None while there is nothing."""
+        return self.source.span or self.scene.span
+
     def relative_span(self) -> list[int] | None:
         """From when until when there are dynamic transforms, relative to the origin."""
-        span = self.scene.span
-        return None if span is None else [end - self.origin for end in span]
+        return None if self.span is None else [end - self.origin for end in self.span]
 
     def open(self, topic: str) -> Messages | None:
         """The messages of a topic, which all tabs share; None while there is none of that name."""
@@ -132,7 +136,7 @@ class Stage:
         Raises:
             ViewerError: It is nothing that can be.
         """
-        span = self.scene.span
+        span = self.span
         if span is None:
             raise ViewerError("there are no moving frames to be replayed yet")
         try:
@@ -146,7 +150,7 @@ class Stage:
         return ReplayRequest(first, last, rate, fixed, FRAME_TIMEOUT, self.source.title, self.origin)
 
     def _choose_origin(self) -> None:
-        span = self.scene.span
+        span = self.span
         if span is not None and abs(span[1] - self.origin) > _FARTHEST:
             self.origin = span[1]
 

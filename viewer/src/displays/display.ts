@@ -72,6 +72,9 @@ const FARTHEST_M = 200;
 
 /** Draws what comes on a topic: each message an object, shown where and as long as the server says. */
 export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> extends Display {
+  private readonly buried: THREE.Object3D[] = [];
+  /** How many of them were there at the last picture. */
+  private ripe = 0;
   private origin: readonly number[] = [0, 0, 0];
   protected readonly drawn = new Map<number, { object: THREE.Object3D; message: M }>();
 
@@ -100,14 +103,14 @@ export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> 
       entry.object.position.copy(object.position);
       entry.object.quaternion.copy(object.quaternion);
       entry.object.visible = object.visible;
-      release(object);
-      object.removeFromParent();
+      this.bury(object);
       this.object.add(entry.object);
       this.placed(entry.object, entry.message);
     }
   }
 
   override place(placement: Placement, tick: Tick): void {
+    this.freeBuried();
     const listed = new Map<number, DisplayPose>();
     for (const entry of tick.displays) if (entry.id === this.id) listed.set(entry.sequence, entry);
     this.origin = placement.origin;
@@ -159,6 +162,7 @@ export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> 
 
   override dispose(): void {
     this.drawn.clear();
+    for (const object of this.buried) release(object);
     super.dispose();
   }
 
@@ -169,9 +173,22 @@ export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> 
   private forget(sequence: number): void {
     const entry = this.drawn.get(sequence);
     if (!entry) return;
-    release(entry.object);
-    entry.object.removeFromParent();
+    this.bury(entry.object);
     this.drawn.delete(sequence);
+  }
+
+  /**
+   * Frees what is not drawn any more one picture later: by then the next message's material uses the same program,
+   * which would else be thrown away and compiled anew for every message.
+   */
+  private bury(object: THREE.Object3D): void {
+    object.removeFromParent();
+    this.buried.push(object);
+  }
+
+  private freeBuried(): void {
+    for (const object of this.buried.splice(0, this.ripe)) release(object);
+    this.ripe = this.buried.length;
   }
 
   /** Messages that no tick names must not pile up. */

@@ -12,7 +12,7 @@ import { KINDS, kindName } from "./registry";
 import { RobotDisplay } from "./robot";
 import { TfDisplay } from "./tf";
 
-const MOST_AT_FIRST = 8;
+const MOST_AT_FIRST = 12;
 
 export class Displays {
   list: Display[] = [];

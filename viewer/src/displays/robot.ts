@@ -147,13 +147,13 @@ export class RobotDisplay extends Display {
     const prefix = this.options.text("TF Prefix");
     const pose = (link: string): THREE.Matrix4 | null => matrixOf(placement, this.context.model, prefix, link);
     const root = pose(model.name);
-    const start = root ?? this.rootFromAnyLink(model, pose);
-    model.visible = start !== null;
-    if (!start) {
-      if (!this.problems.length) this.status = { state: "waiting", text: `No frame is called ${prefix}${model.name} yet` };
-      return;
-    }
-    if (this.status.state === "waiting" && this.loading === 0) this.tell();
+    const found = root ?? this.rootFromAnyLink(model, pose);
+    // A robot that nobody has told the frames of is worth seeing all the same, and its sliders worth trying.
+    const start = found ?? new THREE.Matrix4();
+    model.visible = true;
+    if (!found && !this.problems.length)
+      this.status = { state: "waiting", text: `No frame is called ${prefix}${model.name}: drawn at the fixed frame` };
+    else if (found && this.status.state === "waiting" && this.loading === 0) this.tell();
     model.matrixAutoUpdate = false;
     model.matrix.copy(start);
     for (const joint of Object.values(model.joints)) this.placeJoint(joint, pose);

@@ -1,0 +1,315 @@
+"""Messages in a tab: sent over DDS by real publishers, drawn at their own stamp, and where they cannot be, why."""
+
+import threading
+import time
+from array import array
+
+import numpy as np
+import pytest
+
+pytest.importorskip("cyclonedds", reason="live displays come over DDS")
+
+import coframe
+from coframe.messages import find
+from coframe.viewer.displays import CannotDrawError, Options
+from coframe.viewer.displays.grids import draw_grid
+from coframe.viewer.displays.points import draw_cloud, draw_scan
+from coframe.viewer.messages import header_stamp
+from coframe.wire.qos import QoS
+
+SECOND = 1_000_000_000
+
+
+def message(ros_type, frame, stamp, **fields):
+    made = find(ros_type)(**fields)
+    made.header.frame_id = frame
+    made.header.stamp.sec, made.header.stamp.nanosec = divmod(stamp, SECOND)
+    return made
+
+
+def scan(frame, stamp, ranges):
+    made = message("sensor_msgs/msg/LaserScan", frame, stamp, ranges=ranges, range_max=50.0)
+    made.angle_increment = np.pi / 2
+    return made
+
+
+def cloud(frame, stamp, columns, dtypes=None):
+    """A PointCloud2 of float32 fields, or of those that `dtypes` tells."""
+    dtypes = dtypes or {}
+    layout = np.dtype([(name, dtypes.get(name, "<f4")) for name in columns])
+    values = np.empty(len(next(iter(columns.values()))), layout)
+    for name, column in columns.items():
+        values[name] = column
+    made = message("sensor_msgs/msg/PointCloud2", frame, stamp)
+    made.height, made.width = 1, len(values)
+    made.point_step, made.row_step = values.itemsize, values.nbytes
+    numbers = {"<f4": 7, "<u4": 6}
+    point_field = find("sensor_msgs/msg/PointField")
+    made.fields = [
+        point_field(name=name, offset=layout.fields[name][1], datatype=numbers[dtypes.get(name, "<f4")], count=1)
+        for name in columns
+    ]
+    made.data = array("B", values.tobytes())
+    return made
+
+
+@pytest.fixture
+def ros(domain_id):
+    with coframe.connect("viewer_test", domain=domain_id) as connection:
+        yield connection
+
+
+@pytest.fixture
+def robot(ros):
+    """base moves a metre a second along x of map for ten seconds, until now; the lidar is a metre above it."""
+    now = time.time_ns()
+    for tenth in range(101):
+        ros.buffer.set(
+            "map", "base", coframe.Transform([tenth / 10, 0.0, 0.0]), now - 10 * SECOND + tenth * SECOND // 10
+        )
+    ros.buffer.set("base", "lidar", coframe.Transform([0.0, 0.0, 1.0]), static=True)
+    return now
+
+
+class Talker:
+    """Publishes again and again until told otherwise."""
+
+    def __init__(self, ros, tab, topic, made, qos=None):
+        self.publisher = ros.publisher(topic, type(made), qos)
+        self.tab, self.made = tab, made
+
+    def until(self, kind, condition=lambda _told: True):
+        ended = threading.Event()
+        talking = threading.Thread(target=self._talk, args=(ended,))
+        talking.start()
+        try:
+            return self.tab.wait(kind, condition)
+        finally:
+            ended.set()
+            talking.join()
+
+    def _talk(self, ended):
+        while not ended.is_set():
+            self.publisher.publish(self.made)
+            ended.wait(0.05)
+
+
+def subscribe(tab, topic, number=1, **options):
+    tab.send("subscribe", id=number, topic=topic, display="any", options=options)
+
+
+def test_a_scan_lies_where_its_sensor_was_at_its_own_stamp(ros, robot, view, open_tab):
+    tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/scan")
+    stamp = robot - 5 * SECOND
+    talker = Talker(
+        ros, tab, "/scan", scan("lidar", stamp, [2.0, 3.0, float("inf"), float("nan")]), QoS(5, reliable=False)
+    )
+    tick = talker.until("tick", lambda tick: tick.displays)
+    ((number, sequence), pose), *others = tick.displays.items()
+    assert (number, others) == (1, [])
+    np.testing.assert_allclose(pose[:3] + tick.origin, [5.0, 0.0, 1.0], atol=1e-5)
+    drawn = tab.drawings[1, sequence]
+    np.testing.assert_allclose(drawn.points, [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0]], atol=1e-6)
+    np.testing.assert_allclose(drawn.scalars, [2.0, 3.0])
+    assert drawn.range == [2.0, 3.0]
+    assert drawn.stamp == stamp - int(tab.last["hello"]["origin"])
+    assert tab.last["display"]["state"] == "ok"
+    tab.send("fixed", frame="base")
+    tick = tab.tick(lambda tick: tab.last["tree"]["fixed"] == "base" and tick.displays)
+    np.testing.assert_allclose(next(iter(tick.displays.values()))[:3], [0.0, 0.0, 1.0], atol=1e-5)
+    tab.send("unsubscribe", id=1)
+    tab.tick(lambda tick: not tick.displays)
+
+
+def test_what_cannot_be_transformed_says_why(ros, robot, view, open_tab):
+    tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/early", 1)
+    subscribe(tab, "/lost", 2)
+    early = Talker(ros, tab, "/early", scan("lidar", robot - 60 * SECOND, [1.0]))
+    told = early.until("display", lambda told: told["id"] == 1 and told["state"] == "error")
+    assert "extrapolation into the past" in told["text"]
+    assert "map -> base has forgotten that time" in told["text"], "the hint"
+    lost = Talker(ros, tab, "/lost", scan("lider", robot, [1.0]))
+    told = lost.until("display", lambda told: told["id"] == 2 and told["state"] == "error")
+    assert "Did you mean 'lidar'?" in told["text"]
+    assert not tab.tick().displays
+
+
+def test_a_message_waits_for_its_transform(ros, robot, view, open_tab):
+    tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/scan")
+    later = robot + SECOND // 2
+    talker = Talker(ros, tab, "/scan", scan("base", later, [1.0]), QoS(transient_local=True))
+    talker.until("tick", lambda _tick: talker.publisher.matched)
+    ros.buffer.set("map", "base", coframe.Transform([20.0, 0.0, 0.0]), later)
+    tick = tab.tick(lambda tick: tick.displays)
+    np.testing.assert_allclose(next(iter(tick.displays.values()))[:3] + tick.origin, [20.0, 0.0, 0.0], atol=1e-5)
+
+
+def test_time_travel_brings_back_the_messages_of_that_time(ros, robot, view, open_tab):
+    tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/pose")
+    made = message("geometry_msgs/msg/PoseStamped", "map", robot - 4 * SECOND)
+    made.pose.position.x = 1.0
+    talker = Talker(ros, tab, "/pose", made)
+    talker.until("tick", lambda tick: tick.displays)
+    talker.made.header.stamp.sec += 3
+    talker.made.pose.position.x = 2.0
+    shown = talker.until("shapes", lambda told: told.payload[0] == 2.0)
+    assert shown.head["kind"] == "poses"
+    assert shown.head["poses"] == [0, 1]
+    np.testing.assert_allclose(shown.payload, [2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+    origin = int(tab.last["hello"]["origin"])
+    tab.send("time", mode="at", at=robot - 2 * SECOND - origin)
+    assert tab.wait("shapes").payload[0] == 1.0
+    tab.send("time", mode="at", at=robot - 9 * SECOND - origin)
+    assert tab.wait("display")["text"] == "no message so early"
+    tab.send("time", mode="at", at=robot - 2 * SECOND - origin)
+    assert tab.wait("shapes").payload[0] == 1.0
+    tab.send("step", direction=1)
+    tab.tick(lambda tick: tick.time > robot - 2 * SECOND - origin)
+
+
+def test_markers_are_added_deleted_and_grouped_by_frame(ros, robot, view, open_tab):
+    marker = find("visualization_msgs/msg/Marker")
+    array_type = find("visualization_msgs/msg/MarkerArray")
+
+    def one(number, frame, **fields):
+        made = marker(ns="test", id=number, type=marker.CUBE, **fields)
+        made.header.frame_id = frame
+        made.header.stamp.sec, made.header.stamp.nanosec = divmod(robot - SECOND, SECOND)
+        return made
+
+    point = find("geometry_msgs/msg/Point")
+    strip = one(2, "base", points=[point(x=1.0), point(x=2.0, y=3.0)])
+    mesh = one(3, "lidar", frame_locked=True, mesh_resource="package://../../etc/passwd")
+    tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/markers")
+    talker = Talker(ros, tab, "/markers", array_type(markers=[one(1, "map"), strip, mesh]), QoS(transient_local=True))
+    tick = talker.until("tick", lambda tick: len(tick.displays) == 3)
+    drawn = {tab.drawings[key].head["frame"]: (tab.drawings[key], pose) for key, pose in tick.displays.items()}
+    assert set(drawn) == {"map", "base", "lidar"}
+    np.testing.assert_allclose(drawn["base"][1][:3] + tick.origin, [9.0, 0.0, 0.0], atol=1e-5)
+    np.testing.assert_allclose(drawn["lidar"][1][:3] + tick.origin, [10.0, 0.0, 1.0], atol=1e-5)
+    (item,) = drawn["base"][0].head["items"]
+    assert (item["ns"], item["id"], item["points"], item["colors"]) == ("test", 2, [0, 2], None)
+    np.testing.assert_allclose(drawn["base"][0].payload, [1.0, 0.0, 0.0, 2.0, 3.0, 0.0])
+    (item,) = drawn["lidar"][0].head["items"]
+    assert item["mesh"] is None
+    assert "no ROS package" in item["mesh_problem"]
+
+    talker.made = array_type(markers=[one(2, "base", action=marker.DELETE)])
+    left = talker.until("tick", lambda tick: len(tick.displays) == 2).displays.keys()
+    talker.made = array_type(markers=[one(4, "base"), one(5, "base", action=marker.DELETE)])
+    tick = talker.until("tick", lambda tick: len(tick.displays) == 3)
+    assert left < tick.displays.keys(), "what has not changed is not sent again"
+    talker.made = array_type(markers=[one(0, "map", action=marker.DELETEALL)])
+    talker.until("tick", lambda tick: not tick.displays)
+
+
+def test_odometry_leaves_a_trail(ros, robot, view, open_tab):
+    tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/odom", trail=3)
+    talker = Talker(ros, tab, "/odom", message("nav_msgs/msg/Odometry", "map", robot, child_frame_id="base"))
+    talker.until("shapes")
+    shown = None
+    for x in (1.0, 2.0, 3.0, 4.0):
+        talker.made.pose.pose.position.x = x
+        shown = talker.until("shapes", lambda told, x=x: told.payload[-7] == x)
+    assert shown.head["kind"] == "odometry"
+    assert shown.head["child_frame"] == "base"
+    assert shown.head["poses"] == [0, 3], "the last three, however many came"
+    assert (np.diff(shown.payload.reshape(-1, 7)[:, 0]) >= 0).all()
+
+
+@pytest.mark.parametrize(
+    ("ros_type", "fields", "kind", "facts"),
+    [
+        ("geometry_msgs/msg/PoseArray", {"poses": [find("geometry_msgs/msg/Pose")()] * 3}, "poses", {"poses": [0, 3]}),
+        ("nav_msgs/msg/Path", {"poses": [find("geometry_msgs/msg/PoseStamped")()] * 2}, "path", {"poses": [0, 2]}),
+        (
+            "sensor_msgs/msg/Range",
+            {"range": float("inf"), "max_range": 4.0},
+            "range",
+            {"range": None, "max_range": 4.0},
+        ),
+        (
+            "sensor_msgs/msg/CameraInfo",
+            {"width": 640, "k": [float("nan")] * 9},
+            "camera",
+            {"width": 640, "k": [None] * 9},
+        ),
+    ],
+)
+def test_other_shapes(ros, robot, view, open_tab, ros_type, fields, kind, facts):
+    tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/thing")
+    shown = Talker(ros, tab, "/thing", message(ros_type, "map", robot, **fields)).until("shapes")
+    assert shown.head["kind"] == kind
+    assert {name: shown.head[name] for name in facts} == facts
+    assert shown.head["stamp"] == robot - int(tab.last["hello"]["origin"])
+
+
+def test_a_million_points(ros, robot, view, open_tab):
+    generator = np.random.default_rng(1)
+    points = generator.normal(size=(1_000_000, 3)).astype(np.float32)
+    made = cloud("map", robot, {"x": points[:, 0], "y": points[:, 1], "z": points[:, 2]})
+    tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/cloud", color_by="axis", axis="z")
+    talker = Talker(ros, tab, "/cloud", made, QoS(1, transient_local=True))
+    shown = talker.until("cloud")
+    assert len(shown.points) == 1_000_000
+    np.testing.assert_array_equal(shown.points[::1000], points[::1000])
+    np.testing.assert_array_equal(shown.scalars[::1000], points[::1000, 2])
+
+
+def test_colours_of_a_cloud(decoded):
+    columns = {"x": [1.0, np.nan], "y": [0.0, 0.0], "z": [2.0, 0.0], "intensity": [5.0, 6.0]}
+    made = cloud("map", 0, {**columns, "rgb": [0x00FF8001, 0]}, {"rgb": "<u4"})
+    shown = decoded(draw_cloud(made, Options.of({})).data)
+    assert shown.points.tolist() == [[1.0, 0.0, 2.0]], "what has no place is left out"
+    assert shown.colours.tolist() == [[0xFF, 0x80, 0x01, 255]]
+    for told, expected in (("intensity", [5.0]), ("axis", [2.0]), ("distance", [5**0.5])):
+        shown = decoded(draw_cloud(made, Options.of({"color_by": told, "axis": "z"})).data)
+        np.testing.assert_allclose(shown.scalars, expected)
+    assert decoded(draw_cloud(made, Options.of({"color_by": "flat"})).data).scalars is None
+
+
+def test_grids(decoded):
+    grid = message("nav_msgs/msg/OccupancyGrid", "map", 0, data=[-1, 0, 100, 50, 0, 0])
+    grid.info.width, grid.info.height, grid.info.resolution = 3, 2, 0.5
+    grid.info.origin.position.x = -4.0
+    shown = decoded(draw_grid(grid, Options()).data)
+    assert shown.cells.tolist() == [[-1, 0, 100], [50, 0, 0]]
+    assert (shown.resolution, shown.corner) == (0.5, [-4.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+    grid.info.width = 4_000_000_000
+    with pytest.raises(CannotDrawError, match="4000000000 x 2 cells comes with 6"):
+        draw_grid(grid, Options())
+
+
+def test_hostile_clouds_and_scans_are_told_of_and_not_drawn():
+    made = cloud("map", 0, {"x": [1.0], "y": [1.0], "z": [1.0]})
+    made.width = 4_000_000_000
+    with pytest.raises(CannotDrawError, match="too few"):
+        draw_cloud(made, Options())
+    made = cloud("map", 0, {"x": [1.0], "y": [1.0]})
+    with pytest.raises(CannotDrawError, match="no field 'z'"):
+        draw_cloud(made, Options())
+    nothing = scan("map", 0, [])
+    nothing.angle_increment = float("nan")
+    assert draw_scan(nothing, Options()).frame == "map"
+    assert Options.of({"color_by": [], "axis": {}, "decay": "long", "trail": 1e99, "keep": None}).keep == 1000
+
+
+def test_the_stamp_is_read_from_the_bytes():
+    from coframe.messages import serialize
+
+    made = message("sensor_msgs/msg/LaserScan", "a", 12 * SECOND + 34)
+    assert header_stamp("sensor_msgs/msg/LaserScan", serialize(made)) == 12 * SECOND + 34
+    marker = message("visualization_msgs/msg/Marker", "a", 5 * SECOND)
+    markers = find("visualization_msgs/msg/MarkerArray")(markers=[marker])
+    assert header_stamp("visualization_msgs/msg/MarkerArray", serialize(markers)) == 5 * SECOND
+    empty = find("visualization_msgs/msg/MarkerArray")()
+    assert header_stamp("visualization_msgs/msg/MarkerArray", serialize(empty)) == 0
+    assert header_stamp("sensor_msgs/msg/LaserScan", b"\x00\x01") == 0
