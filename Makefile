@@ -5,7 +5,7 @@ STAMP := $(VENV)/.ready
 NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') CMakeLists.txt
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test test-slow test-long sanitize lint typecheck format conformance bench generate clean
+.PHONY: help setup build demo test test-slow test-long sanitize lint typecheck format conformance bench generate page page-check clean
 
 help: ## what there is
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -24,7 +24,7 @@ demo: $(STAMP) ## the lab's moving transform tree, live in the terminal, spoken 
 	@$(BIN)/coframe demo $(ARGS)
 
 test: $(STAMP) ## the test suite (under 6 minutes)
-	$(BIN)/python -m pytest $(ARGS)
+	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile $(ARGS)
 
 $(VENV)/.oracle: pyproject.toml | $(STAMP)
 	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group oracle && touch $@ || \
@@ -70,6 +70,13 @@ bench: $(VENV)/.bench ## coframe beside its peers, in one table; fails where a b
 
 generate: $(STAMP) ## message classes from interfaces/
 	$(BIN)/python scripts/generate_messages.py
+
+page: ## the viewer's page from viewer/ into src/coframe/viewer/static (needs Node.js and npm)
+	cd viewer && npm ci --silent && npm run --silent build
+
+page-check: ## the page's types and tests, and that what is committed is what its source makes
+	cd viewer && npm ci --silent && npm run --silent check
+	$(BIN)/python -m pytest -m slow tests/viewer/test_page_bytes.py
 
 clean: ## what was built, and the virtual environment
 	rm -rf build dist $(VENV) .mypy_cache .ruff_cache .pytest_cache .hypothesis

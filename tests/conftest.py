@@ -13,13 +13,16 @@ import pytest
 # Shells start background jobs with Ctrl-C ignored, and children would inherit that: tests are about Ctrl-C, too.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
+# Test processes that run side by side each have domains of their own.
+_WORKERS = 4
+_worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw")) % _WORKERS
 _domain_ids = itertools.count(os.getpid() % 97)
 
 
 @pytest.fixture
 def domain_id(monkeypatch: pytest.MonkeyPatch) -> int:
     """A DDS domain of this test's own, also set as ROS_DOMAIN_ID for this process and its children."""
-    number = 1 + next(_domain_ids) % 200
+    number = 1 + _worker + _WORKERS * (next(_domain_ids) % 50)
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     return number

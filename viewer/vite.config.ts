@@ -1,6 +1,14 @@
 import { createHash } from "node:crypto";
+import { readFileSync } from "node:fs";
 import type { Plugin } from "vite";
 import { defineConfig } from "vitest/config";
+
+const NOTICE = `/*!
+coframe's viewer, Apache-2.0. It contains:
+urdf-loader, Apache-2.0, the California Institute of Technology and others
+three.js,
+${readFileSync("node_modules/three/LICENSE", "utf8").trim()}
+*/`;
 
 /** Puts the script and the style into the page itself, so that a replay is one file that opens from disk. */
 function oneFile(): Plugin {
@@ -63,6 +71,7 @@ export default defineConfig(({ mode }) => {
       rollupOptions: {
         output: {
           codeSplitting: false,
+          postBanner: NOTICE,
           entryFileNames: "assets/viewer.js",
           assetFileNames: "assets/viewer[extname]",
         },

@@ -1,6 +1,6 @@
 """The rows of the table, a file for each of their subjects."""
 
-from benchmarks.rows import batch, history, insertion, listener, sensors, single, startup
+from benchmarks.rows import batch, history, insertion, listener, sensors, single, startup, viewer
 
 ROWS = {
     "single": single.ROWS,
@@ -10,5 +10,6 @@ ROWS = {
     "listener": listener.ROWS,
     "history": history.ROWS,
     "startup": startup.ROWS,
+    "viewer": viewer.ROWS,
 }
 """By subject."""

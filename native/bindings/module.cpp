@@ -15,5 +15,6 @@ NB_MODULE(_core, module) {
   define_poses(module);
   define_event(module);
   define_sensors(module);
+  define_bags(module);
   define_wire(module);
 }

@@ -384,6 +384,17 @@ def register_time(time: ModuleType) -> None:
 CPU_LEVEL: str
 CPU_LEVELS: tuple[str, ...]
 
+def mcap_records(data: Any) -> tuple[bytes, bytes, bytes, bytes, bytes, list[tuple[int, int, int]], int]:
+    """Where the messages lie among records of MCAP, up to the first record that is cut off or of another kind.
+
+    Returns:
+        Of each message its channel (uint16), log time (uint64), and where its record begins, its bytes begin and its
+        bytes end (uint64); of each schema and channel its opcode and the two ends of its content; the bytes dealt with.
+    """
+
+def ingest_slices(buffer: Buffer, data: Any, starts: Any, ends: Any, static: bool, authority: str) -> tuple[int, str]:
+    """Buffer.ingest() of many parts of `data`, told by uint64 arrays: how many are damaged, and why the first is."""
+
 def transform_fields(pose: Sequence[float], fields: Sequence[Sequence[Any]], threads: int) -> None:
     """Moves points by a pose (x, y, z, qx, qy, qz, qw), in place.
 

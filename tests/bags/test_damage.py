@@ -150,7 +150,7 @@ def test_damaged_messages_are_counted_and_left_out(tmp_path):
     recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows))
     recordings.assert_same(recording.buffer)
     (problem,) = recording.problems
-    assert problem.startswith("/tf: damaged messages: ")
+    assert problem.startswith("/tf: damaged messages, the first: ")
     assert problem.endswith("(5 times)")
 
 

@@ -58,6 +58,10 @@ class Tab:
                 return told
         raise AssertionError(f"waited in vain for {kind}; the last: {self.last}")
 
+    def has(self, kind):
+        """The last message of a kind, if need be the first one that comes."""
+        return self.last.get(kind) or self.wait(kind)
+
     def ask(self, answer, kind, **fields):
         self.send(kind, **fields)
         return self.wait(answer)

@@ -13,6 +13,7 @@ pytest.importorskip("cyclonedds", reason="the wire needs cyclonedds")
 
 from coframe.wire import GraphNode, Participant
 
+_WORKERS = 4  # as in tests/conftest.py: each has every fourth domain
 _PATIENCE = 20.0  # seconds; two cores that others use too
 
 
@@ -21,7 +22,7 @@ def domain_id(domain_id: int, monkeypatch: pytest.MonkeyPatch) -> int:
     """A domain that no earlier test of this process has left open: the numbers come round."""
     number = domain_id
     while number in Participant._instances:
-        number = 1 + number % 200
+        number = 1 + (number + _WORKERS - 1) % 200
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
     return number
 

@@ -116,11 +116,16 @@ export function fillSelect(
   element.value = value;
 }
 
-/** A name that fits a menu: the middle of a long one is left out, since both ends tell frames apart. */
+/** Line ends, and marks that turn the direction of writing, would let a name look like another or fall out of its row. */
+const UNSEEN = /[\p{Cc}\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]/gu;
+
+/** A name as it is shown: nothing in it acts, and of a long one the middle is left out, since both ends tell frames apart. */
 export function shorten(text: string, length: number): string {
-  if (text.length <= length) return text;
-  const half = Math.floor((length - 1) / 2);
-  return `${text.slice(0, half)}…${text.slice(text.length - half)}`;
+  if (text.length > length) {
+    const half = Math.floor((length - 1) / 2);
+    return `${shorten(text.slice(0, half), half)}…${shorten(text.slice(text.length - half), half)}`;
+  }
+  return text.replace(UNSEEN, "\ufffd");
 }
 
 export async function copyText(text: string): Promise<boolean> {

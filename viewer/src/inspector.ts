@@ -88,7 +88,7 @@ export class Inspector {
     const { frame } = this.model.selection;
     this.root.hidden = frame === null;
     if (frame === null) return;
-    setText(this.title, frame.slice(0, 300));
+    setText(this.title, shorten(frame, 100));
     this.title.title = frame.slice(0, 300);
     this.fillReference();
     this.ask(true);

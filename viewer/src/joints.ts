@@ -123,7 +123,7 @@ export class JointsPanel {
     const publish = this.publishing.has(robot.id);
     const positions = this.positions.get(robot.id) ?? {};
     // What is published comes back as frames, from whoever turns joint states into transforms.
-    display.setTrial(publish ? null : { ...positions });
+    display.setJoints({ ...positions }, !publish);
     if (this.timers.has(robot.id)) return;
     const timer = window.setTimeout(() => {
       this.timers.delete(robot.id);
@@ -135,7 +135,7 @@ export class JointsPanel {
   private release(display: RobotDisplay, robot: Robot): void {
     this.publishing.delete(robot.id);
     this.positions.delete(robot.id);
-    display.setTrial(null);
+    display.setJoints(Object.fromEntries(robot.joints.map((joint) => [joint.name, joint.value])), false);
     this.model.send({ type: "joints", robot: robot.id, positions: {}, publish: false });
     this.shown = "";
     this.render();

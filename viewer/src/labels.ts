@@ -1,7 +1,7 @@
 /** Names beside frames: real elements, few of them, never one over another. */
 
 import * as THREE from "three";
-import { h, setText } from "./dom";
+import { h, setText, shorten } from "./dom";
 
 const MOST = 120;
 const ROW_PX = 15;
@@ -43,7 +43,7 @@ export class LabelLayer {
     const used = new Set<string>();
     for (const { label, x, y } of seen) {
       if (used.size >= MOST) break;
-      const row = free(taken, x, y, Math.min(label.text.length, LONGEST + 1) * CHARACTER_PX + 12);
+      const row = free(taken, x, y, Math.min(label.text.length, LONGEST) * CHARACTER_PX + 12);
       if (row === null) continue;
       this.place(label, x, row);
       used.add(label.key);
@@ -64,7 +64,7 @@ export class LabelLayer {
     }
     const className = `label ${label.className}`;
     if (element.className !== className) element.className = className;
-    setText(element, label.text.length > LONGEST ? `${label.text.slice(0, LONGEST)}…` : label.text);
+    setText(element, shorten(label.text, LONGEST));
     element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
   }
 }

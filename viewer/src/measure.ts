@@ -1,6 +1,7 @@
 /** The distance between two frames that the user points at. */
 
 import * as THREE from "three";
+import { shorten } from "./dom";
 import * as format from "./format";
 import type { Label } from "./labels";
 import type { Palette } from "./theme";
@@ -54,7 +55,7 @@ export class Measure {
   /** In words: what to do next, or the result along the fixed frame's axes. */
   text(): string {
     if (this.frames.length === 0) return "Measure: click the first frame";
-    if (this.frames.length === 1) return `From ${this.frames[0]?.slice(0, 40)}: click the second frame`;
+    if (this.frames.length === 1) return `From ${shorten(this.frames[0] ?? "", 40)}: click the second frame`;
     if (!this.object.visible) return "One of the two frames is not drawn now";
     const [a, b] = this.ends;
     const along = (["x", "y", "z"] as const).map((k) => `Δ${k} ${format.fixed(b[k] - a[k], 3)}`).join("  ");

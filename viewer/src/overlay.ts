@@ -114,12 +114,14 @@ export class Overlay {
   }
 
   private tellConnection(connected: boolean): void {
-    clearTimeout(this.lost);
     if (connected) {
+      clearTimeout(this.lost);
+      this.lost = 0;
       this.notice.hidden = true;
       return;
     }
-    this.lost = window.setTimeout(() => {
+    // Every attempt that fails says so again: the first counts.
+    this.lost ||= window.setTimeout(() => {
       this.notice.hidden = false;
       setText(this.notice, "The connection to the server is lost. This page comes back by itself when the server runs again.");
     }, PATIENCE_MS);

@@ -1,5 +1,6 @@
 /** How often each edge came, over time: bars on a canvas, gaps marked. */
 
+import { shorten } from "./dom";
 import type { Forest } from "./model";
 import type { Timeline } from "./protocol";
 
@@ -66,7 +67,7 @@ export function drawRows(canvas: HTMLCanvasElement, edges: Edge[], timeline: Tim
   rows.forEach(({ frame, counts, gaps }, row) => {
     const top = row * ROW_PX;
     context.fillStyle = colours.muted;
-    context.fillText(forest.name(frame).slice(0, 40), 2, top + ROW_PX / 2, NAME_PX - 8);
+    context.fillText(shorten(forest.name(frame), 28), 2, top + ROW_PX / 2, NAME_PX - 8);
     context.fillStyle = colours.gap;
     for (const [from, to] of gaps) {
       const x = NAME_PX + ((from - timeline.from) / span) * plot;

@@ -199,14 +199,18 @@ export class Timeline {
   private drawDensity(context: CanvasRenderingContext2D, colours: Colours, x: (ns: number) => number, height: number): void {
     const { message } = this;
     if (!message || message.revision !== this.model.forest.revision) return;
-    const [from, to] = [x(message.from), x(message.to)];
+    // Live, the bars are up to two seconds old: they fill the bar all the same rather than end before it.
+    const { live } = this.model.clock;
+    const width = context.canvas.clientWidth;
+    const place = live ? (ns: number): number => ((ns - message.from) / (message.to - message.from)) * width : x;
+    const [from, to] = [place(message.from), place(message.to)];
     context.globalAlpha = 0.55;
     context.fillStyle = colours.bar;
     bars(context, this.sum, from, 4, to - from, height - 4);
     context.globalAlpha = 1;
     context.fillStyle = colours.gap.slice(0, 7);
     for (const { gaps } of this.edges)
-      for (const [a, b] of gaps) context.fillRect(x(a), 0, Math.max(1.5, x(b) - x(a)), 3);
+      for (const [a, b] of gaps) context.fillRect(place(a), 0, Math.max(1.5, place(b) - place(a)), 3);
   }
 
   private listen(): void {

@@ -4,7 +4,7 @@
  * Only the rows in view exist, so that ten thousand frames cost no more than ten.
  */
 
-import { h, icon, iconButton, setText } from "./dom";
+import { h, icon, iconButton, setText, shorten } from "./dom";
 import * as format from "./format";
 import type { Model } from "./model";
 
@@ -237,10 +237,10 @@ export class TreePanel {
     row.box.checked = model.isShown(name);
     row.box.setAttribute("aria-label", `Show ${name.slice(0, 60)}`);
     row.solo.classList.toggle("on", model.solo === name);
-    setText(row.name, name.slice(0, 300));
+    setText(row.name, shorten(name, 200));
     setText(row.tag, [name === model.fixed ? "fixed" : "", data.tree ?? ""].filter(Boolean).join(" · "));
     setText(row.rate, isRoot ? "" : isStatic ? "static" : format.rate(stats?.rate ?? null));
-    setText(row.publisher, isRoot ? "root" : (stats?.publisher ?? ""));
+    setText(row.publisher, isRoot ? "root" : shorten(stats?.publisher ?? "", 100));
     setText(row.age, isStatic || isRoot ? "" : ageText(state, stats?.age ?? null));
   }
 

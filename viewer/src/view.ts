@@ -12,6 +12,11 @@ import type { Theme } from "./theme";
 
 const PICK_PX = 18;
 const CLICK_PX = 5;
+/** Trees larger than this are looked through for frames that stand far away. */
+const FAR_APART_M = 300;
+const OUTLIER = 20;
+/** So far around the frames data is looked at, too. */
+const NEAR_M = 1;
 const FIT_AGAIN_MS = [1000, 3000];
 
 export interface TfOptions extends FrameOptions {
@@ -94,11 +99,16 @@ export class View {
 
   /** Looks at everything that is drawn. */
   fit(): void {
-    const box = new THREE.Box3();
     const { positions, drawn, count } = this.placement;
-    const point = new THREE.Vector3();
-    for (let i = 0; i < count; i++) if (drawn[i]) box.expandByPoint(point.fromArray(positions, i * 3));
-    for (const bounds of this.bounds) box.union(bounds());
+    const points: THREE.Vector3[] = [];
+    for (let i = 0; i < count; i++) if (drawn[i]) points.push(new THREE.Vector3().fromArray(positions, i * 3));
+    const box = new THREE.Box3().setFromPoints(withoutOutliers(points));
+    // Of a scan that reaches far, what is around the frames is seen; all of it where there are no frames.
+    const near = box.clone().expandByScalar(Math.max(NEAR_M, box.getSize(new THREE.Vector3()).length() / 3));
+    for (const bounds of this.bounds) {
+      const own = bounds();
+      box.union(near.isEmpty() ? own : own.intersect(near));
+    }
     if (!box.isEmpty()) this.stage.camera.fit(box.expandByScalar(0.1));
   }
 
@@ -246,4 +256,17 @@ export class View {
     }
     return best ? this.model.forest.name(best.i) : null;
   }
+}
+
+/** Where a few frames are kilometres away from all others, the others are what one wants to see. */
+function withoutOutliers(points: THREE.Vector3[]): THREE.Vector3[] {
+  if (new THREE.Box3().setFromPoints(points).getSize(new THREE.Vector3()).length() < FAR_APART_M) return points;
+  const middle = (axis: "x" | "y" | "z"): number => median(points.map((point) => point[axis]));
+  const centre = new THREE.Vector3(middle("x"), middle("y"), middle("z"));
+  const usual = Math.max(1, median(points.map((point) => point.distanceTo(centre))));
+  return points.filter((point) => point.distanceTo(centre) <= OUTLIER * usual);
+}
+
+function median(values: number[]): number {
+  return values.sort((a, b) => a - b)[values.length >> 1] ?? 0;
 }

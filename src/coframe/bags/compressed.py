@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from coframe.bags.compression import LARGEST, DamagedError, unpack
-from coframe.bags.storage import Record, Storage
+from coframe.bags.storage import Batch, Slices, Storage
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -23,16 +25,23 @@ class UnpackedMessages(Storage):
         self._packed = packed
         self._compression = compression
 
-    def records(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Record]:
+    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Those of the other storage, unpacked."""
-        for record in self._packed.records(wanted, progress):
-            if record.data is None:
-                yield record
+        for batch in self._packed.batches(wanted, progress):
+            if batch.messages is None:
+                yield batch
                 continue
-            try:
-                yield record._replace(data=unpack(self._compression, record.data, LARGEST))
-            except DamagedError as error:
-                self.problem(f"messages on {record.channel.topic} that cannot be unpacked: {error}")
+            unpacked = [self._unpack(batch.channel, message) for message in batch.messages.each()]
+            there = np.array([message is not None for message in unpacked], dtype=bool)
+            messages = Slices.joined([message for message in unpacked if message is not None])
+            yield Batch(batch.channel, batch.received[there], batch.positions[there], messages)
+
+    def _unpack(self, channel: Channel, message: memoryview) -> bytes | None:
+        try:
+            return unpack(self._compression, message, LARGEST)
+        except DamagedError as error:
+            self.problem(f"messages on {channel.topic} that cannot be unpacked: {error}")
+            return None
 
     def read(self, position: int) -> bytes:
         """One message's bytes, unpacked."""

@@ -6,11 +6,14 @@ import struct
 import zlib
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from coframe import _core
 from coframe.bags.compression import LARGEST, DamagedError, unpack
-from coframe.bags.storage import Channel, ChunkedStorage, Record
+from coframe.bags.storage import Batch, Channel, ChunkedStorage, Slices
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Generator, Iterator
     from pathlib import Path
 
     from coframe.bags.problems import Problems
@@ -24,6 +27,7 @@ _LAST_OPCODE = 0x0F  # those from 0x80 on are somebody's own
 _RECORD = struct.Struct("<BQ")  # opcode, length
 _MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log time, publish time
 _CHUNK_HEAD = struct.Struct("<QQQI")  # first and last log time, unpacked size, its CRC or 0
+_BLOCK = 4 << 20  # bytes of records that are in no chunk are read together
 _FOOTER_RECORD = struct.Struct("<BQQQI")  # opcode, length, start of the summary, of its offsets, CRC
 
 
@@ -35,19 +39,21 @@ class McapStorage(ChunkedStorage):
         self._schemas: dict[int, tuple[str, str, bytes]] = {}
         self._channels: dict[int, Channel] = {}
 
-    def records(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Record]:
+    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """All messages, in the order in which they lie in the file."""
         del wanted  # all data lie together
+        done = 0
         for offset, opcode, end in self._walk(self._read_summary()):
             if opcode == _CHUNK:
-                yield from self._chunk_records(offset)
+                yield from self._chunk_batches(offset)
                 progress(end)
-            elif end - offset > LARGEST:
-                self.problem(f"the record at byte {offset} claims to be {end - offset} bytes")
-            elif opcode == _MESSAGE:
-                yield from self._inner(self.bytes_at(offset, end - offset), offset)
-            elif opcode in {_SCHEMA, _CHANNEL}:
-                self._define(opcode, self.bytes_at(offset + _RECORD.size, end - offset - _RECORD.size))
+            elif opcode in {_SCHEMA, _CHANNEL, _MESSAGE} and offset >= done:
+                if end - offset > LARGEST:
+                    self.problem(f"the record at byte {offset} claims to be {end - offset} bytes")
+                    continue
+                data = self.bytes_at(offset, max(end - offset, _BLOCK))
+                done = offset + (yield from self._inner(data, offset))
+                progress(done)
         progress(self.size)
 
     def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, int]]:
@@ -90,14 +96,16 @@ class McapStorage(ChunkedStorage):
             position += _RECORD.size + length
         return sorted(chunk for chunk in chunks if 0 < chunk < self.size)
 
-    def _chunk_records(self, offset: int) -> Iterator[Record]:
+    def _chunk_batches(self, offset: int) -> Iterator[Batch]:
         base = self.add_chunk(offset)
         try:
             data = self.unpack_chunk(offset)
         except DamagedError as error:
             self.problem(f"the chunk at byte {offset} cannot be unpacked: {error}")
             return
-        yield from self._inner(data, base)
+        done = yield from self._inner(data, base)
+        if done < len(data):
+            self.problem(f"{len(data) - done} bytes are damaged or cut off inside a chunk")
 
     def unpack_chunk(self, offset: int) -> bytes:
         """The records of the chunk at this offset of the file."""
@@ -115,30 +123,24 @@ class McapStorage(ChunkedStorage):
             self.problem(f"the chunk at byte {offset} is damaged: its checksum differs")
         return data
 
-    def _inner(self, data: bytes, base: int) -> Iterator[Record]:
-        """The messages among records; their positions are offsets in ``data`` plus ``base``."""
-        position, size = 0, len(data)
-        view = memoryview(data)
-        while position + _RECORD.size <= size:
-            opcode, length = _RECORD.unpack_from(data, position)
-            end = position + _RECORD.size + length
-            if end > size or not _is_record(opcode):
-                break
-            if opcode == _MESSAGE and end - position >= _MESSAGE_RECORD.size:
-                _, _, number, _, received, _ = _MESSAGE_RECORD.unpack_from(data, position)
-                channel = self._channels.get(number)
-                if channel is None:
-                    self.problem(f"messages of channel {number}, which nothing describes")
-                elif received >= _TOO_LATE:
-                    self.problem(f"messages with the time {received} ns, which is no time")
-                else:
-                    payload = view[position + _MESSAGE_RECORD.size : end]
-                    yield Record(channel, received, base + position, payload)
-            elif opcode in {_SCHEMA, _CHANNEL}:
-                self._define(opcode, bytes(view[position + _RECORD.size : end]))
-            position = end
-        if position < size:
-            self.problem(f"{size - position} bytes are damaged or cut off inside a chunk")
+    def _inner(self, data: bytes, base: int) -> Generator[Batch, None, int]:
+        """The messages among records, whose positions are offsets in ``data`` plus ``base``; returns where it ended."""
+        *columns, definitions, done = _core.mcap_records(data)
+        for opcode, start, end in definitions:
+            self._define(opcode, data[start:end])
+        channels = np.frombuffer(columns[0], dtype=np.uint16)
+        times, records, starts, ends = (np.frombuffer(column, dtype=np.uint64) for column in columns[1:])
+        for number in np.unique(channels).tolist():
+            channel = self._channels.get(number)
+            mine = (channels == number) & (times < _TOO_LATE)
+            if channel is None:
+                self.problem(f"messages of channel {number}, which nothing describes", int(np.count_nonzero(mine)))
+            else:
+                messages = Slices(data, starts[mine], ends[mine])
+                yield Batch(channel, times[mine].astype(np.int64), records[mine] + np.uint64(base), messages)
+        if (times >= _TOO_LATE).any():
+            self.problem("messages with times that are none", int(np.count_nonzero(times >= _TOO_LATE)))
+        return done
 
     def payload(self, source: bytes | None, offset: int) -> bytes | memoryview:
         """The message in the record at this offset."""
@@ -173,7 +175,7 @@ class McapStorage(ChunkedStorage):
             self._channels[number] = Channel(topic, name, encoding, definition, kind)
 
 
-_TOO_LATE = 1 << 63
+_TOO_LATE = np.uint64(1 << 63)
 
 
 def _is_record(opcode: int) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import weakref
 from array import array
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -18,7 +18,8 @@ from coframe.bags.compression import DamagedError
 from coframe.bags.decoding import decoder
 from coframe.bags.opening import open_files
 from coframe.bags.problems import Problems
-from coframe.bags.stamps import HEAD, stamp_reader
+from coframe.bags.stamps import HEAD, stamps_for
+from coframe.bags.storage import Slices
 from coframe.bags.transforms import ingest_for
 from coframe.errors import RecordingError
 
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from typing_extensions import Self
 
+    from coframe.bags.stamps import StampPlace
     from coframe.bags.storage import Channel, Storage
     from coframe.buffer import Buffer
     from coframe.time import StampLike
@@ -101,6 +103,11 @@ class _Track:
     received: array[int] = field(default_factory=lambda: array("q"))
     positions: array[int] = field(default_factory=lambda: array("Q"))
     stamps: array[int] = field(default_factory=lambda: array("q"))  # empty where they have not been read
+
+    @cached_property
+    def place(self) -> StampPlace | None:
+        """Where the messages have their stamps."""
+        return stamps_for(self.channel)
 
 
 class _Index(NamedTuple):
@@ -186,40 +193,27 @@ class Recording:
         tree.report(self.buffer, self._problems)
 
     def _scan_file(self, storage: Storage, collected: tree.Transforms, progress: Callable[[int], object]) -> None:
-        tracks: dict[Channel, tuple[Callable[..., object], Callable[..., object], Callable[[Any], None]]] = {}
-        for channel, received, position, data in storage.records(_has_transforms, progress):
-            known = tracks.get(channel)
-            if known is None:
-                known = tracks[channel] = self._new_track(storage, channel, collected)
-            add_received, add_position, take = known
-            add_received(received)
-            add_position(position)
-            if data is not None:
-                take(data)
+        tracks: dict[Channel, tuple[_Track, Callable[[Slices], None] | None]] = {}
+        for channel, received, positions, messages in storage.batches(_has_transforms, progress):
+            if channel not in tracks:
+                tracks[channel] = _Track(storage, channel), collected.ingest(channel)
+                self._tracks.setdefault(channel.topic, []).append(tracks[channel][0])
+            track, ingest = tracks[channel]
+            track.received.frombytes(received.tobytes())
+            track.positions.frombytes(positions.tobytes())
+            if messages is not None:
+                stamps = received if track.place is None else track.place.stamps(messages, received)
+                track.stamps.frombytes(stamps.tobytes())
+                if ingest is not None:
+                    ingest(messages)
 
-    def _new_track(
-        self, storage: Storage, channel: Channel, collected: tree.Transforms
-    ) -> tuple[Callable[[int], None], Callable[[int], None], Callable[[Any], None]]:
-        track = _Track(storage, channel)
-        self._tracks.setdefault(channel.topic, []).append(track)
-        stamp_of = stamp_reader(channel)
-        ingest = collected.ingest(channel)
-        stamps, received = track.stamps, track.received
-
-        def take(data: bytes | memoryview) -> None:
-            stamp = None if stamp_of is None else stamp_of(data)
-            stamps.append(received[-1] if stamp is None else stamp)
-            if ingest is not None:
-                ingest(data)
-
-        return received.append, track.positions.append, take
-
-    def _transform_messages(self) -> Iterator[tuple[Channel, bytes]]:
+    def _transform_messages(self) -> Iterator[tuple[Channel, Slices]]:
         """All messages with transforms once more, as they lie in their files."""
         for track in (track for tracks in self._tracks.values() for track in tracks):
             if _has_transforms(track.channel):
                 for position in track.positions:
-                    yield track.channel, track.storage.read(position)
+                    with suppress(DamagedError):  # told of before
+                        yield track.channel, Slices.joined([track.storage.read(position)])
 
     def _topic(self, name: str) -> Topic:
         tracks = self._tracks[name]
@@ -345,19 +339,12 @@ class Recording:
         return RecordedMessage(name, track.channel.type, stamp, received, data, self._decoders[key])
 
     def _track_stamps(self, track: _Track) -> NDArray[np.int64]:
-        stamp_of = stamp_reader(track.channel)
-        if stamp_of is None:
-            return self._on_stamps_clock(_numbers(track.received))
+        received = _numbers(track.received)
+        if track.place is None:
+            return self._on_stamps_clock(received)
         if len(track.stamps) == len(track.received):
             return _numbers(track.stamps)
-        found = array("q")
-        for received, position in zip(track.received, track.positions, strict=True):
-            try:
-                stamp = stamp_of(track.storage.head(position, HEAD))
-            except DamagedError:
-                stamp = None
-            found.append(received if stamp is None else stamp)
-        return _numbers(found)
+        return track.place.stamps(Slices.joined([_head(track, position) for position in track.positions]), received)
 
     def _on_stamps_clock(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
         """Times of receipt on the clock that stamps are told by."""
@@ -411,6 +398,13 @@ class Recording:
 
 def _has_transforms(channel: Channel) -> bool:
     return ingest_for(channel) is not None
+
+
+def _head(track: _Track, position: int) -> bytes:
+    try:
+        return track.storage.head(position, HEAD)
+    except DamagedError:
+        return b""
 
 
 def _numbers(values: array[int]) -> NDArray[np.int64]:

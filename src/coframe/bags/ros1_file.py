@@ -5,8 +5,10 @@ from __future__ import annotations
 import struct
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from coframe.bags.compression import LARGEST, DamagedError, unpack
-from coframe.bags.storage import Channel, ChunkedStorage, Record
+from coframe.bags.storage import Batch, Channel, ChunkedStorage, Slices
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -32,12 +34,12 @@ class Ros1Storage(ChunkedStorage):
         super().__init__(path, problems)
         self._channels: dict[int, Channel] = {}
 
-    def records(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Record]:
+    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """All messages, in the order in which they lie in the file."""
         del wanted  # all data lie together
         for offset, opcode, header, start, end in self._walk(self._read_index()):
             if opcode == _CHUNK:
-                yield from self._chunk_records(offset)
+                yield from self._chunk_batches(offset)
                 progress(min(end, self.size))
             elif end - offset > LARGEST:
                 self.problem(f"the record at byte {offset} claims to be {end - offset} bytes")
@@ -101,7 +103,7 @@ class Ros1Storage(ChunkedStorage):
             raise DamagedError("it is cut off")
         return int(_LENGTH.unpack(data)[0])
 
-    def _chunk_records(self, offset: int) -> Iterator[Record]:
+    def _chunk_batches(self, offset: int) -> Iterator[Batch]:
         base = self.add_chunk(offset)
         try:
             data = self.unpack_chunk(offset)
@@ -122,27 +124,31 @@ class Ros1Storage(ChunkedStorage):
             self.problem(f"the chunk at byte {offset} is damaged from its byte {len(data)} on")
         return data
 
-    def _inner(self, data: bytes, base: int) -> Iterator[Record]:
+    def _inner(self, data: bytes, base: int) -> Iterator[Batch]:
         """The messages among records; their positions are offsets in ``data`` plus ``base``."""
+        found: dict[int, list[tuple[int, int, int, int]]] = {}
         position = 0
         while position < len(data):
             try:
                 header, start, end = _record_in(data, position)
             except DamagedError:
                 self.problem(f"{len(data) - position} bytes are damaged or cut off inside a chunk")
-                return
+                break
             opcode = _opcode(header)
             if opcode == _CONNECTION:
                 self._connect(header, data[start:end])
             elif opcode == _MESSAGE:
-                channel = self._channels.get(_number(header))
                 seconds, nanoseconds = _TIME.unpack(header.get(b"time", b"").ljust(8, b"\0")[:8])
-                if channel is None:
-                    self.problem("messages of a connection that nothing describes")
-                else:
-                    received = seconds * 1_000_000_000 + nanoseconds
-                    yield Record(channel, received, base + position, memoryview(data)[start:end])
+                row = (seconds * 1_000_000_000 + nanoseconds, base + position, start, end)
+                found.setdefault(_number(header), []).append(row)
             position = end
+        for number, rows in found.items():
+            channel = self._channels.get(number)
+            if channel is None:
+                self.problem("messages of a connection that nothing describes", len(rows))
+                continue
+            received, positions, starts, ends = np.array(rows, dtype=np.uint64).T.copy()
+            yield Batch(channel, received.astype(np.int64), positions, Slices(data, starts, ends))
 
     def payload(self, source: bytes | None, offset: int) -> bytes | memoryview:
         """The message in the record at this offset."""

@@ -6,8 +6,10 @@ import sqlite3
 import threading
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from coframe.bags.compression import DamagedError
-from coframe.bags.storage import Channel, Record, Storage
+from coframe.bags.storage import Batch, Channel, Slices, Storage
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -48,7 +50,7 @@ class SqliteStorage(Storage):
         uri = f"{self.path.absolute().as_uri()}?mode=ro&immutable=1"
         return sqlite3.connect(uri, uri=True, check_same_thread=False)
 
-    def records(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Record]:
+    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Those of the wanted channels with their data, then the others without."""
         try:
             self._database.text_factory = lambda text: text.decode("utf-8", "replace")
@@ -66,24 +68,39 @@ class SqliteStorage(Storage):
             yield from self._rows(numbers, column, lambda row: progress(self.size * row // max(total, 1)))
         progress(self.size)
 
-    def _rows(self, numbers: list[int], column: str, progress: Callable[[int], object]) -> Iterator[Record]:
+    def _rows(self, numbers: list[int], column: str, progress: Callable[[int], object]) -> Iterator[Batch]:
         if not numbers:
             return
         # All that goes into the text are integers and our own words.
         query = (
-            f"SELECT id, topic_id, timestamp, {column} FROM messages "  # noqa: S608
+            f"SELECT topic_id, id, timestamp, {column} FROM messages "  # noqa: S608
             f"WHERE topic_id IN ({', '.join(map(str, numbers))}) ORDER BY id"
         )
         try:
-            for i, (row, number, received, data) in enumerate(self._database.execute(query)):
-                if i % _STEP == 0:
-                    progress(row)
-                if isinstance(received, int) and (column == "NULL" or isinstance(data, bytes)):
-                    yield Record(self._channels[number], received, row, data)
-                else:
-                    self.problem("rows whose time or data are not what they should be")
+            cursor = self._database.execute(query)
+            while rows := cursor.fetchmany(_STEP):
+                progress(rows[-1][1])
+                yield from self._grouped(rows, with_data=column == "data")
         except _DAMAGE as error:
             self.problem(f"the database is damaged, and not all of it was read: {error}")
+
+    def _grouped(self, rows: list[tuple[Any, ...]], *, with_data: bool) -> Iterator[Batch]:
+        """The rows of each topic; those that are not what they should be are left out."""
+        topics, _, times, data = zip(*rows, strict=True)
+        if set(map(type, times)) != {int} or (with_data and set(map(type, data)) != {bytes}):
+            good = [row for row in rows if isinstance(row[2], int) and (isinstance(row[3], bytes) or not with_data)]
+            self.problem("rows whose time or data are not what they should be", len(rows) - len(good))
+            rows = good
+        for number in dict.fromkeys(topics):
+            group = [row for row in rows if row[0] == number]
+            if group:
+                _, positions, received, messages = zip(*group, strict=True)
+                yield Batch(
+                    self._channels[number],
+                    np.array(received, dtype=np.int64),
+                    np.array(positions, dtype=np.int64).astype(np.uint64),
+                    Slices.joined(messages) if with_data else None,
+                )
 
     def _read_channels(self) -> dict[int, Channel]:
         tables = dict(self._query("SELECT name, sql FROM sqlite_master WHERE type = 'table'"))
@@ -109,7 +126,7 @@ class SqliteStorage(Storage):
         """The data of the row with this id."""
         try:
             with self._lock:
-                row = self._database.execute("SELECT data FROM messages WHERE id = ?", (position,)).fetchone()
+                row = self._database.execute("SELECT data FROM messages WHERE id = ?", (_row(position),)).fetchone()
         except _DAMAGE as error:
             raise DamagedError(f"the database is damaged: {error}") from None
         if row is None or not isinstance(row[0], bytes):
@@ -121,7 +138,7 @@ class SqliteStorage(Storage):
         if not hasattr(self._database, "blobopen"):  # before Python 3.11
             return super().head(position, size)
         try:
-            with self._lock, self._database.blobopen("messages", "data", position, readonly=True) as blob:
+            with self._lock, self._database.blobopen("messages", "data", _row(position), readonly=True) as blob:
                 return bytes(blob.read(size))
         except _DAMAGE as error:
             raise DamagedError(f"the database is damaged: {error}") from None
@@ -129,3 +146,8 @@ class SqliteStorage(Storage):
     def close(self) -> None:
         """Lets go of the file."""
         self._database.close()
+
+
+def _row(position: int) -> int:
+    """Rows may have negative numbers."""
+    return position - (1 << 64) if position >= 1 << 63 else position

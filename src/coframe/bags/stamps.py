@@ -3,58 +3,60 @@
 from __future__ import annotations
 
 import re
-import struct
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from coframe import time
 from coframe.bags.decoding import message_class
 from coframe.messages.definition import AbstractSequence, NamespacedType
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from numpy.typing import NDArray
 
-    from coframe.bags.storage import Channel
+    from coframe.bags.storage import Channel, Slices
 
-__all__ = ["HEAD", "stamp_reader"]
+__all__ = ["HEAD", "StampPlace", "stamps_for"]
 
 HEAD = 24  # bytes of a message that are enough
-_LITTLE, _BIG = struct.Struct("<iI"), struct.Struct(">iI")
+_IN_ROS1 = {"time": 0, "header": 4, "headers": 8}
 _HEADER = re.compile(r"\s*(?:std_msgs/)?(?:msg/)?Header\s+\w+", re.ASCII)
 _TIME = re.compile(r"\s*(?:builtin_interfaces/(?:msg/)?Time|time)\s+\w+", re.ASCII)
 
 
-def stamp_reader(channel: Channel) -> Callable[[bytes | memoryview], int | None] | None:
-    """What finds the stamp in a message's first bytes; None where messages of that type have none in front.
-
-    The stamp is that of the header, of the first of many headers (TFMessage, MarkerArray), or the time the message
-    begins with (Clock); None for a message that is cut off or holds nothing.
-    """
+def stamps_for(channel: Channel) -> StampPlace | None:
+    """Where a channel's messages have their stamps in their first bytes; None where they have none in front."""
     place = _place(channel)
     if place is None or channel.encoding not in {"cdr", "ros1"}:
         return None
-    return _Cdr(place) if channel.encoding == "cdr" else _Ros1(place)
+    # In CDR behind its header, in ROS 1 behind the header's number; of many headers behind their count, too.
+    offsets = {"time": 4, "header": 4, "headers": 8} if channel.encoding == "cdr" else _IN_ROS1
+    return StampPlace(offsets[place], is_cdr=channel.encoding == "cdr")
 
 
-class _Cdr:
-    def __init__(self, place: str) -> None:
-        self.offset = 8 if place == "headers" else 4
+class StampPlace:
+    """Where messages have their stamps: that of the header, of the first of many, or the time they begin with."""
 
-    def __call__(self, data: bytes | memoryview) -> int | None:
-        order = _LITTLE if data[1:2] == b"\x01" else _BIG
-        if len(data) < self.offset + order.size:
-            return None
-        seconds, nanoseconds = order.unpack_from(data, self.offset)
-        return int(seconds * 1_000_000_000 + nanoseconds)
+    def __init__(self, offset: int, *, is_cdr: bool) -> None:
+        self._offset = offset
+        self._is_cdr = is_cdr
 
-
-class _Ros1:
-    def __init__(self, place: str) -> None:
-        self.offset = {"time": 0, "header": 4, "headers": 8}[place]
-
-    def __call__(self, data: bytes | memoryview) -> int | None:
-        if len(data) < self.offset + _LITTLE.size:
-            return None
-        seconds, nanoseconds = struct.unpack_from("<II", data, self.offset)
-        return int(seconds * 1_000_000_000 + nanoseconds)
+    def stamps(self, messages: Slices, instead: NDArray[np.int64]) -> NDArray[np.int64]:
+        """The stamps, (N,) nanoseconds; ``instead`` where a message is cut off or empty."""
+        data = np.frombuffer(messages.data, dtype=np.uint8)
+        starts, ends = messages.starts.astype(np.int64), messages.ends.astype(np.int64)
+        there = starts + self._offset + 8 <= ends
+        stamps: NDArray[np.int64] = np.array(instead)
+        begin = starts[there]
+        raw = data[begin[:, None] + (self._offset + np.arange(8))]
+        if self._is_cdr:
+            swapped = raw.reshape(-1, 2, 4)[:, :, ::-1].reshape(-1, 8)
+            raw = np.where((data[begin + 1] == 1)[:, None], raw, swapped)
+        seconds, nanoseconds = np.ascontiguousarray(raw).view("<u4").T.astype(np.int64)
+        if self._is_cdr:
+            seconds = seconds.astype(np.int32).astype(np.int64)
+        stamps[there] = seconds * time.NANOSECONDS_PER_SECOND + nanoseconds
+        return stamps
 
 
 def _place(channel: Channel) -> str | None:

@@ -8,15 +8,19 @@ from collections import OrderedDict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
+import numpy as np
+
 from coframe.bags.compression import LARGEST, DamagedError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
     from pathlib import Path
+
+    from numpy.typing import NDArray
 
     from coframe.bags.problems import Problems
 
-__all__ = ["Channel", "ChunkedStorage", "Record", "Storage"]
+__all__ = ["Batch", "Channel", "ChunkedStorage", "Slices", "Storage"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,20 +42,46 @@ class Channel:
     definition_format: str = ""
 
 
-class Record(NamedTuple):
-    """One message as it lies in a file.
+class Slices(NamedTuple):
+    """Many messages' bytes in one piece.
 
     Attributes:
-        channel: Where it belongs.
-        received: When it was written down, in nanoseconds.
-        position: What :meth:`Storage.read` finds it by.
-        data: Its bytes, or None where they were not wanted and would have taken time.
+        data: All of them, and perhaps others between.
+        starts: Where each begins, (N,) uint64.
+        ends: Where each ends, (N,) uint64.
+    """
+
+    data: bytes
+    starts: NDArray[np.uint64]
+    ends: NDArray[np.uint64]
+
+    @staticmethod
+    def joined(messages: Sequence[bytes | memoryview]) -> Slices:
+        """Of messages that lie apart."""
+        ends = np.cumsum([len(message) for message in messages], dtype=np.uint64)
+        starts = np.concatenate([np.zeros(1, dtype=np.uint64), ends[:-1]]) if len(messages) else ends
+        return Slices(b"".join(messages), starts, ends)
+
+    def each(self) -> Iterator[memoryview]:
+        """One message after the other."""
+        view = memoryview(self.data)
+        return (view[start:end] for start, end in zip(self.starts.tolist(), self.ends.tolist(), strict=True))
+
+
+class Batch(NamedTuple):
+    """Messages of one channel, in the order in which they lie in a file.
+
+    Attributes:
+        channel: Where they belong.
+        received: When they were written down, (N,) int64 nanoseconds.
+        positions: What :meth:`Storage.read` finds them by, (N,) uint64.
+        messages: Their bytes, or None where these were not wanted and would have taken time.
     """
 
     channel: Channel
-    received: int
-    position: int
-    data: bytes | memoryview | None
+    received: NDArray[np.int64]
+    positions: NDArray[np.uint64]
+    messages: Slices | None
 
 
 class Storage(ABC):
@@ -63,11 +93,11 @@ class Storage(ABC):
         self.size = path.stat().st_size  # bytes
 
     @abstractmethod
-    def records(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Record]:
+    def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """All messages that can be read, once; what cannot be is among the problems.
 
         Args:
-            wanted: For which channels ``data`` must be there.
+            wanted: For which channels their bytes must be there.
             progress: Told now and then how many bytes of the file have been dealt with.
         """
 

@@ -6,12 +6,14 @@ import json
 import struct
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from coframe.errors import DecodeError
+import numpy as np
+
+from coframe import _core
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from coframe.bags.storage import Channel
+    from coframe.bags.storage import Channel, Slices
     from coframe.buffer import Buffer
 
 __all__ = ["Ingest", "ingest_for", "is_static"]
@@ -33,7 +35,7 @@ class _Stamped(NamedTuple):
 
 
 class Ingest:
-    """Takes in messages of one channel.
+    """Takes messages of one channel into a buffer.
 
     Args:
         decode: From bytes to transforms; None: the buffer reads them itself.
@@ -48,26 +50,34 @@ class Ingest:
         self.static = static
         self._authority = authority
 
-    def names_begin_with_slash(self, data: bytes | memoryview) -> bool:
-        """Whether the first transform's parent does; of messages of ROS."""
-        return self._decode in {None, _ros1} and data[_FIRST_PARENT : _FIRST_PARENT + 1] == b"/"
+    def names_begin_with_slash(self, messages: Slices) -> bool:
+        """Whether the first parent in one of them does; of messages of ROS."""
+        if self._decode not in {None, _ros1}:
+            return False
+        places = (messages.starts + np.uint64(_FIRST_PARENT))[
+            messages.starts + np.uint64(_FIRST_PARENT) < messages.ends
+        ]
+        return bool((np.frombuffer(messages.data, dtype=np.uint8)[places] == ord("/")).any())
 
-    def __call__(self, buffer: Buffer, data: bytes | memoryview) -> None:
-        """Takes in one message, whole or not at all.
-
-        Raises:
-            DecodeError: It is damaged.
-        """
+    def __call__(self, buffer: Buffer, messages: Slices) -> tuple[int, str]:
+        """Takes messages in, each whole or not at all; how many are damaged, and what is wrong with the first."""
         if self._decode is None:
-            buffer.ingest(data, static=self.static, authority=self._authority)
-            return
-        try:
-            for transform in list(self._decode(data)):
-                buffer.set_values(
-                    transform.parent, transform.child, transform.stamp, *transform.values, self.static, self._authority
-                )
-        except _DAMAGE as error:
-            raise DecodeError(f"{type(error).__name__}: {error}") from None
+            return _core.ingest_slices(
+                buffer, messages.data, messages.starts, messages.ends, self.static, self._authority
+            )
+        damaged, reason = 0, ""
+        for message in messages.each():
+            try:
+                for transform in list(self._decode(message)):
+                    self._set(buffer, transform)
+            except _DAMAGE as error:
+                damaged, reason = damaged + 1, reason or f"{type(error).__name__}: {error}"
+        return damaged, reason
+
+    def _set(self, buffer: Buffer, transform: _Stamped) -> None:
+        buffer.set_values(
+            transform.parent, transform.child, transform.stamp, *transform.values, self.static, self._authority
+        )
 
 
 def is_static(topic: str) -> bool:

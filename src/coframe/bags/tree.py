@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING
 
 from coframe.bags.transforms import ingest_for
 from coframe.buffer import Buffer
-from coframe.errors import DecodeError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from coframe.bags.problems import Problems
-    from coframe.bags.storage import Channel
+    from coframe.bags.storage import Channel, Slices
     from coframe.buffer import EdgeInfo
 
 __all__ = ["Transforms", "report", "span"]
@@ -59,7 +58,7 @@ class Transforms:
         self._namespace = None if namespace is None else _bare(namespace)
         self._trees: dict[str, _Tree] = {}
 
-    def ingest(self, channel: Channel) -> Callable[[bytes | memoryview], None] | None:
+    def ingest(self, channel: Channel) -> Callable[[Slices], None] | None:
         """What takes in a channel's messages; None if they are no transforms, or not wanted."""
         namespace = _namespace(channel.topic)
         take = ingest_for(channel)
@@ -68,13 +67,12 @@ class Transforms:
         tree = self._trees.setdefault(namespace, _Tree())
         buffer = tree.static if take.static else tree.moving
 
-        def ingest(data: bytes | memoryview) -> None:
-            if take.names_begin_with_slash(data):
+        def ingest(messages: Slices) -> None:
+            if take.names_begin_with_slash(messages):
                 self._problems.add(f"{channel.topic}: names of frames begin with '/': it is left off, as tf2 does", 0)
-            try:
-                take(buffer, data)
-            except DecodeError as error:
-                self._problems.add(f"{channel.topic}: damaged messages: {error}")
+            damaged, reason = take(buffer, messages)
+            if damaged:
+                self._problems.add(f"{channel.topic}: damaged messages, the first: {reason}", damaged)
 
         return ingest
 
@@ -88,7 +86,7 @@ class Transforms:
                 )
         return {name: self._trees[name].joined(self._problems) for name in sorted(self._trees)}
 
-    def together(self, buffers: dict[str, Buffer], messages: Callable[[], Iterable[tuple[Channel, bytes]]]) -> Buffer:
+    def together(self, buffers: dict[str, Buffer], messages: Callable[[], Iterable[tuple[Channel, Slices]]]) -> Buffer:
         """All namespaces in one buffer, or the first one if they use the same names."""
         if not buffers:
             return Buffer(None)
@@ -107,15 +105,12 @@ class Transforms:
                     return buffers[first]
         return self._merged(messages())
 
-    def _merged(self, messages: Iterable[tuple[Channel, bytes]]) -> Buffer:
+    def _merged(self, messages: Iterable[tuple[Channel, Slices]]) -> Buffer:
         tree = _Tree()
-        for channel, data in messages:
+        for channel, slices in messages:
             take = ingest_for(channel)
             if take is not None and self._namespace in {None, _namespace(channel.topic)}:
-                try:
-                    take(tree.static if take.static else tree.moving, data)
-                except DecodeError:
-                    continue  # said before
+                take(tree.static if take.static else tree.moving, slices)
         return tree.joined(self._problems)
 
 

@@ -5,15 +5,18 @@ from __future__ import annotations
 import contextlib
 import sys
 import threading
+import time
 import webbrowser
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 import coframe
 from coframe.cli.session import DomainOption, TfStaticTopicOption, TfTopicOption, session
-from coframe.viewer.show import Viewer, show
+
+if TYPE_CHECKING:
+    from coframe.viewer import Viewer
 
 __all__ = ["announce", "view"]
 
@@ -55,10 +58,11 @@ def view(
             else Path(bag)
         )
         viewer = stack.enter_context(
-            show(source, fixed=fixed, host=host, port=port, rviz=rviz, robot=robot, mesh_roots=mesh_root or [])
+            coframe.show(source, fixed=fixed, host=host, port=port, rviz=rviz, robot=robot, mesh_roots=mesh_root or [])
         )
         announce(viewer, browser=not no_browser)
-        threading.Event().wait()
+        while True:  # until Ctrl-C, which an endless wait would not hear everywhere
+            time.sleep(60.0)
 
 
 def announce(viewer: Viewer, *, browser: bool) -> None:

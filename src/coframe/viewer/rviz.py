@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 __all__ = ["DISPLAY_CLASSES", "RvizConfig"]
 
 LARGEST_FILE = 1 << 20
+DEEPEST = 100
 
 DISPLAY_CLASSES = frozenset(
     {
@@ -197,6 +198,7 @@ class RvizConfig:
     def _merge_displays(self, displays: list[Any]) -> None:
         left = [found for found in _displays(self._manager, "") if found.plain_class in DISPLAY_CLASSES]
         package = self._package
+        new = []
         for told in displays:
             if not isinstance(told, dict) or told.get("class") not in DISPLAY_CLASSES:
                 continue
@@ -204,16 +206,15 @@ class RvizConfig:
             match = next((found for found in left if (found.plain_class, found.name) == key), None)
             if match is not None:
                 left.remove(match)
-                display = match.display
+                _merge_display(match.display, told)
             else:
                 display = {"Class": f"{package}/{key[0]}", "Name": key[1]}
-                self._manager["Displays"] = [*_sequence(self._manager, "Displays"), display]
-            display["Enabled"] = told.get("enabled") is not False
-            _update(display, told.get("options"))
-            if match is None:
+                _merge_display(display, told)
                 _set_topic(display, told.get("topic"), package)
+                new.append(display)
         for found in left:  # the page has it no more
             found.siblings[:] = [one for one in found.siblings if one is not found.display]
+        self._manager["Displays"] = [*_sequence(self._manager, "Displays"), *new]
 
     def _merge_global(self, options: Mapping[str, Any]) -> None:
         values = dict(self._global)
@@ -250,6 +251,11 @@ def _displays(parent: dict[str, Any], path: str) -> Iterator[_Found]:
             yield found
             if found.plain_class == "Group":
                 yield from _displays(display, f"{found.path}/")
+
+
+def _merge_display(display: dict[str, Any], told: Mapping[str, Any]) -> None:
+    display["Enabled"] = told.get("enabled") is not False
+    _update(display, told.get("options"))
 
 
 def _mapping(parent: dict[str, Any], key: str) -> dict[str, Any]:
@@ -340,10 +346,22 @@ def _load(text: str, source: str) -> Any:
             """RViz writes none, and a few of them make a small file endless."""
             raise yaml.YAMLError("aliases (*) are not taken")
 
+        def fetch_flow_collection_start(self, token: Any) -> None:
+            """The more brackets are open, the longer each takes."""
+            check_depth(self.flow_level)
+            super().fetch_flow_collection_start(token)
+
+        def add_indent(self, column: int) -> Any:
+            """Likewise."""
+            check_depth(len(self.indents))
+            return super().add_indent(column)
+
+    def check_depth(depth: int) -> None:
+        if depth > DEEPEST:
+            raise yaml.YAMLError("it is nested too deeply")
+
     try:
         return yaml.load(text, Loader)
-    except RecursionError:
-        raise ViewerError(f"{source} is no configuration of RViz: it is nested too deeply") from None
     except (yaml.YAMLError, ValueError, OverflowError) as error:
         reason = " ".join(str(error).split())
         raise ViewerError(f"{source} is no YAML: {reason}", hint="Is it a .rviz file?") from None

@@ -18,8 +18,10 @@ export const ROBOT_SPECS: readonly OptionSpec[] = [
 export class RobotDisplay extends Display {
   robot: Robot | null = null;
   model: URDFRobot | null = null;
-  /** Joint values that the user tries out without telling anybody; they go before the frames. */
-  trial: Record<string, number> | null = null;
+  /** Joint values that the user tries out. */
+  private trial: Record<string, number> = {};
+  /** Whether they go before the frames: nobody else has been told of them. */
+  private alone = false;
   /** How many meshes are still to come, and how many never will. */
   loading = 0;
   private readonly problems: string[] = [];
@@ -40,9 +42,11 @@ export class RobotDisplay extends Display {
     this.rebuild();
   }
 
-  setTrial(positions: Record<string, number> | null): void {
+  /** Moves the joints; `alone` says that the frames do not know of it and are not to be followed. */
+  setJoints(positions: Record<string, number>, alone: boolean): void {
     this.trial = positions;
-    for (const [name, value] of Object.entries(positions ?? {})) this.model?.setJointValue(name, value);
+    this.alone = alone;
+    for (const [name, value] of Object.entries(positions)) this.model?.setJointValue(name, value);
     this.context.redraw();
   }
 
@@ -78,7 +82,7 @@ export class RobotDisplay extends Display {
     }
     this.model.visible = false;
     for (const joint of robot.joints) this.model.setJointValue(joint.name, joint.value);
-    this.setTrial(this.trial);
+    this.setJoints(this.trial, this.alone);
     this.object.add(this.model);
     this.tell();
   }
@@ -162,7 +166,7 @@ export class RobotDisplay extends Display {
 
   /** A joint's own matrix is what tf says between its two links, when it says anything. */
   private placeJoint(joint: URDFJoint, pose: (link: string) => THREE.Matrix4 | null): void {
-    const parent = this.trial ? null : pose(joint.parent?.name ?? "");
+    const parent = this.alone ? null : pose(joint.parent?.name ?? "");
     const child = parent ? pose(joint.children[0]?.name ?? "") : null;
     joint.matrixAutoUpdate = !(parent && child);
     if (parent && child) joint.matrix.copy(parent.invert().multiply(child));

@@ -1,0 +1,116 @@
+"""What a tab of the viewer costs its server, at 30 Hz and beyond the look-ups themselves.
+
+    python -m benchmarks.viewer_load 1000 5     frames, seconds: percent of one core
+
+So many frames move, five deep, and are heard of 30 times a second. The tab is another process, which says after each
+tick that it is drawn. Prints what the viewer's threads take beyond the look-ups, then what these take, and the ticks a
+second.
+"""
+
+import re
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+from typing_extensions import Self
+
+import coframe
+from coframe import _core
+from coframe.messages import find, serialize
+
+RATE_HZ = 30
+DEPTH = 5
+WARM_UP = 1.0
+MAGIC = 0x5EC0_5EC0
+"""A stamp's seconds, to be found in the bytes."""
+
+TAB = """
+import sys
+from websockets.sync.client import connect
+with connect(sys.argv[1].replace("http", "ws") + "ws", max_size=None, compression=None) as socket:
+    while True:
+        message = socket.recv()
+        if isinstance(message, bytes):
+            socket.send('{"type":"ready"}')
+            print(flush=True)
+"""
+
+
+class Broadcaster:
+    """Stores a sample of each frame again and again, as a listener would, and counts what that takes."""
+
+    def __init__(self, buffer: coframe.Buffer, frames: int) -> None:
+        stamped = find("geometry_msgs/msg/TransformStamped")
+        transforms = []
+        for i in range(frames):
+            one = stamped(child_frame_id=f"frame_{i:05}")
+            one.header.frame_id = "map" if i % DEPTH == 0 else f"frame_{i - 1:05}"
+            one.header.stamp.sec = MAGIC
+            one.transform.translation.x = 0.1 * i
+            transforms.append(one)
+        message = serialize(find("tf2_msgs/msg/TFMessage")(transforms=transforms))
+        self._bytes = np.frombuffer(bytearray(message), np.uint8)
+        places = [match.start() for match in re.finditer(re.escape(MAGIC.to_bytes(4, "little")), message)]
+        self._stamps = np.add.outer(places, np.arange(8))
+        self._buffer = buffer
+        self._ended = threading.Event()
+        self.spent = 0.0
+        self._thread = threading.Thread(target=self._run)
+
+    def __enter__(self) -> Self:
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._ended.set()
+        self._thread.join()
+
+    def _run(self) -> None:
+        while not self._ended.wait(1 / RATE_HZ):
+            seconds, nanoseconds = divmod(time.time_ns(), 1_000_000_000)
+            self._bytes[self._stamps] = np.array([seconds, nanoseconds], "<u4").view(np.uint8)
+            self._buffer.ingest(self._bytes)
+            self.spent = time.thread_time()
+
+
+def look_ups(buffer: coframe.Buffer, ticks: int) -> float:
+    """The seconds that so many ticks of look-ups take."""
+    names = buffer.frame_names()
+    roots: list[str | None] = [None] * len(names)
+    poses, told = np.empty((len(names), 7)), np.empty(len(names), np.uint8)
+    begin = time.thread_time()
+    for _ in range(ticks):
+        _core.poses_into(buffer, "map", names, roots, 0, 0, poses, told)
+    return time.thread_time() - begin
+
+
+def main(frames: int, seconds: float) -> None:
+    buffer = coframe.Buffer()
+    with Broadcaster(buffer, frames) as broadcaster, coframe.show(buffer, fixed="map", port=0) as viewer:
+        tab = subprocess.Popen([sys.executable, "-c", TAB, viewer.url], stdout=subprocess.PIPE)
+        assert tab.stdout
+        ticks = 0
+        counted = threading.Event()
+
+        def count() -> None:
+            nonlocal ticks
+            for _ in tab.stdout or ():
+                ticks += counted.is_set()
+
+        threading.Thread(target=count, daemon=True).start()
+        time.sleep(WARM_UP)
+        counted.set()
+        begin, cpu, others = time.monotonic(), time.process_time(), broadcaster.spent
+        time.sleep(seconds)
+        cpu = time.process_time() - cpu - (broadcaster.spent - others)
+        wall, seen = time.monotonic() - begin, ticks
+        tab.kill()
+        tab.wait()
+    floor = look_ups(buffer, seen)
+    print(f"{100 * (cpu - floor) / wall:.2f} {100 * floor / wall:.2f} {seen / wall:.1f}")
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]), float(sys.argv[2]))

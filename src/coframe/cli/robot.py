@@ -1,0 +1,46 @@
+"""``coframe robot``: robot_state_publisher for a file."""
+
+from __future__ import annotations
+
+from pathlib import Path  # noqa: TC003 - typer reads the annotations
+from typing import Annotated
+
+import typer
+
+from coframe.cli.session import DomainOption, session
+from coframe.robots import load
+
+__all__ = ["robot"]
+
+
+def robot(
+    context: typer.Context,
+    file: Annotated[Path, typer.Argument(help="URDF, or xacro.")],
+    prefix: Annotated[str, typer.Option(help="Put before the names of frames, with its own slash: robot1/.")] = "",
+    frequency: Annotated[
+        float,
+        typer.Option("--frequency", "-f", min=0.0, max=1000.0, help="How often at most a joint is told of, in Hz."),
+    ] = 20.0,
+    ignore_timestamp: Annotated[
+        bool, typer.Option("--ignore-timestamp", help="Tell of every joint state, however close together.")
+    ] = False,
+    domain: DomainOption = None,
+) -> None:
+    """Publish the transforms of the robot in FILE from its joint states, as robot_state_publisher does.
+
+    What follows --ros-args is the node's.
+
+    Example: coframe robot arm.urdf.xacro --prefix robot1/ --ros-args -r joint_states:=arm/joint_states
+    """
+    with session():
+        parameters = {
+            "robot_description": load(file).text,
+            "frame_prefix": prefix,
+            "publish_frequency": frequency,
+            "ignore_timestamp": ignore_timestamp,
+        }
+        from rclpy.parameter import Parameter  # noqa: PLC0415 - a file that cannot be read needs no graph
+        from robot_state_publisher import run  # noqa: PLC0415
+
+        overrides = [Parameter(name, value=value) for name, value in parameters.items()]
+        run(["coframe", *context.args], domain_id=domain, parameter_overrides=overrides)

@@ -1,0 +1,5 @@
+"""``python -m robot_state_publisher FILE --ros-args ...``."""
+
+from robot_state_publisher import main
+
+main()

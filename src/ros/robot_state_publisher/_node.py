@@ -1,0 +1,153 @@
+"""The node: upstream's parameters, topics, QoS and texts."""
+
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+import rclpy
+from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
+from coframe.robots.publishing import StatePublisher
+from coframe.transform import Transform
+from geometry_msgs.msg import TransformStamped
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
+from rclpy.exceptions import ParameterException
+from rclpy.executors import ExternalShutdownException
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from rclpy.time import Time
+from rclpy.utilities import remove_ros_args
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
+
+__all__ = ["RobotStatePublisher", "main", "run"]
+
+_SECOND = 1_000_000_000
+_LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class RobotStatePublisher(Node):
+    """Publishes a robot's transforms: the fixed ones once, the others with every joint state.
+
+    Args:
+        file: URDF or xacro, for where the parameter `robot_description` is empty.
+        options: As of Node.
+
+    Raises:
+        RobotDescriptionError: There is no description, or it contradicts itself.
+    """
+
+    def __init__(self, file: str | None = None, **options: Any) -> None:
+        super().__init__("robot_state_publisher", **options)
+        description = self.declare_parameter("robot_description", "").value
+        hertz = ParameterDescriptor(floating_point_range=[FloatingPointRange(from_value=0.0, to_value=1000.0)])
+        frequency = self.declare_parameter("publish_frequency", 20.0, hertz).value
+        self.declare_parameter("frame_prefix", "")
+        ignore_stamps = self.declare_parameter("ignore_timestamp", False).value
+        robot = self._first_robot(description, file)
+        self._states = StatePublisher(robot, frequency, ignore_stamps=ignore_stamps)
+        self._broadcaster = TransformBroadcaster(self)
+        self._static_broadcaster = StaticTransformBroadcaster(self)
+        self._description = self.create_publisher(String, "robot_description", _LATCHED)
+        self._publish_robot()
+        self.add_on_set_parameters_callback(self._set_parameters)
+        self.create_subscription(JointState, "joint_states", self._take, qos_profile_sensor_data)
+
+    def _first_robot(self, description: str, file: str | None) -> Robot:
+        if description:
+            return parse_urdf(description)
+        if file is None:
+            raise RobotDescriptionError("robot_description parameter must not be empty", hint="Or name a URDF file.")
+        self.get_logger().warning(
+            "No robot_description parameter, but command-line argument available.  "
+            "Assuming argument is name of URDF file."
+        )
+        robot = load(file)
+        self.set_parameters([Parameter("robot_description", value=robot.text)])
+        return robot
+
+    def _publish_robot(self) -> None:
+        for link in self._states.robot.links:
+            self.get_logger().info(f"got segment {link}")
+        self._description.publish(String(data=self._states.robot.text))
+        now = self.get_clock().now().nanoseconds
+        fixed = [self._message(transform, now) for transform in self._states.fixed()]
+        if fixed:
+            self._static_broadcaster.sendTransform(fixed)
+
+    def _take(self, state: JointState) -> None:
+        if len(state.name) != len(state.position):
+            if not len(state.position):
+                self.get_logger().warning("Robot state publisher ignored a JointState message without positions")
+            else:
+                self.get_logger().error("Robot state publisher ignored an invalid JointState message")
+            return
+        if self._states.turned_back(self.get_clock().now().nanoseconds):
+            self.get_logger().warning("Moved backwards in time, re-publishing joint transforms!")
+        stamp = Time.from_msg(state.header.stamp).nanoseconds
+        try:
+            moving = self._states.moving(stamp, state.name, state.position)
+        except ValueError as error:
+            self.get_logger().error(f"Robot state publisher ignored an invalid JointState message: {error}")
+            return
+        if moving:
+            self._broadcaster.sendTransform([self._message(transform, stamp) for transform in moving])
+
+    def _message(self, transform: Transform, stamp: int) -> TransformStamped:
+        prefix = self.get_parameter("frame_prefix").value
+        message = TransformStamped(child_frame_id=f"{prefix}{transform.source}")
+        message.header.frame_id = f"{prefix}{transform.target}"
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, _SECOND)
+        at, turn = message.transform.translation, message.transform.rotation
+        at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w = transform.values
+        return message
+
+    def _set_parameters(self, parameters: Sequence[Parameter[Any]]) -> SetParametersResult:
+        """Takes changes over, or refuses all of them."""
+        given = {parameter.name: parameter.value for parameter in parameters}
+        try:
+            robot = self._new_robot(given["robot_description"]) if "robot_description" in given else None
+        except RobotDescriptionError as error:
+            return SetParametersResult(successful=False, reason=str(error))
+        self._states.frequency = given.get("publish_frequency", self._states.frequency)
+        self._states.ignore_stamps = given.get("ignore_timestamp", self._states.ignore_stamps)
+        if robot is not None:
+            self._states = StatePublisher(robot, self._states.frequency, ignore_stamps=self._states.ignore_stamps)
+            self._publish_robot()
+        return SetParametersResult(successful=True)
+
+    def _new_robot(self, description: str) -> Robot:
+        if not description:
+            raise RobotDescriptionError("Empty URDF is not allowed")
+        return parse_urdf(description)
+
+
+def run(args: list[str], file: str | None = None, *, domain_id: int | None = None, **options: Any) -> None:
+    """Runs the node until it is ended from outside.
+
+    Args:
+        args: A command line; what follows `--ros-args` is the node's.
+        file: As of the node.
+        domain_id: DDS domain; None: as the environment says.
+        options: As of Node.
+
+    Raises:
+        RobotDescriptionError: As of the node.
+    """
+    try:
+        with rclpy.init(args=args, domain_id=domain_id):
+            rclpy.spin(RobotStatePublisher(file, **options))
+    except (KeyboardInterrupt, ExternalShutdownException):
+        pass
+
+
+def main(args: list[str] | None = None) -> None:
+    """The console script: a file's name, then `--ros-args`."""
+    words = sys.argv if args is None else ["robot_state_publisher", *args]
+    files = remove_ros_args(words)[1:]
+    try:
+        run(words, files[0] if files else None)
+    except (RobotDescriptionError, ParameterException) as error:
+        hint = getattr(error, "hint", "")
+        sys.exit(f"robot_state_publisher: {error}" + (f"\n  {hint}" if hint else ""))

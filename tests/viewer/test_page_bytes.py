@@ -1,0 +1,46 @@
+"""The page that is committed is what its source makes: nobody needs Node.js to install it, anybody can check it."""
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+STATIC = Path("src/coframe/viewer/static")
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(600)
+def test_a_rebuild_gives_the_committed_bytes(tmp_path):
+    npm = shutil.which("npm")
+    if npm is None:
+        pytest.skip("needs npm")
+    shutil.copytree(ROOT / "viewer", tmp_path / "viewer", ignore=shutil.ignore_patterns("node_modules"))
+    for command in (["ci", "--silent"], ["run", "--silent", "build"]):
+        done = subprocess.run([npm, *command], cwd=tmp_path / "viewer", capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stdout + done.stderr
+    assert _files(tmp_path / STATIC) == _files(ROOT / STATIC), "run `make page` and commit what it makes"
+
+
+def test_the_page_loads_its_own_two_files_and_nothing_else():
+    page = (ROOT / STATIC / "index.html").read_text()
+    loaded = re.findall(r'<(?:script|link rel="stylesheet")[^>]*(?:src|href)="([^"]*)"', page)
+    assert loaded == ["./assets/viewer.js", "./assets/viewer.css"]
+    assert "<script>" not in page, "the server's policy allows no script inside the page"
+
+
+def test_the_replay_is_one_file_that_may_reach_nothing():
+    page = (ROOT / STATIC / "replay.html").read_text()
+    assert re.findall(r"<(?:script|link)[^>]*(?:src|href)=\"(?!data:)[^\"]*\"", page[: page.index("<body>")]) == []
+    assert "default-src 'none'" in page
+    assert page.count('<script type="application/json" id="replay">null</script>') == 1
+
+
+def test_the_lock_file_names_no_registry():
+    assert '"resolved"' not in (ROOT / "viewer/package-lock.json").read_text()
+
+
+def _files(folder: Path) -> dict[str, bytes]:
+    return {str(file.relative_to(folder)): file.read_bytes() for file in folder.rglob("*") if file.is_file()}

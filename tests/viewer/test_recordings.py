@@ -1,0 +1,63 @@
+"""Real recordings in a tab: their frames and messages at any time of them."""
+
+import numpy as np
+import pytest
+
+pytest.importorskip("rosbags", reason="recordings need rosbags")
+
+import coframe
+
+
+def test_a_recording_is_travelled_through(shared, view, open_tab):
+    path = shared / "recordings" / "tb3_gazebo_walker"
+    tab = open_tab(view(path, fixed="odom"))
+    hello = tab.wait("hello")
+    assert (hello["mode"], hello["title"], hello["can_publish"]) == ("recording", "tb3_gazebo_walker", False)
+    assert {"topic": "/scan", "type": "sensor_msgs/msg/LaserScan", "display": "LaserScan"} in hello["topics"]
+    first, last = hello["span"]
+    tab.send("subscribe", id=1, topic="/scan", display="LaserScan", options={})
+    bag = coframe.open_bag(path)
+    origin = int(hello["origin"])
+    stamps = np.sort(bag.stamps("/scan"))
+    seen = set()
+    for share in (0.8, 0.3):
+        at = first + round(share * (last - first))
+        tab.send("time", mode="at", at=at)
+        expected = int(stamps[stamps <= at + origin][-1]) - origin
+        tick = tab.tick(
+            lambda tick, at=at, expected=expected: (
+                tick.time == at and any(tab.drawings[key].stamp == expected for key in tick.displays)
+            )
+        )
+        ((key, pose),) = tick.displays.items()
+        message = bag.message_at("/scan", at + origin).message
+        frame, stamp = message.header.frame_id, expected + origin
+        np.testing.assert_allclose(
+            pose[:3] + tick.origin, bag.buffer.lookup("odom", frame, stamp).translation, atol=1e-5
+        )
+        np.testing.assert_allclose(
+            tab.world(tick, "base_scan")[:3],
+            bag.buffer.lookup("odom", "base_scan", at + origin).translation,
+            atol=1e-5,
+        )
+        seen.add(key)
+    assert len(seen) == 2
+    assert tab.has("robot")["name"] == "turtlebot3_burger"
+    bag.close()
+
+
+def test_a_bag_of_ros_1_with_slashes_before_its_names(shared, view, open_tab):
+    tab = open_tab(view(shared / "recordings" / "tilt_laser.bag"))
+    hello = tab.wait("hello")
+    (topic,) = [topic for topic in hello["topics"] if topic["display"] == "LaserScan"]
+    tab.send("subscribe", id=1, topic=topic["topic"], display="LaserScan", options={})
+    first, last = hello["span"]
+    tab.send("time", mode="at", at=(first + last) / 2)
+    tab.tick(lambda tick: tick.displays)
+    assert tab.last["display"]["state"] == "ok"
+
+
+def test_what_is_no_recording_is_a_sentence(tmp_path):
+    (tmp_path / "x.mcap").write_bytes(b"nothing")
+    with pytest.raises(coframe.RecordingError):
+        coframe.show(tmp_path / "x.mcap", port=0)

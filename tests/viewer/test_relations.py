@@ -1,0 +1,105 @@
+"""How two frames stand to each other, and what the timeline says of them."""
+
+import base64
+import shlex
+
+import numpy as np
+import pytest
+
+import coframe
+
+SECOND = 1_000_000_000
+BEGIN = 1_700_000_000 * SECOND
+
+
+@pytest.fixture
+def buffer():
+    buffer = coframe.Buffer(None)
+    for tenth in range(101):
+        turned = coframe.Transform.from_rpy([tenth, 2.0, 0.0], [0.1, -0.2, 0.3 + tenth / 100])
+        buffer.set("map", "base", turned, BEGIN + tenth * SECOND // 10)
+    for tenth in (0, 1, 2, 3, 80, 81):
+        buffer.set("base", "arm", coframe.Transform([0.0, 0.0, tenth]), BEGIN + tenth * SECOND // 10)
+    buffer.set("base", "the lidar", coframe.Transform([0.1, 0.0, 0.3]), static=True)
+    buffer.set("dock", "charger", coframe.Transform(), BEGIN)
+    return buffer
+
+
+def test_a_relation_in_every_notation(buffer, view, open_tab):
+    tab = open_tab(view(buffer))
+    told = tab.ask("relation", "relate", id=7, target="map", source="the lidar")
+    expected = buffer.lookup("map", "the lidar")
+    assert (told["id"], told["ok"], told["error"]) == (7, True, None)
+    assert int(tab.last["hello"]["origin"]) + told["stamp"] == expected.stamp
+    np.testing.assert_allclose(told["translation"], expected.translation)
+    np.testing.assert_allclose(told["quaternion"], expected.quaternion)
+    np.testing.assert_allclose(told["rpy_deg"], np.degrees(expected.rpy))
+    np.testing.assert_allclose(np.reshape(told["matrix"], (4, 4)), expected.matrix)
+    assert told["chain"] == ["the lidar", "base", "map"]
+    words = shlex.split(told["static_command"])
+    assert words[:2] == ["coframe", "static"]
+    options = dict(word.removeprefix("--").split("=", 1) for word in words[2:])
+    assert (options["frame-id"], options["child-frame-id"]) == ("map", "the lidar")
+    values = [float(options[name]) for name in ("x", "y", "z", "qx", "qy", "qz", "qw")]
+    np.testing.assert_allclose(values, expected.values, atol=1e-6)
+
+
+def test_a_relation_at_the_time_of_the_playhead(buffer, view, open_tab):
+    tab = open_tab(view(buffer))
+    origin = int(tab.wait("hello")["origin"])
+    tab.send("time", mode="at", at=BEGIN + SECOND // 4 - origin)
+    told = tab.ask("relation", "relate", id=1, target="arm", source="map")
+    expected = buffer.lookup("arm", "map", BEGIN + SECOND // 4)
+    np.testing.assert_allclose(told["translation"], expected.translation)
+    assert told["chain"] == ["map", "base", "arm"]
+
+
+@pytest.mark.parametrize(
+    ("target", "source", "at", "chain", "broken_at", "says"),
+    [
+        ("map", "charger", None, ["charger", "dock", "map"], "dock", "not part of the same tree"),
+        ("map", "lider", None, ["lider", "map"], "lider", "does not exist"),
+        ("map", "arm", 9.5, ["arm", "base", "map"], "arm", "extrapolation into the future"),
+        ("the lidar", "arm", 9.5, ["arm", "base", "the lidar"], "arm", "extrapolation into the future"),
+    ],
+)
+def test_why_two_frames_have_no_relation(buffer, view, open_tab, target, source, at, chain, broken_at, says):
+    tab = open_tab(view(buffer))
+    origin = int(tab.wait("hello")["origin"])
+    if at is not None:
+        tab.send("time", mode="at", at=BEGIN + at * SECOND - origin)
+    told = tab.ask("relation", "relate", id=1, target=target, source=source)
+    assert (told["ok"], told["matrix"], told["chain"], told["broken_at"]) == (False, None, chain, broken_at)
+    assert says in told["error"]
+    assert told["hint"]
+
+
+def test_the_timeline_counts_samples_and_finds_gaps(buffer, view, open_tab):
+    tab = open_tab(view(buffer))
+    hello = tab.wait("hello")
+    first, last = hello["span"]
+    told = tab.ask("timeline", "timeline", **{"from": first, "to": last, "bins": 10})
+    assert (told["bins"], told["from"], told["to"]) == (10, first, last)
+    names = [frame["name"] for frame in tab.last["tree"]["frames"]]
+    edges = {names[edge["frame"]]: edge for edge in told["edges"]}
+    assert set(edges) == {"base", "arm", "charger"}
+
+    def counts(name):
+        return np.frombuffer(base64.b64decode(edges[name]["counts"]), "<u2").tolist()
+
+    assert counts("base") == [10] * 9 + [11]
+    assert counts("arm") == [4, 0, 0, 0, 0, 0, 0, 0, 2, 0]
+    assert edges["base"]["gaps"] == []
+    assert edges["arm"]["gaps"] == [[first + 3 * SECOND // 10, first + 8 * SECOND]]
+
+
+def test_steps_go_from_stamp_to_stamp_over_gaps_and_stop_at_the_ends(view, open_tab):
+    buffer = coframe.Buffer(None)
+    for second in (0, 1, 1000):
+        buffer.set("map", "base", coframe.Transform([second, 0.0, 0.0]), BEGIN + second * SECOND)
+    tab = open_tab(view(buffer))
+    first, _ = tab.wait("hello")["span"]
+    tab.send("time", mode="at", at=first + SECOND // 2)
+    for direction, expected in ((1, SECOND), (1, 1000 * SECOND), (1, 1000 * SECOND), (-1, SECOND), (-1, 0)):
+        tab.send("step", direction=direction)
+        tab.tick(lambda tick, expected=expected: tick.time == first + expected)

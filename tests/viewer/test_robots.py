@@ -1,0 +1,188 @@
+"""Robots: checked before a page sees them; their meshes and no other files; and their joints."""
+
+import time
+import urllib.error
+import urllib.request
+from pathlib import Path
+
+import pytest
+
+import coframe
+from coframe.viewer.meshes import MeshError, MeshTable
+
+URDF = """<robot name="arm">
+  <link name="base"><visual><geometry><mesh filename="{mesh}"/></geometry></visual></link>
+  <link name="tip"/> <link name="finger"/>
+  <joint name="turn" type="revolute">
+    <parent link="base"/> <child link="tip"/> <axis xyz="0 0 1"/>
+    <limit lower="0.5" upper="1.5" effort="1" velocity="1"/>
+  </joint>
+  <joint name="grip" type="prismatic">
+    <parent link="tip"/> <child link="finger"/> <axis xyz="1 0 0"/> <mimic joint="turn" multiplier="-0.5"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+</robot>"""
+
+
+@pytest.fixture
+def package(tmp_path):
+    """A ROS package with meshes, and things around it that are nobody's business."""
+    folder = tmp_path / "ws" / "arm_description"
+    (folder / "meshes").mkdir(parents=True)
+    (folder / "textures").mkdir()
+    (folder / "urdf").mkdir()
+    (folder / "package.xml").write_text("<package><name>arm_description</name></package>")
+    (folder / "meshes" / "base link.dae").write_text("<COLLADA/>")
+    (folder / "textures" / "skin.png").write_bytes(b"png")
+    (folder / "urdf" / "notes.txt").write_text("secret")
+    (tmp_path / "outside.stl").write_text("secret")
+    (folder / "meshes" / "link.stl").symlink_to(tmp_path / "outside.stl")
+    (folder / "meshes" / "folder").symlink_to(tmp_path)
+    (folder / "meshes" / "loop.stl").symlink_to(folder / "meshes" / "loop.stl")
+    return folder
+
+
+def fetch(viewer, url):
+    with urllib.request.urlopen(viewer.url.rstrip("/") + url) as answer:
+        return answer.headers["Content-Type"], answer.read()
+
+
+def robot_file(package, mesh):
+    file = package / "urdf" / "arm.urdf"
+    file.write_text(URDF.replace("{mesh}", mesh))
+    return file
+
+
+def test_a_robot_of_a_file_comes_with_its_meshes(package, view, open_tab):
+    file = robot_file(package, "package://arm_description/meshes/base%20link.dae")
+    viewer = view(coframe.Buffer(None), robot=file)
+    robot = open_tab(viewer).wait("robot")
+    assert (robot["name"], robot["source"], robot["description_topic"]) == ("arm", str(file), None)
+    assert robot["problems"] == []
+    assert robot["urdf"].startswith('<robot name="arm">')
+    turn = {"name": "turn", "type": "revolute", "lower": 0.5, "upper": 1.5, "value": 1.0}
+    assert robot["joints"] == [turn], "a joint that follows another has no slider"
+    ((written, url),) = robot["meshes"].items()
+    assert written == "package://arm_description/meshes/base%20link.dae"
+    assert fetch(viewer, url) == ("model/vnd.collada+xml", b"<COLLADA/>")
+    # What a mesh names lies beside it, however the page puts the names together.
+    for texture in (url.rsplit("/", 1)[0] + "/../textures/skin.png", url + "/../textures/skin.png"):
+        assert fetch(viewer, texture) == ("image/png", b"png")
+
+
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        "package://arm_description/../../outside.stl",
+        "package://arm_description/%2e%2e/%2e%2e/outside.stl",
+        "package://arm_description/meshes/link.stl",
+        "package://arm_description/meshes/folder/outside.stl",
+        "package://arm_description/meshes/loop.stl",
+        "package://arm_description//etc/passwd",
+        "package://arm_description/urdf/notes.txt",
+        "package://../outside.stl",
+        "package://no_such_package/x.stl",
+        "file:///etc/passwd",
+        "file://elsewhere/x.stl",
+        "http://example.org/x.stl",
+        "../../../outside.stl",
+        "/etc/passwd",
+        "x" * 5000 + ".stl",
+    ],
+)
+def test_other_files_are_refused_with_a_sentence(package, view, open_tab, mesh):
+    viewer = view(coframe.Buffer(None), robot=robot_file(package, mesh))
+    robot = open_tab(viewer).wait("robot")
+    assert robot["meshes"] == {}
+    assert len(robot["problems"]) == 1
+    assert len(robot["problems"][0]) < 300
+
+
+def test_addresses_cannot_be_bent(package, view, open_tab):
+    robot = robot_file(package, "package://arm_description/meshes/base link.dae")
+    viewer = view(coframe.Buffer(None), robot=robot)
+    (url,) = open_tab(viewer).wait("robot")["meshes"].values()
+    root = "/".join(url.split("/")[:3])
+    for path in (
+        f"{root}/meshes/link.stl",
+        f"{root}/../outside.stl",
+        f"{root}/%2e%2e/%2e%2e/outside.stl",
+        f"{root}/meshes/folder/outside.stl",
+        f"{root}//etc/passwd",
+        f"{root}/urdf/notes.txt",
+        f"{root}/package.xml",
+        f"{root}/",
+        root,
+        f"{root}x/meshes/base%20link.dae",
+        f"{url}/../../../outside.stl",
+    ):
+        with pytest.raises(urllib.error.HTTPError) as refused:
+            fetch(viewer, path)
+        with refused.value:
+            assert refused.value.code == 404, path
+            assert b"secret" not in refused.value.read()
+
+
+def test_declared_folders_and_the_largest_file(tmp_path, monkeypatch):
+    (tmp_path / "a.stl").write_bytes(b"x" * 2000)
+    with pytest.raises(MeshError, match="lies outside of the folders that are served: declare one by --mesh-root"):
+        MeshTable(lambda _name: None).url(f"file://{tmp_path}/a.stl")
+    table = MeshTable(lambda _name: None, [tmp_path])
+    url = table.url(f"file://{tmp_path}/a.stl")
+    assert table.file(url.removeprefix("/mesh/")) == (tmp_path / "a.stl").resolve()
+    assert table.url_or_problem("relative.stl") == (None, "'relative.stl' is neither package:// nor file://")
+    monkeypatch.setattr("coframe.viewer.meshes.LARGEST_FILE", 1000)
+    with pytest.raises(MeshError, match="MB are served"):
+        table.url(f"file://{tmp_path}/a.stl")
+
+
+BOMB = """<!DOCTYPE robot [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;">
+<!ENTITY c "&b;&b;&b;&b;&b;&b;&b;&b;&b;&b;">]><robot name="&c;"><link name="base"/></robot>"""
+
+
+def test_a_file_that_is_no_robot_is_a_sentence(tmp_path):
+    for text in (BOMB, "<sdf/>", "nothing", URDF.replace('child link="tip"', 'child link="base"')):
+        (tmp_path / "bad.urdf").write_text(text)
+        with pytest.raises(coframe.RobotDescriptionError, match=r"bad\.urdf"):
+            coframe.show(coframe.Buffer(), port=0, robot=tmp_path / "bad.urdf")
+
+
+def test_descriptions_come_from_the_topic_and_joint_states_go_back(domain_id, view, open_tab):
+    pytest.importorskip("cyclonedds", reason="topics come over DDS")
+    from coframe.messages import find
+    from coframe.wire.qos import QoS
+
+    text = find("std_msgs/msg/String")
+    with coframe.connect("viewer_test", domain=domain_id) as ros:
+        publisher = ros.publisher("/robot_description", text, QoS(1, transient_local=True))
+        tab = open_tab(view(ros))
+        publisher.publish(text(data=BOMB))
+        problem = tab.wait("problem")
+        assert problem["text"].startswith("/robot_description tells of no robot: ")
+        publisher.publish(text(data=URDF.replace("{mesh}", "package://none/x.dae")))
+        robot = tab.wait("robot")
+        assert (robot["name"], robot["description_topic"]) == ("arm", "/robot_description")
+        assert robot["problems"] == ["there is no ROS package 'none' here"]
+
+        heard = ros.subscribe("/joint_states", find("sensor_msgs/msg/JointState"))
+        tab.send("joints", robot=robot["id"], positions={"turn": 1.0}, publish=True)
+        for _ in range(2):  # again and again, as programs that follow them want it
+            state = heard.receive("10s")
+            assert dict(zip(state.name, state.position, strict=True)) == {"turn": 1.0, "grip": -0.5}
+        assert abs(state.header.stamp.sec - time.time()) < 10
+        tab.send("joints", robot=robot["id"], positions={"elbow": 1.0}, publish=True)
+        assert "there is no joint 'elbow'" in tab.wait("problem")["text"]
+        tab.send("joints", robot=robot["id"], positions={"turn": float("nan")}, publish=True)
+        assert "not finite" in tab.wait("problem")["text"]
+        tab.send("joints", robot=robot["id"], positions={}, publish=False)
+        tab.wait("stats")
+        while heard.receive("300ms") is not None:
+            pass
+
+
+def test_without_a_graph_joint_states_cannot_be_sent(package, view, open_tab):
+    file = robot_file(package, "package://arm_description/meshes/base link.dae")
+    tab = open_tab(view(coframe.Buffer(None), robot=Path(file)))
+    tab.wait("robot")
+    tab.send("joints", robot=0, positions={"turn": 1.0}, publish=True)
+    assert "only a live viewer sends joint states" in tab.wait("problem")["text"]

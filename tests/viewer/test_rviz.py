@@ -1,0 +1,198 @@
+"""RViz's files: what is known is applied, what is not is listed, and all of it is kept."""
+
+import pytest
+import yaml
+
+import coframe
+from coframe.viewer.rviz import RvizConfig
+
+RVIZ_2 = """
+Panels:
+  - Class: rviz_common/Displays
+    Help Height: 78
+    Property Tree Widget: {Expanded: [/Global Options1], Splitter Ratio: 0.5}
+Visualization Manager:
+  Class: ""
+  Displays:
+    - Class: rviz_default_plugins/Grid
+      Cell Size: 1
+      Color: 160; 160; 164
+      Enabled: true
+      Name: Grid
+    - Class: rviz_common/Group
+      Name: Sensors
+      Enabled: true
+      Displays:
+        - Class: rviz_default_plugins/LaserScan
+          Enabled: false
+          Name: Front
+          Decay Time: 2
+          Topic: {Depth: 5, Durability Policy: Volatile, Reliability Policy: Best Effort, Value: /scan}
+        - Class: acme_rviz/Teapot
+          Name: Tea
+          Enabled: true
+          Temperature: .nan
+    - Class: nav2_rviz_plugins/ParticleCloud
+      Name: Particles
+      Enabled: true
+  Enabled: true
+  Global Options:
+    Background Color: 48; 48; 200
+    Fixed Frame: odom
+    Frame Rate: 30
+  Tools:
+    - Class: nav2_rviz_plugins/GoalTool
+  Views:
+    Current:
+      Class: rviz_default_plugins/TopDownOrtho
+      Scale: 12.5
+    Saved: ~
+Window Geometry:
+  Height: 846
+"""
+RVIZ_1 = """
+Visualization Manager:
+  Displays:
+    - Class: rviz/TF
+      Enabled: true
+      Marker Scale: 0.5
+      Name: TF
+    - Class: rviz/Marker
+      Enabled: true
+      Marker Topic: /visualization_marker
+      Name: Marker
+    - Class: rviz/PointCloud
+      Enabled: true
+      Name: Old
+  Global Options: {Background Color: 48; 48; 48, Fixed Frame: <Fixed Frame>}
+  Views: {Current: {Class: rviz/Orbit, Distance: 3}}
+"""
+
+
+def test_rviz_2():
+    told = RvizConfig.parse(RVIZ_2).description()
+    grid, scan = told["displays"]
+    assert (grid["class"], grid["name"], grid["enabled"], grid["topic"]) == ("Grid", "Grid", True, None)
+    assert grid["options"] == {"Cell Size": 1, "Color": "160; 160; 164"}
+    assert (scan["class"], scan["enabled"], scan["topic"]) == ("LaserScan", False, "/scan")
+    assert scan["options"]["Decay Time"] == 2
+    assert told["global"] == {"fixed_frame": "odom", "background": [48, 48, 200], "frame_rate": 30.0}
+    assert told["view"] == {"class": "TopDownOrtho", "options": {"Scale": 12.5}}
+    assert told["unknown"] == [
+        {"path": "Sensors/Tea", "class": "acme_rviz/Teapot", "name": "Tea"},
+        {"path": "Particles", "class": "nav2_rviz_plugins/ParticleCloud", "name": "Particles"},
+    ]
+
+
+def test_rviz_1():
+    told = RvizConfig.parse(RVIZ_1).description()
+    assert [(one["class"], one["topic"]) for one in told["displays"]] == [
+        ("TF", None),
+        ("Marker", "/visualization_marker"),
+    ]
+    assert told["global"]["fixed_frame"] is None
+    assert told["view"]["class"] == "Orbit"
+    assert [one["class"] for one in told["unknown"]] == ["rviz/PointCloud"]
+
+
+def test_the_labs_file_is_applied_to_every_tab(shared, view, open_tab):
+    buffer = coframe.Buffer(None)
+    buffer.set("world", "base_link", coframe.Transform(), 1)
+    tab = open_tab(view(buffer, rviz=shared / "lab" / "rviz_config.yaml"))
+    hello = tab.wait("hello")
+    assert hello["fixed"] == "base_link"
+    tf, robot, axes = hello["rviz"]["displays"]
+    assert (tf["class"], tf["options"]["Marker Scale"], tf["options"]["Frame Timeout"]) == ("TF", 0.3, 15)
+    assert (robot["class"], robot["topic"]) == ("RobotModel", "/robot_description")
+    assert (axes["name"], axes["options"]["Reference Frame"]) == ("World Axes", "world")
+    assert hello["rviz"]["global"] == {"fixed_frame": "base_link", "background": [48, 48, 48], "frame_rate": 30.0}
+    assert hello["rviz"]["view"]["options"]["Target Frame"] == "base_link"
+    assert hello["rviz"]["unknown"] == []
+
+
+def test_saving_keeps_what_was_not_understood(view, open_tab):
+    viewer = view(coframe.Buffer(None))
+    tab = open_tab(viewer)
+    told = tab.ask("rviz", "load_rviz", text=RVIZ_2)
+    scan = told["displays"][1]
+    scan["enabled"] = True
+    scan["options"]["Decay Time"] = 5
+    added = {"class": "Map", "name": "Map", "enabled": True, "topic": "/map", "options": {"Alpha": 0.7}}
+    saved = tab.ask(
+        "saved",
+        "save_rviz",
+        displays=[scan, added, {"class": "Teapot"}, 3],
+        **{"global": {"fixed_frame": "map", "background": [1, 2, 3]}},
+        view={"class": "Orbit", "options": {"Distance": 4.0}},
+    )
+    document = yaml.safe_load(saved["text"])
+    original = yaml.safe_load(RVIZ_2)
+    assert document["Panels"] == original["Panels"]
+    assert document["Window Geometry"] == {"Height": 846}
+    manager = document["Visualization Manager"]
+    assert manager["Tools"] == original["Visualization Manager"]["Tools"]
+    group, particles, new_map = manager["Displays"]
+    assert particles == original["Visualization Manager"]["Displays"][2]
+    assert [one["Name"] for one in group["Displays"]] == ["Front", "Tea"], "the grid was removed in the page"
+    front = group["Displays"][0]
+    assert (front["Enabled"], front["Decay Time"], front["Topic"]["Reliability Policy"]) == (True, 5, "Best Effort")
+    assert (new_map["Class"], new_map["Alpha"]) == ("rviz_default_plugins/Map", 0.7)
+    assert new_map["Topic"]["Value"] == "/map"
+    assert manager["Global Options"] == {"Background Color": "1; 2; 3", "Fixed Frame": "map", "Frame Rate": 30}
+    assert manager["Views"]["Current"] == {"Class": "rviz_default_plugins/Orbit", "Scale": 12.5, "Distance": 4.0}
+    again = RvizConfig.parse(saved["text"]).description()
+    assert [one["class"] for one in again["unknown"]] == ["acme_rviz/Teapot", "nav2_rviz_plugins/ParticleCloud"]
+
+    import urllib.request
+
+    with urllib.request.urlopen(viewer.url + "rviz") as answer:
+        assert answer.headers["Content-Disposition"] == 'attachment; filename="coframe.rviz"'
+        assert answer.read().decode() == saved["text"]
+
+
+def test_saving_what_was_never_loaded_makes_a_file_that_rviz_reads():
+    saved = RvizConfig().merged([{"class": "TF", "name": "TF", "options": {"Marker Scale": 1}}], {}, {}).text()
+    manager = yaml.safe_load(saved)["Visualization Manager"]
+    assert manager["Displays"] == [
+        {"Class": "rviz_default_plugins/TF", "Name": "TF", "Enabled": True, "Marker Scale": 1}
+    ]
+    assert RvizConfig.parse(saved).description()["unknown"] == []
+    one = RvizConfig.parse(RVIZ_1).merged([{"class": "Path", "name": "P", "topic": "/p"}], {}, {})
+    assert "Class: rviz/Path\n" in one.text()
+    assert "    Topic: /p\n" in one.text()
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        ("", "no configuration of RViz"),
+        ("a: 1", "no configuration of RViz"),
+        ("Visualization Manager: 3", "no configuration of RViz"),
+        ("a: [b", "no YAML"),
+        ("a: !!python/object/apply:os.system ['true']", "no YAML"),
+        ("a: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]", "aliases"),
+        ("[" * 500_000, "nested too deeply"),
+        ("- " * 250_000, "nested too deeply"),
+        ("? " * 250_000, "nested too deeply"),
+        ("{a: " * 200_000, "nested too deeply"),
+        ("x" * (2 << 20), "more than the 1 MiB"),
+        ("a: 2020-99-99", "no YAML"),
+    ],
+)
+def test_what_is_no_file_of_rviz_is_a_sentence(text, says):
+    with pytest.raises(coframe.ViewerError, match=says):
+        RvizConfig.parse(text)
+
+
+def test_odd_values_hurt_nobody():
+    odd = """
+Visualization Manager:
+  Displays: [3, ~, {Class: 7}, {Name: x}, {Class: rviz/TF, Name: [1], Enabled: maybe, Topic: 5, When: 2020-01-01}]
+  Global Options: [1]
+  Views: {Current: 4}
+"""
+    told = RvizConfig.parse(odd).description()
+    assert told["displays"][0]["options"] == {"Topic": 5, "When": "2020-01-01"}
+    assert told["global"] == {"fixed_frame": None, "background": None, "frame_rate": None}
+    assert told["view"] is None
+    assert "Fixed Frame: map" in RvizConfig.parse(odd).merged([], {"fixed_frame": "map"}, {}).text()

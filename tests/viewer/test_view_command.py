@@ -1,0 +1,74 @@
+"""`coframe view` and `coframe demo` as a user starts them."""
+
+import re
+import signal
+import subprocess
+import sys
+import time
+import urllib.request
+
+import numpy as np
+import pytest
+
+pytest.importorskip("cyclonedds", reason="the commands join the ROS graph")
+
+COMMAND = [sys.executable, "-m", "coframe.cli"]
+
+
+def start(*arguments):
+    """The process, and the address that it prints on a line of its own."""
+    process = subprocess.Popen([*COMMAND, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    line = process.stdout.readline()
+    if not re.fullmatch(r"http://127\.0\.0\.1:\d+/\n", line):
+        process.kill()
+        pytest.fail(f"no address: {line!r} {process.communicate()}")
+    return process, line.strip()
+
+
+@pytest.mark.usefixtures("domain_id")
+def test_the_demo_in_a_tab(open_tab):
+    process, url = start("demo", "--no-browser", "--port", "0")
+    try:
+        assert urllib.request.urlopen(url).status in {200, 503}
+        viewer = type("Viewer", (), {"url": url})
+        tab = open_tab(viewer)
+        tree = tab.wait("tree", lambda tree: len(tree["frames"]) == 11)
+        assert tree["components"] == [{"root": "world", "size": 11}]
+        stats = tab.wait("stats", lambda stats: any(row["rate"] and row["rate"] > 40 for row in stats["frames"]))
+        rows = dict(zip([frame["name"] for frame in tree["frames"]], stats["frames"], strict=True))
+        assert rows["link1"]["publisher"] == "/dynamic_tf_broadcaster"
+        assert rows["link1"]["age"] < 5.0
+        tab.send("fixed", frame="world")
+        tab.send("subscribe", id=1, topic="/scan", display="LaserScan", options={})
+        tick = tab.tick(lambda tick: tick.displays)
+        drawn = tab.drawings[next(iter(tick.displays))]
+        # The lab's hall: all walls and pillars are within ten metres.
+        assert len(drawn.points) > 50
+        assert np.isfinite(drawn.points).all()
+        assert np.abs(drawn.points).max() < 20.0
+    finally:
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=20)
+    assert process.returncode == 0, errors
+    assert "Traceback" not in output + errors
+
+
+@pytest.mark.usefixtures("domain_id")
+def test_view_with_the_labs_file_answers_within_two_seconds_and_ends_on_ctrl_c(shared, open_tab):
+    begin = time.monotonic()
+    file = shared / "lab" / "rviz_config.yaml"
+    process, url = start("view", "-d", str(file), "--no-browser", "--port", "0")
+    waited = time.monotonic() - begin
+    hello = open_tab(type("Viewer", (), {"url": url})).wait("hello")
+    process.send_signal(signal.SIGINT)
+    output, errors = process.communicate(timeout=20)
+    assert (process.returncode, output, errors) == (0, "", "")
+    assert hello["mode"] == "live"
+    assert hello["fixed"] == "base_link"
+    assert waited < 8.0  # two seconds where nobody else uses the machine
+
+
+def test_what_is_not_there_is_a_sentence():
+    result = subprocess.run([*COMMAND, "view", "nowhere.mcap"], capture_output=True, text=True, check=False)
+    assert (result.returncode, result.stdout) == (1, "")
+    assert result.stderr == "coframe: nowhere.mcap cannot be read: No such file or directory\n"

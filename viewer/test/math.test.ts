@@ -1,0 +1,62 @@
+import * as THREE from "three";
+import { describe, expect, it } from "vitest";
+import { compose, inverse, matrix, normalize, relative, rpyDegrees, type Pose, type Quaternion } from "../src/math";
+
+/** The same numbers at every run. */
+function* numbers(): Generator<number> {
+  let state = 12345;
+  for (;;) {
+    state = (state * 1103515245 + 12345) % 2147483648;
+    yield state / 1073741824 - 1;
+  }
+}
+
+const random = numbers();
+const next = (): number => random.next().value as number;
+const somePose = (): Pose => ({
+  position: [next() * 10, next() * 10, next() * 10],
+  quaternion: normalize([next(), next(), next(), next()]),
+});
+
+/** three.js as the independent answer. */
+function three({ position, quaternion }: Pose): THREE.Matrix4 {
+  return new THREE.Matrix4().compose(
+    new THREE.Vector3(...position),
+    new THREE.Quaternion(...quaternion),
+    new THREE.Vector3(1, 1, 1),
+  );
+}
+
+function close(found: number[], wanted: number[], digits = 9): void {
+  found.forEach((value, i) => expect(value).toBeCloseTo(wanted[i] as number, digits));
+}
+
+describe("poses agree with three.js", () => {
+  it("composed, inverted and seen from each other", () => {
+    for (let i = 0; i < 100; i++) {
+      const [a, b] = [somePose(), somePose()];
+      close(matrix(compose(a, b)), three(a).multiply(three(b)).transpose().elements);
+      close(matrix(inverse(a)), three(a).invert().transpose().elements);
+      close(matrix(relative(a, b)), three(a).invert().multiply(three(b)).transpose().elements);
+    }
+  });
+
+  it("as roll, pitch and yaw", () => {
+    for (let i = 0; i < 100; i++) {
+      const { quaternion } = somePose();
+      const euler = new THREE.Euler().setFromQuaternion(new THREE.Quaternion(...quaternion), "ZYX");
+      close(rpyDegrees(quaternion), [euler.x, euler.y, euler.z].map(THREE.MathUtils.radToDeg), 6);
+    }
+  });
+
+  it("looking straight up and down", () => {
+    for (const pitch of [90, -90])
+      for (const yaw of [0, 30, -120]) {
+        const euler = new THREE.Euler(0, (pitch * Math.PI) / 180, (yaw * Math.PI) / 180, "ZYX");
+        const q = new THREE.Quaternion().setFromEuler(euler).toArray() as Quaternion;
+        const back = rpyDegrees(q).map(THREE.MathUtils.degToRad) as [number, number, number];
+        const again = new THREE.Quaternion().setFromEuler(new THREE.Euler(...back, "ZYX"));
+        expect(Math.abs(again.dot(new THREE.Quaternion(...q)))).toBeCloseTo(1, 9);
+      }
+  });
+});

@@ -1,0 +1,87 @@
+import { describe, expect, it } from "vitest";
+import { Forest } from "../src/model";
+import { decodeCounts } from "../src/sparklines";
+import { cssColour, Options, rvizColour } from "../src/displays/options";
+import * as format from "../src/format";
+
+const frame = (name: string, parent: number, component = 0) => ({ name, parent, static: false, component });
+
+describe("the forest", () => {
+  //  map > odom > base > (laser, camera)      world > drone
+  const forest = new Forest(
+    1,
+    [
+      frame("map", -1),
+      frame("odom", 0),
+      frame("base", 1),
+      frame("laser", 2),
+      frame("camera", 2),
+      frame("world", -1, 1),
+      frame("drone", 5, 1),
+    ],
+    [
+      { root: "map", size: 5 },
+      { root: "world", size: 2 },
+    ],
+  );
+  const names = (indices: number[] | null): string[] | null => indices?.map((i) => forest.name(i)) ?? null;
+
+  it("finds the way over the nearest common ancestor", () => {
+    expect(names(forest.chain(3, 4))).toEqual(["laser", "base", "camera"]);
+    expect(names(forest.chain(0, 3))).toEqual(["map", "odom", "base", "laser"]);
+    expect(names(forest.chain(2, 2))).toEqual(["base"]);
+    expect(forest.chain(3, 6)).toBeNull();
+  });
+
+  it("knows what hangs below a frame", () => {
+    expect(names(forest.subtree(2))?.sort()).toEqual(["base", "camera", "laser"]);
+    expect(names(forest.roots)).toEqual(["map", "world"]);
+  });
+
+  it("comes to an end in a tree that is none", () => {
+    const loop = new Forest(1, [frame("a", 1), frame("b", 0), frame("self", 2), frame("far", 99)], []);
+    expect(loop.ancestors(0).length).toBeLessThanOrEqual(4);
+    expect(loop.subtree(0).length).toBeLessThanOrEqual(6);
+  });
+});
+
+describe("options under RViz's names", () => {
+  const options = (values: Record<string, never | string | number | boolean | null>) =>
+    new Options(values, [
+      { key: "Alpha", kind: "number", value: 0.5, min: 0, max: 1 },
+      { key: "Color", kind: "colour", value: "#010203" },
+      { key: "Style", kind: "choice", value: "Points", choices: ["Points", "Boxes"] },
+    ]);
+
+  it("take what fits and leave the rest at its default", () => {
+    const given = options({ Alpha: 7, Color: "255; 170; 0", Style: "Boxes" });
+    expect([given.number("Alpha"), given.colour("Color"), given.choice("Style")]).toEqual([1, "#ffaa00", "Boxes"]);
+    const wrong = options({ Alpha: "x", Color: "999; 0; 0", Style: "Teapots" });
+    expect([wrong.number("Alpha"), wrong.colour("Color"), wrong.choice("Style")]).toEqual([0.5, "#010203", "Points"]);
+    expect(options({ Alpha: null }).number("Alpha")).toBe(0.5);
+  });
+
+  it("write colours as they read them", () => {
+    expect(rvizColour(cssColour("48; 48; 48") as string)).toBe("48; 48; 48");
+    expect(cssColour([0, 255, 16])).toBe("#00ff10");
+  });
+});
+
+describe("numbers as text", () => {
+  it("have no negative zero and a real minus", () => {
+    expect(format.fixed(-0.00001, 2)).toBe("0.00");
+    expect(format.fixed(-1.5, 1)).toBe("−1.5");
+    expect(format.fixed(NaN, 2)).toBe("–");
+  });
+
+  it("are short where they stand in columns", () => {
+    expect([0.0123, 5, 250, 90000].map(format.duration)).toEqual(["12 ms", "5.0 s", "4 min", "25 h"]);
+    expect([50, 99.97, 12345, null].map(format.rate)).toEqual(["50.0 Hz", "100 Hz", "12.3 kHz", ""]);
+    expect([0.0042, 1.5, 12000].map(format.metres)).toEqual(["4.2 mm", "1.500 m", "12.00 km"]);
+  });
+
+  it("count from base64, whatever stands in it", () => {
+    expect(Array.from(decodeCounts(btoa("\x01\x00\x00\x01"), 3))).toEqual([1, 256, 0]);
+    expect(Array.from(decodeCounts("not base64!", 2))).toEqual([0, 0]);
+  });
+});
