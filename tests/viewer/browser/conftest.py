@@ -20,7 +20,7 @@ sync_api = pytest.importorskip("playwright.sync_api", reason="the browser tests 
 websockets = pytest.importorskip("websockets.sync.client", reason="the viewer needs websockets")
 
 SETTLING = 5.0  # seconds
-PATIENCE = 30.0  # seconds; two cores that others use too
+PATIENCE = 20.0  # seconds; two cores that others use too
 SECOND = 1_000_000_000
 LAB_FRAMES = 11
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
@@ -177,12 +177,17 @@ class Page:
 
 @pytest.fixture
 def open_page(browser) -> Iterator[object]:
-    """Opens a page in a context of its own. Fails where it asks another machine, or has something to complain of."""
+    """Opens a page in a context of its own. Fails where it asks another machine, or has something to complain of.
+
+    What is expected to be complained of is told by a part of its text; `relay` stands between page and server.
+    """
     contexts, pages = [], []
 
-    def start(url, *, expected_errors=(), width=1200, height=760, **options):
+    def start(url, *, expected_errors=(), width=1200, height=760, relay=None, **options):
         context = browser.new_context(viewport={"width": width, "height": height}, **options)
         contexts.append(context)
+        if relay is not None:
+            context.route_web_socket("**/ws", relay)
         pages.append((Page(context, url), expected_errors))
         return pages[-1][0]
 
