@@ -44,7 +44,7 @@ def test_five_seconds_ago_the_demo_was_where_the_buffer_says(lab, demo):
     lab.key("l")
     lab.until("coframe.live")
     lab.until("time => coframe.time / 1e9 > time", before + 0.1)
-    assert not np.allclose(lab.ask("coframe.frames.end_effector.position"), then, atol=1e-3)
+    assert not np.allclose(lab.ask("coframe.frames.end_effector.position"), then, atol=1e-3), "the arm went on"
     assert lab.text("#bar .pill") == "Live"
 
 
