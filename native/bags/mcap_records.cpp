@@ -10,6 +10,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "MCAP is little endian, and is read as it is");
 
 constexpr std::uint8_t kSchema = 0x03, kChannel = 0x04, kMessage = 0x05;
+constexpr std::uint8_t kPrivate = 0x80;  // from here on records are somebody's own, to be skipped
 constexpr std::size_t kHead = 9;          // opcode, length
 constexpr std::size_t kMessageHead = 22;  // channel, sequence, log time, publish time
 
@@ -39,7 +40,7 @@ McapRecords find_mcap_records(const std::uint8_t* data, std::size_t size) {
       found.ends.push_back(end);
     } else if (opcode == kSchema || opcode == kChannel) {
       found.definitions.push_back({opcode, start, end});
-    } else {
+    } else if (opcode < kPrivate) {
       break;
     }
     found.size = end;

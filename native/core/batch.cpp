@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/pose_rows.hpp"
-
 namespace coframe {
 
 namespace {
@@ -19,41 +17,148 @@ void add_step(const PathCache::Step& link, const Pose& step, Pose& pose) {
   }
 }
 
-// One link of the path for all rows: where the samples lie, then the samples, each asked from memory in advance.
-void follow_link(const PathCache::Step& link, const Stamp* stamps, std::size_t count, PoseRows& poses, bool* ok) {
-  const History::View history = link.history->view();
-  if (history.is_static() || history.size() < 2) {
+// Where rows lie between the samples of one history of at least two. With kBoth a row has two samples also where one of
+// them holds alone, and it is told how far they are apart.
+template <bool kBoth>
+class Finder {
+ public:
+  Finder(const History::View& history, Between& rows, bool* ok)
+      : history_(history), search_(history), rows_(rows), ok_(ok) {}
+
+  void find(const Stamp* stamps, std::size_t count, bool in_order) {
+    constexpr std::uint64_t kFewSamplesPerRow = 4;
+    const std::uint64_t first = search_.guess(stamps[0]), last = search_.guess(stamps[count - 1]);
+    if (in_order && last - first <= kFewSamplesPerRow * count) {
+      find_in_order(stamps, count, first);
+    } else {
+      find_anywhere(stamps, count);
+    }
+  }
+
+ private:
+  using Interval = History::Interval;
+
+  // Each row mostly lies where the one before did, or behind it.
+  void find_in_order(const Stamp* stamps, std::size_t count, std::uint64_t first) {
+    Interval found{};
+    double per_nanosecond = 0.0;
+    std::uint64_t next = first, inner = 0;  // so many stamps are within, without those of the samples
     for (std::size_t row = 0; row < count; ++row) {
+      const Stamp stamp = stamps[row];
+      const std::uint64_t past = static_cast<std::uint64_t>(stamp) - static_cast<std::uint64_t>(found.start);
+      if (past - 1 < inner) {
+        put(found, static_cast<double>(static_cast<std::int64_t>(past)) * per_nanosecond, per_nanosecond, row);
+      } else if (search_.covers(stamp)) {
+        next = search_.next(stamp, next);
+        found = search_.interval(next);
+        per_nanosecond = put_found(found, stamp, row);
+        inner = inner_stamps(found);
+      } else {
+        put_nothing(row);
+      }
+    }
+    if (next > first) history_.prefetch_from(next + 1, std::min<std::uint64_t>(next - first, count));  // the next block
+  }
+
+  // Stamps and samples are asked from memory in advance.
+  void find_anywhere(const Stamp* stamps, std::size_t count) {
+    std::array<std::uint64_t, kRowBlock> next;
+    for (std::size_t row = 0; row < count; ++row) {
+      next[row] = search_.guess(stamps[row]);
+      history_.prefetch_stamp(next[row]);
+    }
+    for (std::size_t row = 0; row < count; ++row) {
+      next[row] = search_.covers(stamps[row]) ? search_.next(stamps[row], next[row]) : search_.any();
+      history_.prefetch_samples(next[row]);
+    }
+    for (std::size_t row = 0; row < count; ++row) {
+      if (search_.covers(stamps[row])) {
+        put_found(search_.interval(next[row]), stamps[row], row);
+      } else {
+        put_nothing(row);
+      }
+    }
+  }
+
+  // None where they are too many for a signed number.
+  static std::uint64_t inner_stamps(const Interval& found) {
+    const std::uint64_t length = distance(found.start, found.end);
+    return length == 0 || length >> 63 ? 0 : length - 1;
+  }
+
+  void put(const Interval& found, double share, double per_nanosecond, std::size_t row) {
+    rows_.older[row] = found.older->numbers();
+    rows_.newer[row] = found.newer->numbers();
+    rows_.share[row] = share;
+    if constexpr (kBoth) rows_.per_second[row] = 1e9 * per_nanosecond;
+  }
+
+  // At the stamp of a sample that one alone: the other may be infinite.
+  double put_found(const Interval& found, Stamp stamp, std::size_t row) {
+    const std::uint64_t length = distance(found.start, found.end), past = distance(found.start, stamp);
+    const double per_nanosecond = length == 0 ? 0.0 : 1.0 / static_cast<double>(length);
+    if (kBoth && length == 0) ok_[row] = false;  // how fast it moves, others must tell
+    if (search_.is_newest(stamp)) {
+      put(found, 1.0, per_nanosecond, row);
+      if (!kBoth) rows_.older[row] = rows_.newer[row];
+    } else {
+      put(found, static_cast<double>(past) * per_nanosecond, per_nanosecond, row);
+      if (!kBoth && past == 0) rows_.newer[row] = rows_.older[row];
+    }
+    return per_nanosecond;
+  }
+
+  void put_nothing(std::size_t row) {
+    ok_[row] = false;
+    put(search_.interval(search_.any()), 0.0, 0.0, row);
+  }
+
+  const History::View& history_;
+  const History::Search search_;
+  Between& rows_;
+  bool* const ok_;
+};
+
+// The last group of rows is worked on whole.
+void fill_up(std::size_t count, Between& rows) {
+  for (std::size_t row = count; row % kMostLanes != 0; ++row) {
+    rows.share[row] = rows.per_second[row] = 0.0;
+    rows.older[row] = rows.older[count - 1];
+    rows.newer[row] = rows.newer[count - 1];
+  }
+}
+
+// One link of the path for all rows, the first or one that goes on from `rows`.
+void follow_link(const PathCache::Step& link, bool first, RowBlock& rows) {
+  const Kernels& kernels = coframe::kernels();
+  const History::View history = link.history->view();
+  // All samples in sight are told in that parent: a writer says what is not so before he shows the first other one.
+  const bool known = !history.empty() && link.history->one_parent() && history.parent() == link.parent;
+  if (!known) std::fill_n(rows.ok, rows.count, false);
+  if (history.is_static() || history.size() < 2) {
+    for (std::size_t row = 0; row < rows.count; ++row) {
       Pose step;
       FrameId parent;
-      ok[row] = ok[row] && history.at(stamps[row], step, parent) == Found::ok && parent == link.parent;
+      rows.ok[row] = rows.ok[row] && history.at(rows.stamps[row], step, parent) == Found::ok;
     }
-    if (!history.empty()) compose_rows(history.sample(0).pose, link.down, count, poses);
+    const Pose step = history.empty() ? Pose{} : history.sample(0).pose;
+    if (rows.with_twists) {
+      kernels.follow_moving_still(step, link.down, first, rows.count, rows.poses, rows.twists);
+    } else {
+      kernels.follow_still(step, link.down, first, rows.count, rows.poses);
+    }
     return;
   }
-  std::array<std::uint64_t, kBlock> next;
-  const History::Search search(history);
-  for (std::size_t row = 0; row < count; ++row) {
-    next[row] = search.guess(stamps[row]);
-    history.prefetch_stamp(next[row]);
+  Between between;
+  if (rows.with_twists) {
+    Finder<true>(history, between, rows.ok).find(rows.stamps, rows.count, rows.in_order);
+    fill_up(rows.count, between);
+    kernels.follow_moving_rows(between, link.down, first, rows.count, rows.poses, rows.twists);
+  } else {
+    Finder<false>(history, between, rows.ok).find(rows.stamps, rows.count, rows.in_order);
+    fill_up(rows.count, between);
+    kernels.follow_rows(between, link.down, first, rows.count, rows.poses);
   }
-  for (std::size_t row = 0; row < count; ++row) {
-    ok[row] = ok[row] && search.covers(stamps[row]);
-    next[row] = ok[row] ? search.next(stamps[row], next[row]) : search.any();
-    history.prefetch_samples(next[row]);
-  }
-  PoseRows older, newer;
-  std::array<double, kBlock> part, whole;
-  for (std::size_t row = 0; row < count; ++row) {
-    const History::Pair pair = history.pair(next[row], stamps[row]);
-    ok[row] = ok[row] && pair.older->parent() == link.parent;
-    older.load(row, *pair.older);
-    newer.load(row, *pair.newer);
-    part[row] = pair.part;
-    whole[row] = pair.whole;
-  }
-  interpolate_rows(older, newer, part.data(), whole.data(), count, older);
-  compose_rows(older, link.down, count, poses);
 }
 
 void cross(const double* a, const double* b, double* out) {
@@ -118,29 +223,42 @@ void subtract_rate(const Pose& step, const Twist& rate, const Pose& pose, Twist&
 
 }  // namespace
 
-void follow_block(const PathCache::Path& path, const Stamp* stamps, std::size_t count, PoseRows& poses, bool* ok) {
-  poses.set_identity(count);
-  for (std::size_t row = 0; row < count; ++row) ok[row] = stamps[row] != 0;
-  for (const PathCache::Step& link : path.steps) follow_link(link, stamps, count, poses, ok);
-  canonicalise_rows(count, poses);
+void follow_block(const PathCache::Path& path, RowBlock& rows) {
+  for (std::size_t row = 0; row < rows.count; ++row) rows.ok[row] = rows.stamps[row] != 0;
+  bool first = true;
+  for (const PathCache::Step& link : path.steps) {
+    follow_link(link, first, rows);
+    first = false;
+  }
 }
 
-// Counting sort into buckets of equal time: near enough, and much cheaper than sorting.
+// By counting, twice: first by the lower and then by the upper half of where a stamp lies between the first and the last
+// one. That is near enough, and much cheaper than comparing.
 std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count) {
-  constexpr std::size_t kFew = 4 * kBlock, kBuckets = 2048;
-  if (count < kFew || count > std::numeric_limits<std::uint32_t>::max()) return {};
-  if (std::is_sorted(stamps, stamps + count)) return {};
+  constexpr unsigned kBits = 11;
+  constexpr std::uint32_t kBuckets = 1u << kBits;
+  struct Place {
+    std::uint32_t row, upper;
+  };
   const auto [first, last] = std::minmax_element(stamps, stamps + count);
   const Stamp start = *first;
-  const double scale = static_cast<double>(kBuckets - 1) / static_cast<double>(distance(start, *last));
-  const auto bucket_of = [&](Stamp stamp) {
-    return static_cast<std::size_t>(static_cast<double>(distance(start, stamp)) * scale);
-  };
-  std::array<std::uint32_t, kBuckets + 1> begin{};
-  for (std::size_t row = 0; row < count; ++row) ++begin[bucket_of(stamps[row]) + 1];
-  for (std::size_t i = 1; i <= kBuckets; ++i) begin[i] += begin[i - 1];
+  const double scale = static_cast<double>(kBuckets * kBuckets - 1) / static_cast<double>(distance(start, *last));
+  const auto places = std::make_unique_for_overwrite<std::uint32_t[]>(count);
+  const auto half = std::make_unique_for_overwrite<Place[]>(count);
+  std::array<std::uint32_t, kBuckets + 1> lower{}, upper{};
+  for (std::size_t row = 0; row < count; ++row) {
+    const auto place = static_cast<std::uint32_t>(static_cast<std::int64_t>(static_cast<double>(distance(start, stamps[row])) * scale));
+    places[row] = place;
+    ++lower[place % kBuckets + 1];
+    ++upper[place / kBuckets + 1];
+  }
+  for (std::size_t i = 1; i <= kBuckets; ++i) {
+    lower[i] += lower[i - 1];
+    upper[i] += upper[i - 1];
+  }
+  for (std::uint32_t row = 0; row < count; ++row) half[lower[places[row] % kBuckets]++] = {row, places[row] / kBuckets};
   std::vector<std::uint32_t> order(count);
-  for (std::size_t row = 0; row < count; ++row) order[begin[bucket_of(stamps[row])]++] = static_cast<std::uint32_t>(row);
+  for (std::size_t i = 0; i < count; ++i) order[upper[half[i].upper]++] = half[i].row;
   return order;
 }
 

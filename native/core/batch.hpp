@@ -6,17 +6,27 @@
 #include <vector>
 
 #include "core/paths.hpp"
-#include "core/pose_rows.hpp"
 #include "core/tree.hpp"
+#include "kernels/kernels.hpp"
 
 namespace coframe {
 
-// The poses of `count` <= kBlock rows at `stamps` along a path; `ok[row]` false where the row has to be looked up alone:
-// without a sample, with one of another parent, or for the latest.
-void follow_block(const PathCache::Path& path, const Stamp* stamps, std::size_t count, PoseRows& poses, bool* ok);
+// Some rows at work.
+struct RowBlock {
+  std::size_t count = 0;  // at most kRowBlock
+  bool in_order = false;  // by their stamps, nearly
+  bool with_twists = false;
+  Stamp stamps[kRowBlock];
+  bool ok[kRowBlock];
+  PoseRows poses;
+  TwistRows twists;
+};
 
-// Puts rows that ask for about the same time beside each other, so that their samples are found in the first caches:
-// where each row goes, or nothing where the stamps are in order already or few.
+// The poses along a path, and how fast they change; not `ok` where the row has to be looked up alone: without a sample,
+// with one of another parent, for the latest, or with twists where samples have the same stamp.
+void follow_block(const PathCache::Path& path, RowBlock& rows);
+
+// Puts rows that ask for about the same time beside each other, so that their samples are found in the first caches.
 std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count);
 
 // How fast a frame moves, in metres and radians per second along the axes of the frame that sees it.

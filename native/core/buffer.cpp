@@ -40,16 +40,29 @@ void measure_intervals(const History::View& samples, EdgeSummary& edge) {
 }
 
 constexpr std::size_t kInsertBlock = 1024;
+// Fewer look-ups are not brought into order.
+constexpr std::size_t kWorthSorting = 4 * kRowBlock;
 
 TransformValues values_of(const double* row) {
   return {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}};
 }
 
-unsigned track_refusals(const Track& track, std::size_t row) {
-  const double* v = track.poses + 7 * row;
-  const double length2 = v[3] * v[3] + v[4] * v[4] + v[5] * v[5] + v[6] * v[6];
-  if (v[0] + v[1] + v[2] == v[0] + v[1] + v[2] && length2 > 1e-300 && length2 < 1e300) return 0;
-  return check_values(values_of(v));
+// Why the first row that is refused is; 0, and `row` is behind the last one, where none is.
+unsigned track_refusals(const Track& track, unsigned refused_names, std::size_t& row) {
+  for (row = 0; row < track.count; ++row) {
+    if (refused_names == 0) row += kernels().plain_rows(track.poses + 7 * row, track.count - row);
+    if (row == track.count) break;
+    if (const unsigned refusals = refused_names | check_values(values_of(track.poses + 7 * row))) return refusals;
+  }
+  return 0;
+}
+
+std::vector<std::size_t> order_of(const Track& track) {
+  std::vector<std::size_t> order(track.count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return track.stamps[a] < track.stamps[b]; });
+  return order;
 }
 
 void write_pose(const Pose& pose, double* row) {
@@ -97,27 +110,20 @@ unsigned Buffer::insert(FrameId parent, FrameId child, Stamp stamp, const Transf
 unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId authority, std::size_t& stored,
                              std::size_t& bad_row) {
   stored = 0;
-  const unsigned refused_names = check_names(track.parent, track.child);
-  for (bad_row = 0; bad_row < track.count; ++bad_row) {
-    if (const unsigned refusals = refused_names | track_refusals(track, bad_row)) return refusals;
-  }
-  std::vector<std::size_t> order;
-  if (!std::is_sorted(track.stamps, track.stamps + track.count)) {
-    order.resize(track.count);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return track.stamps[a] < track.stamps[b]; });
-  }
+  if (const unsigned refusals = track_refusals(track, check_names(track.parent, track.child), bad_row)) return refusals;
+  const bool is_sorted = std::is_sorted(track.stamps, track.stamps + track.count);
+  const std::vector<std::size_t> order = is_sorted ? std::vector<std::size_t>{} : order_of(track);
+  std::vector<Stamp> stamps(is_sorted ? 0 : kInsertBlock);
+  std::vector<double> poses(is_sorted ? 0 : 7 * kInsertBlock);
   // In blocks, so that others have their turn.
   for (std::size_t first = 0; first < track.count; first += kInsertBlock) {
     const std::size_t count = std::min(kInsertBlock, track.count - first);
-    std::array<Stamp, kInsertBlock> stamps;
-    std::array<TransformValues, kInsertBlock> values;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t row = order.empty() ? first + i : order[first + i];
-      stamps[i] = track.stamps[row];
-      values[i] = values_of(track.poses + 7 * row);
+    for (std::size_t i = 0; !is_sorted && i < count; ++i) {
+      stamps[i] = track.stamps[order[first + i]];
+      std::copy_n(track.poses + 7 * order[first + i], 7, &poses[7 * i]);
     }
+    const Track block{track.parent, track.child, count, is_sorted ? track.stamps + first : stamps.data(),
+                      is_sorted ? track.poses + 7 * first : poses.data()};
     std::vector<Inserted> inserted;
     {
       const std::lock_guard lock(writing_);
@@ -125,7 +131,7 @@ unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId aut
         counts_.refused += track.count - first;
         return kFrozen;
       }
-      stored += insert_block(track, stamps.data(), values.data(), count, is_static, authority, inserted);
+      stored += insert_block(block, is_static, authority, inserted);
     }
     announce(inserted.data(), inserted.size());
   }
@@ -133,20 +139,21 @@ unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId aut
 }
 
 // Runs that go on behind what is there take the short way.
-std::size_t Buffer::insert_block(const Track& track, const Stamp* stamps, const TransformValues* values,
-                                 std::size_t count, bool is_static, AuthorityId authority,
+std::size_t Buffer::insert_block(const Track& block, bool is_static, AuthorityId authority,
                                  std::vector<Inserted>& inserted) {
   std::size_t stored = 0;
-  for (std::size_t i = 0; i < count;) {
-    const std::size_t run =
-        is_static ? 0 : tree_.append_run(track.parent, track.child, stamps + i, values + i, count - i, authority);
+  for (std::size_t i = 0; i < block.count;) {
+    const std::size_t run = is_static ? 0
+                                      : tree_.append_run(block.parent, block.child, block.stamps + i,
+                                                         block.poses + 7 * i, block.count - i, authority);
     counts_.stored += run;
     stored += run;
     i += run;
-    if (run > 0) inserted.push_back({0, tree_.find(without_slash(track.child)), false, false});
-    if (i == count) break;
-    inserted.push_back(tree_.insert(track.parent, track.child, stamps[i], values[i], is_static, authority));
-    stored += this->count(inserted.back().refusals);
+    if (run > 0) inserted.push_back({0, tree_.find(without_slash(block.child)), false, false});
+    if (i == block.count) break;
+    inserted.push_back(tree_.insert(block.parent, block.child, block.stamps[i], values_of(block.poses + 7 * i),
+                                    is_static, authority));
+    stored += count(inserted.back().refusals);
     ++i;
   }
   return stored;
@@ -361,7 +368,7 @@ bool Buffer::answer(Question& question, Answer& answer, Failure& failure, Extrap
 
 std::size_t Buffer::answer_many(const Question& question, const Extrapolation* extrapolation, const Batch& batch,
                                 unsigned threads, Failure& failure) const {
-  threads = static_cast<unsigned>(std::clamp<std::size_t>(batch.count / kBlock, 1, std::max(threads, 1u)));
+  threads = static_cast<unsigned>(std::clamp<std::size_t>(batch.count / kRowBlock, 1, std::max(threads, 1u)));
   std::vector<std::size_t> missing(threads);
   std::vector<Failure> failures(threads);
   const auto part = [&](unsigned i) {
@@ -392,41 +399,47 @@ std::size_t Buffer::answer_rows(Question question, const Extrapolation* extrapol
   PathCache::Path path;
   Failure ignored;
   const bool has_path = question.target != question.source && resolve_both(question, ignored);
-  const bool by_path = has_path && !extrapolation && !batch.twists;
+  const bool by_path = has_path && !extrapolation;
+  const bool is_sorted = std::is_sorted(batch.stamps + first, batch.stamps + last);
+  const std::size_t rows_count = last - first;
+  const bool reorder = by_path && !is_sorted && rows_count >= kWorthSorting &&
+                       rows_count <= std::numeric_limits<std::uint32_t>::max();
   const std::vector<std::uint32_t> order =
-      by_path ? order_by_time(batch.stamps + first, last - first) : std::vector<std::uint32_t>{};
-  std::array<std::size_t, kBlock> rows;
-  std::array<Stamp, kBlock> stamps;
-  std::array<bool, kBlock> ok;
-  PoseRows poses;
-  for (std::size_t start = first; start < last; start += kBlock) {
-    const std::size_t count = std::min(kBlock, last - start);
-    for (std::size_t i = 0; i < count; ++i) {
-      rows[i] = order.empty() ? start + i : first + order[start - first + i];
-      stamps[i] = batch.stamps[rows[i]];
+      reorder ? order_by_time(batch.stamps + first, rows_count) : std::vector<std::uint32_t>{};
+  std::array<std::size_t, kRowBlock> at;
+  RowBlock rows;
+  rows.in_order = is_sorted || reorder;
+  rows.with_twists = batch.twists != nullptr;
+  for (std::size_t start = first; start < last; start += kRowBlock) {
+    rows.count = std::min(kRowBlock, last - start);
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      at[i] = reorder ? first + order[start - first + i] : start + i;
+      rows.stamps[i] = batch.stamps[at[i]];
     }
     if (has_path) PathCache::update(tree_, question.target_id, question.source_id, path);
-    if (path.usable && batch.missing == Batch::Missing::clip) clip(path, count, stamps.data());
-    ok.fill(false);
+    if (path.usable && batch.missing == Batch::Missing::clip) {
+      clip(path, rows.count, rows.stamps);
+      for (std::size_t i = 0; i < rows.count; ++i) batch.stamps[at[i]] = rows.stamps[i];
+    }
     if (by_path && path.usable) {
       read([&](const Tree&) {
-        follow_block(path, stamps.data(), count, poses, ok.data());
+        follow_block(path, rows);
         return true;
       });
+      kernels().write_poses(rows.poses, rows.count, at.data(), batch.poses);
+      if (batch.twists) kernels().write_twists(rows.twists, rows.count, at.data(), batch.twists);
+    } else {
+      std::fill_n(rows.ok, rows.count, false);
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      batch.stamps[rows[i]] = stamps[i];
-      if (ok[i]) {
-        poses.write(i, batch.poses + 7 * rows[i]);
-        continue;
-      }
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      if (rows.ok[i]) continue;
       Failure why;
-      if (answer_row(question, extrapolation, batch, rows[i], why)) continue;
-      if (rows[i] < missing) {
-        missing = rows[i];
+      if (answer_row(question, extrapolation, batch, at[i], why)) continue;
+      if (at[i] < missing) {
+        missing = at[i];
         failure = std::move(why);
       }
-      if (batch.missing != Batch::Missing::nan && order.empty()) return missing;
+      if (batch.missing != Batch::Missing::nan && !reorder) return missing;
     }
   }
   return missing;

@@ -161,8 +161,8 @@ class Buffer {
                   Failure& failure) const;
   bool resolve_both(Question& question, Failure& failure) const;
   bool resolve(std::string_view name, Argument argument, FrameId& frame, Failure& failure) const;
-  std::size_t insert_block(const Track& track, const Stamp* stamps, const TransformValues* values, std::size_t count,
-                           bool is_static, AuthorityId authority, std::vector<Inserted>& inserted);
+  std::size_t insert_block(const Track& block, bool is_static, AuthorityId authority,
+                           std::vector<Inserted>& inserted);
   template <class Insert>
   unsigned insert_and_announce(Insert&& insert);
   Inserted store(TransformStream& stream, std::size_t index, const TransformView& view);

@@ -9,10 +9,13 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <new>
+#include <type_traits>
 #include <vector>
 
 #include "core/pose.hpp"
 #include "core/relaxed.hpp"
+#include "core/slab.hpp"
 
 namespace coframe {
 
@@ -39,11 +42,9 @@ class alignas(64) SharedSample {
     for (int i = 0; i < 4; ++i) pose.q[i] = numbers_[i];
     for (int i = 0; i < 3; ++i) pose.p[i] = numbers_[4 + i];
   }
-  // Each number of a pose `stride` behind the one before.
-  void load(double* q, double* p, std::size_t stride) const {
-    for (std::size_t i = 0; i < 4; ++i) q[i * stride] = numbers_[i];
-    for (std::size_t i = 0; i < 3; ++i) p[i * stride] = numbers_[4 + i];
-  }
+  // For kernels, which take it whole: see kernels/lanes.hpp for why they may. q, p, and the parent.
+  const double* numbers() const { return reinterpret_cast<const double*>(this); }
+  double* numbers() { return reinterpret_cast<double*>(this); }
   Sample load() const {
     Sample sample;
     load(sample.pose);
@@ -93,12 +94,8 @@ class ChunkPool {
   // Held once. The caller must tell readers (Revision::Change): they may still be reading it as part of another history.
   Chunk* take() {
     const std::lock_guard lock(mutex_);
-    if (free_.empty()) {
-      all_.push_back(std::make_unique<Chunk>());
-      free_.push_back(all_.back().get());
-    }
-    Chunk* chunk = free_.back();
-    free_.pop_back();
+    Chunk* chunk = free_.empty() ? fresh() : free_.back();
+    if (!free_.empty()) free_.pop_back();
     chunk->holders.store(1, std::memory_order_relaxed);
     return chunk;
   }
@@ -110,9 +107,26 @@ class ChunkPool {
   }
 
  private:
+  // A few samples take little memory, many are in large pages.
+  static constexpr std::size_t kFew = 16, kMany = Slab::kLarge / sizeof(Chunk);
+
+  Chunk* fresh() {
+    if (used_ == last_size_) {
+      const std::size_t size = count_ < kFew ? std::max<std::size_t>(3 * count_, 1) : kMany;
+      slabs_.push_back(std::make_unique<Slab>(size == kMany ? Slab::kLarge : size * sizeof(Chunk)));
+      last_size_ = size;
+      used_ = 0;
+    }
+    ++count_;
+    return new (slabs_.back()->data() + used_++ * sizeof(Chunk)) Chunk;
+  }
+
   std::mutex mutex_;  // a snapshot may end in any thread
-  std::vector<std::unique_ptr<Chunk>> all_;
+  std::vector<std::unique_ptr<Slab>> slabs_;
+  std::size_t count_ = 0;                 // of all chunks
+  std::size_t used_ = 0, last_size_ = 0;  // of the last slab
   std::vector<Chunk*> free_;
 };
+static_assert(std::is_trivially_destructible_v<Chunk>);
 
 }  // namespace coframe

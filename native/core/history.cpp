@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "kernels/kernels.hpp"
+
 namespace coframe {
 
 namespace {
@@ -217,6 +219,32 @@ void History::append(const HistoryContext& context, Stamp stamp, const Sample& s
   if (index % Chunk::kSize == 0) add_chunk(context);
   put(index, stamp, sample);
   end_.store(index + 1, std::memory_order_release);
+}
+
+// Chunk by chunk.
+std::size_t History::append_run(const HistoryContext& context, const Stamp* stamps, const double* rows,
+                                std::size_t count, FrameId parent) {
+  Stamp newest = view().newest();
+  std::size_t stored = 0;
+  while (stored < count && stamps[stored] > newest) {
+    const std::uint64_t start = end_;
+    if (start % Chunk::kSize == 0) add_chunk(context);
+    Chunk& chunk = *chunk_at(start);
+    const std::size_t first = start % Chunk::kSize, most = std::min(count - stored, Chunk::kSize - first);
+    std::size_t run = 0;
+    Stamp before = newest;
+    do {
+      chunk.stamps[first + run] = stamps[stored + run];
+      before = newest;
+      newest = stamps[stored + run++];
+    } while (run < most && stamps[stored + run] > newest);
+    std::atomic_thread_fence(std::memory_order_release);  // who reads the parent's number finds the frame
+    kernels().store_samples(rows + 7 * stored, run, parent, chunk.samples[first].numbers());
+    stored += run;
+    end_.store(start + run, std::memory_order_release);
+    prune(context, before);
+  }
+  return stored;
 }
 
 // Everything from the position on moves by one: seldom, and mostly by few.

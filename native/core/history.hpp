@@ -61,6 +61,12 @@ class History {
     double part, whole;
   };
 
+  // Two samples that follow each other, and their stamps.
+  struct Interval {
+    const SharedSample *older, *newer;
+    Stamp start, end;
+  };
+
   // What a reader sees: the samples that were there when it began. Appended ones do not show.
   class View {
    public:
@@ -112,6 +118,12 @@ class History {
     void prefetch_samples(std::uint64_t next) const {
       prefetch(&chunk_of(next - 1).samples[(next - 1) % Chunk::kSize]);
       prefetch(&chunk_of(next).samples[next % Chunk::kSize]);
+    }
+    // So many from that one on.
+    void prefetch_from(std::uint64_t number, std::uint64_t count) const {
+      for (const std::uint64_t end = std::min(number + count, end_); number < end; ++number) {
+        prefetch(&chunk_of(number).samples[number % Chunk::kSize]);
+      }
     }
     // The two samples between which the pose at `stamp` lies, one of them where it holds alone; `stamp` lies between the
     // sample `next` and the one before.
@@ -172,6 +184,13 @@ class History {
       const bool is_next = samples_.stamp_of(guess) <= stamp && stamp < samples_.stamp_of(std::min(guess + 1, high_));
       return is_next ? guess + 1 : first_after(stamp, guess);
     }
+    // The sample before that one, and that one.
+    Interval interval(std::uint64_t next) const {
+      const Chunk &before = samples_.chunk_of(next - 1), &chunk = samples_.chunk_of(next);
+      const std::size_t i = (next - 1) % Chunk::kSize, j = next % Chunk::kSize;
+      return {&before.samples[i], &chunk.samples[j], before.stamps[i], chunk.stamps[j]};
+    }
+    bool is_newest(Stamp stamp) const { return stamp == last_; }
     // For a stamp that it does not allow.
     std::uint64_t any() const { return low_ + 1; }
 
@@ -211,9 +230,10 @@ class History {
   // Stores a sample as tf2 does: prunes by the newest stamp before this one, refuses what is older than the cache
   // length, takes an exact repetition silently, puts equal stamps behind each other. Not for HistoryKind::none.
   Insertion insert(const HistoryContext& context, Stamp stamp, const Sample& sample);
-  // Stores samples, told by their index, as long as each is newer than the one before and the newest; returns how many.
-  template <class SampleAt>
-  std::size_t append_run(const HistoryContext& context, const Stamp* stamps, std::size_t count, SampleAt&& sample_at);
+  // Stores rows of 7, x, y, z, qx, qy, qz, qw, that can be normalised, as long as each is newer than the one before and
+  // the newest; returns how many.
+  std::size_t append_run(const HistoryContext& context, const Stamp* stamps, const double* rows, std::size_t count,
+                         FrameId parent);
   // Starts anew as another kind.
   void reset(const HistoryContext& context, HistoryKind kind);
   // Forgets all samples of a dynamic history; a static one stays.
@@ -245,28 +265,5 @@ class History {
   SharedSample fixed_;  // the one sample of a static history
   std::vector<std::unique_ptr<Directory>> directories_;  // the last is in use; readers may still be in the others
 };
-
-template <class SampleAt>
-std::size_t History::append_run(const HistoryContext& context, const Stamp* stamps, std::size_t count,
-                                SampleAt&& sample_at) {
-  Stamp newest = view().newest(), before = newest;
-  std::size_t stored = 0;
-  while (stored < count && stamps[stored] > newest) {
-    const std::uint64_t start = end_;
-    if (start % Chunk::kSize == 0) add_chunk(context);
-    Chunk& chunk = *chunk_at(start);
-    std::uint64_t end = start;
-    do {
-      chunk.stamps[end % Chunk::kSize] = stamps[stored];
-      chunk.samples[end % Chunk::kSize].store(sample_at(stored));
-      before = newest;
-      newest = stamps[stored++];
-      ++end;
-    } while (end % Chunk::kSize != 0 && stored < count && stamps[stored] > newest);
-    end_.store(end, std::memory_order_release);
-    prune(context, before);
-  }
-  return stored;
-}
 
 }  // namespace coframe

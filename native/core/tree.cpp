@@ -169,16 +169,15 @@ unsigned check_names(std::string_view parent, std::string_view child) {
 
 unsigned check_values(const TransformValues& values) { return check_values(canonical_pose(values)); }
 
-std::size_t Tree::append_run(std::string_view parent, std::string_view child, const Stamp* stamps,
-                             const TransformValues* values, std::size_t count, AuthorityId authority) {
+std::size_t Tree::append_run(std::string_view parent, std::string_view child, const Stamp* stamps, const double* rows,
+                             std::size_t count, AuthorityId authority) {
   const FrameId child_id = find(without_slash(child)), parent_id = find(without_slash(parent));
   if (child_id == 0 || parent_id == 0 || child_id == parent_id) return 0;
   Frame& frame = frames_[child_id];
   const History::View before = frame.history.view();
   if (before.empty() || before.is_static() || before.parent() != parent_id) return 0;
   if (!frame.history.one_parent()) return 0;  // what is dropped may matter to those who wait
-  const std::size_t stored = frame.history.append_run(
-      context(), stamps, count, [&](std::size_t i) { return Sample{canonical_pose(values[i]), parent_id}; });
+  const std::size_t stored = frame.history.append_run(context(), stamps, rows, count, parent_id);
   if (stored == 0) return 0;
   frame.counts.stored.add(stored);
   frame.authority = authority;

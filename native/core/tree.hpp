@@ -99,9 +99,9 @@ class Tree {
   Inserted insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
                   AuthorityId authority);
   // Stores what goes on behind the newest sample of a dynamic frame that keeps its parent; returns how many from the
-  // start on did. The values are known to be good.
-  std::size_t append_run(std::string_view parent, std::string_view child, const Stamp* stamps,
-                         const TransformValues* values, std::size_t count, AuthorityId authority);
+  // start on did. The rows, x, y, z, qx, qy, qz, qw, are known to be good.
+  std::size_t append_run(std::string_view parent, std::string_view child, const Stamp* stamps, const double* rows,
+                         std::size_t count, AuthorityId authority);
   void clear();
   // Forgets a frame, its link to its parent and those of its children to it.
   void remove(FrameId frame);

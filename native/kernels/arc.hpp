@@ -1,32 +1,51 @@
 // The way from one rotation to another, and what is between.
 #pragma once
 
-#include <cmath>
-
+#include "kernels/lanes.hpp"
 #include "kernels/level.hpp"
 
 namespace coframe::COFRAME_LEVEL {
 
 namespace {
 
-// sin(t theta) / sin(theta) as a series of K terms in y = cos(theta) - 1, as in core/pose.hpp.
-template <int K, int J = 1, class Number>
-COFRAME_INLINE Number series(const Number& t2, double y) {
+// sin(t theta) / sin(theta) as a series of K terms in y = cos(theta) - 1, as in core/pose.hpp. T is a double or several;
+// there may be one angle for several shares.
+template <int K, int J = 1, class T, class Angle>
+COFRAME_INLINE T weight_series(const T& t2, const Angle& y) {
   constexpr double u = 1.0 / (J * (2.0 * J + 1.0)), v = J / (2.0 * J + 1.0);
+  const T term = (t2 * u - v) * y;
   if constexpr (J == K) {
-    return 1.0 + (t2 * u - v) * y;
+    return 1.0 + term;
   } else {
-    return 1.0 + (t2 * u - v) * y * series<K, J + 1>(t2, y);
+    return 1.0 + term * weight_series<K, J + 1>(t2, y);
   }
 }
 
-// What slerp weighs one of two quaternions by whose angle has this cosine, which is not negative. The further they are
-// apart, the more it takes; each way is good to 1e-16 down to `kLeast`.
+// theta / sin(theta) in the same way.
+template <int K, int J = 1, class T>
+COFRAME_INLINE T angle_series(const T& y) {
+  const T term = y * (-J / (2.0 * J + 1.0));
+  if constexpr (J == K) {
+    return 1.0 + term;
+  } else {
+    return 1.0 + term * angle_series<K, J + 1>(y);
+  }
+}
+
+// By the cosine of the angle between two quaternions, which is not negative: what slerp weighs one of them by, and the
+// angle by its sine. The further they are apart, the more it takes; each way is good to 1e-16 down to `kLeast`.
 template <int K>
 struct Series {
-  template <class Number>
-  COFRAME_INLINE static Number weight(const Number& t, double cosine) {
-    return t * series<K>(t * t, cosine - 1.0);
+  template <class T, class Angle>
+  COFRAME_INLINE static T weight(const T& t, const Angle& cosine) {
+    const T t2 = t * t;
+    const Angle y = cosine - 1.0;
+    return t * weight_series<K>(t2, y);
+  }
+  template <class T>
+  COFRAME_INLINE static T angle_by_sine(const T& cosine) {
+    const T y = cosine - 1.0;
+    return angle_series<K>(y);
   }
 };
 struct Nearest : Series<2> {
@@ -40,20 +59,48 @@ struct Middle : Series<8> {
 };
 // By way of half the angle: sin(2 t phi) / sin(2 phi) = sin(t phi) / sin(phi) * cos(t phi) / cos(phi).
 struct Far {
-  COFRAME_INLINE static double weight(double t, double cosine) {
-    const double half = std::sqrt(0.5 + 0.5 * cosine);
-    const double ratio = Series<18>::weight(t, half);
-    return ratio * std::sqrt(1.0 - ratio * ratio * (0.5 - 0.5 * cosine)) / half;
+  template <class T>
+  COFRAME_INLINE static T weight(const T& t, const T& cosine) {
+    const T half = root(T(0.5 + 0.5 * cosine));
+    const T ratio = Series<18>::weight(t, half);
+    return ratio * root(T(1.0 - ratio * ratio * (0.5 - 0.5 * cosine))) / half;
+  }
+  template <class T>
+  COFRAME_INLINE static T angle_by_sine(const T& cosine) {
+    const T half = root(T(0.5 + 0.5 * cosine));
+    return Series<18>::angle_by_sine(half) / half;
   }
 };
 
-// Calls `loop` with the shortest way that is good for angles up to that of the cosine `least`.
-template <class Loop>
-void choose_way(double least, Loop&& loop) {
-  if (least > Nearest::kLeast) return loop(Nearest());
-  if (least > Near::kLeast) return loop(Near());
-  if (least > Middle::kLeast) return loop(Middle());
+// Calls `loop` with the shortest way that is good for all of these cosines.
+template <class T, class Loop>
+COFRAME_INLINE void choose_way(const T& cosine, Loop&& loop) {
+  if (all_above(cosine, Nearest::kLeast)) return loop(Nearest());
+  if (all_above(cosine, Near::kLeast)) return loop(Near());
+  if (all_above(cosine, Middle::kLeast)) return loop(Middle());
   loop(Far());
+}
+
+// What slerp weighs both ends by at the share t, and with kAngle the angle by its sine.
+template <class T>
+struct Weights {
+  T first, second, angle_by_sine;
+};
+
+template <bool kAngle, class Way, class T>
+COFRAME_INLINE Weights<T> weights_by(const T& t, const T& cosine) {
+  const T rest = 1.0 - t;
+  Weights<T> weights{Way::weight(rest, cosine), Way::weight(t, cosine), cosine};
+  if constexpr (kAngle) weights.angle_by_sine = Way::angle_by_sine(cosine);
+  return weights;
+}
+
+template <bool kAngle, class T>
+COFRAME_INLINE Weights<T> weights_at(const T& t, const T& cosine) {
+  if (all_above(cosine, Nearest::kLeast)) return weights_by<kAngle, Nearest>(t, cosine);
+  if (all_above(cosine, Near::kLeast)) return weights_by<kAngle, Near>(t, cosine);
+  if (all_above(cosine, Middle::kLeast)) return weights_by<kAngle, Middle>(t, cosine);
+  return weights_by<kAngle, Far>(t, cosine);
 }
 
 struct Arc {

@@ -32,6 +32,22 @@ struct Coordinates {
 
 inline constexpr std::size_t kPointBlock = 128;
 
+// Calls each(columns, n, done) for the points from `first` on, row by row: n points, behind `done` others.
+template <class Each>
+void for_each_piece(const Coordinates& at, const Grid& grid, std::size_t first, std::size_t count, Each&& each) {
+  std::size_t row = grid.rows == 1 ? 0 : first / grid.width, column = first - row * grid.width;
+  for (std::size_t done = 0; done < count; ++row, column = 0) {
+    const std::size_t n = std::min(grid.width - column, count - done);
+    const auto piece = [&](const Field& field) {
+      return Column{field.data + static_cast<std::ptrdiff_t>(row) * field.row_step +
+                        static_cast<std::ptrdiff_t>(column) * field.step,
+                    field.step, field.number};
+    };
+    each(Columns{piece(at.x), piece(at.y), piece(at.z)}, n, done);
+    done += n;
+  }
+}
+
 // The coordinates of some points that follow each other.
 class PointBlock {
  public:
@@ -39,31 +55,17 @@ class PointBlock {
   Points points_from(std::size_t i) { return {x_ + i, y_ + i, z_ + i}; }
 
   void load(const Kernels& kernels, const Coordinates& from, const Grid& grid, std::size_t first, std::size_t count) {
-    for_each_piece(from, grid, first, count, kernels.load);
+    for_each_piece(from, grid, first, count, [&](const Columns& columns, std::size_t n, std::size_t done) {
+      kernels.load(columns, n, points_from(done));
+    });
   }
   void store(const Kernels& kernels, const Coordinates& to, const Grid& grid, std::size_t first, std::size_t count) {
-    for_each_piece(to, grid, first, count, kernels.store);
+    for_each_piece(to, grid, first, count, [&](const Columns& columns, std::size_t n, std::size_t done) {
+      kernels.store(columns, n, points_from(done));
+    });
   }
 
  private:
-  // A block may reach over several rows.
-  template <class Each>
-  void for_each_piece(const Coordinates& at, const Grid& grid, std::size_t first, std::size_t count, Each&& each) {
-    std::size_t row = grid.rows == 1 ? 0 : first / grid.width, column = first - row * grid.width;
-    for (std::size_t done = 0; done < count; ++row, column = 0) {
-      const std::size_t n = std::min(grid.width - column, count - done);
-      const auto piece = [&](const Field& field) {
-        return Column{field.data + static_cast<std::ptrdiff_t>(row) * field.row_step +
-                          static_cast<std::ptrdiff_t>(column) * field.step,
-                      field.step, field.number};
-      };
-      each(piece(at.x), n, x_ + done);
-      each(piece(at.y), n, y_ + done);
-      each(piece(at.z), n, z_ + done);
-      done += n;
-    }
-  }
-
   double x_[kPointBlock], y_[kPointBlock], z_[kPointBlock];
 };
 

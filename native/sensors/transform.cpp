@@ -6,14 +6,11 @@ void transform_points(const Pose& pose, const Grid& grid, const std::vector<Coor
                       unsigned threads) {
   const Kernels& kernels = coframe::kernels();
   in_parts(grid.count(), threads, [&](std::size_t begin, std::size_t end) {
-    PointBlock block;
-    for (std::size_t first = begin; first < end; first += kPointBlock) {
-      const std::size_t count = std::min(kPointBlock, end - first);
-      for (const Coordinates& each : coordinates) {
-        block.load(kernels, each, grid, first, count);
-        kernels.transform(affine_of(pose, each.is_direction), count, block.points());
-        block.store(kernels, each, grid, first, count);
-      }
+    for (const Coordinates& each : coordinates) {
+      const Affine affine = affine_of(pose, each.is_direction);
+      for_each_piece(each, grid, begin, end - begin, [&](const Columns& columns, std::size_t n, std::size_t) {
+        kernels.transform_columns(affine, n, columns);
+      });
     }
   });
 }

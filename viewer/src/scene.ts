@@ -2,6 +2,7 @@
 
 import * as THREE from "three";
 import { Camera } from "./camera";
+import { byId, h } from "./dom";
 import type { Palette } from "./theme";
 
 const FPS_WINDOW_MS = 1000;
@@ -23,8 +24,7 @@ export class Stage {
     private readonly afterDraw: () => void,
   ) {
     THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
-    // The drawing stays readable for a PNG only right after it: see `picture`.
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+    this.renderer = new THREE.WebGLRenderer({ canvas, context: opaqueContext(canvas) });
     this.camera = new Camera(canvas, () => this.invalidate());
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f96, 1.7), this.light, this.light.target);
     this.setPalette(palette);
@@ -81,4 +81,19 @@ export class Stage {
     this.camera.resize(this.width, this.height);
     this.invalidate();
   }
+}
+
+/** three.js asks for a canvas that can be seen through, which a browser without a graphics card blends pixel by pixel. */
+function opaqueContext(canvas: HTMLCanvasElement): WebGL2RenderingContext {
+  const context = canvas.getContext("webgl2", { alpha: false, antialias: true, powerPreference: "high-performance" });
+  if (context) return context;
+  byId("overlay").append(
+    h(
+      "div",
+      { class: "nothing" },
+      h("h2", {}, "No 3D in this browser"),
+      h("p", {}, "The page needs WebGL 2. Switch on hardware acceleration in the browser’s settings, or try another browser."),
+    ),
+  );
+  throw new Error("this browser has no WebGL 2");
 }

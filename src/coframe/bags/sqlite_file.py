@@ -91,14 +91,15 @@ class SqliteStorage(Storage):
             good = [row for row in rows if isinstance(row[2], int) and (isinstance(row[3], bytes) or not with_data)]
             self.problem("rows whose time or data are not what they should be", len(rows) - len(good))
             rows = good
-        for number in dict.fromkeys(topics):
-            group = [row for row in rows if row[0] == number]
+        numbers = set(topics)
+        for number in numbers:
+            group = rows if len(numbers) == 1 else [row for row in rows if row[0] == number]
             if group:
                 _, positions, received, messages = zip(*group, strict=True)
                 yield Batch(
                     self._channels[number],
-                    np.array(received, dtype=np.int64),
-                    np.array(positions, dtype=np.int64).astype(np.uint64),
+                    np.fromiter(received, np.int64, len(group)),
+                    np.fromiter(positions, np.int64, len(group)).astype(np.uint64),
                     Slices.joined(messages) if with_data else None,
                 )
 

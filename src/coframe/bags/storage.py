@@ -58,7 +58,7 @@ class Slices(NamedTuple):
     @staticmethod
     def joined(messages: Sequence[bytes | memoryview]) -> Slices:
         """Of messages that lie apart."""
-        ends = np.cumsum([len(message) for message in messages], dtype=np.uint64)
+        ends = np.cumsum(np.fromiter(map(len, messages), np.uint64, len(messages)))
         starts = np.concatenate([np.zeros(1, dtype=np.uint64), ends[:-1]]) if len(messages) else ends
         return Slices(b"".join(messages), starts, ends)
 

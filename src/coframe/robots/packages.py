@@ -17,19 +17,20 @@ __all__ = ["Packages"]
 
 _MANIFEST = "package.xml"
 _DEEPEST = 4  # folders between a workspace and its packages
+_NEIGHBOURS = 2  # the folder around a package may hold anything, such as all of somebody's home
 _NOT_SEARCHED = {"build", "install", "log", "node_modules", "__pycache__"}
 
 
 class Packages:
     """Finds packages by name.
 
-    In this order: the package around ``near`` and its neighbours, the folders of COFRAME_PACKAGE_PATH, the
+    In this order: the package around ``near`` and its neighbours, ``folders``, those of COFRAME_PACKAGE_PATH, the
     installations of AMENT_PREFIX_PATH, the folders of ROS_PACKAGE_PATH. A folder may be a package itself (it has a
     ``package.xml``), hold packages further below, or hold folders with packages' names.
 
     Args:
         near: A robot description's file, or its folder; None: nowhere.
-        folders: Searched before all others.
+        folders: Searched before those of the environment.
     """
 
     def __init__(
@@ -38,7 +39,7 @@ class Packages:
         self.near = None if near is None else Path(near).resolve()
         self.folders = [Path(folder) for folder in folders]
         self._found: dict[str, Path] = {}
-        self._crawled: dict[Path, dict[str, Path]] = {}
+        self._crawled: dict[tuple[Path, int], dict[str, Path]] = {}
 
     def find(self, name: str) -> Path:
         """The folder of a package, with all symbolic links resolved.
@@ -89,17 +90,19 @@ class Packages:
         # No separators, no dots alone, nothing that a file system might take for more than a name.
         if not name or name.startswith(".") or not all(c.isalnum() or c in "_-." for c in name):
             raise PackageError(f"{name!r} cannot be the name of a package")
-        around = self._near_by()
-        for folder in [*self.folders, *around, *_listed("COFRAME_PACKAGE_PATH")]:
-            found = self._below(folder).get(name) or folder / name
+        for folder in self._near_by():
+            if name in self._below(folder, _NEIGHBOURS):
+                return self._below(folder, _NEIGHBOURS)[name]
+        for folder in [*self.folders, *_listed("COFRAME_PACKAGE_PATH")]:
+            found = self._below(folder, _DEEPEST).get(name) or folder / name
             if found.is_dir():
                 return found
         for prefix in _listed("AMENT_PREFIX_PATH"):
             if (prefix / "share" / name).is_dir():
                 return prefix / "share" / name
         for folder in _listed("ROS_PACKAGE_PATH"):
-            if name in self._below(folder):
-                return self._below(folder)[name]
+            if name in self._below(folder, _DEEPEST):
+                return self._below(folder, _DEEPEST)[name]
         raise PackageError(
             f"there is no package {name!r}",
             hint="Set COFRAME_PACKAGE_PATH to the folder that holds it (with others: separated as in PATH).",
@@ -112,12 +115,13 @@ class Packages:
         package = _package_around(self.near)
         return [] if package is None else [package, package.parent]
 
-    def _below(self, folder: Path) -> dict[str, Path]:
-        if folder not in self._crawled:
-            self._crawled[folder] = {}
-            for package in _crawl(folder, _DEEPEST):
-                self._crawled[folder].setdefault(_name(package), package)
-        return self._crawled[folder]
+    def _below(self, folder: Path, deepest: int) -> dict[str, Path]:
+        if (folder, deepest) not in self._crawled:
+            found: dict[str, Path] = {}
+            for package in _crawl(folder, deepest):
+                found.setdefault(_name(package), package)
+            self._crawled[folder, deepest] = found
+        return self._crawled[folder, deepest]
 
 
 def _listed(variable: str) -> Iterator[Path]:

@@ -1,0 +1,180 @@
+// Many look-ups along one path: poses in the registers' lanes, samples and rows as they lie in memory.
+#include "kernels/arc.hpp"
+#include "kernels/lanes.hpp"
+#include "kernels/level.hpp"
+#include "kernels/rotation.hpp"
+
+namespace coframe::COFRAME_LEVEL {
+
+namespace {
+
+using PoseLanes = Step<Lanes>;
+
+struct TwistLanes {
+  Vector<Lanes> linear, angular;
+};
+
+COFRAME_INLINE Quaternion<Lanes> load_rotations(const double* const* samples) {
+  Quaternion<Lanes> q;
+  load_columns(samples, 0, q.x, q.y);
+  load_columns(samples, 2, q.z, q.w);
+  return q;
+}
+
+COFRAME_INLINE Vector<Lanes> load_translations(const double* const* samples) {
+  Vector<Lanes> p;
+  Lanes other;
+  load_columns(samples, 4, p.x, p.y);
+  load_columns(samples, 6, p.z, other);
+  return p;
+}
+
+COFRAME_INLINE PoseLanes splat(const Pose& pose) {
+  return {{splat(pose.q[0]), splat(pose.q[1]), splat(pose.q[2]), splat(pose.q[3])},
+          {splat(pose.p[0]), splat(pose.p[1]), splat(pose.p[2])}};
+}
+
+COFRAME_INLINE PoseLanes load(const PoseRows& rows, std::size_t i) {
+  return {{load_lanes(rows.q[0] + i), load_lanes(rows.q[1] + i), load_lanes(rows.q[2] + i), load_lanes(rows.q[3] + i)},
+          {load_lanes(rows.p[0] + i), load_lanes(rows.p[1] + i), load_lanes(rows.p[2] + i)}};
+}
+
+COFRAME_INLINE void store(const PoseLanes& pose, PoseRows& rows, std::size_t i) {
+  store_lanes(pose.q.x, rows.q[0] + i);
+  store_lanes(pose.q.y, rows.q[1] + i);
+  store_lanes(pose.q.z, rows.q[2] + i);
+  store_lanes(pose.q.w, rows.q[3] + i);
+  store_lanes(pose.p.x, rows.p[0] + i);
+  store_lanes(pose.p.y, rows.p[1] + i);
+  store_lanes(pose.p.z, rows.p[2] + i);
+}
+
+COFRAME_INLINE TwistLanes load(const TwistRows& rows, std::size_t i) {
+  return {{load_lanes(rows.linear[0] + i), load_lanes(rows.linear[1] + i), load_lanes(rows.linear[2] + i)},
+          {load_lanes(rows.angular[0] + i), load_lanes(rows.angular[1] + i), load_lanes(rows.angular[2] + i)}};
+}
+
+COFRAME_INLINE void store(const TwistLanes& twist, TwistRows& rows, std::size_t i) {
+  store_lanes(twist.linear.x, rows.linear[0] + i);
+  store_lanes(twist.linear.y, rows.linear[1] + i);
+  store_lanes(twist.linear.z, rows.linear[2] + i);
+  store_lanes(twist.angular.x, rows.angular[0] + i);
+  store_lanes(twist.angular.y, rows.angular[1] + i);
+  store_lanes(twist.angular.z, rows.angular[2] + i);
+}
+
+// From the step's child to its parent, which sees the step move as well; or from its parent to its child, which does
+// not see itself move. `pose` is still told in the end that is left.
+template <bool kDown>
+COFRAME_INLINE TwistLanes seen(const PoseLanes& step, const TwistLanes& rate, const PoseLanes& pose,
+                               const TwistLanes& twist) {
+  if constexpr (kDown) {
+    const Quaternion<Lanes> back = conjugate(step.q);
+    return {rotated(back, twist.linear - rate.linear - cross(rate.angular, pose.p - step.p)),
+            rotated(back, twist.angular - rate.angular)};
+  }
+  return {rotated(step.q, twist.linear) + rate.linear + cross(rate.angular, rotated(step.q, pose.p)),
+          rotated(step.q, twist.angular) + rate.angular};
+}
+
+template <bool kDown, bool kMoving>
+COFRAME_INLINE void add_step(const PoseLanes& step, const TwistLanes& rate, bool first, std::size_t i, PoseRows& poses,
+                             TwistRows* twists) {
+  const Lanes zero{}, one = splat(1.0);
+  const PoseLanes pose = first ? PoseLanes{{zero, zero, zero, one}, {zero, zero, zero}} : load(poses, i);
+  if constexpr (kMoving) {
+    const TwistLanes twist = first ? TwistLanes{{zero, zero, zero}, {zero, zero, zero}} : load(*twists, i);
+    store(seen<kDown>(step, rate, pose, twist), *twists, i);
+  }
+  store(first && !kDown ? step : seen<kDown>(step, pose), poses, i);
+}
+
+// The step of rows from `i` on: interpolate() of core/pose.hpp, and with kMoving how fast that changes: straight for the
+// translation, about one axis for the rotation, told in the parent's axes.
+template <bool kMoving>
+COFRAME_INLINE PoseLanes step_at(const Between& link, std::size_t i, TwistLanes& rate) {
+  const Lanes t = load_lanes(link.share + i);
+  const Quaternion<Lanes> a = load_rotations(link.older + i), b = load_rotations(link.newer + i);
+  const Lanes product = dot(a, b), sign = sign_of(product);
+  const Weights<Lanes> weights = weights_at<kMoving>(t, with_sign(product, sign));
+  const Lanes first = weights.first, second = with_sign(weights.second, sign);
+  const Vector<Lanes> from = load_translations(link.older + i), to = load_translations(link.newer + i);
+  if constexpr (kMoving) {
+    const Lanes per_second = load_lanes(link.per_second + i);
+    const Quaternion<Lanes> turn = b * conjugate(a);
+    const Lanes scale = with_sign(2.0 * per_second * weights.angle_by_sine, sign);
+    rate = {per_second * (to - from), scale * Vector<Lanes>{turn.x, turn.y, turn.z}};
+  }
+  return {{first * a.x + second * b.x, first * a.y + second * b.y, first * a.z + second * b.z,
+           first * a.w + second * b.w},
+          (1.0 - t) * from + t * to};
+}
+
+// Where a link stands still.
+template <bool kMoving>
+COFRAME_INLINE PoseLanes step_at(const Pose& link, std::size_t, TwistLanes& rate) {
+  rate = {{Lanes{}, Lanes{}, Lanes{}}, {Lanes{}, Lanes{}, Lanes{}}};
+  return splat(link);
+}
+
+template <bool kDown, bool kMoving, class Link>
+void follow(const Link& link, bool first, std::size_t n, PoseRows& poses, TwistRows* twists) {
+  for (std::size_t i = 0; i < n; i += kLanes) {
+    TwistLanes rate;
+    const PoseLanes step = step_at<kMoving>(link, i, rate);
+    add_step<kDown, kMoving>(step, rate, first, i, poses, twists);
+  }
+}
+
+// Where the numbers of kLanes rows from `i` on go; those beyond the last row go `nowhere`.
+template <std::size_t kWidth>
+COFRAME_INLINE void find_places(std::size_t i, std::size_t n, const std::size_t* at, double* out, double* nowhere,
+                                double** places) {
+  for (std::size_t k = 0; k < kLanes; ++k) places[k] = i + k < n ? out + kWidth * at[i + k] : nowhere;
+}
+
+}  // namespace
+
+void follow_rows(const Between& link, bool down, bool first, std::size_t n, PoseRows& poses) {
+  (down ? &follow<true, false, Between> : &follow<false, false, Between>)(link, first, n, poses, nullptr);
+}
+
+void follow_still(const Pose& link, bool down, bool first, std::size_t n, PoseRows& poses) {
+  (down ? &follow<true, false, Pose> : &follow<false, false, Pose>)(link, first, n, poses, nullptr);
+}
+
+void follow_moving_rows(const Between& link, bool down, bool first, std::size_t n, PoseRows& poses, TwistRows& twists) {
+  (down ? &follow<true, true, Between> : &follow<false, true, Between>)(link, first, n, poses, &twists);
+}
+
+void follow_moving_still(const Pose& link, bool down, bool first, std::size_t n, PoseRows& poses, TwistRows& twists) {
+  (down ? &follow<true, true, Pose> : &follow<false, true, Pose>)(link, first, n, poses, &twists);
+}
+
+void write_poses(const PoseRows& poses, std::size_t n, const std::size_t* at, double* out) {
+  double nowhere[7];
+  double* places[kLanes];
+  for (std::size_t i = 0; i < n; i += kLanes) {
+    find_places<7>(i, n, at, out, nowhere, places);
+    const PoseLanes pose = load(poses, i);
+    const Quaternion<Lanes> q = canonical(pose.q);
+    store_columns(pose.p.x, pose.p.y, places, 0);
+    store_columns(pose.p.z, q.x, places, 2);
+    store_columns(q.y, q.z, places, 4);
+    store_columns(q.z, q.w, places, 5);
+  }
+}
+
+void write_twists(const TwistRows& twists, std::size_t n, const std::size_t* at, double* out) {
+  double nowhere[6];
+  double* places[kLanes];
+  for (std::size_t i = 0; i < n; i += kLanes) {
+    find_places<6>(i, n, at, out, nowhere, places);
+    const TwistLanes twist = load(twists, i);
+    store_columns(twist.linear.x, twist.linear.y, places, 0);
+    store_columns(twist.linear.z, twist.angular.x, places, 2);
+    store_columns(twist.angular.y, twist.angular.z, places, 4);
+  }
+}
+
+}  // namespace coframe::COFRAME_LEVEL
