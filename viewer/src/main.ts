@@ -6,6 +6,7 @@ import { Displays } from "./displays/manager";
 import { DisplaysPanel } from "./displays_panel";
 import { byId } from "./dom";
 import { askReplay, savePicture } from "./export";
+import { fatal } from "./fatal";
 import { Inspector } from "./inspector";
 import { JointsPanel } from "./joints";
 import { Forest, Model } from "./model";
@@ -27,8 +28,12 @@ import { View } from "./view";
 const HIDDEN_PING_MS = 1000;
 
 function openSource(): Source {
-  const block = replayBlock();
-  return block ? new ReplaySource(block) : new SocketSource(socketUrl(location));
+  try {
+    const block = replayBlock();
+    return block ? new ReplaySource(block) : new SocketSource(socketUrl(location));
+  } catch (error) {
+    throw fatal("This replay cannot be played", error instanceof Error ? error.message : String(error));
+  }
 }
 
 const source = openSource();

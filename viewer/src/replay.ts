@@ -25,6 +25,7 @@ export interface ReplayBlock {
 type Listener = <K extends keyof SourceEvents>(event: K, value: SourceEvents[K]) => void;
 
 const PICTURE_MS = 33;
+const DAMAGED = "the recording in this file is damaged";
 
 /** The recording that the server wrote into this page; null in a live one. */
 export function replayBlock(): ReplayBlock | null {
@@ -51,12 +52,12 @@ export class ReplaySource implements Source {
 
   constructor(private readonly block: ReplayBlock) {
     this.count = block.frames.length;
-    this.times = new Float64Array(bytes(block.times));
-    this.poses = new Float32Array(bytes(block.poses));
-    this.states = new Uint8Array(bytes(block.states));
+    this.times = new Float64Array(bytes(block.times, 8));
+    this.poses = new Float32Array(bytes(block.poses, 4));
+    this.states = new Uint8Array(bytes(block.states, 1));
     const samples = this.times.length;
     if (this.poses.length !== samples * this.count * 7 || this.states.length !== samples * this.count)
-      throw new Error("the recording in this file is damaged");
+      throw new Error(DAMAGED);
     const components: { root: string; size: number }[] = [];
     for (const frame of block.frames) {
       const component = (components[frame.component] ??= { root: frame.name, size: 0 });
@@ -222,13 +223,13 @@ export class ReplaySource implements Source {
     };
     if (t === undefined || s === undefined)
       return { ...answer, error: `There is no frame “${t === undefined ? target : source}” in this recording.` };
-    const chain = this.forest.chain(t, s);
+    const chain = this.forest.chain(s, t);
     if (!chain) {
       const roots = [this.rootOf(t), this.rootOf(s)].map((root) => this.forest.name(root));
       return {
         ...answer,
-        chain: [target, source],
-        broken_at: source,
+        chain: [source, target],
+        broken_at: target,
         error: `“${target}” and “${source}” are in two trees that are not connected.`,
         hint: `Their roots are “${roots[0]}” and “${roots[1]}”: a transform between them is missing.`,
       };
@@ -258,8 +259,9 @@ function quoted(name: string): string {
   return /^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", `'\\''`)}'`;
 }
 
-function bytes(base64: string): ArrayBuffer {
+function bytes(base64: string, unit: number): ArrayBuffer {
   const text = atob(base64);
+  if (text.length % unit !== 0) throw new Error(DAMAGED);
   const out = new Uint8Array(text.length);
   for (let i = 0; i < text.length; i++) out[i] = text.charCodeAt(i);
   return out.buffer;

@@ -2,7 +2,7 @@
 
 import * as THREE from "three";
 import { Camera } from "./camera";
-import { byId, h } from "./dom";
+import { fatal } from "./fatal";
 import type { Palette } from "./theme";
 
 const FPS_WINDOW_MS = 1000;
@@ -87,13 +87,8 @@ export class Stage {
 function opaqueContext(canvas: HTMLCanvasElement): WebGL2RenderingContext {
   const context = canvas.getContext("webgl2", { alpha: false, antialias: true, powerPreference: "high-performance" });
   if (context) return context;
-  byId("overlay").append(
-    h(
-      "div",
-      { class: "nothing" },
-      h("h2", {}, "No 3D in this browser"),
-      h("p", {}, "The page needs WebGL 2. Switch on hardware acceleration in the browser’s settings, or try another browser."),
-    ),
+  throw fatal(
+    "No 3D in this browser",
+    "The page needs WebGL 2. Switch on hardware acceleration in the browser’s settings, or try another browser.",
   );
-  throw new Error("this browser has no WebGL 2");
 }
