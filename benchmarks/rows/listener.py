@@ -9,10 +9,11 @@ from benchmarks.peers import ROS2
 from benchmarks.process import OWN_PYTHON, Program, Python
 
 SECONDS = "3"
-CPU, LATENCY = "cpu", "latency"
+CPU, LATENCY, AWAKE = "cpu", "latency", "awake"
 NAMES: dict[str, tuple[str, Callable[[float], str]]] = {
     CPU: ("CPU of one core", percent),
     LATENCY: ("latency, p50", nanoseconds),
+    AWAKE: ("latency till a thread that waits is awake, p50", nanoseconds),
 }
 
 
@@ -46,6 +47,7 @@ def ros2() -> Program:
 ROWS = [
     row(CPU, "coframe", "floor: a bare UDP socket", udp(CPU), AtMost(1.5)),
     row(LATENCY, "coframe", "floor: a bare UDP socket", udp(LATENCY), AtMost(40_000)),
+    row(AWAKE, "coframe", "floor: a bare UDP socket", udp(AWAKE)),
     row(CPU, "tf2", "floor: a bare UDP socket", udp(CPU)),
     row(CPU, "tf2", ROS2.name, ros2),
 ]

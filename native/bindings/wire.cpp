@@ -152,7 +152,9 @@ void define_readers(nb::module_& wire) {
       .def("name_writer", &PyTfReader::name_writer, nb::arg("writer"), nb::arg("authority"), ReleaseGil(),
            "The buffer notes `authority` for what the writer with this handle has sent and will send.")
       .def("forget_writer", &PyTfReader::forget_writer, nb::arg("writer"), ReleaseGil(),
-           "The writer with this handle has left.");
+           "The writer with this handle has left.")
+      .def_prop_ro("stored_at", &PyTfReader::stored_at,
+                   "When the newest message's transforms were in the buffer, in nanoseconds of the steady clock; 0: never.");
   define_reader_properties<PyTfReader>(tf_reader);
 
   nb::class_<PyEndpointReader>(wire, "EndpointReader", "What DDS discovery tells about writers or readers.")

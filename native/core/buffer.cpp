@@ -90,21 +90,26 @@ unsigned Buffer::insert_and_announce(Insert&& insert) {
       ++counts_.refused;
       return kFrozen;
     }
-    inserted = insert();
+    insert(inserted);
     count(inserted.refusals);
+    count_change();
   }
-  announce(&inserted, 1);
+  tell(&inserted, 1);
   return inserted.refusals;
 }
 
 unsigned Buffer::insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
                         bool is_static, AuthorityId authority) {
-  return insert_and_announce([&] { return tree_.insert(parent, child, stamp, values, is_static, authority); });
+  return insert_and_announce([&](Inserted& inserted) {
+    inserted = tree_.insert(parent, child, stamp, values, is_static, authority);
+  });
 }
 
 unsigned Buffer::insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
                         AuthorityId authority) {
-  return insert_and_announce([&] { return tree_.insert(parent, child, stamp, values, is_static, authority); });
+  return insert_and_announce([&](Inserted& inserted) {
+    tree_.insert(parent, child, stamp, values, is_static, authority, inserted);
+  });
 }
 
 unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId authority, std::size_t& stored,
@@ -176,27 +181,27 @@ void Buffer::rename(TransformStream& stream, std::string_view authority) {
   const std::lock_guard lock(writing_);
   const AuthorityId before = stream.authority;
   stream.authority = tree_.authority(authority);
-  for (const TransformStream::Names& names : stream.expected) {
-    tree_.change_authority(names.child_id, before, stream.authority);
-  }
+  for (const ExpectedNames& names : stream.expected) tree_.change_authority(names.child, before, stream.authority);
 }
 
 DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size,
                              std::size_t& stored) {
   stored = 0;
-  stream.inserted.clear();
-  const DecodeFailure failure = decode_tf_message(data, size, stream.decoded);
+  const DecodeFailure failure = decode_tf_message(data, size, stream.decoded, stream.expected);
+  const std::size_t transforms = stream.decoded.size();
+  stream.inserted.resize(transforms);
   {
     const std::lock_guard lock(writing_);
     ++counts_.messages;
     if (failure.reason) ++counts_.malformed;
-    for (std::size_t i = 0; i < stream.decoded.size(); ++i) {
+    for (std::size_t i = 0; i < transforms; ++i) {
       // Also what is refused as too old changes something: it makes frames known, and older ones may be forgotten.
-      stream.inserted.push_back(store(stream, i, stream.decoded[i]));
-      if (count(stream.inserted.back().refusals)) ++stored;
+      store(stream, i, stream.decoded[i], stream.inserted[i]);
+      if (count(stream.inserted[i].refusals)) ++stored;
     }
+    if (transforms > 0) count_change();
   }
-  if (!stream.inserted.empty()) announce(stream.inserted.data(), stream.inserted.size());
+  tell(stream.inserted.data(), transforms);
   if (stream.decoded.capacity() > TransformStream::kMaxRemembered) {
     stream.decoded = {};
     stream.inserted = {};
@@ -204,29 +209,25 @@ DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, 
   return failure;
 }
 
-Inserted Buffer::store(TransformStream& stream, std::size_t index, const TransformView& view) {
-  Inserted refused;
+void Buffer::store(TransformStream& stream, std::size_t index, const TransformView& view, Inserted& inserted) {
   if (frozen()) {
-    refused.refusals = kFrozen;
-    return refused;
+    inserted = {.refusals = kFrozen};
+  } else if (view.as_expected) {
+    const ExpectedNames& names = stream.expected[index];
+    tree_.insert(names.parent, names.child, view.stamp, view.values, stream.is_static, stream.authority, inserted);
+  } else {
+    inserted = store_unexpected(stream, index, view);
   }
-  if (index < stream.expected.size()) {
-    const TransformStream::Names& names = stream.expected[index];
-    if (names.child == view.child && names.parent == view.parent) {
-      return tree_.insert(names.parent_id, names.child_id, view.stamp, view.values, stream.is_static,
-                          stream.authority);
-    }
-  }
-  if (!is_utf8(view.parent) || !is_utf8(view.child)) {
-    refused.refusals = kNoChildFrame;
-    return refused;
-  }
+}
+
+Inserted Buffer::store_unexpected(TransformStream& stream, std::size_t index, const TransformView& view) {
+  if (!is_utf8(view.parent) || !is_utf8(view.child)) return {.refusals = kNoChildFrame};
   const Inserted inserted =
       tree_.insert(view.parent, view.child, view.stamp, view.values, stream.is_static, stream.authority);
   if (inserted.refusals == 0 && index < TransformStream::kMaxRemembered) {
     if (stream.expected.size() <= index) stream.expected.resize(index + 1);
-    stream.expected[index] = {std::string(view.parent), std::string(view.child),
-                              tree_.find(without_slash(view.parent)), tree_.find(without_slash(view.child))};
+    stream.expected[index] = {std::string(view.name_bytes), tree_.find(without_slash(view.parent)),
+                              tree_.find(without_slash(view.child))};
   }
   return inserted;
 }
@@ -587,10 +588,18 @@ Counts Buffer::counts() const {
   return counts_;
 }
 
-// A full barrier between the data and the look for those who wait; they have one between their name and their look at
-// the data.
 void Buffer::announce(const Inserted* inserted, std::size_t count) {
-  changes_.fetch_add(1);
+  {
+    const std::lock_guard lock(writing_);
+    count_change();
+  }
+  tell(inserted, count);
+}
+
+// Unlocking was a full barrier between the data and the look for those who wait; they have one between their name and
+// their look at the data.
+void Buffer::tell(const Inserted* inserted, std::size_t count) {
+  if (waiting_room_.empty()) return;
   for (std::size_t i = 0; i < count; ++i) waiting_room_.tell(inserted[i]);
 }
 

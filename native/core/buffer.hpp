@@ -7,6 +7,7 @@
 
 #include "core/batch.hpp"
 #include "core/cdr.hpp"
+#include "core/light_mutex.hpp"
 #include "core/lookup.hpp"
 #include "core/question.hpp"
 #include "core/tree.hpp"
@@ -27,13 +28,9 @@ struct Counts {
 struct TransformStream {
   // More of one message's transforms are not remembered: there may be many sources, and any of them may send much.
   static constexpr std::size_t kMaxRemembered = 1024;
-  struct Names {
-    std::string parent, child;
-    FrameId parent_id = 0, child_id = 0;
-  };
   bool is_static = false;
   AuthorityId authority = 0;
-  std::vector<Names> expected;
+  std::vector<ExpectedNames> expected;
   std::vector<TransformView> decoded;
   std::vector<Inserted> inserted;
 };
@@ -165,11 +162,14 @@ class Buffer {
                            std::vector<Inserted>& inserted);
   template <class Insert>
   unsigned insert_and_announce(Insert&& insert);
-  Inserted store(TransformStream& stream, std::size_t index, const TransformView& view);
+  void store(TransformStream& stream, std::size_t index, const TransformView& view, Inserted& inserted);
+  Inserted store_unexpected(TransformStream& stream, std::size_t index, const TransformView& view);
   bool count(unsigned refusals);
+  void count_change() { changes_.store(changes_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
   void announce(const Inserted* inserted, std::size_t count);
+  void tell(const Inserted* inserted, std::size_t count);
 
-  mutable std::mutex writing_;
+  mutable LightMutex writing_;
   Tree tree_;
   mutable PathCache paths_;
   Counts counts_;  // guarded by writing_
@@ -177,7 +177,7 @@ class Buffer {
   WaitingRoom waiting_room_{tree_, [this](Question& question, Answer& answer, Failure& failure) {
                               return this->answer(question, answer, failure);
                             }};
-  std::atomic<std::uint64_t> changes_{0};
+  std::atomic<std::uint64_t> changes_{0};  // written under writing_
 };
 
 }  // namespace coframe

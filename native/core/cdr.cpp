@@ -1,7 +1,9 @@
 #include "core/cdr.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 namespace coframe {
 
@@ -48,7 +50,37 @@ class Reader {
     return value.find('\0') == std::string_view::npos || fail("a string has a NUL inside");
   }
 
+  // A whole transform with these names; false, and nothing is read, where another comes next.
+  bool transform(const ExpectedNames& expected, TransformView& view) {
+    const std::size_t names = expected.bytes.size();
+    if (swap_ || names == 0 || left() < kStamp + names + sizeof view.values) return false;
+    const std::uint8_t* next = body_ + position_;
+    if (std::memcmp(next + kStamp, expected.bytes.data(), names) != 0) return false;
+    view.stamp = stamp_at(next);
+    std::memcpy(&view.values, next + kStamp + names, sizeof view.values);
+    view.as_expected = true;
+    position_ += kStamp + names + sizeof view.values;
+    return true;
+  }
+
+  // What was read since `first`, and the padding in front of a number; empty where the bytes are in another order.
+  std::string_view bytes_since(std::size_t first) const {
+    if (swap_) return {};
+    const std::size_t end = (position_ + sizeof(double) - 1) & ~(sizeof(double) - 1);
+    return {reinterpret_cast<const char*>(body_ + first), std::min(end, size_) - first};
+  }
+
  private:
+  static constexpr std::size_t kStamp = 8;
+
+  static Stamp stamp_at(const std::uint8_t* bytes) {
+    std::int32_t seconds;
+    std::uint32_t nanoseconds;
+    std::memcpy(&seconds, bytes, sizeof seconds);
+    std::memcpy(&nanoseconds, bytes + sizeof seconds, sizeof nanoseconds);
+    return seconds * kNanosecondsPerSecond + nanoseconds;
+  }
+
   bool align(std::size_t width) {
     const std::size_t aligned = (position_ + width - 1) & ~(width - 1);
     if (aligned > size_) return false;
@@ -73,7 +105,10 @@ bool read_transform(Reader& reader, TransformView& view) {
   std::uint32_t nanoseconds;
   if (!reader.number(seconds) || !reader.number(nanoseconds)) return false;
   view.stamp = seconds * kNanosecondsPerSecond + nanoseconds;
+  const std::size_t names = reader.position();
   if (!reader.text(view.parent) || !reader.text(view.child)) return false;
+  view.name_bytes = reader.bytes_since(names);
+  view.as_expected = false;
   for (double& value : view.values.translation) {
     if (!reader.number(value)) return false;
   }
@@ -110,26 +145,26 @@ class Writer {
 
 }  // namespace
 
-DecodeFailure decode_tf_message(const std::uint8_t* data, std::size_t size, std::vector<TransformView>& out) {
-  out.clear();
-  if (size < kHeader) return {size, "the message is shorter than its 4-byte header"};
-  if (data[0] != 0 || data[1] > 1) return {0, "the header does not say plain CDR (00 01 or 00 00)"};
+DecodeFailure decode_tf_message(const std::uint8_t* data, std::size_t size, std::vector<TransformView>& out,
+                                std::span<const ExpectedNames> expected) {
+  const auto fail = [&](std::size_t offset, const char* reason) {
+    out.clear();
+    return DecodeFailure{offset, reason};
+  };
+  if (size < kHeader) return fail(size, "the message is shorter than its 4-byte header");
+  if (data[0] != 0 || data[1] > 1) return fail(0, "the header does not say plain CDR (00 01 or 00 00)");
   Reader reader(data + kHeader, size - kHeader, data[1] == 0);
   std::uint32_t count;
   bool complete = reader.number(count);
   for (std::uint32_t i = 0; complete && i < count; ++i) {
-    TransformView view;
-    complete = read_transform(reader, view);
-    if (complete) out.push_back(view);
+    if (i == out.size()) out.emplace_back();  // else that of an earlier message is written over
+    complete = (i < expected.size() && reader.transform(expected[i], out[i])) || read_transform(reader, out[i]);
   }
-  if (!complete) {
-    out.clear();
-    return {kHeader + reader.position(), reader.reason()};
-  }
+  if (!complete) return fail(kHeader + reader.position(), reader.reason());
   if (reader.left() > kLargestPadding) {
-    out.clear();
-    return {kHeader + reader.position(), "bytes are left over after the last transform"};
+    return fail(kHeader + reader.position(), "bytes are left over after the last transform");
   }
+  out.resize(count);
   return {};
 }
 

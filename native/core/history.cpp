@@ -1,7 +1,6 @@
 #include "core/history.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "kernels/kernels.hpp"
 
@@ -13,11 +12,6 @@ namespace {
 bool same(const Sample& a, const Sample& b) {
   return a.parent == b.parent && std::equal(a.pose.q, a.pose.q + 4, b.pose.q) &&
          std::equal(a.pose.p, a.pose.p + 3, b.pose.p);
-}
-
-// Saturating: stamps may come from anywhere.
-Stamp minus(Stamp stamp, Stamp length) {
-  return stamp < std::numeric_limits<Stamp>::min() + length ? std::numeric_limits<Stamp>::min() : stamp - length;
 }
 
 // Fills what no chunk was ever put into.
@@ -287,22 +281,13 @@ void History::own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end
   }
 }
 
-Stamp History::prune(const HistoryContext& context, Stamp newest) {
-  if (context.cache_length == kKeepAll) return std::numeric_limits<Stamp>::min();
-  const Stamp start = minus(newest, context.cache_length);
-  drop_older_than(context.pool, start);
-  return start;
-}
-
 void History::drop_older_than(ChunkPool& pool, Stamp stamp) {
-  const View samples = view();
-  std::size_t count = 0;
-  while (count < samples.size() && samples.time(count) < stamp) ++count;
-  if (count == 0) return;
-  const std::uint64_t begin = begin_ + count;
-  const std::uint64_t first = begin_ / Chunk::kSize;
+  const std::uint64_t first = begin_.load(std::memory_order_relaxed), end = end_.load(std::memory_order_relaxed);
+  std::uint64_t begin = first;
+  while (begin < end && chunk_at(begin)->stamps[begin % Chunk::kSize] < stamp) ++begin;
+  if (begin == first) return;
   begin_.store(begin, std::memory_order_release);
-  for (std::uint64_t n = first; n < begin / Chunk::kSize; ++n) pool.release(chunk_at(n * Chunk::kSize));
+  for (std::uint64_t n = first / Chunk::kSize; n < begin / Chunk::kSize; ++n) pool.release(chunk_at(n * Chunk::kSize));
 }
 
 // What comes next starts a chunk of its own.
@@ -317,11 +302,6 @@ void History::drop_all(ChunkPool& pool) {
   begin_.store(next, std::memory_order_release);
   end_.store(next, std::memory_order_release);
   one_parent_ = true;
-}
-
-Chunk* History::chunk_at(std::uint64_t index) const {
-  const Directory& directory = *directory_;
-  return directory.chunks[index / Chunk::kSize & directory.mask].load(std::memory_order_relaxed);
 }
 
 void History::put(std::uint64_t index, Stamp stamp, const Sample& sample) {

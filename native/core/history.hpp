@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -230,6 +231,22 @@ class History {
   // Stores a sample as tf2 does: prunes by the newest stamp before this one, refuses what is older than the cache
   // length, takes an exact repetition silently, puts equal stamps behind each other. Not for HistoryKind::none.
   Insertion insert(const HistoryContext& context, Stamp stamp, const Sample& sample);
+  // insert() of a sample that is newer than all and told in the same frame as they, where nothing has to grow: the usual
+  // case. False: nothing was done.
+  bool append_newer(const HistoryContext& context, Stamp stamp, const Sample& sample) {
+    const std::uint64_t end = end_.load(std::memory_order_relaxed);
+    if (kind_ != HistoryKind::dynamic || !one_parent_ || end % Chunk::kSize == 0) return false;
+    if (begin_.load(std::memory_order_relaxed) >= end) return false;
+    Chunk& chunk = *chunk_at(end);
+    const std::size_t i = end % Chunk::kSize;
+    const Stamp newest = chunk.stamps[i - 1];
+    if (stamp <= newest || chunk.samples[i - 1].parent() != sample.parent) return false;
+    prune(context, newest);
+    chunk.stamps[i] = stamp;
+    chunk.samples[i].store(sample);
+    end_.store(end + 1, std::memory_order_release);
+    return true;
+  }
   // Stores rows of 7, x, y, z, qx, qy, qz, qw, that can be normalised, as long as each is newer than the one before and
   // the newest; returns how many.
   std::size_t append_run(const HistoryContext& context, const Stamp* stamps, const double* rows, std::size_t count,
@@ -249,11 +266,29 @@ class History {
   void put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample);
   void add_chunk(const HistoryContext& context);
   void own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end);
+  // Of a dynamic history with samples.
+  Stamp oldest() const {
+    const std::uint64_t first = begin_.load(std::memory_order_relaxed);
+    return chunk_at(first)->stamps[first % Chunk::kSize];
+  }
   // By the newest stamp there was before the last insertion; returns the earliest stamp that is kept.
-  Stamp prune(const HistoryContext& context, Stamp newest);
+  Stamp prune(const HistoryContext& context, Stamp newest) {
+    if (context.cache_length == kKeepAll) return std::numeric_limits<Stamp>::min();
+    const Stamp start = minus(newest, context.cache_length);
+    if (oldest() < start) drop_older_than(context.pool, start);
+    return start;
+  }
+  // Saturating: stamps may come from anywhere.
+  static Stamp minus(Stamp stamp, Stamp length) {
+    constexpr Stamp least = std::numeric_limits<Stamp>::min();
+    return stamp < least + length ? least : stamp - length;
+  }
   void drop_older_than(ChunkPool& pool, Stamp stamp);
   void drop_all(ChunkPool& pool);
-  Chunk* chunk_at(std::uint64_t index) const;
+  Chunk* chunk_at(std::uint64_t index) const {
+    const Directory& directory = *directory_;
+    return directory.chunks[index / Chunk::kSize & directory.mask].load(std::memory_order_relaxed);
+  }
   void put(std::uint64_t index, Stamp stamp, const Sample& sample);
   void grow();
 

@@ -17,7 +17,7 @@ std::string format(const char* pattern, Values... values) {
   return text;
 }
 
-Pose canonical_pose(const TransformValues& values) {
+inline Pose canonical_pose(const TransformValues& values) {
   Pose pose;
   for (int i = 0; i < 3; ++i) pose.p[i] = values.translation[i];
   for (int i = 0; i < 4; ++i) pose.q[i] = values.rotation[i];
@@ -27,6 +27,8 @@ Pose canonical_pose(const TransformValues& values) {
 
 // tf2 checks the quaternion after normalising it: only what cannot be normalised is refused, and by both rules.
 unsigned check_values(const Pose& pose) {
+  const double sum = pose.q[0] + pose.p[0] + pose.p[1] + pose.p[2];
+  if (sum == sum) return 0;  // else one of them is NaN, or they are infinite
   unsigned refusals = 0;
   if (std::isnan(pose.q[0])) refusals |= kNan | kDenormalisedQuaternion;
   for (double value : pose.p) {
@@ -134,27 +136,37 @@ Inserted Tree::insert(std::string_view parent, std::string_view child, Stamp sta
   }
   const FrameId child_id = find_or_add(child, inserted.new_names);  // the child first: tf2's order of creation
   const FrameId parent_id = find_or_add(parent, inserted.new_names);
-  store(parent_id, child_id, stamp, pose, is_static, authority, inserted);
+  store(frames_[child_id], child_id, stamp, {pose, parent_id}, is_static, authority, inserted);
   return inserted;
 }
 
-Inserted Tree::insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
-                      AuthorityId authority) {
-  const Pose pose = canonical_pose(values);
-  Inserted inserted;
-  inserted.refusals = check_values(pose);
-  if (inserted.refusals != 0) {
-    frames_[child].counts.refuse(inserted.refusals);
-    return inserted;
+void Tree::insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
+                  AuthorityId authority, Inserted& inserted) {
+  const Sample sample{canonical_pose(values), parent};
+  Frame& frame = frames_[child];
+  inserted = {};
+  if (const unsigned refusals = check_values(sample.pose)) {
+    frame.counts.refuse(refusals);
+    inserted.refusals = refusals;
+    return;
   }
-  for (const FrameId id : {child, parent}) {
-    if (id != 0 && !frames_[id].known) {  // it was removed in between
-      frames_[id].known = true;
-      inserted.new_names = true;
-    }
+  // A history with samples tells of frames that are known.
+  if (!is_static && frame.history.append_newer(context(), stamp, sample)) {
+    frame.counts.add(Insertion::appended);
+    frame.authority = authority;
+    inserted.child = child;
+    return;
   }
-  store(parent, child, stamp, pose, is_static, authority, inserted);
-  return inserted;
+  know_again(child, frame, inserted);
+  know_again(parent, frames_[parent], inserted);
+  store(frame, child, stamp, sample, is_static, authority, inserted);
+}
+
+// A frame may have been removed since its number was found.
+void Tree::know_again(FrameId id, Frame& frame, Inserted& inserted) {
+  if (id == 0 || frame.known) return;
+  frame.known = true;
+  inserted.new_names = true;
 }
 
 unsigned check_names(std::string_view parent, std::string_view child) {
@@ -184,15 +196,14 @@ std::size_t Tree::append_run(std::string_view parent, std::string_view child, co
   return stored;
 }
 
-void Tree::store(FrameId parent, FrameId child, Stamp stamp, const Pose& pose, bool is_static, AuthorityId authority,
+void Tree::store(Frame& frame, FrameId child, Stamp stamp, const Sample& sample, bool is_static, AuthorityId authority,
                  Inserted& inserted) {
-  Frame& frame = frames_[child];
   History& history = frame.history;
   prepare(history, is_static, inserted);
   const History::View before = history.view();
   const bool had_one_parent = history.one_parent();
   const FrameId newest_before = before.parent(), oldest_before = had_one_parent ? 0 : before.parent_at(0);
-  const Insertion outcome = history.insert(context(), stamp, Sample{pose, parent});
+  const Insertion outcome = history.insert(context(), stamp, sample);
   frame.counts.add(outcome);
   const History::View now = history.view();
   const bool changes_the_past = (outcome == Insertion::put_before_newer && !history.one_parent()) ||

@@ -89,6 +89,7 @@ void Watch::note(FrameId child) {
 void WaitingRoom::add(const std::shared_ptr<Wait>& wait) {
   const std::lock_guard lock(mutex_);
   waits_.emplace(wait.get(), wait);
+  guests_.fetch_add(1);
   waiting_.fetch_add(1);
   answer_or_seat(wait, false);
 }
@@ -96,11 +97,18 @@ void WaitingRoom::add(const std::shared_ptr<Wait>& wait) {
 void WaitingRoom::remove(const std::shared_ptr<Wait>& wait) {
   const std::lock_guard lock(mutex_);
   stand_up(wait);
-  if (waits_.erase(wait.get()) != 0) waiting_.fetch_sub(1);
+  forget(wait);
+}
+
+void WaitingRoom::forget(const std::shared_ptr<Wait>& wait) {
+  if (waits_.erase(wait.get()) == 0) return;
+  waiting_.fetch_sub(1);
+  guests_.fetch_sub(1);
 }
 
 void WaitingRoom::add(const std::shared_ptr<Watch>& watch) {
   const std::lock_guard lock(mutex_);
+  guests_.fetch_add(1);
   if (watch->child_.empty()) {
     watches_of_all_.push_back(watch);
     watching_all_.fetch_add(1);
@@ -113,6 +121,7 @@ void WaitingRoom::add(const std::shared_ptr<Watch>& watch) {
 
 void WaitingRoom::remove(const std::shared_ptr<Watch>& watch) {
   const std::lock_guard lock(mutex_);
+  guests_.fetch_sub(1);
   if (watch->child_.empty()) {
     take_out(watches_of_all_, watch);
     watching_all_.fetch_sub(1);
@@ -187,7 +196,7 @@ void WaitingRoom::answer_or_seat(const std::shared_ptr<Wait>& wait, bool seated)
     Failure failure;
     if (ask_(wait->question_, answer, failure)) {
       stand_up(wait);
-      if (waits_.erase(wait.get()) != 0) waiting_.fetch_sub(1);
+      forget(wait);
       wait->bring(answer);
       return;
     }

@@ -109,7 +109,9 @@ class WaitingRoom {
   void add(const std::shared_ptr<Watch>& watch);
   void remove(const std::shared_ptr<Watch>& watch);
 
-  // What the writer tells, after the data are visible and with no lock held. Cheap where nobody waits.
+  // Whether nobody waits or watches.
+  bool empty() const { return guests_.load() == 0; }
+  // What the writer tells, after the data are visible and with no lock held. Needless in an empty room.
   void tell(const Inserted& inserted);
 
  private:
@@ -128,6 +130,7 @@ class WaitingRoom {
                       const std::shared_ptr<Guest>& guest);
   void sit_down(const std::shared_ptr<Wait>& wait, Seat seat);
   void stand_up(const std::shared_ptr<Wait>& wait);
+  void forget(const std::shared_ptr<Wait>& wait);
   void try_again(const Waits& waits);
   void move_in(const std::shared_ptr<Watch>& watch);
   void on_insertion(FrameId child);
@@ -141,7 +144,7 @@ class WaitingRoom {
   std::unordered_map<const Wait*, std::shared_ptr<Wait>> waits_;
   std::vector<std::shared_ptr<Watch>> watches_of_all_;
   // What the writer looks at before it takes the mutex.
-  std::atomic<std::size_t> waiting_{0}, names_{0}, watching_all_{0};
+  std::atomic<std::size_t> guests_{0}, waiting_{0}, names_{0}, watching_all_{0};
 };
 
 // Sits in the room for a scope.

@@ -1,5 +1,6 @@
 #include "wire/tf_reader.hpp"
 
+#include <chrono>
 #include <unordered_map>
 #include <utility>
 
@@ -8,6 +9,11 @@ namespace {
 
 // Publishers come and go, and of those without a name nobody says that they have left: so many are remembered.
 constexpr std::size_t kMaxSources = 1024;
+
+std::int64_t now() {
+  const auto since_start = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(since_start).count();
+}
 
 }  // namespace
 
@@ -59,6 +65,7 @@ void TfReader::store(const dds::Sample& sample) {
   std::size_t stored = 0;
   // What is malformed the buffer counts.
   buffer_->ingest(source_of(sample.info().publication_handle).stream, bytes.data(), bytes.size(), stored);
+  if (stored > 0) stored_at_.store(now(), std::memory_order_release);
 }
 
 }  // namespace coframe

@@ -1,6 +1,8 @@
 // DDS -> buffer: transforms are stored on DDS's own thread, without Python and its lock.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -24,6 +26,9 @@ class TfReader {
   // The writer has left.
   void forget_writer(dds::Handle writer);
 
+  // When the newest message's transforms were in the buffer, in nanoseconds of the steady clock; 0: never.
+  std::int64_t stored_at() const { return stored_at_; }
+
   const DataReader& reader() const { return reader_; }
 
  private:
@@ -42,6 +47,7 @@ class TfReader {
   const std::string authority_;
   std::mutex mutex_;                                  // of the sources
   std::unordered_map<dds::Handle, Source> sources_;  // by writer
+  std::atomic<std::int64_t> stored_at_ = 0;
   DataReader reader_;                                 // last: its callback uses the members above
 };
 

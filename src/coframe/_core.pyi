@@ -555,6 +555,10 @@ class TfReader:
         """The buffer notes `authority` for what the writer with this handle has sent and will send."""
 
     @property
+    def stored_at(self) -> int:
+        """When the newest message's transforms were in the buffer, in nanoseconds of the steady clock; 0: never."""
+
+    @property
     def guid(self) -> bytes: ...
     @property
     def matched(self) -> int:

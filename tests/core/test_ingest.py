@@ -124,3 +124,57 @@ def test_a_hundred_thousand_mutated_messages(message):
     assert counts["stored"] > 1000
     assert buffer.ingest(message) >= 0  # still in good health
     buffer.all_frames_as_yaml()
+
+
+def encoded(*links):
+    """Bytes of a TFMessage: (parent, child, seconds) each."""
+    source = coframe.Buffer()
+    for parent, child, seconds in links:
+        source.set(parent, child, coframe.Transform([seconds, 0, 0]), seconds * SECOND)
+    return source.encode(static=False)
+
+
+def test_names_that_change_from_message_to_message_are_noticed():
+    """Names are remembered by their place in a source's messages; here they move, grow, shrink and pair anew."""
+    rng = random.Random(2)
+    names = [*"abcdefg", "ab", "abc", "abcd", "abcde" * 3, "abcde" * 3 + "f", "é", "éa"]
+    fast, slow = coframe.Buffer(), coframe.Buffer()
+    for second in range(1, 2000):
+        children = rng.sample(names, rng.randrange(1, 6)) if rng.random() < 0.5 else names[:4]
+        links = [(rng.choice(["world", "map", "world", "odometry"]), child, second) for child in children]
+        assert fast.ingest(encoded(*links)) == len(links)
+        for parent, child, seconds in links:
+            slow.set(parent, child, coframe.Transform([seconds, 0, 0]), seconds * SECOND)
+    assert fast.all_frames_as_yaml() == slow.all_frames_as_yaml()
+    for child in names:
+        (theirs,) = (frame for frame in slow.frames() if frame.name == child)
+        (ours,) = (frame for frame in fast.frames() if frame.name == child)
+        assert (ours.parent, ours.samples, ours.newest) == (theirs.parent, theirs.samples, theirs.newest)
+        assert fast.lookup(theirs.parent, child) == slow.lookup(theirs.parent, child)
+
+
+def test_a_name_that_is_cut_off_after_good_messages_is_malformed(message):
+    buffer = coframe.Buffer()
+    buffer.ingest(message)
+    for end in range(len(message)):
+        with pytest.raises(coframe.DecodeError):
+            buffer.ingest(message[:end])
+    assert buffer.statistics["malformed"] == len(message)
+    assert buffer.ingest(message) == 5
+
+
+def test_the_other_byte_order_is_noticed_after_good_messages():
+    little = encoded(("a", "b", 5))
+    buffer = coframe.Buffer()
+    assert buffer.ingest(little) == 1
+    with pytest.raises(coframe.DecodeError):
+        buffer.ingest(b"\x00\x00" + little[2:])
+
+
+def test_a_removed_frame_comes_back_with_the_next_message():
+    buffer = coframe.Buffer()
+    buffer.ingest(encoded(("a", "b", 1), ("b", "c", 1)))
+    buffer.remove_frame("b")
+    assert not buffer.can_transform("a", "c")
+    buffer.ingest(encoded(("a", "b", 2), ("b", "c", 2)))
+    assert buffer.lookup("a", "c").stamp == 2 * SECOND

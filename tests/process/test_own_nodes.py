@@ -77,18 +77,27 @@ def expected_points(scan, tree):
 
 
 @pytest.mark.timeout(120)
+def heard_by_stamp(heard):
+    """The tree, and the scans and clouds that belong together."""
+    tree = Tree(heard)
+    moving = [samples for _, static, samples in tree.links.values() if not static]
+    clouds = {nanoseconds(cloud): cloud for _, cloud in heard["/scan_base_frame"]}
+    if not moving or not clouds:
+        return tree, {}, clouds
+    first, last = max(s[0][0] for s in moving), min(s[-1][0] for s in moving)
+    scans = {nanoseconds(scan): scan for _, scan in heard["/scan"] if first < nanoseconds(scan) < last - 500_000_000}
+    # Whoever listens first hears some scans before the first cloud: from then on every one must be there.
+    return tree, {stamp: scan for stamp, scan in scans.items() if stamp >= min(clouds)}, clouds
+
+
 def test_every_scan_becomes_an_exact_cloud(processes):
     for name, arguments in NODES.items():
         processes.start(name, "python", "-m", f"coframe.lab.{name}", *arguments)
-    heard = processes.observe(6.0, *TOPICS)
-
-    tree = Tree(heard)
-    moving = [samples for _, static, samples in tree.links.values() if not static]
-    first, last = max(s[0][0] for s in moving), min(s[-1][0] for s in moving)
-    scans = {nanoseconds(scan): scan for _, scan in heard["/scan"] if first < nanoseconds(scan) < last - 500_000_000}
-    clouds = {nanoseconds(cloud): cloud for _, cloud in heard["/scan_base_frame"]}
-    # Whoever listens first hears some scans before the first cloud: from then on every one must be there.
-    scans = {stamp: scan for stamp, scan in scans.items() if stamp >= min(clouds)}
+    for seconds in (6.0, 15.0, 30.0):  # a busy machine takes longer
+        heard = processes.observe(seconds, *TOPICS)
+        tree, scans, clouds = heard_by_stamp(heard)
+        if len(scans) >= 40:
+            break
     assert len(scans) >= 40
     assert set(scans) <= set(clouds), "some scans became no cloud"
 

@@ -1,3 +1,5 @@
+import time
+
 import coframe
 from coframe.messages import codec, find
 from coframe.wire import GraphNode, QoS
@@ -247,3 +249,16 @@ def test_refused_transforms_are_told_of_with_their_publisher(participant, node, 
     eventually(lambda: heard)
     assert len(heard) == 1
     assert heard[0].startswith("Refused 1 of the transforms on /tf (from /tester): tf2 takes no quaternion of zeros")
+
+
+def test_the_reader_tells_when_the_newest_message_was_in_the_buffer(participant, node, eventually):
+    buffer = coframe.Buffer()
+    reader = participant.tf_reader(node, "/tf", buffer, static=False)
+    assert reader.stored_at == 0
+    publisher = participant.publisher(node, "/tf", TF_MESSAGE, TF)
+    publisher.write(tf_cdr())
+    assert reader.stored_at == 0, "nothing was stored"
+    for _ in range(2):
+        before = time.monotonic_ns()
+        publisher.write(tf_cdr(stamped("a", "b")))
+        eventually(lambda before=before: before < reader.stored_at <= time.monotonic_ns())

@@ -203,6 +203,11 @@ class TfReader(WireEndpoint):
         self._naming = threading.Lock()
         super().__init__(native, node, topic, dds_type, qos)
 
+    @property
+    def stored_at(self) -> int:
+        """When the newest message's transforms were in the buffer: `time.monotonic_ns()`; 0: never."""
+        return self._reader.stored_at
+
     def pending(self) -> bool:
         """Whether messages may be waiting, as for a `Subscription`: never, they are in the buffer already."""
         return False

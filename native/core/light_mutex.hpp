@@ -1,0 +1,38 @@
+// A mutex for short scopes that are entered millions of times: one atomic step to lock it and one to unlock, where
+// nobody else wants it. Who must wait sleeps.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+namespace coframe {
+
+class LightMutex {
+ public:
+  LightMutex() = default;
+  LightMutex(const LightMutex&) = delete;
+  LightMutex& operator=(const LightMutex&) = delete;
+
+  void lock() {
+    std::uint32_t free = kFree;
+    if (!state_.compare_exchange_strong(free, kHeld, std::memory_order_acquire)) wait();
+  }
+
+  // Also a full barrier: what is loaded behind it (memory_order_seq_cst) is loaded after the scope's data are visible.
+  void unlock() {
+    if (state_.exchange(kFree, std::memory_order_seq_cst) == kWanted) state_.notify_one();
+  }
+
+ private:
+  static constexpr std::uint32_t kFree = 0, kHeld = 1, kWanted = 2;  // wanted: held, and somebody may sleep
+
+  void wait() {
+    while (state_.exchange(kWanted, std::memory_order_acquire) != kFree) {
+      state_.wait(kWanted, std::memory_order_relaxed);
+    }
+  }
+
+  std::atomic<std::uint32_t> state_{kFree};
+};
+
+}  // namespace coframe
