@@ -16,7 +16,9 @@ import pytest
 
 import coframe
 
-sync_api = pytest.importorskip("playwright.sync_api", reason="the browser tests need playwright: pip install playwright")
+sync_api = pytest.importorskip(
+    "playwright.sync_api", reason="the browser tests need playwright: pip install playwright"
+)
 websockets = pytest.importorskip("websockets.sync.client", reason="the viewer needs websockets")
 
 SETTLING = 5.0  # seconds
@@ -217,7 +219,8 @@ class Demo:
 def demo(tmp_path_factory) -> Iterator[Demo]:
     """One demo for all tests, in a domain that no other test takes."""
     pytest.importorskip("cyclonedds", reason="the demo speaks over DDS")
-    domain = 201 + os.getpid() % 9
+    worker = os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw")
+    domain = 201 + (os.getppid() + int(worker)) % 9
     output = tmp_path_factory.mktemp("demo") / "output"
     environment = {**os.environ, "ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
     command = [str(Path(sys.executable).with_name("coframe")), "demo", "--no-browser", "--port", "0"]

@@ -42,7 +42,13 @@ def test_what_is_unknown_in_an_rviz_file_is_listed_and_kept(view, open_page, tmp
         "Panels": [{"Class": "rviz_common/Displays", "Name": "Displays", "Splitter Ratio": 0.4}],
         "Visualization Manager": {
             "Displays": [
-                {"Class": "rviz_default_plugins/TF", "Name": "TF", "Enabled": True, "Marker Scale": 2, "Odd": {"a": [1]}},
+                {
+                    "Class": "rviz_default_plugins/TF",
+                    "Name": "TF",
+                    "Enabled": True,
+                    "Marker Scale": 2,
+                    "Odd": {"a": [1]},
+                },
                 {"Class": "acme_plugins/Lasso", "Name": "A lasso <b>", "Enabled": True, "Length": 7},
             ],
             "Global Options": {"Fixed Frame": "map", "Background Color": "1; 2; 3", "Odd Option": "kept"},

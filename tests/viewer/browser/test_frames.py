@@ -159,9 +159,7 @@ def test_maps_in_utm_coordinates_stay_exact(view, open_page):
     page.raw.select_option("#fixed", "lidar")
     page.until("coframe.frames.lidar.position.every((x) => x === 0)")
     _, stamp, frames = page.picture()
-    np.testing.assert_allclose(
-        frames["base"]["position"], buffer.lookup("lidar", "base", stamp).translation, atol=1e-5
-    )
+    np.testing.assert_allclose(frames["base"]["position"], buffer.lookup("lidar", "base", stamp).translation, atol=1e-5)
 
 
 def test_frames_that_are_not_heard_of_any_more_fade_and_go(view, open_page):

@@ -45,7 +45,9 @@ def test_names_with_markup_and_of_any_length_are_text(view, open_page):
         page.raw.locator("#panel .row:visible .name").nth(row).click()
         page.click("text=Use as fixed frame")
     for name in names:
-        page.raw.evaluate("name => { const s = document.querySelector('#fixed'); s.value = name; s.onchange?.(); }", name)
+        page.raw.evaluate(
+            "name => { const s = document.querySelector('#fixed'); s.value = name; s.onchange?.(); }", name
+        )
     assert page.ask("document.querySelectorAll('#panel img, #labels img, #inspector img, svg[onload]').length") == 0
     assert page.ask("window.hacked === undefined && ({}).position === undefined")
     assert page.raw.locator("#panel").bounding_box()["width"] < 500
@@ -127,7 +129,9 @@ def test_an_xml_bomb_is_a_sentence(domain_id, view, open_page):
         page.until("Object.values(coframe.displays).some((one) => one.robot === 'good')")
 
 
-@pytest.mark.parametrize(("size", "sentence"), [(210 << 20, "larger than the 200 MB"), (300 << 20, "up to 256 MB are served")])
+@pytest.mark.parametrize(
+    ("size", "sentence"), [(210 << 20, "larger than the 200 MB"), (300 << 20, "up to 256 MB are served")]
+)
 def test_a_mesh_of_hundreds_of_megabytes_is_refused(tmp_path, view, open_page, size, sentence):
     with (tmp_path / "huge.stl").open("wb") as file:
         file.truncate(size)
