@@ -93,6 +93,8 @@ class Packages:
         for folder in self._near_by():
             if name in self._below(folder, _NEIGHBOURS):
                 return self._below(folder, _NEIGHBOURS)[name]
+            if folder.name == name and (folder / _MANIFEST).is_file():  # installed under another name than it has
+                return folder
         for folder in [*self.folders, *_listed("COFRAME_PACKAGE_PATH")]:
             found = self._below(folder, _DEEPEST).get(name) or folder / name
             if found.is_dir():
