@@ -210,6 +210,9 @@ BARS = [
     ("lookup at one time after the other, D=1, n=1e6", "the same, n=100", GrowsAtMost(2)),
     ("memory per stored transform", "floor: arrays of numpy", AtMost(80)),
     ("import coframe, numpy is there", "floor: import numpy", AtMost(60_000_000)),
+    ("a tab of the viewer, 10 frames at 30 Hz, CPU of one core", "the look-ups themselves", AtMost(3)),
+    ("a tab of the viewer, 100 frames at 30 Hz, CPU of one core", "the look-ups themselves", AtMost(3)),
+    ("a tab of the viewer, 1000 frames at 30 Hz, CPU of one core", "the look-ups themselves", AtMost(5)),
 ]
 
 

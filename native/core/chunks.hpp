@@ -56,21 +56,6 @@ class alignas(64) SharedSample {
     for (int i = 0; i < 3; ++i) numbers_[4 + i] = sample.pose.p[i];
     parent_.store(sample.parent, std::memory_order_release);
   }
-  // The same numbers for a kernel, which loads several at once: q, then p, then one that says nothing. A load that meets
-  // a store may mix old and new numbers, as load() may, and the revision tells. Only ThreadSanitizer, which knows no such
-  // loads, has to be given a copy; it lasts for a while.
-  const double* record() const {
-#if defined(__SANITIZE_THREAD__)
-    static thread_local std::array<std::array<double, 8>, 128> copies;
-    static thread_local std::size_t next = 0;
-    std::array<double, 8>& copy = copies[next++ % copies.size()];
-    std::copy(numbers_.begin(), numbers_.end(), copy.begin());
-    return copy.data();
-#else
-    static_assert(sizeof(numbers_) == 7 * sizeof(double));
-    return reinterpret_cast<const double*>(numbers_.data());
-#endif
-  }
   // Who reads a frame's number finds the frame.
   FrameId parent() const { return parent_.load(std::memory_order_acquire); }
 

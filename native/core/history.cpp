@@ -127,8 +127,8 @@ bool History::place(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link
     }
   }
   if (pair.older->parent() != parent || pair.newer->parent() != parent) return false;
-  link.older = pair.older->record();
-  link.newer = pair.older == pair.newer ? link.older : pair.newer->record();
+  link.older = pair.older->numbers();
+  link.newer = pair.newer->numbers();
   link.share = pair.part / pair.whole;
   return true;
 }

@@ -13,7 +13,7 @@ struct Placement {
 };
 
 COFRAME_INLINE Placement placement(const double* record) {
-  Placement placed{load(record), load(record + 4)};
+  Placement placed{load_shared(record), load_shared(record + 4)};
   placed.p[3] = 0.0;
   return placed;
 }

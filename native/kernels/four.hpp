@@ -2,6 +2,7 @@
 // processor has such (AVX2); what a compiler makes of shorter ones is slower than plain numbers.
 #pragma once
 
+#include <cstdint>
 #include <cstring>
 
 #include "kernels/level.hpp"
@@ -67,9 +68,18 @@ COFRAME_INLINE Four spread(const Four& v) {
   return ordered<I, I, I, I>(v);
 }
 
-COFRAME_INLINE Four load(const double* numbers) {
+// Of a sample that another thread may be writing: see lanes.hpp for why that may be.
+COFRAME_INLINE Four load_shared(const double* numbers) {
   Four v;
+#if defined(COFRAME_CHECKS_THREADS)
+  std::uint64_t bits[4];
+  for (int i = 0; i < 4; ++i) {
+    bits[i] = __atomic_load_n(reinterpret_cast<const std::uint64_t*>(numbers) + i, __ATOMIC_RELAXED);
+  }
+  std::memcpy(&v, bits, sizeof(v));
+#else
   std::memcpy(&v, numbers, sizeof(v));
+#endif
   return v;
 }
 

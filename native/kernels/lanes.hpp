@@ -32,14 +32,6 @@
 #define COFRAME_ODD 1, 3
 #endif
 
-#if defined(__SANITIZE_THREAD__)
-#define COFRAME_CHECKS_THREADS
-#elif defined(__has_feature)
-#if __has_feature(thread_sanitizer)
-#define COFRAME_CHECKS_THREADS
-#endif
-#endif
-
 namespace coframe::COFRAME_LEVEL {
 
 namespace {

@@ -21,6 +21,15 @@
 #define COFRAME_INLINE inline
 #endif
 
+// ThreadSanitizer watches: see lanes.hpp.
+#if defined(__SANITIZE_THREAD__)
+#define COFRAME_CHECKS_THREADS
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define COFRAME_CHECKS_THREADS
+#endif
+#endif
+
 namespace coframe::COFRAME_LEVEL {
 
 #define COFRAME_KERNEL(result, name, parameters) result name parameters;

@@ -28,6 +28,22 @@ COFRAME_INLINE FourFloats load_floats(const char* data) {
   return floats;
 }
 
+// What GCC makes of __builtin_convertvector with AVX goes by way of memory.
+COFRAME_INLINE void convert(const FourFloats& from, FourDoubles& to) {
+#if defined(__AVX__)
+  to = (FourDoubles)_mm256_cvtps_pd((__m128)from);
+#else
+  to = __builtin_convertvector(from, FourDoubles);
+#endif
+}
+COFRAME_INLINE void convert(const FourDoubles& from, FourFloats& to) {
+#if defined(__AVX__)
+  to = (FourFloats)_mm256_cvtpd_ps((__m256d)from);
+#else
+  to = __builtin_convertvector(from, FourFloats);
+#endif
+}
+
 // Also reads the four bytes behind each point, which must be there: not for the last one.
 COFRAME_INLINE Vector<FourDoubles> load_four(const char* data, std::ptrdiff_t step) {
   const FourFloats a = load_floats(data), b = load_floats(data + step), c = load_floats(data + 2 * step),
@@ -36,19 +52,27 @@ COFRAME_INLINE Vector<FourDoubles> load_four(const char* data, std::ptrdiff_t st
   const FourFloats x = __builtin_shufflevector(ab, cd, 0, 1, 4, 5), y = __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
   const FourFloats ab_z = __builtin_shufflevector(a, b, 2, 6, 3, 7), cd_z = __builtin_shufflevector(c, d, 2, 6, 3, 7);
   const FourFloats z = __builtin_shufflevector(ab_z, cd_z, 0, 1, 4, 5);
-  return {__builtin_convertvector(x, FourDoubles), __builtin_convertvector(y, FourDoubles), __builtin_convertvector(z, FourDoubles)};
+  Vector<FourDoubles> points;
+  convert(x, points.x);
+  convert(y, points.y);
+  convert(z, points.z);
+  return points;
 }
 
 // Nothing but the twelve bytes of each point: what is behind may be another thread's.
 COFRAME_INLINE void store_four(const Vector<FourDoubles>& points, char* data, std::ptrdiff_t step) {
-  const FourFloats x = __builtin_convertvector(points.x, FourFloats), y = __builtin_convertvector(points.y, FourFloats),
-                   z = __builtin_convertvector(points.z, FourFloats);
-  const FourFloats low = __builtin_shufflevector(x, y, 0, 4, 1, 5), high = __builtin_shufflevector(x, y, 2, 6, 3, 7);
-  const float values[4][3] = {
-      {low[0], low[1], z[0]}, {low[2], low[3], z[1]}, {high[0], high[1], z[2]}, {high[2], high[3], z[3]}};
+  FourFloats x, y, z;
+  convert(points.x, x);
+  convert(points.y, y);
+  convert(points.z, z);
+  // x and y of a point are moved as one number of eight bytes.
+  const Pair low = (Pair)__builtin_shufflevector(x, y, 0, 4, 1, 5);
+  const Pair high = (Pair)__builtin_shufflevector(x, y, 2, 6, 3, 7);
+  const double xy[4] = {low[0], low[1], high[0], high[1]};
   for (std::size_t k = 0; k < 4; ++k) {
-    __builtin_memcpy(data + static_cast<std::ptrdiff_t>(k) * step, values[k], 8);
-    __builtin_memcpy(data + static_cast<std::ptrdiff_t>(k) * step + 8, values[k] + 2, 4);
+    const float last = z[k];
+    __builtin_memcpy(data + static_cast<std::ptrdiff_t>(k) * step, &xy[k], 8);
+    __builtin_memcpy(data + static_cast<std::ptrdiff_t>(k) * step + 8, &last, 4);
   }
 }
 

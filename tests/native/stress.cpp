@@ -4,6 +4,7 @@
 // and the rotation is about z by an angle that grows with the time. Interpolation keeps that, so that whatever a reader
 // gets can be checked, however writers and readers meet.
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -129,8 +130,8 @@ Stamp promised_stamp(int number) { return kStart + number * kTick; }
 constexpr int kWanderer = 100, kFlipper = 101, kNew = 102, kPromised = 103;
 
 // Of questions.
-enum class Kind { chain, full, latest, wanderer, flipper, new_frame, frames, texts, wait, promise, snapshot };
-constexpr std::size_t kKinds = 11;
+enum class Kind { chain, full, latest, wanderer, flipper, new_frame, frames, texts, wait, promise, snapshot, batch };
+constexpr std::size_t kKinds = 12;
 
 struct Tally {
   std::atomic<std::uint64_t> answers{0}, failures{0}, inserted{0}, worst_insert_ns{0}, insert_ns{0};
@@ -178,7 +179,8 @@ class Writer {
 
  private:
   void act(unsigned dice) {
-    if (dice < 30) return tell_chain(later());
+    if (dice < 28) return tell_chain(later());
+    if (dice < 30) return tell_run();
     if (dice < 45) return insert_link(1 + static_cast<int>(rng_() % kDepth), earlier());
     if (dice < 75) return insert_wanderer(dice < 70 ? later() : earlier());
     if (dice < 94) return insert_flipper(later());
@@ -215,6 +217,27 @@ class Writer {
 
   void insert_link(int child, Stamp stamp) {
     insert(chain_name(child - 1), chain_name(child), stamp, link(child, stamp), link_is_static(child));
+  }
+
+  // Many samples of one link at once.
+  void tell_run() {
+    const int child = 1 + static_cast<int>(rng_() % kDepth);
+    if (link_is_static(child)) return;
+    std::vector<Stamp> stamps(100);
+    std::vector<double> rows;
+    for (Stamp& stamp : stamps) {
+      stamp = later();
+      const TransformValues values = values_of(link(child, stamp));
+      rows.insert(rows.end(), values.translation, values.translation + 3);
+      rows.insert(rows.end(), values.rotation, values.rotation + 4);
+    }
+    const std::string parent = chain_name(child - 1), name = chain_name(child);
+    std::size_t stored = 0, bad_row = 0;
+    const Track track{parent, name, stamps.size(), stamps.data(), rows.data()};
+    const auto start = Clock::now();
+    const unsigned refusals = world_.buffer.insert_many(track, false, authority_, stored, bad_row);
+    took(start);
+    expect(refusals == 0, "good transforms were refused");
   }
 
   void insert_wanderer(Stamp stamp) {
@@ -285,7 +308,8 @@ class Reader {
 
  private:
   void check(unsigned dice) {
-    if (dice < 25) return check_chain();
+    if (dice < 20) return check_chain();
+    if (dice < 25) return check_batch();
     if (dice < 35) return check_full();
     if (dice < 50) return check_latest();
     if (dice < 51) return check_wait();
@@ -332,6 +356,35 @@ class Reader {
     Pose pose;
     if (!look_up(chain_name(top), chain_name(bottom), stamp, pose, Kind::chain)) return;
     expect_pose(pose, top < bottom ? along(top, bottom, stamp) : inverse(along(bottom, top, stamp)), "chain");
+  }
+
+  // Rows of one batch, in order or not, and with velocities or not.
+  void check_batch() {
+    const int top = static_cast<int>(rng_() % kDepth), bottom = top + 1 + static_cast<int>(rng_() % (kDepth - top));
+    const bool down = rng_() % 2 == 0;
+    const std::string above = chain_name(top), below = chain_name(bottom);
+    std::vector<Stamp> stamps(1 + rng_() % 700);
+    for (Stamp& stamp : stamps) stamp = when();
+    if (rng_() % 2 == 0) std::sort(stamps.begin(), stamps.end());
+    std::vector<double> poses(7 * stamps.size()), twists(6 * stamps.size());
+    Question question;
+    question.target = down ? below : above;
+    question.source = down ? above : below;
+    const Batch batch{stamps.size(), stamps.data(), poses.data(), rng_() % 2 == 0 ? twists.data() : nullptr, nullptr,
+                      Batch::Missing::nan};
+    Failure failure;
+    const bool ok = buffer_.answer_many(question, nullptr, batch, 1, failure) == stamps.size();
+    bool any = false;
+    for (std::size_t row = 0; row < stamps.size(); ++row) {
+      const double* v = &poses[7 * row];
+      if (std::isnan(v[0])) continue;
+      any = true;
+      const Planar expected = along(top, bottom, stamps[row]);
+      expect_pose({{v[3], v[4], v[5], v[6]}, {v[0], v[1], v[2]}}, down ? inverse(expected) : expected, "batch");
+    }
+    expect(any || !ok, "answers that are none");
+    tally_.answers.fetch_add(any);
+    if (any) tally_.note(Kind::batch);
   }
 
   void check_full() {

@@ -39,7 +39,8 @@ T = TypeVar("T")
 
 # Who asks more than this without reading the answers waits.
 MOST_ANSWERS = 64
-STATISTICS_PERIOD = 1.0
+# How often, in seconds; of large trees as often as that share of the time allows.
+STATISTICS_PERIOD, STATISTICS_SHARE = 1.0, 0.003
 # How often a topic that nobody publishes yet is looked for.
 LATE_PERIOD = 0.25
 # Where nothing changes, a tick comes all the same once in a while.
@@ -84,7 +85,7 @@ class Client:
         self._told_origin: int | None = None
         self._told_tree: tuple[int, str] | None = None
         self._told_topics: object = None
-        self._told_statistics = -math.inf
+        self._statistics_due = 0.0
         self._late_due = 0.0
         self._last_tick: tuple[Any, ...] | None = None
         self._ticked = -math.inf
@@ -223,9 +224,11 @@ class Client:
         if self._told_tree != (self._stage.scene.revision, self.fixed):
             await self._send_tree()
         now = time.monotonic()
-        if now - self._told_statistics >= STATISTICS_PERIOD:
-            self._told_statistics = now
+        if now >= self._statistics_due:
+            begin = time.thread_time()
             await self._send_statistics()
+            spent = time.thread_time() - begin
+            self._statistics_due = now + max(STATISTICS_PERIOD, spent / STATISTICS_SHARE)
         if now >= self._late_due:
             self._late_due = now + LATE_PERIOD
             self._open_late_displays()

@@ -13,7 +13,8 @@ Server to page, text:
   size}]}. Whenever the structure or the chosen fixed frame has changed. Ticks and statistics keep its order and name
   its revision.
 * ``stats`` {revision, span, frames: [{rate: Hz, age: s, last: ns, publisher, samples, longest_gap: s, state: "static"
-  | "fresh" | "stale" | "gone"}]}, once a second; null for what does not apply. Of roots the state is "static".
+  | "fresh" | "stale" | "gone"}]}, once a second, of very many frames less often; null for what does not apply. Of roots
+  the state is "static".
 * ``topics`` {topics: [{topic, type, display}]}: what can be displayed, whenever that has changed.
 * ``robot`` {id, name, source, urdf, meshes: {as written: URL}, problems: [text], joints: [{name, type, lower, upper,
   value}], description_topic}.
