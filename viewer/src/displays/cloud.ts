@@ -39,12 +39,15 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
   }
 
   protected build(message: Cloud): THREE.Object3D {
+    const step = Math.max(1, Math.ceil(message.count / this.context.mostPoints()));
+    this.note = step > 1 ? `1 of ${step} points, for want of a graphics card` : "";
     const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(message.points, 3));
+    geometry.setAttribute("position", new THREE.BufferAttribute(thinned(message.points, 3, step), 3));
     const mode = this.mode(message);
-    if (mode === "rgb" && message.rgba) geometry.setAttribute("rgba", new THREE.BufferAttribute(message.rgba, 4, true));
+    if (mode === "rgb" && message.rgba)
+      geometry.setAttribute("rgba", new THREE.BufferAttribute(thinned(message.rgba, 4, step), 4, true));
     if (mode === "scalar" && message.scalar)
-      geometry.setAttribute("scalar", new THREE.BufferAttribute(message.scalar, 1));
+      geometry.setAttribute("scalar", new THREE.BufferAttribute(thinned(message.scalar, 1, step), 1));
     const points = new THREE.Points(geometry, this.material(mode, message));
     points.frustumCulled = false;
     return points;
@@ -102,6 +105,16 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
     const range = material.uniforms.range as THREE.IUniform<THREE.Vector2>;
     range.value.set(...axisRange(message, object.matrixWorld, axis));
   }
+}
+
+/** Every step-th of rows of so many values. */
+function thinned<T extends Float32Array | Uint8Array>(values: T, width: number, step: number): T {
+  if (step === 1) return values;
+  const rows = Math.ceil(values.length / width / step);
+  const kept = new (values.constructor as new (length: number) => T)(rows * width);
+  for (let row = 0; row < rows; row++)
+    for (let k = 0; k < width; k++) kept[row * width + k] = values[row * step * width + k] as number;
+  return kept;
 }
 
 /** The lowest and highest along an axis of the scene, from a sample of the points. */
