@@ -93,8 +93,6 @@ class Packages:
         for folder in self._near_by():
             if name in self._below(folder, _NEIGHBOURS):
                 return self._below(folder, _NEIGHBOURS)[name]
-            if folder.name == name and (folder / _MANIFEST).is_file():  # installed under another name than it has
-                return folder
         for folder in [*self.folders, *_listed("COFRAME_PACKAGE_PATH")]:
             found = self._below(folder, _DEEPEST).get(name) or folder / name
             if found.is_dir():
@@ -120,8 +118,11 @@ class Packages:
     def _below(self, folder: Path, deepest: int) -> dict[str, Path]:
         if (folder, deepest) not in self._crawled:
             found: dict[str, Path] = {}
-            for package in _crawl(folder, deepest):
+            packages = list(_crawl(folder, deepest))
+            for package in packages:
                 found.setdefault(_name(package), package)
+            for package in packages:  # some are installed under another name than their own
+                found.setdefault(package.name, package)
             self._crawled[folder, deepest] = found
         return self._crawled[folder, deepest]
 

@@ -165,7 +165,8 @@ URDF = """<robot name="crane">
   <joint name="turn" type="revolute"><parent link="post"/><child link="boom"/>
     <origin xyz="0 0 1" rpy="0 0 0.3"/><axis xyz="0 0 1"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
   <joint name="lift" type="prismatic"><parent link="boom"/><child link="hook"/>
-    <origin xyz="0.5 0 0" rpy="0 0.2 0"/><axis xyz="0 0 1"/><limit lower="-1" upper="0" effort="1" velocity="1"/></joint>
+    <origin xyz="0.5 0 0" rpy="0 0.2 0"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="0" effort="1" velocity="1"/></joint>
   <joint name="swing" type="continuous"><parent link="hook"/><child link="load"/><axis xyz="1 0 0"/>
     <origin xyz="0 0 -0.2"/></joint>
 </robot>"""

@@ -89,7 +89,8 @@ def test_numbers_that_are_none_hide_what_they_would_place(domain_id, view, open_
 
 ESCAPE = """<robot name="thief"><link name="base"><visual><geometry>
   <mesh filename="{}"/></geometry></visual></link></robot>"""
-BOMB = """<?xml version="1.0"?><!DOCTYPE bomb [<!ENTITY a "aaaaaaaaaaaaaaaaaaaa">{}]><robot name="&i;"><link name="base"/></robot>"""
+BOMB = """<?xml version="1.0"?><!DOCTYPE bomb [<!ENTITY a "aaaaaaaaaaaaaaaaaaaa">{}]>
+<robot name="&i;"><link name="base"/></robot>"""
 
 
 def describe(ros, text):

@@ -115,7 +115,8 @@ def test_gaps_and_rates_are_told_over_the_timeline(view, open_page):
                 const x = Math.floor(part * canvas.width);
                 const pixels = canvas.getContext('2d').getImageData(x, 0, 1, canvas.height).data;
                 let colours = new Set();
-                for (let i = 0; i < pixels.length; i += 4) if (pixels[i + 3]) colours.add(pixels.slice(i, i + 3).join());
+                for (let i = 0; i < pixels.length; i += 4)
+                    if (pixels[i + 3]) colours.add(pixels.slice(i, i + 3).join());
                 return [...colours].sort().join(' ');
             }""",
             part,

@@ -21,8 +21,8 @@ export interface Context {
   distinct(): boolean;
   /** Pixels the picture is high. */
   height(): number;
-  /** How many points of a cloud can be drawn without everything else waiting for them. */
-  mostPoints(): number;
+  /** Whether there is no graphics card to draw with. */
+  software(): boolean;
   redraw(): void;
 }
 

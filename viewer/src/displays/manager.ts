@@ -13,7 +13,6 @@ import { RobotDisplay } from "./robot";
 import { TfDisplay } from "./tf";
 
 const MOST_AT_FIRST = 12;
-const MOST_POINTS_IN_SOFTWARE = 40_000;
 
 export class Displays {
   list: Display[] = [];
@@ -36,7 +35,7 @@ export class Displays {
       palette: () => theme.palette(),
       distinct: () => theme.distinct,
       height: () => view.stage.height,
-      mostPoints: () => (view.stage.software ? MOST_POINTS_IN_SOFTWARE : Infinity),
+      software: () => view.stage.software,
       redraw: () => view.refresh(),
     };
     model.on("hello", (hello) => this.start(hello.rviz));
