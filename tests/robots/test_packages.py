@@ -36,6 +36,8 @@ def test_packages_are_found_in_every_place(tmp_path, monkeypatch):
     for name in ("own", "neighbour", "by_manifest", "plain", "installed", "noetic"):
         assert packages.find(name).is_dir(), name
     assert packages.resolve("package://by_manifest/meshes/hand.stl").read_text() == "solid"
+    renamed = make_package(tmp_path / "share" / "folder-name", "manifest_name")
+    assert Packages(renamed / "urdf" / "robot.urdf").find("folder-name") == renamed
     (own / "urdf").mkdir()
     assert packages.resolve("../meshes/hand.stl").is_file()
     with pytest.raises(PackageError, match="no package 'folder_of_another'") as caught:

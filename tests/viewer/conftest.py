@@ -102,6 +102,7 @@ def decode(data):
         count, flags, told.stamp, *told.range = struct.unpack_from("<IIdff", data, 12)
         told.points = np.frombuffer(data, "<f4", count * 3, 36).reshape(-1, 3)
         at = 36 + 12 * count
+        told.step = flags >> 8
         told.scalars = np.frombuffer(data, "<f4", count, at) if flags & 1 else None
         told.colours = np.frombuffer(data, np.uint8, count * 4, at).reshape(-1, 4) if flags & 2 else None
         return "cloud", told

@@ -313,3 +313,12 @@ def test_the_stamp_is_read_from_the_bytes():
     empty = find("visualization_msgs/msg/MarkerArray")()
     assert header_stamp("visualization_msgs/msg/MarkerArray", serialize(empty)) == 0
     assert header_stamp("sensor_msgs/msg/LaserScan", b"\x00\x01") == 0
+
+
+def test_a_large_cloud_is_thinned_to_what_the_page_can_draw(decoded):
+    made = cloud("map", SECOND, {axis: np.arange(1000.0) for axis in "xyz"} | {"intensity": np.arange(1000.0)})
+    shown = decoded(draw_cloud(made, Options.of({"color_by": "intensity", "most_points": 300})).data)
+    np.testing.assert_array_equal(shown.points[:, 0], np.arange(0, 1000, 4))
+    np.testing.assert_array_equal(shown.scalars, np.arange(0, 1000, 4))
+    assert shown.step == 4
+    assert len(decoded(draw_cloud(made, Options.of({})).data).points) == 1000

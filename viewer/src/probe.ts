@@ -25,14 +25,14 @@ export function exposeProbe(model: Model, view: View, displays: Displays): void 
         position,
         quaternion: Array.from(placement.quaternions.subarray(i * 4, i * 4 + 4)),
         visible: placement.drawn[i] === 1 && view.tfShown,
-        state: model.tick?.states[i] ?? 0,
+        state: view.shown?.states[i] ?? 0,
       };
     }
     return found;
   };
   const probe = {
     get time() {
-      return model.tick?.time ?? null;
+      return view.shown?.time ?? null;
     },
     get fixed() {
       return model.fixed;

@@ -159,6 +159,7 @@ export interface SubscribeOptions {
   axis?: "x" | "y" | "z";
   decay?: number;
   keep?: number;
+  most_points?: number;
   trail?: number;
 }
 
@@ -206,6 +207,8 @@ export interface Cloud {
   id: number;
   sequence: number;
   count: number;
+  /** Every so-manieth of the message's points. */
+  step: number;
   stamp: number;
   range: [number, number];
   points: Float32Array;
@@ -366,7 +369,7 @@ function decodeCloud(reader: Reader): Cloud {
   const points = reader.floats(count * 3);
   const scalar = flags & 1 ? reader.floats(count) : null;
   const rgba = flags & 2 ? reader.bytes(count * 4) : null;
-  return { kind: "cloud", id, sequence, count, stamp, range, points, scalar, rgba };
+  return { kind: "cloud", id, sequence, count, step: Math.max(1, flags >>> 8), stamp, range, points, scalar, rgba };
 }
 
 function decodeGrid(reader: Reader): Grid {

@@ -11,6 +11,8 @@ export class Stage {
   readonly scene = new THREE.Scene();
   readonly camera: Camera;
   readonly renderer: THREE.WebGLRenderer;
+  /** Whether pictures are made without a graphics card, which takes microseconds a point. */
+  readonly software: boolean;
   width = 1;
   height = 1;
   private requested = false;
@@ -25,6 +27,7 @@ export class Stage {
   ) {
     THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
     this.renderer = new THREE.WebGLRenderer({ canvas, context: opaqueContext(canvas) });
+    this.software = isSoftware(this.renderer.getContext());
     this.camera = new Camera(canvas, () => this.invalidate());
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f96, 1.7), this.light, this.light.target);
     this.setPalette(palette);
@@ -91,4 +94,10 @@ function opaqueContext(canvas: HTMLCanvasElement): WebGL2RenderingContext {
     "No 3D in this browser",
     "The page needs WebGL 2. Switch on hardware acceleration in the browser’s settings, or try another browser.",
   );
+}
+
+function isSoftware(context: WebGLRenderingContext | WebGL2RenderingContext): boolean {
+  const info = context.getExtension("WEBGL_debug_renderer_info");
+  const name = String(context.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : context.RENDERER));
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }

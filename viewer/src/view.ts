@@ -27,6 +27,8 @@ export class View {
   readonly stage: Stage;
   readonly placement = new Placement();
   readonly measure: Measure;
+  /** The tick whose poses are in the scene. */
+  shown: Tick | null = null;
   /** Ticks drawn so far. */
   ticks = 0;
   tf: TfOptions = { scale: 1, axes: true, arrows: true, names: true };
@@ -139,6 +141,7 @@ export class View {
     if (this.pending) for (const listener of this.taken) listener(this.pending);
     if (!this.stale || !model.tick) return;
     this.stale = false;
+    this.shown = model.tick;
     const moved = placement.update(model, model.tick, performance.now());
     if (moved) this.stage.camera.shift(moved);
     this.frames.object.visible = this.tfShown;

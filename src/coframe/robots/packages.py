@@ -118,8 +118,11 @@ class Packages:
     def _below(self, folder: Path, deepest: int) -> dict[str, Path]:
         if (folder, deepest) not in self._crawled:
             found: dict[str, Path] = {}
-            for package in _crawl(folder, deepest):
+            packages = list(_crawl(folder, deepest))
+            for package in packages:
                 found.setdefault(_name(package), package)
+            for package in packages:  # some are installed under another name than their own
+                found.setdefault(package.name, package)
             self._crawled[folder, deepest] = found
         return self._crawled[folder, deepest]
 

@@ -33,7 +33,8 @@ Server to page, binary:
   where it cannot be told. A position in the world is the origin plus what is told. Entries are all messages that are
   to be seen: several of one display where it decays, or where its markers are in several frames. What is not listed
   any more is gone.
-* 2, cloud: uint32 kind, display, sequence, n, flags (1 scalars, 2 colours); float64 stamp; float32 least and largest
+* 2, cloud: uint32 kind, display, sequence, n, flags (1 scalars, 2 colours, 256 k: every k-th point); float64 stamp;
+  float32 least and largest
   scalar; float32[n * 3] in the message's frame; float32[n] scalars or uint8[n * 4] colours.
 * 3, grid: uint32 kind, display, sequence, width, height; float32 resolution; float32[7] pose of the corner; int8
   cells.
@@ -114,9 +115,10 @@ def cloud(
     points: NDArray[np.float32],
     scalars: NDArray[np.float32] | None,
     colours: NDArray[np.uint8] | None,
+    step: int = 1,
 ) -> bytearray:
-    """Points (N, 3) with one number (N,) or one colour (N, 4) each."""
-    flags = (SCALARS if scalars is not None else 0) | (COLOURS if colours is not None else 0)
+    """Points (N, 3) with one number (N,) or one colour (N, 4) each; every so-manieth of those that there are."""
+    flags = (SCALARS if scalars is not None else 0) | (COLOURS if colours is not None else 0) | step << 8
     least, largest = _range_of(scalars)
     head = struct.pack("<IIIIIdff", CLOUD, 0, 0, len(points), flags, stamp, least, largest)
     parts: list[Any] = [head, np.ascontiguousarray(points, "<f4")]

@@ -212,8 +212,9 @@ class LocalOrigin:
         return self.xyz
 
     def _move_to(self, positions: NDArray[np.float64]) -> None:
+        """Stays, or goes to the fixed frame or to the middle: where it is near to the most."""
         if not len(positions):
             return
-        centre = np.partition(positions, len(positions) // 2, axis=0)[len(positions) // 2]
-        if np.abs(centre - self.xyz).max() > self.NEAR:
-            self.xyz = np.round(centre / self.STEP) * self.STEP
+        middle = np.partition(positions, len(positions) // 2, axis=0)[len(positions) // 2]
+        places = (self.xyz, np.zeros(3), np.round(middle / self.STEP) * self.STEP)
+        self.xyz = max(places, key=lambda place: int((np.abs(positions - place) <= self.NEAR).all(axis=1).sum()))

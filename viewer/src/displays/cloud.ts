@@ -15,6 +15,8 @@ const MODES: Record<string, SubscribeOptions["color_by"]> = {
   Distance: "distance",
 };
 const SAMPLES = 4096;
+/** A point takes two microseconds and a half there, and everything else waits for it. */
+const MOST_POINTS_IN_SOFTWARE = 40_000;
 
 export function cloudSpecs(size: number, colourBy: (typeof TRANSFORMERS)[number]): readonly OptionSpec[] {
   return [
@@ -35,14 +37,17 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
       color_by: MODES[this.options.choice("Color Transformer")] ?? "flat",
       axis: this.options.choice("Axis").toLowerCase() as "x" | "y" | "z",
       decay: this.options.number("Decay Time"),
+      ...(this.context.software() ? { most_points: MOST_POINTS_IN_SOFTWARE } : {}),
     };
   }
 
   protected build(message: Cloud): THREE.Object3D {
+    this.note = message.step > 1 ? `1 of ${message.step} points, for want of a graphics card` : "";
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(message.points, 3));
     const mode = this.mode(message);
-    if (mode === "rgb" && message.rgba) geometry.setAttribute("rgba", new THREE.BufferAttribute(message.rgba, 4, true));
+    if (mode === "rgb" && message.rgba)
+      geometry.setAttribute("rgba", new THREE.BufferAttribute(message.rgba, 4, true));
     if (mode === "scalar" && message.scalar)
       geometry.setAttribute("scalar", new THREE.BufferAttribute(message.scalar, 1));
     const points = new THREE.Points(geometry, this.material(mode, message));
@@ -51,7 +56,7 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
   }
 
   protected override describe(message: Cloud): Record<string, unknown> {
-    return { points: message.count, first: Array.from(message.points.subarray(0, 3 * 1024)) };
+    return { points: message.count, step: message.step, first: Array.from(message.points.subarray(0, 3 * 1024)) };
   }
 
   private mode(message: Cloud): "rgb" | "scalar" | "axis" | "flat" {

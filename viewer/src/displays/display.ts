@@ -21,6 +21,8 @@ export interface Context {
   distinct(): boolean;
   /** Pixels the picture is high. */
   height(): number;
+  /** Whether there is no graphics card to draw with. */
+  software(): boolean;
   redraw(): void;
 }
 
@@ -33,6 +35,8 @@ export abstract class Display {
   readonly object = new THREE.Group();
   readonly options: Options;
   status: Status = { state: "ok", text: "" };
+  /** What else is worth a word beside its name. */
+  note = "";
 
   constructor(
     readonly id: number,

@@ -35,6 +35,7 @@ export class Displays {
       palette: () => theme.palette(),
       distinct: () => theme.distinct,
       height: () => view.stage.height,
+      software: () => view.stage.software,
       redraw: () => view.refresh(),
     };
     model.on("hello", (hello) => this.start(hello.rviz));

@@ -62,7 +62,17 @@ export class RobotDisplay extends Display {
     let meshes = 0;
     this.model?.traverse((part) => (meshes += (part as Partial<THREE.Mesh>).isMesh ? 1 : 0));
     const visible = (this.model?.visible ?? false) && this.object.visible;
-    return { ...super.probe(), robot: this.robot?.name ?? null, meshes, loading: this.loading, visible };
+    return { ...super.probe(), robot: this.robot?.name ?? null, meshes, loading: this.loading, visible, links: this.linkPoses() };
+  }
+
+  /** In the scene: where each link is drawn. */
+  private linkPoses(): Record<string, number[]> {
+    const poses = Object.entries(this.model?.links ?? {}).map(([name, link]) => {
+      const position = link.getWorldPosition(new THREE.Vector3());
+      const quaternion = link.getWorldQuaternion(new THREE.Quaternion());
+      return [name, [...position.toArray(), ...quaternion.toArray()]] as [string, number[]];
+    });
+    return Object.fromEntries(poses);
   }
 
   private rebuild(): void {

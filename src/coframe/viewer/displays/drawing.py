@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["CannotDrawError", "Drawing", "Options", "finite", "pose_row", "rgba_of"]
+__all__ = ["MOST_POINTS", "CannotDrawError", "Drawing", "Options", "finite", "pose_row", "rgba_of"]
 
 ColourBy = Literal["axis", "intensity", "rgb", "distance", "flat"]
 _COLOURS: tuple[ColourBy, ...] = ("axis", "intensity", "rgb", "distance", "flat")
+MOST_POINTS = 4_000_000
 _MOST_KEPT = 1000
 
 
@@ -45,6 +46,7 @@ class Options:
         axis: 0, 1 or 2: the coordinate where the colour tells that.
         decay: For how many seconds messages stay.
         keep: How many messages stay, at most; of Odometry how many poses.
+        most_points: How many points of a cloud the page can draw.
         origin: What the times that the page is told are relative to, in nanoseconds.
     """
 
@@ -52,6 +54,7 @@ class Options:
     axis: int = 2
     decay: float = 0.0
     keep: int = 1
+    most_points: int = MOST_POINTS
     origin: int = 0
 
     @classmethod
@@ -65,6 +68,7 @@ class Options:
             axis={"x": 0, "y": 1, "z": 2, 0: 0, 1: 1, 2: 2}.get(axis, 2) if isinstance(axis, str | int) else 2,
             decay=_number(told.get("decay"), 0.0, 3600.0),
             keep=int(_number(trail, 1.0, _MOST_KEPT)),
+            most_points=int(_number(told.get("most_points", MOST_POINTS), 1.0, MOST_POINTS)),
             origin=origin,
         )
 

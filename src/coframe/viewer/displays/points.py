@@ -10,14 +10,12 @@ from coframe.sensors import project_scan
 from coframe.sensors.layout import field_of, grid_of
 from coframe.time import stamp_ns
 from coframe.viewer import protocol
-from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options
+from coframe.viewer.displays.drawing import MOST_POINTS, CannotDrawError, Drawing, Options
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = ["draw_cloud", "draw_scan"]
-
-MOST_POINTS = 4_000_000
 
 
 def draw_scan(scan: Any, options: Options) -> Drawing:
@@ -30,10 +28,14 @@ def draw_scan(scan: Any, options: Options) -> Drawing:
 
 
 def draw_cloud(cloud: Any, options: Options) -> Drawing:
-    """A PointCloud2; points without a place (NaN) are left out."""
+    """A PointCloud2; points without a place (NaN) are left out, and so many that the page can draw the rest."""
     stamp = stamp_ns(cloud.header.stamp)
     try:
-        points = _places(cloud)
+        count = int(np.prod(grid_of(cloud)))
+        if count > MOST_POINTS:
+            raise CannotDrawError(f"a cloud of {count} points: the viewer draws up to {MOST_POINTS}")
+        step = max(1, -(-count // options.most_points))
+        points = _places(cloud, step)
         names = {field.name for field in cloud.fields}
         seen = np.isfinite(points).all(axis=1)
         dense = bool(seen.all())
@@ -42,35 +44,32 @@ def draw_cloud(cloud: Any, options: Options) -> Drawing:
         scalars = None
         name = next((name for name in ("rgb", "rgba") if name in names), None)
         if name is not None and options.color_by in {None, "rgb"}:
-            colours = _colours(field_of(cloud, name), alpha=name == "rgba")
+            colours = _colours(field_of(cloud, name).reshape(-1)[::step], alpha=name == "rgba")
             colours = colours if dense else colours[seen]
         else:
             intensities = None
             if options.color_by in {None, "intensity"}:
-                intensities = _intensities(cloud, names)
+                intensities = _intensities(cloud, names, step)
                 intensities = intensities if dense or intensities is None else intensities[seen]
             scalars = _scalars(points, options, intensities)
     except ValueError as error:
         raise CannotDrawError(str(error)) from None
-    return Drawing(
-        cloud.header.frame_id, stamp, protocol.cloud(float(stamp - options.origin), points, scalars, colours)
-    )
+    data = protocol.cloud(float(stamp - options.origin), points, scalars, colours, step)
+    return Drawing(cloud.header.frame_id, stamp, data)
 
 
-def _places(cloud: Any) -> NDArray[np.float32]:
-    count = int(np.prod(grid_of(cloud)))
-    if count > MOST_POINTS:
-        raise CannotDrawError(f"a cloud of {count} points: the viewer draws up to {MOST_POINTS}")
-    points = np.empty((count, 3), np.float32)
-    for column, name in enumerate("xyz"):
+def _places(cloud: Any, step: int) -> NDArray[np.float32]:
+    columns = [field_of(cloud, name).reshape(-1)[::step] for name in "xyz"]
+    points = np.empty((len(columns[0]), 3), np.float32)
+    for axis, column in enumerate(columns):
         with np.errstate(over="ignore"):
-            points[:, column] = field_of(cloud, name).reshape(-1)
+            points[:, axis] = column
     return points
 
 
-def _intensities(cloud: Any, names: set[str]) -> NDArray[np.float32] | None:
+def _intensities(cloud: Any, names: set[str], step: int) -> NDArray[np.float32] | None:
     name = next((name for name in ("intensity", "intensities", "i") if name in names), None)
-    return None if name is None else field_of(cloud, name).reshape(-1).astype(np.float32)
+    return None if name is None else field_of(cloud, name).reshape(-1)[::step].astype(np.float32)
 
 
 def _scalars(

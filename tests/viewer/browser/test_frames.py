@@ -1,0 +1,179 @@
+"""Frames in the tree and in the scene, beside a buffer that hears the same."""
+
+import shlex
+
+import numpy as np
+
+import coframe
+from coframe.cli.static_arguments import parse
+
+SECOND = 1_000_000_000
+BEGIN = 1_700_000_000 * SECOND
+
+LAB = {
+    "world": None,
+    "map": "world",
+    "odom": "map",
+    "base_link": "odom",
+    "link1": "base_link",
+    "link2": "link1",
+    "end_effector": "link2",
+    "imu_link": "base_link",
+    "lidar_link": "base_link",
+    "camera_link": "end_effector",
+    "gripper_link": "end_effector",
+}
+
+
+def test_the_lab_is_a_tree_with_rates_ages_and_publishers(lab):
+    assert set(lab.rows()) == set(LAB)
+    assert lab.row("world").get_attribute("aria-level") == "1"
+    assert lab.row("camera_link").get_attribute("aria-level") == "8"
+    lab.wait(lambda: lab.row("link1").locator(".rate").inner_text().endswith("Hz"), "rates")
+    rows = {name: lab.row(name) for name in LAB}
+    publishers = {name: row.locator(".publisher").inner_text() for name, row in rows.items()}
+    assert publishers["link1"] == "/dynamic_tf_broadcaster"
+    assert publishers["odom"] == publishers["lidar_link"] == "/complete_tf_tree"
+    assert rows["lidar_link"].locator(".rate").inner_text() == "static"
+    rate = float(rows["link1"].locator(".rate").inner_text().removesuffix(" Hz"))
+    assert 5.0 < rate < 100.0
+    assert rows["link1"].locator(".age").inner_text().endswith((" ms", " s"))
+    assert (rows["lidar_link"].get_attribute("data-state"), rows["link1"].get_attribute("data-state")) == (
+        "static",
+        "fresh",
+    )
+    assert {"base_link", "end_effector", "world"} <= set(lab.texts("#labels .label"))
+
+
+def test_what_is_drawn_is_what_the_buffer_says_from_any_fixed_frame(lab, demo):
+    lab.pause()
+    lab.assert_like(demo.ros.buffer)
+    for fixed in ("camera_link", "odom"):
+        lab.raw.select_option("#fixed", fixed)
+        lab.until("fixed => coframe.fixed === fixed && coframe.frames[fixed].position.every((x) => x === 0)", fixed)
+        lab.assert_like(demo.ros.buffer)
+
+
+LABELS = """() => [...document.querySelectorAll('#labels .label')]
+    .filter((label) => coframe.frames[label.textContent])
+    .map((label) => [label.getBoundingClientRect().x, ...coframe.frames[label.textContent].position.slice(0, 2)])"""
+
+
+def test_labels_stand_where_their_frames_are(lab):
+    """From above, pixels to the right are an affine map of x and y, but for perspective."""
+    lab.pause()
+    lab.raw.select_option("#fixed", "base_link")
+    lab.until("coframe.frames.base_link.position.every((x) => x === 0)")
+    lab.raw.click("text=Top")
+    lab.key("a")
+
+    def fitting():
+        shown = np.array(lab.ask(LABELS))
+        if len(shown) < 4:
+            return None
+        places = np.column_stack([shown[:, 1:], np.ones(len(shown))])
+        fit, *_ = np.linalg.lstsq(places, shown[:, 0], rcond=None)
+        return fit if np.abs(places @ fit - shown[:, 0]).max() < 40.0 else None
+
+    found = []
+    lab.wait(lambda: found.append(fitting()) or found[-1] is not None, "labels beside their frames")
+    assert np.abs(found[-1][:2]).max() > 40.0, "pixels a metre"
+
+
+def test_hide_solo_and_search(lab):
+    lab.row("base_link").locator("input").uncheck()
+    lab.until("!coframe.frames.base_link.visible")
+    assert lab.ask("coframe.frames.lidar_link.visible"), "its children stay"
+    lab.raw.click("text=Show all")
+    lab.shows("base_link")
+    lab.row("link2").hover()
+    lab.row("link2").locator(".solo").click()
+    lab.until("!coframe.frames.base_link.visible")
+    shown = lab.ask("Object.entries(coframe.frames).filter(([, f]) => f.visible).map(([name]) => name)")
+    assert set(shown) == {"link2", "end_effector", "camera_link", "gripper_link"}
+    lab.raw.click("text=Show all")
+    lab.shows("base_link")
+    lab.key("/")
+    lab.raw.keyboard.type("LIDAR")
+    lab.wait(lambda: lab.rows() == ["world", "map", "odom", "base_link", "lidar_link"], "the way to the lidar")
+    lab.raw.fill("#search", "nobody")
+    assert "No frame is called “nobody”" in lab.text("#panel .empty")
+
+
+def test_a_frame_that_is_chosen_tells_its_pose_in_every_notation(lab, demo):
+    lab.raw.context.grant_permissions(["clipboard-read", "clipboard-write"])
+    lab.pause()
+    _, stamp, _ = lab.picture()
+    lab.row("camera_link").locator(".name").click()
+    lab.raw.select_option("#inspector select", "lidar_link")
+    expected = demo.ros.buffer.lookup("lidar_link", "camera_link", stamp, timeout="5s")
+    distance = np.linalg.norm(expected.translation)
+    shown = f"{distance:.3f} m" if distance >= 1 else f"{distance * 1000:.1f} mm"
+    lab.wait(lambda: lab.text("#distance") == shown, shown)
+
+    def copied(title):
+        lab.raw.click(f"#inspector button[title='Copy: {title}']")
+        lab.wait(lambda: f"Copied: {title.lower()}" in lab.texts("#toasts .toast div"), title)
+        return lab.ask("navigator.clipboard.readText()")
+
+    np.testing.assert_allclose(np.fromstring(copied("Translation, m"), sep=" "), expected.translation, atol=1e-9)
+    np.testing.assert_allclose(np.fromstring(copied("Quaternion"), sep=" "), expected.quaternion, atol=1e-9)
+    np.testing.assert_allclose(
+        np.fromstring(copied("Roll, pitch, yaw, degrees"), sep=" "), np.degrees(expected.rpy), atol=1e-7
+    )
+    np.testing.assert_allclose(
+        np.fromstring(copied("Matrix").replace("\n", " "), sep=" ").reshape(4, 4), expected.matrix, atol=1e-9
+    )
+    command = shlex.split(copied("Command"))
+    assert command[:2] == ["coframe", "static"]
+    told = parse(command[2:])
+    assert (told.frame_id, told.child_frame_id) == ("lidar_link", "camera_link")
+    np.testing.assert_allclose(told.transform.matrix, expected.matrix, atol=1e-7)
+    chain = ["camera_link", "end_effector", "link2", "link1", "base_link", "lidar_link"]
+    assert lab.texts("#inspector .chain button") == chain
+
+
+def test_trees_that_are_not_connected_are_named_and_a_broken_chain_says_why(view, open_page):
+    buffer = coframe.Buffer(None)
+    buffer.set("map", "base", coframe.Transform([1.0, 0.0, 0.0]), BEGIN)
+    buffer.set("map", "other", coframe.Transform([0.0, 1.0, 0.0]), BEGIN)
+    buffer.set("dock", "charger", coframe.Transform([0.0, 0.0, 1.0]), BEGIN)
+    page = open_page(view(buffer).url).drawn()
+    assert page.texts("#panel .row .tag:visible")[:1] != [""]
+    tags = {name: page.row(name).locator(".tag").inner_text() for name in ("map", "dock", "base")}
+    assert tags == {"map": "fixed · own tree · 3", "dock": "own tree · 2", "base": ""}
+    page.wait(lambda: "dock: its own tree" in page.texts("#labels .label"), "a caption in the scene")
+    page.row("charger").locator(".name").click()
+    page.wait(lambda: "charger" in page.text("#inspector .fault"), "why there is none")
+    assert "map" in page.text("#inspector .fault")
+    broken = page.text("#inspector .chain .broken")
+    assert broken.startswith("dock")
+    assert broken.endswith("broken here")
+
+
+def test_maps_in_utm_coordinates_stay_exact(view, open_page):
+    buffer = coframe.Buffer(None)
+    base = [500_123.456_7, 5_812_345.678_9, 123.456_7]
+    buffer.set("utm", "base", coframe.Transform.from_rpy(base, [0.1, 0.2, 0.3]), BEGIN)
+    buffer.set("base", "lidar", coframe.Transform([0.123_45, 0.0, 0.3]), static=True)
+    page = open_page(view(buffer, fixed="utm").url).drawn()
+    page.assert_like(buffer)
+    page.raw.select_option("#fixed", "lidar")
+    page.until("coframe.frames.lidar.position.every((x) => x === 0)")
+    _, stamp, frames = page.picture()
+    np.testing.assert_allclose(frames["base"]["position"], buffer.lookup("lidar", "base", stamp).translation, atol=1e-5)
+
+
+def test_frames_that_are_not_heard_of_any_more_fade_and_go(view, open_page):
+    buffer = coframe.Buffer(None)
+    for second in range(31):
+        buffer.set("map", "base", coframe.Transform([second, 0.0, 0.0]), BEGIN + second * SECOND)
+    buffer.set("base", "arm", coframe.Transform(), BEGIN + 10 * SECOND)
+    buffer.set("base", "arm", coframe.Transform(), BEGIN)
+    page = open_page(view(buffer, fixed="map").url).drawn()
+    page.pause()
+    page.until("!coframe.frames.arm.visible && coframe.frames.base.visible")
+    for _ in range(12):
+        page.step("ArrowLeft", -1)
+    page.shows("arm")
+    assert page.ask("coframe.frames.arm.state") == 1

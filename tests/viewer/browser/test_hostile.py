@@ -1,0 +1,226 @@
+"""What others send is data: it is refused in a sentence or shown as text, and the viewer lives on."""
+
+import json
+
+import pytest
+
+import coframe
+from coframe.messages import find
+from coframe.wire.qos import QoS
+
+SECOND = 1_000_000_000
+BEGIN = 1_700_000_000 * SECOND
+
+MARKUP = [
+    "<img src=x onerror=window.hacked=1>",
+    "</script><script>window.hacked=1</script>",
+    '"><svg onload=window.hacked=1>',
+    "javascript:window.hacked=1",
+    "{{constructor.constructor('window.hacked=1')()}}",
+    "__proto__",
+    "constructor",
+    "\u202eevil\u2028\n\x00",
+]
+
+
+def small_buffer():
+    buffer = coframe.Buffer(None)
+    for second in range(11):
+        buffer.set("map", "base", coframe.Transform([second, 0.0, 0.0]), BEGIN + second * SECOND)
+    return buffer
+
+
+def test_names_with_markup_and_of_any_length_are_text(view, open_page):
+    buffer = small_buffer()
+    names = [*MARKUP, "x" * 10_000]
+    for i, name in enumerate(names):
+        buffer.set("map", name, coframe.Transform([1.0, i, 0.0]), BEGIN + 10 * SECOND)
+    page = open_page(view(buffer, fixed="map").url).drawn()
+    shown = page.rows()
+    assert MARKUP[0] in shown
+    assert MARKUP[1] in shown
+    assert "__proto__" in shown
+    assert max(map(len, shown)) <= 300
+    for row in (0, 1, len(shown) - 1):  # each in the inspector, as the fixed frame, and in the lists of names
+        page.raw.locator("#panel .row:visible .name").nth(row).click()
+        page.click("text=Use as fixed frame")
+    for name in names:
+        page.raw.evaluate(
+            "name => { const s = document.querySelector('#fixed'); s.value = name; s.onchange?.(); }", name
+        )
+    assert page.ask("document.querySelectorAll('#panel img, #labels img, #inspector img, svg[onload]').length") == 0
+    assert page.ask("window.hacked === undefined && ({}).position === undefined")
+    assert page.raw.locator("#panel").bounding_box()["width"] < 500
+    assert page.ask("document.documentElement.scrollWidth <= innerWidth")
+
+
+def test_numbers_that_are_none_hide_what_they_would_place(domain_id, view, open_page):
+    pytest.importorskip("cyclonedds", reason="messages come over DDS")
+    with coframe.connect("browser_hostile", domain=domain_id) as ros:
+        ros.buffer.set("map", "base", coframe.Transform([1.0, 0.0, 0.0]), static=True)
+        ros.buffer.set("map", "huge", coframe.Transform([1e300, 0.0, 0.0]), static=True)
+        pose = find("geometry_msgs/msg/PoseStamped")()
+        pose.header.frame_id = "map"
+        pose.pose.position.x = float("nan")
+        path = find("nav_msgs/msg/Path")(poses=[pose, pose])
+        path.header.frame_id = "map"
+        marker = find("visualization_msgs/msg/Marker")(type=1)
+        marker.header.frame_id = "map"
+        marker.pose.position.x = float("inf")
+        marker.scale.x = float("nan")
+        publishers = [
+            (ros.publisher(topic, type(message)), message)
+            for topic, message in (("/pose", pose), ("/path", path), ("/marker", marker))
+        ]
+        page = open_page(view(ros).url).drawn()
+
+        def seen():
+            for publisher, message in publishers:
+                publisher.publish(message)
+            shown = page.ask("Object.values(coframe.displays).filter((one) => one.topic)")
+            return len(shown) == 3 and not any(one["state"] == "waiting" and "nobody" in one["text"] for one in shown)
+
+        page.wait(seen, "three displays")
+        ticks = page.ask("coframe.ticks")
+        page.until("ticks => coframe.ticks > ticks + 2", ticks)
+        assert page.ask("coframe.frames.base.visible")
+        assert page.ask("coframe.broken") == 0
+
+
+ESCAPE = """<robot name="thief"><link name="base"><visual><geometry>
+  <mesh filename="{}"/></geometry></visual></link></robot>"""
+BOMB = """<?xml version="1.0"?><!DOCTYPE bomb [<!ENTITY a "aaaaaaaaaaaaaaaaaaaa">{}]>
+<robot name="&i;"><link name="base"/></robot>"""
+
+
+def describe(ros, text):
+    """Tells everybody of a robot, as robot_state_publisher does."""
+    message = find("std_msgs/msg/String")(data=text)
+    publisher = ros.publisher("/robot_description", type(message), QoS(1, transient_local=True))
+    publisher.publish(message)
+    return publisher
+
+
+@pytest.mark.parametrize("mesh", ["package://crane/../../secret.stl", "file:///etc/passwd", "../../secret.stl"])
+def test_meshes_from_elsewhere_are_refused_in_a_sentence(domain_id, tmp_path, view, open_page, mesh):
+    pytest.importorskip("cyclonedds", reason="robot descriptions come over DDS")
+    (tmp_path / "a" / "crane").mkdir(parents=True)
+    (tmp_path / "a" / "crane" / "package.xml").write_text("<package><name>crane</name></package>")
+    (tmp_path / "secret.stl").write_bytes(b"\0" * 84)
+    with coframe.connect("browser_thief", domain=domain_id) as ros:
+        ros.buffer.set("map", "base", coframe.Transform(), static=True)
+        describe(ros, ESCAPE.format(mesh))
+        page = open_page(view(ros, mesh_roots=[tmp_path / "a"]).url).drawn()
+        page.until("Object.values(coframe.displays).some((one) => one.class === 'RobotModel' && one.state === 'error')")
+        page.tab("displays")
+        page.wait(lambda: mesh.rpartition("/")[2] in page.text("#body-displays .card:has-text('RobotModel') .status"))
+        assert page.ask("coframe.connected")
+
+
+def test_an_xml_bomb_is_a_sentence(domain_id, view, open_page):
+    pytest.importorskip("cyclonedds", reason="robot descriptions come over DDS")
+    levels = "".join(f'<!ENTITY {b} "{f"&{a};" * 20}">' for a, b in zip("abcdefgh", "bcdefghi", strict=True))
+    with coframe.connect("browser_bomb", domain=domain_id) as ros:
+        ros.buffer.set("map", "base", coframe.Transform(), static=True)
+        publisher = describe(ros, BOMB.format(levels))
+        page = open_page(view(ros).url).drawn()
+        page.wait(lambda: any("/robot_description tells of no robot" in text for text in page.texts("#toasts .toast")))
+        good = find("std_msgs/msg/String")(data='<robot name="good"><link name="base"/></robot>')
+        publisher.publish(good)
+        page.until("Object.values(coframe.displays).some((one) => one.robot === 'good')")
+
+
+@pytest.mark.parametrize(
+    ("size", "sentence"), [(210 << 20, "larger than the 200 MB"), (300 << 20, "up to 256 MB are served")]
+)
+def test_a_mesh_of_hundreds_of_megabytes_is_refused(tmp_path, view, open_page, size, sentence):
+    with (tmp_path / "huge.stl").open("wb") as file:
+        file.truncate(size)
+    urdf = tmp_path / "robot.urdf"
+    urdf.write_text(ESCAPE.format("huge.stl"))
+    page = open_page(view(small_buffer(), robot=urdf).url).drawn()
+    page.tab("displays")
+    page.wait(lambda: any(sentence in text for text in page.texts("#body-displays .status")), sentence)
+    page.shows("base")
+
+
+def test_pages_of_others_cannot_reach_the_socket(view, open_page):
+    page = open_page(view(small_buffer()).url, expected_errors=["WebSocket"]).drawn()
+    stranger = page.raw.context.new_page()
+    stranger.goto("about:blank")
+    ended = stranger.evaluate(
+        """url => new Promise((done) => {
+            const socket = new WebSocket(url);
+            socket.onmessage = (event) => done('heard ' + event.data);
+            socket.onclose = (event) => done(event.code);
+        })""",
+        page.url.replace("http", "ws") + "ws",
+    )
+    assert ended == 1006
+    own = page.ask(
+        """url => new Promise((done) => {
+            const socket = new WebSocket(url);
+            socket.onmessage = (event) => done(JSON.parse(event.data).type);
+        })""",
+        page.url.replace("http", "ws") + "ws",
+    )
+    assert own == "hello"
+
+
+def test_garbage_from_a_page_is_answered_and_hurts_no_other(view, open_page):
+    page = open_page(view(small_buffer()).url).drawn()
+    answers = page.ask(
+        """([url, garbage]) => new Promise((done) => {
+            const socket = new WebSocket(url);
+            const problems = [];
+            socket.onopen = () => {
+                for (const text of garbage) socket.send(text);
+                socket.send(new Uint8Array(1000));
+                socket.send('x'.repeat(2 << 20));
+            };
+            socket.onmessage = ({data}) => {
+                if (typeof data === 'string' && JSON.parse(data).type === 'problem') problems.push(data);
+            };
+            socket.onclose = ({code}) => done([code, problems.length]);
+        })""",
+        [page.url.replace("http", "ws") + "ws", ["", "nonsense", "[]", '{"type":"time","mode":"at","at":1e400}']],
+    )
+    assert answers == [1009, 5]
+    page.key("Space")
+    page.step("ArrowLeft", -1)
+
+
+def test_garbage_from_a_server_is_counted_and_survived(view, open_page):
+    """Between the server and the page somebody adds messages of their own."""
+    viewer = view(small_buffer())
+    relayed = []
+
+    def relay(socket):
+        server = socket.connect_to_server()
+        relayed.append(socket)
+
+        server.on_message(socket.send)
+
+    page = open_page(viewer.url, relay=relay).drawn()
+    page.pause()
+    for garbage in GARBAGE:
+        relayed[-1].send(garbage if isinstance(garbage, bytes) else json.dumps(garbage))
+    page.until("coframe.broken > 0")
+    page.step("ArrowLeft", -1)
+
+
+GARBAGE = [
+    None,
+    [],
+    {"type": 7},
+    {"type": "nothing"},
+    b"",
+    b"\x01",
+    b"\x01\0\0\0" + b"\xff" * 60,
+    b"\x02\0\0\0" + b"\xff" * 60,
+    b"\x03\0\0\0" + b"\xff" * 60,
+    b"\x04\0\0\0" + b"\xff" * 60,
+    b"\x63\0\0\0" + b"\0" * 60,
+    {"type": "problem", "text": "<img src=x onerror=window.hacked=1>" * 100},
+    {"type": "display", "id": 99, "state": "error", "text": "nobody asked"},
+]

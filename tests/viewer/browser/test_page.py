@@ -1,0 +1,165 @@
+"""The page as a thing to use: what it exports, how it looks, and what it does when the server is away."""
+
+import base64
+import struct
+from urllib.parse import urlsplit
+
+import pytest
+
+import coframe
+
+SECOND = 1_000_000_000
+BEGIN = 1_700_000_000 * SECOND
+
+
+def counted_buffer():
+    """A frame that is at x = 10 t for ten seconds."""
+    buffer = coframe.Buffer(None)
+    for tenth in range(101):
+        buffer.set("map", "base", coframe.Transform([tenth, 0.0, 0.0]), BEGIN + tenth * SECOND // 10)
+    buffer.set("base", "lidar", coframe.Transform([0.0, 0.0, 1.0]), static=True)
+    return buffer
+
+
+def test_a_replay_plays_from_disk_without_a_network(view, open_page, tmp_path):
+    page = open_page(view(counted_buffer(), fixed="map").url).drawn()
+    page.click("#bar button[title=Export]")
+    page.click("text=Replay (HTML)")
+    page.raw.fill("dialog input[aria-label='Seconds']", "8")
+    with page.raw.expect_download() as download:
+        page.click("dialog button:text('Save')")
+    file = tmp_path / "replay.html"
+    download.value.save_as(file)
+    replay = open_page(file.as_uri(), offline=True).drawn()
+    assert replay.text("#bar .pill") == "Replay"
+    assert set(replay.rows()) == {"map", "base", "lidar"}
+    x = "coframe.frames.base.position[0]"
+    assert replay.ask(x) == pytest.approx(20.0)
+    replay.key("Space")
+    replay.until(f"{x} > 21")
+    replay.key("Space")
+    box = replay.raw.locator("#timeline .scrub canvas").bounding_box()
+    for part, expected in ((0.5, 60.0), (0.01, 20.8), (0.99, 99.2)):
+        replay.raw.mouse.click(box["x"] + part * box["width"], box["y"] + 5)
+        replay.until(f"x => Math.abs({x} - x) < 1.5", expected)
+    assert replay.ask("coframe.frames.lidar.position[2]") == pytest.approx(1.0)
+    replay.row("lidar").locator(".name").click()
+    replay.raw.select_option("#inspector select", "base")
+    replay.wait(lambda: replay.text("#distance") == "1.000 m", "relative poses without a server")
+
+
+def test_a_picture_is_saved_with_the_names_in_it(view, open_page):
+    buffer = coframe.Buffer(None)
+    buffer.set("map", "lidar", coframe.Transform([0.3, 0.0, 0.0]), BEGIN)
+    page = open_page(view(buffer, fixed="map").url).drawn()
+    page.wait(lambda: "lidar" in page.texts("#labels .label"), "labels")
+    with page.raw.expect_download() as download:
+        page.key("s")
+    data = download.value.path().read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n"
+    width, height = struct.unpack(">II", data[16:24])
+    box = page.raw.locator("#canvas").bounding_box()
+    assert (width, height) == (round(box["width"]), round(box["height"]))
+    colours = page.ask(
+        """async data => {
+            const image = new Image();
+            image.src = 'data:image/png;base64,' + data;
+            await image.decode();
+            const canvas = document.createElement('canvas');
+            [canvas.width, canvas.height] = [image.width, image.height];
+            const context = canvas.getContext('2d');
+            context.drawImage(image, 0, 0);
+            const pixels = context.getImageData(0, 0, image.width, image.height).data;
+            const counts = {red: 0, green: 0, blue: 0};
+            for (let i = 0; i < pixels.length; i += 4) {
+                const [r, g, b] = pixels.slice(i, i + 3);
+                if (r > 150 && g < 110 && b < 110) counts.red++;
+                if (g > 120 && r < 110 && b < 140) counts.green++;
+                if (b > 150 && r < 120) counts.blue++;
+            }
+            return counts;
+        }""",
+        base64.b64encode(data).decode(),
+    )
+    assert min(colours.values()) > 20, f"axes in red, green and blue: {colours}"
+    assert download.value.suggested_filename.endswith(".png")
+
+
+def test_it_fits_a_phone(view, open_page):
+    page = open_page(view(counted_buffer()).url, width=390, height=760, has_touch=True, is_mobile=True).drawn()
+    assert page.ask("document.documentElement.scrollWidth <= innerWidth && document.body.scrollHeight <= innerHeight")
+    canvas = page.raw.locator("#canvas").bounding_box()
+    assert canvas["width"] == 390
+    assert canvas["height"] > 380
+    assert not page.raw.locator("#panel .row").first.is_visible()
+    page.raw.tap("#bar button[title^='Show or hide the panel']")
+    page.wait(lambda: page.row("lidar").is_visible(), "the panel")
+    page.row("lidar").locator(".name").tap()
+    page.wait(lambda: page.raw.locator("#distance").is_visible(), "the inspector")
+    for selector in ("#timeline button[aria-label=Pause]", "#fixed", "#bar .pill"):
+        box = page.raw.locator(selector).bounding_box()
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= 390
+
+
+def test_dark_light_and_layout_are_remembered(view, open_page):
+    page = open_page(view(counted_buffer()).url, color_scheme="dark").drawn()
+    background = "getComputedStyle(document.body).backgroundColor"
+    theme = "document.documentElement.dataset.theme"
+    assert page.ask(theme) == "dark"
+    dark = page.ask(background)
+    page.key("d")
+    page.until(f"{theme} === 'light' && {background} !== '{dark}'")
+    page.tab("displays")
+    page.raw.reload()
+    page.drawn()
+    assert page.ask(theme) == "light"
+    assert page.raw.locator("#body-displays").is_visible()
+
+
+def test_the_sheet_lists_the_keys_and_they_work(view, open_page):
+    page = open_page(view(counted_buffer()).url).drawn()
+    page.key("?")
+    page.wait(lambda: page.raw.locator("dialog[open]").is_visible(), "the sheet")
+    listed = set(page.texts("dialog[open] .key"))
+    assert {"Space", "l", ",", ".", "v", "f", "m", "/", "d", "s", "?", "Esc"} <= listed
+    page.key("Escape")
+    page.wait(lambda: not page.raw.locator("dialog[open]").is_visible(), "its end")
+    page.key("m")
+    page.wait(lambda: "click the first frame" in page.text("#measured"), "the ruler")
+    page.key("v")
+    assert page.raw.get_attribute("#overlay button:text('Top')", "aria-pressed") == "true"
+
+
+def test_without_transforms_it_says_what_to_do(view, open_page):
+    buffer = coframe.Buffer(None)
+    page = open_page(view(buffer).url)
+    page.wait(lambda: page.raw.locator("#overlay .nothing").is_visible(), "a word")
+    assert "No transforms yet" in page.text("#overlay .nothing")
+    assert "coframe demo" in page.text("#overlay .nothing")
+    buffer.set("map", "base", coframe.Transform(), BEGIN)
+    page.shows("base")
+    page.wait(lambda: not page.raw.locator("#overlay .nothing").is_visible(), "its end")
+
+
+def test_it_comes_back_when_the_server_does(open_page):
+    viewer = coframe.show(counted_buffer(), port=0)
+    port = urlsplit(viewer.url).port
+    page = open_page(viewer.url, expected_errors=["WebSocket connection to", "ERR_CONNECTION_REFUSED"]).drawn()
+    viewer.close()
+    page.wait(lambda: page.text("#bar .pill") == "Not connected", "a word on it")
+    page.wait(lambda: "connection to the server is lost" in page.text("#notice"), "a sentence")
+    buffer = counted_buffer()
+    buffer.set("map", "dock", coframe.Transform([0.0, 3.0, 0.0]), static=True)
+    with coframe.show(buffer, port=port):
+        page.shows("dock")
+        assert page.text("#bar .pill") == "Live"
+        assert not page.raw.locator("#notice").is_visible()
+
+
+def test_it_asks_for_nothing_but_its_own_files(view, open_page):
+    page = open_page(view(counted_buffer()).url).drawn()
+    asked = page.ask("performance.getEntriesByType('resource').map((one) => new URL(one.name).pathname)")
+    assert set(asked) <= {"/assets/viewer.js", "/assets/viewer.css"}
+    assert page.ask("fetch('http://192.0.2.1/').then(() => 'reached', () => 'refused')") == "refused"
+    page.errors.clear()  # of that question
