@@ -7,6 +7,8 @@ from collections.abc import Callable, Generator
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
+from benchmarks.processor import one_processor
+
 
 class Contender(Protocol):
     """Something that can be measured again and again."""
@@ -110,6 +112,7 @@ class Row:
         bar: What must be reached; None: it is told for information.
         unit: How a figure is written.
         least: So many samples of each are taken whatever time they take.
+        processors: How many they need at once; with one, all contenders have the same one.
     """
 
     name: str
@@ -118,6 +121,7 @@ class Row:
     bar: Bar | None = None
     unit: Callable[[float], str] = nanoseconds
     least: int = 5
+    processors: int = 1
 
 
 @dataclass
@@ -171,7 +175,8 @@ class Effort:
 def measure(row: Row, effort: Effort) -> Result:
     """Measures ours and the other in turn."""
     result = Result(row)
-    with contextlib.closing(row.contenders()) as contenders:
+    place = one_processor() if row.processors == 1 else contextlib.nullcontext()
+    with place, contextlib.closing(row.contenders()) as contenders:
         try:
             ours = next(contenders)
             ours.sample()  # it warms up: caches, imports, and how many runs make a sample

@@ -30,7 +30,7 @@ def row(figure: str, who: str, beside: str, other: Callable[[], Program], bar: B
 
     name, unit = NAMES[figure]
     whose = "listener" if who == "coframe" else "tf2_ros.TransformListener"
-    return Row(f"{whose}, 1 kHz x 10, {name}", beside, contenders, bar, unit, least=3)
+    return Row(f"{whose}, 1 kHz x 10, {name}", beside, contenders, bar, unit, least=3, processors=2)
 
 
 def udp(figure: str) -> Callable[[], Program]:
