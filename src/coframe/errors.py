@@ -183,8 +183,8 @@ class TimeoutException(TransformException):
     """Something was waited for in vain."""
 
 
-class WireError(RuntimeError):
-    """The ROS graph could not be joined or used.
+class _Hinting(Exception):  # noqa: N818 - what the errors below have in common
+    """An error that says what to do next.
 
     Attributes:
         hint: What to do next, in a sentence; may be empty.
@@ -195,31 +195,19 @@ class WireError(RuntimeError):
         self.hint = hint
 
 
-class ViewerError(RuntimeError):
-    """The viewer could not be started, or a file that it was given is none of its kind.
-
-    Attributes:
-        hint: What to do next, in a sentence; may be empty.
-    """
-
-    def __init__(self, text: str, *, hint: str = "") -> None:
-        super().__init__(text)
-        self.hint = hint
+class WireError(_Hinting, RuntimeError):
+    """The ROS graph could not be joined or used."""
 
 
-class DecodeError(ValueError):
-    """Bytes that are not what they claim to be; the text says which type, where, and what was expected.
-
-    Attributes:
-        hint: What to do next, in a sentence; may be empty.
-    """
-
-    def __init__(self, text: str, *, hint: str = "") -> None:
-        super().__init__(text)
-        self.hint = hint
+class ViewerError(_Hinting, RuntimeError):
+    """The viewer could not be started, or a file that it was given is none of its kind."""
 
 
-class RobotDescriptionError(ValueError):
+class DecodeError(_Hinting, ValueError):
+    """Bytes that are not what they claim to be; the text says which type, where, and what was expected."""
+
+
+class RobotDescriptionError(_Hinting, ValueError):
     """A robot description that contradicts itself, or is none.
 
     Attributes:
@@ -229,38 +217,21 @@ class RobotDescriptionError(ValueError):
     """
 
     def __init__(self, text: str, *, line: int | None = None, file: str | None = None, hint: str = "") -> None:
-        super().__init__(text)
+        super().__init__(text, hint=hint)
         self.line = line
         self.file = file
-        self.hint = hint
 
     def __str__(self) -> str:
         places = [self.file or "", f"line {self.line}" if self.line is not None else ""]
         return ": ".join(filter(None, [", ".join(filter(None, places)), str(self.args[0])]))
 
 
-class PackageError(LookupError):
-    """A package or a file of it that is not there, or a file that is not inside its package.
-
-    Attributes:
-        hint: What to do next, in a sentence; may be empty.
-    """
-
-    def __init__(self, text: str, *, hint: str = "") -> None:
-        super().__init__(text)
-        self.hint = hint
+class PackageError(_Hinting, LookupError):
+    """A package or a file of it that is not there, or a file that is not inside its package."""
 
 
-class RecordingError(ValueError):
-    """A recording of which nothing can be read.
-
-    Attributes:
-        hint: What to do next, in a sentence; may be empty.
-    """
-
-    def __init__(self, text: str, *, hint: str = "") -> None:
-        super().__init__(text)
-        self.hint = hint
+class RecordingError(_Hinting, ValueError):
+    """A recording of which nothing can be read."""
 
 
 def _restore(kind: str | type[TransformException], text: str, facts: dict[str, object]) -> TransformException:

@@ -51,11 +51,13 @@ def open_files(path: Path, problems: Problems, closing: ExitStack) -> list[Stora
         candidates = _candidates(path, metadata, problems) if path.is_dir() else [path]
         found = [storage for file in candidates if (storage := _open(file, problems, closing)) is not None]
     except OSError as error:
-        raise RecordingError(f"{path} cannot be read: {error.strerror or error}") from None
+        raise RecordingError(
+            f"{path} cannot be read: {error.strerror or error}", hint="Check the path, and who may read it."
+        ) from None
     if not found:
         said = problems.sentences()
         raise RecordingError(
-            f"{path} is no recording" + (f": {said[0]}" if said else ""),
+            f"{path} is no recording" + (f": {said[0].removeprefix(f'{path}: ')}" if said else ""),
             hint="Give a .mcap, .db3 or .bag file, or the folder that holds such files.",
         )
     if str(metadata.get("compression_mode", "")).lower() == "message":

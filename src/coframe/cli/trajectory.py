@@ -61,7 +61,10 @@ def trajectory(
         except OSError as error:
             if isinstance(error, BrokenPipeError):
                 raise
-            fail(f"{output} cannot be written: {error.strerror or error}")
+            fail(
+                f"{output} cannot be written: {error.strerror or error}",
+                "Does the folder exist, and may you write there?",
+            )
         if output is not None and poses.stamps is not None:
             first, last = int(poses.stamps[0]), int(poses.stamps[-1])
             print(f"{output}: {len(poses)} poses from {seconds(first)} to {seconds(last)}")

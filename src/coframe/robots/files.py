@@ -47,7 +47,9 @@ def load(
         text = expand_xacro(file, arguments, packages) if expands else file.read_bytes()
     except OSError as error:
         reason = error.strerror or type(error).__name__
-        raise RobotDescriptionError(f"cannot be read: {reason}", file=str(file)) from None
+        raise RobotDescriptionError(
+            f"cannot be read: {reason}", file=str(file), hint="Check the path, and who may read it."
+        ) from None
     try:
         robot = parse_urdf(text)
     except RobotDescriptionError as error:

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import errno
 import logging
+import os
+import socket
 import threading
 from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
@@ -68,10 +71,7 @@ class ViewerServer:
         self._started.wait()
         if self._failure is not None:
             self._thread.join()
-            raise ViewerError(
-                f"cannot listen on {host}:{DEFAULT_PORT if port is None else port}: {self._failure.strerror}",
-                hint="Choose another --port, or 0 for any that is free.",
-            ) from self._failure
+            raise _cannot_listen(host, DEFAULT_PORT if port is None else port, self._failure) from self._failure
 
     @property
     def url(self) -> str:
@@ -210,6 +210,19 @@ class ViewerServer:
             text = "This coframe has no viewer page: build it in viewer/ by `npm ci && npm run build`."
             return sentence(HTTPStatus.SERVICE_UNAVAILABLE, text, self._visitors.policy)
         return sentence(HTTPStatus.NOT_FOUND, "There is no such file.", self._visitors.policy)
+
+
+def _cannot_listen(host: str, port: int, reason: OSError) -> ViewerError:
+    # The library's own words hold the address once more.
+    is_foreign = reason.errno == errno.EADDRNOTAVAIL or isinstance(reason, socket.gaierror)
+    if is_foreign:
+        return ViewerError(
+            f"cannot listen on {host}: it is no address of this machine", hint="Choose another --host, or 127.0.0.1."
+        )
+    words = os.strerror(reason.errno) if reason.errno else str(reason)
+    return ViewerError(
+        f"cannot listen on {host}:{port}: {words}", hint="Choose another --port, or 0 for any that is free."
+    )
 
 
 def _quiet_logger() -> logging.Logger:

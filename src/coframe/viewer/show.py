@@ -135,6 +135,9 @@ def _source_of(source: Any) -> Source:
 def _read_config(file: Path) -> RvizConfig:
     try:
         text = file.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise ViewerError(f"cannot read {file}: {error}") from None
+    except OSError as error:
+        hint = "Check the path, and who may read it."
+        raise ViewerError(f"{file} cannot be read: {error.strerror or error}", hint=hint) from None
+    except UnicodeDecodeError:
+        raise ViewerError(f"{file} is no text", hint="Is it a .rviz file?") from None
     return RvizConfig.parse(text, str(file))
