@@ -39,11 +39,7 @@ nb::tuple ingest_slices(nb::handle buffer, nb::handle data, nb::handle starts, n
   const Memory bytes(data, PyBUF_SIMPLE), first(starts, PyBUF_SIMPLE), last(ends, PyBUF_SIMPLE);
   const std::size_t count = first.size() / sizeof(std::uint64_t);
   if (first.size() != last.size()) throw nb::value_error("as many ends as starts are wanted");
-  const std::pair<bool, std::string> key(is_static, std::move(authority));
-  auto stream = self.streams.find(key);
-  if (stream == self.streams.end()) {
-    stream = self.streams.emplace(key, self.core->open_stream(is_static, key.second)).first;
-  }
+  TransformStream& stream = self.stream(is_static, std::move(authority));
   std::size_t damaged = 0;
   const char* reason = "";
   for (std::size_t i = 0; i < count; ++i) {
@@ -51,7 +47,7 @@ nb::tuple ingest_slices(nb::handle buffer, nb::handle data, nb::handle starts, n
     if (start > end || end > bytes.size()) throw nb::value_error("a slice is not inside the data");
     std::size_t stored;
     const DecodeFailure failure =
-        self.core->ingest(stream->second, bytes.data<const std::uint8_t>() + start, end - start, stored);
+        self.core->ingest(stream, bytes.data<const std::uint8_t>() + start, end - start, stored);
     if (failure.reason && damaged++ == 0) reason = failure.reason;
   }
   return nb::make_tuple(damaged, reason);

@@ -402,13 +402,9 @@ nb::list py_insert_texts(unsigned refusals, std::string_view parent, std::string
 
 std::size_t ingest(BufferObject& self, nb::handle message, bool is_static, std::string authority) {
   const Memory bytes(message, PyBUF_SIMPLE);
-  const std::pair<bool, std::string> key(is_static, std::move(authority));
-  auto stream = self.streams.find(key);
-  if (stream == self.streams.end()) {
-    stream = self.streams.emplace(key, self.core->open_stream(is_static, key.second)).first;
-  }
+  TransformStream& stream = self.stream(is_static, std::move(authority));
   std::size_t stored;
-  const DecodeFailure failure = self.core->ingest(stream->second, bytes.data<const std::uint8_t>(), bytes.size(), stored);
+  const DecodeFailure failure = self.core->ingest(stream, bytes.data<const std::uint8_t>(), bytes.size(), stored);
   if (failure.reason) raise_decode_error(failure);
   return stored;
 }

@@ -65,9 +65,17 @@ struct BufferObject {
     return authorities.find(name, [this](std::string_view text) { return core->authority(text); });
   }
 
+  // The source of messages by this authority.
+  TransformStream& stream(bool is_static, std::string name) {
+    const std::pair<bool, std::string> key(is_static, std::move(name));
+    const auto found = streams.find(key);
+    return found != streams.end() ? found->second
+                                  : streams.emplace(key, core->open_stream(is_static, key.second)).first->second;
+  }
+
   IdentityCache frames, authorities;
   PathCache paths;  // guarded by the GIL, unlike the core's own
-  std::map<std::pair<bool, std::string>, TransformStream> streams;  // of ingest()
+  std::map<std::pair<bool, std::string>, TransformStream> streams;
 };
 
 }  // namespace coframe::bindings

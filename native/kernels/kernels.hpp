@@ -90,8 +90,4 @@ const Kernels& kernels();
 // Those that this processor and this build have, the best one last.
 std::vector<const Kernels*> all_kernels();
 
-inline void interpolate_many(const Pose* older, const Pose* newer, const double* shares, std::size_t n, Pose* out) {
-  kernels().interpolate_many(older, newer, shares, n, out);
-}
-
 }  // namespace coframe
