@@ -71,4 +71,16 @@ def test_view_with_the_labs_file_answers_within_two_seconds_and_ends_on_ctrl_c(s
 def test_what_is_not_there_is_a_sentence():
     result = subprocess.run([*COMMAND, "view", "nowhere.mcap"], capture_output=True, text=True, check=False)
     assert (result.returncode, result.stdout) == (1, "")
-    assert result.stderr == "coframe: nowhere.mcap cannot be read: No such file or directory\n"
+    assert result.stderr == (
+        "coframe: nowhere.mcap cannot be read: No such file or directory\n  Check the path, and who may read it.\n"
+    )
+
+
+def test_an_address_of_another_machine_is_a_sentence():
+    command = [*COMMAND, "view", "--host", "192.0.2.1", "--port", "0", "--no-browser"]
+    result = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (result.returncode, result.stdout) == (1, "")
+    assert result.stderr == (
+        "coframe: cannot listen on 192.0.2.1: it is no address of this machine\n"
+        "  Choose another --host, or 127.0.0.1.\n"
+    )
