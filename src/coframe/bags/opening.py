@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from coframe.bags import mcap_file, ros1_file, sqlite_file
-from coframe.bags.compressed import UnpackedMessages
+from coframe.bags.compressed_messages import UnpackedMessages
 from coframe.errors import RecordingError
 
 if TYPE_CHECKING:

@@ -16,9 +16,9 @@ from coframe import time
 from coframe.bags import tree
 from coframe.bags.compression import DamagedError
 from coframe.bags.decoding import decoder
+from coframe.bags.header_stamps import HEAD, stamps_for
 from coframe.bags.opening import open_files
 from coframe.bags.problems import Problems
-from coframe.bags.stamps import HEAD, stamps_for
 from coframe.bags.storage import Slices
 from coframe.bags.transforms import ingest_for
 from coframe.errors import RecordingError
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from typing_extensions import Self
 
-    from coframe.bags.stamps import StampPlace
+    from coframe.bags.header_stamps import StampPlace
     from coframe.bags.storage import Channel, Storage
     from coframe.buffer import Buffer
     from coframe.time import StampLike

@@ -16,8 +16,8 @@ from websockets.exceptions import ConnectionClosed
 
 from coframe.errors import WireError
 from coframe.viewer import protocol
-from coframe.viewer.clock import Playhead
 from coframe.viewer.display import Display, Status
+from coframe.viewer.playhead import Playhead
 from coframe.viewer.requests import BadRequestError, parse
 from coframe.viewer.scene import LocalOrigin
 from coframe.viewer.stage import FRAME_TIMEOUT
