@@ -1,6 +1,6 @@
 /** The page: what comes from the source goes to the model, and every part listens to that. */
 
-import "./style.css";
+import "./styles/index.css";
 import { Bar } from "./bar";
 import { Displays } from "./displays/manager";
 import { DisplaysPanel } from "./displays_panel";
