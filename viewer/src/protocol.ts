@@ -90,7 +90,10 @@ export interface Robot {
   source: string;
   urdf: string;
   meshes: Record<string, string>;
+  /** What of it cannot be drawn. */
   problems: string[];
+  /** What is odd about its description. */
+  warnings: string[];
   joints: RobotJoint[];
   description_topic: string | null;
 }

@@ -97,6 +97,7 @@ export class ReplaySource implements Source {
         urdf: robot.urdf ?? "",
         meshes: robot.meshes ?? {},
         problems: [],
+        warnings: [],
         joints: robot.joints ?? [],
         description_topic: null,
       }),

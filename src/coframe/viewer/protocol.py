@@ -16,8 +16,9 @@ Server to page, text:
   | "fresh" | "stale" | "gone"}]}, once a second, of very many frames less often; null for what does not apply. Of roots
   the state is "static".
 * ``topics`` {topics: [{topic, type, display}]}: what can be displayed, whenever that has changed.
-* ``robot`` {id, name, source, urdf, meshes: {as written: URL}, problems: [text], joints: [{name, type, lower, upper,
-  value}], description_topic}.
+* ``robot`` {id, name, source, urdf, meshes: {as written: URL}, problems: [text], warnings: [text],
+  joints: [{name, type, lower, upper, value}], description_topic}: problems are what cannot be drawn, warnings what is odd
+  about the description.
 * ``display`` {id, state: "ok" | "waiting" | "error", text}: what became of a subscribed display.
 * ``rviz`` {displays: [{class, name, enabled, options}], global, view, unknown: [{path, class, name}]}.
 * ``relation`` {id, ok, target, source, stamp, translation, quaternion, rpy_deg, matrix, static_command, chain, error,

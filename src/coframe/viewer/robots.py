@@ -44,7 +44,7 @@ def describe(robot: Robot, number: int, source: str, topic: str | None, meshes: 
     """
     beside = None if robot.path is None else robot.path.resolve().parent
     urls: dict[str, str] = {}
-    problems = list(robot.warnings)
+    problems: list[str] = []
     for reference in dict.fromkeys(_files_of(robot)):
         try:
             urls[reference] = meshes.url(reference, beside)
@@ -57,6 +57,7 @@ def describe(robot: Robot, number: int, source: str, topic: str | None, meshes: 
         "urdf": robot.text,
         "meshes": urls,
         "problems": problems[:_MOST_PROBLEMS],
+        "warnings": list(robot.warnings)[:_MOST_PROBLEMS],
         "joints": list(_joints_of(robot)),
         "description_topic": topic,
     }

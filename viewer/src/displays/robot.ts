@@ -152,7 +152,7 @@ export class RobotDisplay extends Display {
     const more = this.problems.length > 1 ? ` (and ${this.problems.length - 1} more)` : "";
     if (first) this.status = { state: "error", text: first + more };
     else if (this.loading > 0) this.status = { state: "waiting", text: `Loading ${this.loading} meshes` };
-    else this.status = { state: "ok", text: this.robot?.name ?? "" };
+    else this.status = { state: "ok", text: [this.robot?.name ?? "", ...(this.robot?.warnings ?? [])].join("; ") };
   }
 
   override place(placement: Placement, _tick: Tick): void {
