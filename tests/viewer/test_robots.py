@@ -72,7 +72,9 @@ def test_a_robot_of_a_file_comes_with_its_meshes(package, view, open_tab):
 
 def test_what_is_odd_about_a_description_is_no_problem_of_drawing_it(package, view, open_tab):
     file = robot_file(package, "package://arm_description/meshes/base%20link.dae")
-    odd = """<link name="odd"><visual><geometry><sphere radius="1"/></geometry><material name="nowhere"/></visual></link>
+    odd = """<link name="odd">
+        <visual><geometry><sphere radius="1"/></geometry><material name="nowhere"/></visual>
+      </link>
       <joint name="to_odd" type="fixed"><parent link="base"/><child link="odd"/></joint>"""
     file.write_text(file.read_text().replace("</robot>", odd + "</robot>"))
     robot = open_tab(view(coframe.Buffer(None), robot=file)).wait("robot")

@@ -17,8 +17,8 @@ Server to page, text:
   the state is "static".
 * ``topics`` {topics: [{topic, type, display}]}: what can be displayed, whenever that has changed.
 * ``robot`` {id, name, source, urdf, meshes: {as written: URL}, problems: [text], warnings: [text],
-  joints: [{name, type, lower, upper, value}], description_topic}: problems are what cannot be drawn, warnings what is odd
-  about the description.
+  joints: [{name, type, lower, upper, value}], description_topic}: problems are what cannot be drawn, warnings what is
+  odd about the description.
 * ``display`` {id, state: "ok" | "waiting" | "error", text}: what became of a subscribed display.
 * ``rviz`` {displays: [{class, name, enabled, options}], global, view, unknown: [{path, class, name}]}.
 * ``relation`` {id, ok, target, source, stamp, translation, quaternion, rpy_deg, matrix, static_command, chain, error,
