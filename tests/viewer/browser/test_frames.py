@@ -38,11 +38,11 @@ def test_the_lab_is_a_tree_with_rates_ages_and_publishers(lab):
     rate = float(rows["link1"].locator(".rate").inner_text().removesuffix(" Hz"))
     assert 5.0 < rate < 100.0
     assert rows["link1"].locator(".age").inner_text().endswith((" ms", " s"))
-    assert (rows["lidar_link"].get_attribute("data-state"), rows["link1"].get_attribute("data-state")) == (
-        "static",
-        "fresh",
-    )
-    assert {"base_link", "end_effector", "world"} <= set(lab.texts("#labels .label"))
+    assert rows["lidar_link"].get_attribute("data-state") == "static"
+    # A busy machine may stop its publisher for longer than a fresh frame is quiet.
+    lab.wait(lambda: rows["link1"].get_attribute("data-state") == "fresh", "a frame that is heard of")
+    # A label that would lie over another is left out until the arm has moved on.
+    lab.wait(lambda: {"base_link", "end_effector", "world"} <= set(lab.texts("#labels .label")), "labels")
 
 
 def test_what_is_drawn_is_what_the_buffer_says_from_any_fixed_frame(lab, demo):
