@@ -140,23 +140,19 @@ class Display:
             self._place_again(buffer, fixed, at)
 
     def take_unsent(self) -> list[bytearray]:
-        """The drawings that the page has not got yet; to be cleared when they are sent."""
+        """The drawings that the page has not got yet, which are given away."""
         drawings = []
         for entry in self._entries():
             if not entry.sent:
                 entry.sent = True
-                protocol.stamp_drawing(entry.drawing.data, self.number, entry.sequence)
-                drawings.append(entry.drawing.data)
+                data = entry.drawing.take_data()
+                protocol.stamp_drawing(data, self.number, entry.sequence)
+                drawings.append(data)
         return drawings
 
     def poses(self) -> list[protocol.EntryPose]:
         """Where everything is that is to be seen."""
         return [protocol.EntryPose(self.number, entry.sequence, entry.pose) for entry in self._entries()]
-
-    def forget_sent(self) -> None:
-        """The page has begun anew: it is to be sent everything again."""
-        self._layers.clear()
-        self._asked = self._incoming = None
 
     def close(self) -> None:
         """Ends it; a drawing that is being made is thrown away."""

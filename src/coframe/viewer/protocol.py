@@ -89,13 +89,13 @@ def tick(
     revision: int,
     time: float,
     origin: NDArray[np.float64],
-    poses: NDArray[np.float64],
+    poses: NDArray[np.float32],
     states: NDArray[np.uint8],
     entries: Sequence[EntryPose],
 ) -> bytes:
-    """All frames, (N, 7) float64 with their states (N,), and the displayed messages, at one time."""
+    """All frames, (N, 7) relative to the origin with their states (N,), and the displayed messages, at one time."""
     head = struct.pack("<II4dII", TICK, revision, time, *origin.tolist(), len(poses), len(entries))
-    parts = [head, near(poses, origin).tobytes(), states.tobytes(), bytes(-len(states) % 4)]
+    parts: list[Any] = [head, poses.data, states.data, bytes(-len(states) % 4)]
     for entry in entries:
         pose = np.full(7, np.nan) if entry.pose is None else near(entry.pose, origin)
         parts.append(struct.pack("<II7fI", entry.display, entry.sequence, *pose.tolist(), int(entry.pose is None)))

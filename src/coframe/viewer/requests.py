@@ -17,7 +17,10 @@ if TYPE_CHECKING:
 
     from coframe.viewer.client import Client
 
-__all__ = ["BadRequestError", "Request", "parse"]
+__all__ = ["READY", "BadRequestError", "Request", "parse"]
+
+# That the last tick is drawn: the one message that is no question.
+READY = "ready"
 
 _FARTHEST = 2.0**62  # nanoseconds from the origin
 _LARGEST_ID = 2**32 - 1
@@ -170,10 +173,6 @@ async def _time(client: Client, request: Request) -> None:
         raise BadRequestError(f"the mode of a message 'time' is 'live' or 'at', not {_shown(mode)}")
 
 
-async def _ready(client: Client, _request: Request) -> None:
-    client.is_ready()
-
-
 async def _frame_timeout(client: Client, request: Request) -> None:
     client.frame_timeout = min(max(request.number("seconds"), 0.0), 1e6)
 
@@ -258,7 +257,6 @@ _DEEDS: dict[str, Callable[[Client, Request], Awaitable[None]]] = {
     "frame_timeout": _frame_timeout,
     "joints": _joints,
     "load_rviz": _load_rviz,
-    "ready": _ready,
     "relate": _relate,
     "save_rviz": _save_rviz,
     "step": _step,
