@@ -72,6 +72,10 @@ class RecordedMessages:
         self._times = np.sort(recording.stamps(topic))
         self._reading = threading.Lock()
 
+    def pending(self) -> bool:
+        """Never: where all messages lie is known."""
+        return False
+
     def at(self, time: int) -> Sighting | None:
         """The last message at or before a time in nanoseconds; 0 is the newest of all."""
         end = self._index_behind(time)
