@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from coframe.wire.endpoints import Subscription
+    from coframe.viewer.adaptive_subscription import AdaptiveSubscription
 
 __all__ = ["LiveMessages", "Messages", "Sighting", "header_stamp"]
 
@@ -77,7 +77,7 @@ class LiveMessages:
     MOST_BYTES = 64 << 20
     MOST = 4000
 
-    def __init__(self, subscription: Subscription, ros_type: str, keep: int) -> None:
+    def __init__(self, subscription: AdaptiveSubscription, ros_type: str, keep: int) -> None:
         from coframe.messages import deserialize, find  # noqa: PLC0415 - only who looks at messages needs them
 
         self.type = ros_type

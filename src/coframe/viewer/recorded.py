@@ -51,6 +51,9 @@ class RecordedSource:
             return None
         return RecordedMessages(self._recording, topic)
 
+    def refresh(self) -> None:
+        """Nothing changes."""
+
     def close(self) -> None:
         """Lets go of the files, where that is the source's to do."""
         if self._own:

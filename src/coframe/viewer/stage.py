@@ -82,6 +82,7 @@ class Stage:
             self.descriptions.refresh(self.source, self.executor)
         if now >= self._topics_due:
             self._topics_due = now + TOPICS_PERIOD
+            self.source.refresh()
             self.topics = self.source.topics()
 
     @property
