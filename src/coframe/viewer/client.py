@@ -46,8 +46,8 @@ STATISTICS_PERIOD, STATISTICS_SHARE = 1.0, 0.003
 LATE_PERIOD = 0.25
 # Where nothing changes, a tick comes all the same once in a while.
 IDLE_PERIOD = 1.0
-# Ticks a second: RViz's usual rate, and what can be asked for.
-FRAME_RATE, SLOWEST_RATE, FASTEST_RATE = 30.0, 1.0, 60.0
+# Ticks a second: RViz's usual rate, and the highest that can be asked for.
+FRAME_RATE, FASTEST_RATE = 30.0, 60.0
 _MOST_DISPLAYS = 100
 
 
@@ -75,8 +75,8 @@ class Client:
         self.playhead = Playhead()
         self.frame_timeout = FRAME_TIMEOUT
         self.rviz = stage.rviz
+        self.wanted_rate: float | None = None if stage.rviz is None else stage.rviz.frame_rate
         self.wanted_fixed = stage.fixed
-        self.frame_rate = FRAME_RATE
         self.due = 0.0
         self._displays: dict[int, _Wanted] = {}
         self._joints: dict[int, JointPublisher] = {}
@@ -93,6 +93,11 @@ class Client:
         self._late_due = 0.0
         self._last_tick: tuple[Any, ...] | None = None
         self._ticked = -math.inf
+
+    @property
+    def frame_rate(self) -> float:
+        """Ticks a second, at most."""
+        return min(self.wanted_rate or FRAME_RATE, FASTEST_RATE)
 
     @property
     def fixed(self) -> str:
@@ -221,7 +226,8 @@ class Client:
     def tick(self, now: float) -> None:
         """Sends what is new, where the tab can take it; to be called when it is ``due``, by the monotonic clock."""
         # All tabs of a rate are due at the same moments.
-        self.due = (math.floor(now * self.frame_rate) + 1) / self.frame_rate
+        rate = self.frame_rate
+        self.due = (math.floor(now * rate) + 1) / rate
         self._send_joints()
         if self._ready and self._socket.is_clear:
             self._send_news(now)

@@ -46,8 +46,8 @@ Server to page, binary:
 Page to server, text: ``fixed`` {frame}; ``time`` {mode: "live"} or {mode: "at", at, playing, speed, loop: [from, to]
 | null}; ``step`` {direction}; ``subscribe`` {id, topic, display, options}; ``unsubscribe`` {id}; ``relate`` {id,
 target, source}; ``timeline`` {from, to, bins}; ``joints`` {robot, positions, publish}; ``load_rviz`` {text};
-``save_rviz`` {displays, global, view}; ``frame_timeout`` {seconds}; ``ready`` {drawn}: the last tick is drawn, the
-next may come.
+``save_rviz`` {displays, global, view}; ``frame_timeout`` {seconds}; ``frame_rate`` {hertz}: ticks a second, 1 to 60, as
+a .rviz file's Frame Rate; ``ready`` {drawn}: the last tick is drawn, the next may come.
 
 What is unknown or malformed is answered by a ``problem``; a message of more than 1 MiB ends the connection.
 """
