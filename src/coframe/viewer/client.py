@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import dataclasses
 import logging
 import math
 import time
@@ -87,6 +88,7 @@ class Client:
         self._answering: asyncio.Task[None] | None = None
         self._ready = True
         self._told_origin: int | None = None
+        self._told_edition = 0
         self._told_tree: tuple[int, str] | None = None
         self._told_topics: object = None
         self._statistics_due = 0.0
@@ -191,9 +193,8 @@ class Client:
     def unsubscribe(self, number: int) -> None:
         """Displays it no longer; whether it was there or not."""
         wanted = self._displays.pop(number, None)
-        if wanted is not None and wanted.display is not None:
-            wanted.display.close()
-            self._stage.release(wanted.topic)
+        if wanted is not None:
+            self._close_display(wanted)
 
     def publish_joints(self, number: int, positions: dict[str, Any]) -> None:
         """Sends the positions of a robot's joints from now on.
@@ -223,6 +224,13 @@ class Client:
                 number, messages, wanted.options, self._stage.meshes.url_or_problem, self._stage.executor
             )
 
+    def _close_display(self, wanted: _Wanted) -> None:
+        wanted.told = None
+        if wanted.display is not None:
+            wanted.display.close()
+            wanted.display = None
+            self._stage.release(wanted.topic)
+
     def tick(self, now: float) -> None:
         """Sends what is new, where the tab can take it; to be called when it is ``due``, by the monotonic clock."""
         # All tabs of a rate are due at the same moments.
@@ -235,7 +243,7 @@ class Client:
     def _send_news(self, now: float) -> None:
         stage, fixed = self._stage, self.fixed
         stage.refresh()
-        if self._told_origin != stage.origin:
+        if self._told_origin != stage.origin or self._told_edition != stage.edition:
             self._send_hello()
         if self._told_tree != (stage.scene.revision, fixed):
             self._send_tree(fixed)
@@ -270,9 +278,13 @@ class Client:
 
     def _send_hello(self) -> None:
         stage = self._stage
-        self._told_origin, self._told_tree, self._last_tick = stage.origin, None, None
+        # All begins anew for the page.
+        self._told_origin, self._told_edition, self._told_tree = stage.origin, stage.edition, None
+        self._last_tick, self._late_due = None, 0.0
+        self._told_robots.clear()
         for wanted in self._displays.values():
-            wanted.told = None
+            self._close_display(wanted)
+            wanted.options = dataclasses.replace(wanted.options, origin=stage.origin)
         self._told_topics = topics = stage.topics
         self._socket.send(
             protocol.text(

@@ -80,10 +80,14 @@ class ViewerServer:
         host = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(self._host, self._host)  # noqa: S104 - to be shown
         return f"http://{f'[{host}]' if ':' in host and '[' not in host else host}:{self.port}/"
 
+    def call(self, deed: Callable[..., object], *args: Any) -> None:
+        """Has the server's thread do something soon; nothing happens once it has ended."""
+        with contextlib.suppress(RuntimeError):  # the loop has ended already
+            self._loop.call_soon_threadsafe(deed, *args)
+
     def close(self) -> None:
         """Ends all connections and the thread; doing so twice does no harm."""
-        with contextlib.suppress(RuntimeError):  # the loop has ended already
-            self._loop.call_soon_threadsafe(self._end.set)
+        self.call(self._end.set)
         if self._thread is not threading.current_thread():
             self._thread.join(_END_TIMEOUT)
 

@@ -55,13 +55,13 @@ class Source(Protocol):
 class BufferSource:
     """A buffer alone: frames, and no messages."""
 
-    mode: Mode = "buffer"
     connection: Connection | None = None
     span: tuple[int, int] | None = None
 
-    def __init__(self, buffer: Buffer, title: str = "coframe") -> None:
+    def __init__(self, buffer: Buffer, title: str = "coframe", mode: Mode = "buffer") -> None:
         self.buffer = buffer
         self.title = title
+        self.mode = mode
 
     def topics(self) -> list[Topic]:
         """None."""
