@@ -2,6 +2,7 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -48,6 +49,19 @@ nb::tuple to_tuple(const QosProfile& qos) {
   return nb::make_tuple(qos.depth, qos.reliable, qos.transient_local, qos.keep_all);
 }
 
+// Other threads go on while much is copied: a cloud of a million points takes milliseconds.
+nb::bytes to_bytes(const dds::Sample& sample) {
+  constexpr std::size_t kMuch = 1 << 16;
+  const auto bytes = sample.bytes();
+  if (bytes.size() < kMuch) return nb::bytes(bytes.data(), bytes.size());
+  const auto copy = nb::steal<nb::bytes>(PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(bytes.size())));
+  if (!copy.is_valid()) throw nb::python_error();
+  char* memory = PyBytes_AS_STRING(copy.ptr());
+  WithoutGil release;
+  std::memcpy(memory, bytes.data(), bytes.size());
+  return copy;
+}
+
 nb::list take(PyReader& reader, std::uint32_t limit) {
   std::vector<dds::Sample> samples;
   {
@@ -56,9 +70,8 @@ nb::list take(PyReader& reader, std::uint32_t limit) {
   }
   nb::list messages;
   for (const dds::Sample& sample : samples) {
-    const auto bytes = sample.bytes();
-    messages.append(nb::make_tuple(nb::bytes(bytes.data(), bytes.size()), sample.info().source_timestamp,
-                                   sample.info().publication_handle));
+    messages.append(
+        nb::make_tuple(to_bytes(sample), sample.info().source_timestamp, sample.info().publication_handle));
   }
   return messages;
 }

@@ -147,6 +147,49 @@ def test_a_message_waits_for_its_transform(ros, robot, view, open_tab):
     np.testing.assert_allclose(next(iter(tick.displays.values()))[:3] + tick.origin, [20.0, 0.0, 0.0], atol=1e-5)
 
 
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        (QoS(), QoS(reliable=False)),
+        (QoS(transient_local=True), QoS()),
+        (QoS(transient_local=True), QoS(reliable=False, transient_local=True)),
+        (QoS(), QoS(transient_local=True)),
+    ],
+)
+def test_publishers_that_come_later_are_heard_whatever_they_offer(ros, robot, view, open_tab, caplog, first, second):
+    tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/pose")
+    made = message("geometry_msgs/msg/PoseStamped", "map", robot - 4 * SECOND)
+    made.pose.position.x = 1.0
+    assert Talker(ros, tab, "/pose", made, first).until("shapes").payload[0] == 1.0
+    made.header.stamp.sec += 1
+    made.pose.position.x = 2.0
+    later = Talker(ros, tab, "/pose", made, second)
+    if second.transient_local and second.reliable:
+        later.publisher.publish(made)  # once, before anybody could hear it
+        assert tab.wait("shapes", lambda shown: shown.payload[0] == 2.0)
+    else:
+        assert later.until("shapes", lambda shown: shown.payload[0] == 2.0)
+    assert "this subscription asks for" not in caplog.text
+
+
+def test_what_was_published_before_is_heard_beside_publishers_that_keep_nothing(ros, view, open_tab):
+    marker = find("visualization_msgs/msg/Marker")
+
+    def one(number):
+        made = marker(ns="test", id=number, type=marker.CUBE)
+        made.header.frame_id = "map"
+        return made
+
+    talker = Talker(ros, None, "/markers", one(1), QoS(reliable=False))
+    kept = ros.publisher("/markers", marker, QoS(transient_local=True))
+    kept.publish(one(2))
+    tab = talker.tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/markers")
+    shown = talker.until("shapes", lambda shown: len(shown.head["items"]) == 2)
+    assert {item["id"] for item in shown.head["items"]} == {1, 2}
+
+
 def test_time_travel_brings_back_the_messages_of_that_time(ros, robot, view, open_tab):
     tab = open_tab(view(ros, fixed="map"))
     subscribe(tab, "/pose")

@@ -46,8 +46,8 @@ Server to page, binary:
 Page to server, text: ``fixed`` {frame}; ``time`` {mode: "live"} or {mode: "at", at, playing, speed, loop: [from, to]
 | null}; ``step`` {direction}; ``subscribe`` {id, topic, display, options}; ``unsubscribe`` {id}; ``relate`` {id,
 target, source}; ``timeline`` {from, to, bins}; ``joints`` {robot, positions, publish}; ``load_rviz`` {text};
-``save_rviz`` {displays, global, view}; ``frame_timeout`` {seconds}; ``ready`` {drawn}: the last tick is drawn, the
-next may come.
+``save_rviz`` {displays, global, view}; ``frame_timeout`` {seconds}; ``frame_rate`` {hertz}: ticks a second, 1 to 60, as
+a .rviz file's Frame Rate; ``ready`` {drawn}: the last tick is drawn, the next may come.
 
 What is unknown or malformed is answered by a ``problem``; a message of more than 1 MiB ends the connection.
 """
@@ -89,13 +89,13 @@ def tick(
     revision: int,
     time: float,
     origin: NDArray[np.float64],
-    poses: NDArray[np.float64],
+    poses: NDArray[np.float32],
     states: NDArray[np.uint8],
     entries: Sequence[EntryPose],
 ) -> bytes:
-    """All frames, (N, 7) float64 with their states (N,), and the displayed messages, at one time."""
+    """All frames, (N, 7) relative to the origin with their states (N,), and the displayed messages, at one time."""
     head = struct.pack("<II4dII", TICK, revision, time, *origin.tolist(), len(poses), len(entries))
-    parts = [head, near(poses, origin).tobytes(), states.tobytes(), bytes(-len(states) % 4)]
+    parts: list[Any] = [head, poses.data, states.data, bytes(-len(states) % 4)]
     for entry in entries:
         pose = np.full(7, np.nan) if entry.pose is None else near(entry.pose, origin)
         parts.append(struct.pack("<II7fI", entry.display, entry.sequence, *pose.tolist(), int(entry.pose is None)))

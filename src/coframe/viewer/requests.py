@@ -17,7 +17,10 @@ if TYPE_CHECKING:
 
     from coframe.viewer.client import Client
 
-__all__ = ["BadRequestError", "Request", "parse"]
+__all__ = ["READY", "BadRequestError", "Request", "parse"]
+
+# That the last tick is drawn: the one message that is no question.
+READY = "ready"
 
 _FARTHEST = 2.0**62  # nanoseconds from the origin
 _LARGEST_ID = 2**32 - 1
@@ -170,12 +173,12 @@ async def _time(client: Client, request: Request) -> None:
         raise BadRequestError(f"the mode of a message 'time' is 'live' or 'at', not {_shown(mode)}")
 
 
-async def _ready(client: Client, _request: Request) -> None:
-    client.is_ready()
-
-
 async def _frame_timeout(client: Client, request: Request) -> None:
     client.frame_timeout = min(max(request.number("seconds"), 0.0), 1e6)
+
+
+async def _frame_rate(client: Client, request: Request) -> None:
+    client.wanted_rate = max(request.number("hertz"), 1.0)
 
 
 async def _subscribe(client: Client, request: Request) -> None:
@@ -234,7 +237,7 @@ async def _load_rviz(client: Client, request: Request) -> None:
         config = await client.work(RvizConfig.parse, request.text("text"))
     except ViewerError as error:
         raise BadRequestError(str(error), error.hint) from None
-    client.rviz = config
+    client.rviz, client.wanted_rate = config, config.frame_rate
     if config.fixed_frame:
         client.wanted_fixed = config.fixed_frame
     await client.answer("rviz", **config.description())
@@ -243,6 +246,8 @@ async def _load_rviz(client: Client, request: Request) -> None:
 async def _save_rviz(client: Client, request: Request) -> None:
     config = client.rviz or RvizConfig()
     displays, options, view = request.sequence("displays"), request.mapping("global"), request.mapping("view")
+    if client.wanted_rate is not None:
+        options = {**options, "frame_rate": client.wanted_rate}
     try:
         merged = config.merged(displays, options, view)
         text = await client.work(merged.text)
@@ -255,10 +260,10 @@ async def _save_rviz(client: Client, request: Request) -> None:
 
 _DEEDS: dict[str, Callable[[Client, Request], Awaitable[None]]] = {
     "fixed": _fixed,
+    "frame_rate": _frame_rate,
     "frame_timeout": _frame_timeout,
     "joints": _joints,
     "load_rviz": _load_rviz,
-    "ready": _ready,
     "relate": _relate,
     "save_rviz": _save_rviz,
     "step": _step,

@@ -52,6 +52,7 @@ class Stage:
         robot: Robot | None = None,
         meshes: MeshTable | None = None,
     ) -> None:
+        self.edition = 0
         self.source = source
         self.meshes = MeshTable(lambda _name: None) if meshes is None else meshes
         self.descriptions = Descriptions(robot, _description_topics(rviz), self.meshes)
@@ -65,6 +66,20 @@ class Stage:
         self._open: dict[str, _Shared] = {}
         self._structure_due = self._topics_due = 0.0
         self.refresh()
+
+    def show(self, source: Source) -> None:
+        """Shows something else from now on: all tabs begin anew."""
+        self.source = source
+        self.scene = Scene(source.buffer, ages=source.mode == "live")
+        self.origin = time.time_ns()
+        self._structure_due = self._topics_due = 0.0
+        self.refresh()
+        self.edition += 1
+
+    def entitle(self, title: str) -> None:
+        """Calls what is shown otherwise."""
+        self.source.title = title
+        self.edition += 1
 
     @property
     def can_publish(self) -> bool:
@@ -82,6 +97,7 @@ class Stage:
             self.descriptions.refresh(self.source, self.executor)
         if now >= self._topics_due:
             self._topics_due = now + TOPICS_PERIOD
+            self.source.refresh()
             self.topics = self.source.topics()
 
     @property

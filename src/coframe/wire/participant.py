@@ -153,6 +153,7 @@ class Participant:
         *,
         on_data: _core.Event | None = None,
         kind: Kind = "topic",
+        adapts: bool = False,
     ) -> Subscription:
         """A subscription of `node`; the arguments are those of `publisher`.
 
@@ -163,13 +164,14 @@ class Participant:
             qos: what is asked for.
             on_data: is set whenever messages arrive.
             kind: "topic", "request" or "reply".
+            adapts: the caller follows what publishers offer, so that nobody is warned of those that offer less.
 
         Raises:
             WireError: DDS refuses.
         """
         name, type_name, entity = self._topic_of(topic, message_type, kind)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
-        return Subscription(native, node, name, type_name, qos)
+        return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
     def tf_reader(
         self,

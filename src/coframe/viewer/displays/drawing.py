@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -21,7 +21,8 @@ class CannotDrawError(ValueError):
     """A message that no drawing can be made of; the text says why."""
 
 
-class Drawing(NamedTuple):
+@dataclass(eq=False)
+class Drawing:
     """What is drawn of a message.
 
     Attributes:
@@ -35,6 +36,11 @@ class Drawing(NamedTuple):
     stamp: int
     data: bytearray
     locked: bool = False
+
+    def take_data(self) -> bytearray:
+        """The binary message, which the drawing lets go of: it is sent once, and may be large."""
+        data, self.data = self.data, bytearray()
+        return data
 
 
 @dataclass(frozen=True)
