@@ -123,7 +123,7 @@ export class DisplaysPanel {
       const kind = kindName(display.config.class);
       const what = display.config.topic ?? (kind === display.config.name ? "" : kind);
       const short = state === "error" ? "Error" : state === "waiting" ? "Waiting" : "";
-      setText(detail, [short, what, display.note].filter(Boolean).join(" · ") || kind);
+      setText(detail, [short, what, display.note, display.leftOut].filter(Boolean).join(" · ") || kind);
       status.hidden = state === "ok" || !text;
       setText(status, text.slice(0, 1000));
     }

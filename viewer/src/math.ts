@@ -54,6 +54,19 @@ export function inverse(a: Pose): Pose {
   return { position: [-back[0], -back[1], -back[2]], quaternion };
 }
 
+/** The pose a part of the way from one to another, on the straight line and the shorter turn. */
+export function between(a: Pose, b: Pose, part: number): Pose {
+  const mix = (x: number, y: number): number => x + (y - x) * part;
+  const [p, q] = [a.position, b.position];
+  const same = a.quaternion.reduce((sum, value, k) => sum + value * (b.quaternion[k] as number), 0) < 0 ? -1 : 1;
+  // Between two pictures the turn is so small that a straight line through the ball is as good as the arc.
+  const turned = a.quaternion.map((value, k) => mix(value, same * (b.quaternion[k] as number)));
+  return {
+    position: [mix(p[0], q[0]), mix(p[1], q[1]), mix(p[2], q[2])],
+    quaternion: normalize(turned as Quaternion),
+  };
+}
+
 /** The pose of `source` seen from `target`, both given in one frame. */
 export function relative(target: Pose, source: Pose): Pose {
   return compose(inverse(target), source);

@@ -49,6 +49,11 @@ export function exposeProbe(model: Model, view: View, displays: Displays): void 
     get fps() {
       return view.stage.fps;
     },
+    /** Whether what is drawn is what was asked for, and stands still. */
+    get settled() {
+      const { live, playing } = model.clock;
+      return !live && !playing && !model.waiting && view.shown === model.tick;
+    },
     get connected() {
       return model.connected;
     },

@@ -103,6 +103,8 @@ export interface DisplayStatus {
   id: number;
   state: "ok" | "waiting" | "error";
   text: string;
+  /** In replays: what was left out. */
+  note?: string;
 }
 
 export interface Relation {
@@ -155,6 +157,7 @@ export type ServerMessage =
   | Relation
   | Timeline
   | Problem
+  | { type: "replay"; looks: string }
   | { type: "saved"; path?: string; text?: string };
 
 export interface SubscribeOptions {
@@ -178,6 +181,11 @@ export type ClientMessage =
   | { type: "joints"; robot: string | number; positions: Record<string, number>; publish: boolean }
   | { type: "load_rviz"; text: string }
   | { type: "save_rviz"; displays: RvizDisplay[]; global: JsonObject; view: JsonObject }
+  | {
+      type: "replay";
+      displays: { topic: string; options: SubscribeOptions }[];
+      rviz: { displays: RvizDisplay[]; global: JsonObject; view: JsonObject | null };
+    }
   | { type: "frame_timeout"; seconds: number }
   | { type: "ready"; drawn: number | null };
 

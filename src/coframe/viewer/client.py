@@ -318,7 +318,7 @@ class Client:
                 status = Status("waiting", f"nobody publishes {wanted.topic}")
             else:
                 display.advance(scene.buffer, self.fixed, at, now)
-                for drawing in display.take_unsent():
+                for _, drawing in display.take_unsent():
                     await self._socket.send(drawing)
                     drawing.clear()
                 status = display.status

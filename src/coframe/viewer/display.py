@@ -139,19 +139,24 @@ class Display:
         elif self._layers:
             self._place_again(buffer, fixed, at)
 
-    def take_unsent(self) -> list[bytearray]:
-        """The drawings that the page has not got yet; to be cleared when they are sent."""
+    def take_unsent(self) -> list[tuple[int, bytearray]]:
+        """The drawings that the page has not got yet, with their numbers; to be cleared when they are sent."""
         drawings = []
         for entry in self._entries():
             if not entry.sent:
                 entry.sent = True
                 protocol.stamp_drawing(entry.drawing.data, self.number, entry.sequence)
-                drawings.append(entry.drawing.data)
+                drawings.append((entry.sequence, entry.drawing.data))
         return drawings
 
     def poses(self) -> list[protocol.EntryPose]:
         """Where everything is that is to be seen."""
         return [protocol.EntryPose(self.number, entry.sequence, entry.pose) for entry in self._entries()]
+
+    def stamps(self) -> list[int | None]:
+        """When each of those was where it is, in nanoseconds; None for what moves on, or was told without a stamp."""
+        drawings = [entry.drawing for entry in self._entries()]
+        return [None if drawing.locked or drawing.stamp == 0 else drawing.stamp for drawing in drawings]
 
     def forget_sent(self) -> None:
         """The page has begun anew: it is to be sent everything again."""

@@ -24,7 +24,8 @@ Server to page, text:
 * ``relation`` {id, ok, target, source, stamp, translation, quaternion, rpy_deg, matrix, static_command, chain, error,
   hint, broken_at}: the answer to ``relate``.
 * ``timeline`` {revision, bins, from, to, edges: [{frame, counts: base64 of uint16[bins], gaps: [[from, to]]}]}.
-* ``saved`` {text}, ``problem`` {text, hint}.
+* ``saved`` {text}, ``problem`` {text, hint}, ``replay`` {looks}: what to fetch the announced replay by, as
+  ``/replay?from=&to=&rate=&fixed=&looks=``.
 
 Server to page, binary:
 
@@ -46,7 +47,8 @@ Server to page, binary:
 Page to server, text: ``fixed`` {frame}; ``time`` {mode: "live"} or {mode: "at", at, playing, speed, loop: [from, to]
 | null}; ``step`` {direction}; ``subscribe`` {id, topic, display, options}; ``unsubscribe`` {id}; ``relate`` {id,
 target, source}; ``timeline`` {from, to, bins}; ``joints`` {robot, positions, publish}; ``load_rviz`` {text};
-``save_rviz`` {displays, global, view}; ``frame_timeout`` {seconds}; ``ready`` {drawn}: the last tick is drawn, the
+``save_rviz`` {displays, global, view}; ``replay`` {displays: [{topic, options}], rviz: {displays, global, view}}:
+how a replay is to look; ``frame_timeout`` {seconds}; ``ready`` {drawn}: the last tick is drawn, the
 next may come.
 
 What is unknown or malformed is answered by a ``problem``; a message of more than 1 MiB ends the connection.

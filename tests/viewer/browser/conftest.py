@@ -161,10 +161,8 @@ class Page:
         return self
 
     def settle(self):
-        """Waits until the playhead stands still."""
-        before = None
-        while before != (before := self.ask("coframe.time")):
-            self.raw.wait_for_timeout(250)
+        """Waits until what was asked for is drawn, and the playhead stands still."""
+        self.until("coframe.settled")
 
     def step(self, key, seconds):
         """Presses a key that moves the playhead by so much."""

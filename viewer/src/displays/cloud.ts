@@ -42,7 +42,8 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
   }
 
   protected build(message: Cloud): THREE.Object3D {
-    this.note = message.step > 1 ? `1 of ${message.step} points, for want of a graphics card` : "";
+    const why = this.context.replayed() ? "thinned for the replay" : "for want of a graphics card";
+    this.note = message.step > 1 ? `1 of ${message.step} points, ${why}` : "";
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(message.points, 3));
     const mode = this.mode(message);

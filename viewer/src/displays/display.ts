@@ -23,6 +23,8 @@ export interface Context {
   height(): number;
   /** Whether there is no graphics card to draw with. */
   software(): boolean;
+  /** Whether it comes out of a file of its own. */
+  replayed(): boolean;
   redraw(): void;
 }
 
@@ -37,6 +39,8 @@ export abstract class Display {
   status: Status = { state: "ok", text: "" };
   /** What else is worth a word beside its name. */
   note = "";
+  /** What a replay was thinned by. */
+  leftOut = "";
 
   constructor(
     readonly id: number,
