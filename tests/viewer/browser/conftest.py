@@ -164,6 +164,21 @@ class Page:
         """Waits until what was asked for is drawn, and the playhead stands still."""
         self.until("coframe.settled")
 
+    def scrub(self, part):
+        """Presses the mouse on the timeline, a part of the way from its start."""
+        box = self.raw.locator("#timeline .scrub canvas").bounding_box()
+        self.raw.mouse.click(box["x"] + part * box["width"], box["y"] + box["height"] / 2)
+
+    def save_replay(self, file, seconds):
+        """Saves the last seconds as a file."""
+        self.click("#bar button[title=Export]")
+        self.click("text=Replay (HTML)")
+        self.raw.fill("dialog input[aria-label='Seconds']", str(seconds))
+        with self.raw.expect_download() as download:
+            self.click("dialog button:text('Save')")
+        download.value.save_as(file)
+        return file.as_uri()
+
     def step(self, key, seconds):
         """Presses a key that moves the playhead by so much."""
         wanted = self.ask("coframe.time") + seconds * SECOND

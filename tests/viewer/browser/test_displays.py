@@ -87,6 +87,11 @@ def test_a_scan_of_the_demo_lies_on_its_walls(lab):
             return coframe.frames.odom?.position.every((x) => x === 0) && display?.messages?.[0];
         }"""
     )
+    assert_on_the_walls(scan)
+
+
+def assert_on_the_walls(scan):
+    """In odom, a scan lies on the walls and pillars of the demo's hall."""
     points = np.array(scan["first"]).reshape(-1, 3)
     assert 100 < len(points) == scan["points"]
     x, y, _ = (rotation(scan["quaternion"]) @ points.T) + np.array(scan["position"])[:, None]
@@ -99,6 +104,32 @@ def test_a_scan_of_the_demo_lies_on_its_walls(lab):
     assert np.quantile(off, 0.95) < 0.05
     assert (pillars < 0.05).sum() > 3
     assert (walls < 0.05).sum() > 50
+
+
+def test_a_replay_of_the_demo_has_its_scans_where_they_were(lab, open_page, tmp_path):
+    lab.raw.select_option("#fixed", "odom")
+    lab.until("coframe.frames.odom.position.every((x) => x === 0)")
+    shown = "Object.values(coframe.displays).find((one) => one.topic === '/scan')?.messages?.[0]"
+    first = lab.until(f"{shown}?.sequence")
+    lab.until(f"first => {shown}?.sequence > first + 20", first)
+    replay = open_page(lab.save_replay(tmp_path / "replay.html", 2), offline=True).drawn()
+    assert replay.ask("coframe.fixed") == "odom"
+    assert set(replay.ask("coframe.displays")) == set(lab.ask("coframe.displays"))
+    seen = set()
+    for part in (0.98, 0.6, 0.9):
+        replay.scrub(part)
+        replay.settle()
+        scan = replay.until(shown)
+        assert_on_the_walls(scan)
+        seen.add(scan["sequence"])
+    assert len(seen) == 3
+    replay.raw.select_option("#fixed", "lidar_link")
+    replay.until("coframe.frames.lidar_link.position.every((x) => x === 0)")
+    # A scan is at most a tenth of a second old, in which the robot goes a few centimetres.
+    assert np.abs(replay.until(shown)["position"]).max() < 0.2
+    replay.key("t")
+    rows = "document.querySelector('#timeline .sparks canvas').height"
+    replay.until(f"{rows} > 18 * 3")  # a row a frame that moves
 
 
 def rotation(quaternion):
