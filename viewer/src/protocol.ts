@@ -258,9 +258,9 @@ export interface MarkerItem {
 
 /** Pairs are [offset in floats, number of rows] in the payload: a pose is a row of 7 floats, a point of 3, a colour of 4. */
 export type ShapesHead =
-  | { kind: "poses"; frame: string; stamp: number; poses: [number, number] }
+  | { kind: "poses"; frame: string; stamp: number; poses: [number, number]; covariance?: (number | null)[] }
   | { kind: "path"; frame: string; stamp: number; poses: [number, number] }
-  | { kind: "odometry"; frame: string; stamp: number; poses: [number, number] }
+  | { kind: "odometry"; frame: string; stamp: number; poses: [number, number]; covariance?: (number | null)[] }
   | { kind: "markers"; frame: string; stamp: number; items: MarkerItem[] }
   | {
       kind: "range";

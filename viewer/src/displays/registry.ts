@@ -10,7 +10,7 @@ import { MapDisplay, MAP_SPECS } from "./map";
 import { MarkersDisplay, MARKER_SPECS } from "./markers";
 import type { OptionSpec } from "./options";
 import { PathDisplay, PATH_SPECS } from "./path";
-import { ODOMETRY_SPECS, POSE_SPECS, PosesDisplay } from "./poses";
+import { COVARIANT_POSE_SPECS, ODOMETRY_SPECS, POSE_SPECS, PosesDisplay } from "./poses";
 import { RANGE_SPECS, RangeDisplay } from "./range";
 import { ROBOT_SPECS, RobotDisplay } from "./robot";
 import { TF_SPECS, TfDisplay } from "./tf";
@@ -41,7 +41,7 @@ export const KINDS: Record<string, Kind> = {
   Map: plain(MAP_SPECS, MapDisplay),
   Path: plain(PATH_SPECS, PathDisplay),
   Pose: plain(POSE_SPECS, PosesDisplay),
-  PoseWithCovariance: plain(POSE_SPECS, PosesDisplay),
+  PoseWithCovariance: plain(COVARIANT_POSE_SPECS, PosesDisplay),
   PoseArray: plain(POSE_SPECS, PosesDisplay),
   Odometry: plain(ODOMETRY_SPECS, PosesDisplay),
   Marker: markers,
