@@ -3,6 +3,7 @@
 import * as THREE from "three";
 import { ColladaLoader } from "three/examples/jsm/loaders/ColladaLoader.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { MTLLoader } from "three/examples/jsm/loaders/MTLLoader.js";
 import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
 import { STLLoader } from "three/examples/jsm/loaders/STLLoader.js";
 
@@ -97,13 +98,33 @@ async function parse(bytes: ArrayBuffer, url: string, name: string): Promise<Loa
       return { object: scene, coloured: true };
     }
     case "obj":
-      return { object: new OBJLoader(manager).parse(text(bytes, name)), coloured: false };
+      return parseObj(text(bytes, name), folder, manager);
     case "glb":
     case "gltf":
       return { object: (await new GLTFLoader(manager).parseAsync(bytes, folder)).scene, coloured: true };
     default:
       throw new MeshError(`${short(name)}: only STL, DAE, OBJ and GLB meshes can be drawn`);
   }
+}
+
+/** With the materials that stand beside it, if it names any and they are there. */
+async function parseObj(source: string, folder: string, manager: THREE.LoadingManager): Promise<LoadedMesh> {
+  const loader = new OBJLoader(manager);
+  const library = /^mtllib[ \t]+(.+?)\s*$/m.exec(source)?.[1];
+  let coloured = false;
+  if (library && folder)
+    try {
+      const url = folder + library.replaceAll("\\", "/").split("/").map(encodeURIComponent).join("/");
+      const materials = new MTLLoader(manager).parse(text(await fetchBytes(url, library), library), folder);
+      materials.preload();
+      loader.setMaterials(materials);
+      coloured = true;
+    } catch (error) {
+      if (!(error instanceof MeshError)) throw error;
+    }
+  const object = loader.parse(source);
+  mendTextures(object, manager);
+  return { object, coloured };
 }
 
 function parseStl(bytes: ArrayBuffer, name: string): THREE.BufferGeometry {
@@ -122,22 +143,26 @@ function text(bytes: ArrayBuffer, name: string): string {
   return new TextDecoder().decode(bytes);
 }
 
-/** A texture that cannot be had would be drawn black. */
 function mendTextures(object: THREE.Object3D, manager: THREE.LoadingManager): void {
-  const mend = (): void =>
-    object.traverse((part) => {
-      for (const material of materialsOf(part)) {
-        const textured = material as THREE.MeshPhongMaterial;
-        const image = textured.map?.image as { width?: number } | undefined;
-        if (textured.map && !image?.width) {
-          textured.map = null;
-          textured.color.set("#b8bcc0");
-          textured.needsUpdate = true;
-        }
-      }
-    });
-  manager.onLoad = mend;
-  manager.onError = mend;
+  manager.onLoad = () => dropEmptyTextures(object);
+  manager.onError = () => dropEmptyTextures(object);
+}
+
+/** A texture that could not be had would be drawn black. */
+export function dropEmptyTextures(object: THREE.Object3D): void {
+  object.traverse((part) => {
+    for (const material of materialsOf(part)) {
+      const textured = material as THREE.MeshPhongMaterial;
+      if (!textured.map || hasPicture(textured.map)) continue;
+      textured.map = null;
+      textured.color.set("#b8bcc0");
+      textured.needsUpdate = true;
+    }
+  });
+}
+
+export function hasPicture(texture: THREE.Texture): boolean {
+  return Boolean((texture.image as { width?: number } | undefined)?.width);
 }
 
 export function materialsOf(object: THREE.Object3D): THREE.Material[] {

@@ -38,6 +38,7 @@ _HOLD = "15s"
 _MOST_ENTRIES = 1000
 _MOST_LAYERS = 200
 _NS = 1_000_000_000
+_ANYWHERE = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 
 
 class Status(NamedTuple):
@@ -64,6 +65,9 @@ class _Entry:
         if self._fixed == fixed and self.pose is not None and not drawing.locked:
             return True
         self.pose, self._fixed = None, fixed
+        if not drawing.placed:
+            self.pose = _ANYWHERE
+            return True
         frame = drawing.frame.removeprefix("/")  # as in ROS 1; buffers take it off, too
         try:
             if drawing.locked:

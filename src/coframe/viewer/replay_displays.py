@@ -32,7 +32,7 @@ T = TypeVar("T")
 
 MOST_BYTES = 48 << 20  # of all displays; a third more as text
 MOST_POINTS = 10_000  # of a cloud
-_HEAVY = "sensor_msgs/msg/PointCloud2"
+_HEAVY = {"sensor_msgs/msg/CompressedImage", "sensor_msgs/msg/Image", "sensor_msgs/msg/PointCloud2"}
 
 
 class ReplayDisplay(NamedTuple):
@@ -81,10 +81,11 @@ def display_blocks(
     """What the page needs of each display, in order; those without messages are left out.
 
     What is too much is thinned: clouds to `MOST_POINTS`, and a display whose drawings take more than half of what is
-    left of `MOST_BYTES` to every so-manieth picture. The last one, a cloud if there is one, takes all that is left.
+    left of `MOST_BYTES` to every so-manieth picture. The last one, a cloud or camera if there is one, takes all that
+    is left.
     """
     known = [display for display in displays if display.topic in messages]
-    order = sorted(range(len(known)), key=lambda index: messages[known[index].topic].type == _HEAVY)
+    order = sorted(range(len(known)), key=lambda index: messages[known[index].topic].type in _HEAVY)
     blocks: dict[int, dict[str, Any]] = {}
     left = MOST_BYTES
     for index in order:

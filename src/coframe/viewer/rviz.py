@@ -24,6 +24,7 @@ DISPLAY_CLASSES = frozenset(
         "Camera",
         "CameraInfo",
         "Grid",
+        "Image",
         "LaserScan",
         "Map",
         "Marker",

@@ -147,7 +147,7 @@ def write_stl(path):
 
 def write_obj(path):
     lines = [f"v {x} {y} {z}" for x, y, z in TETRAHEDRON] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in FACES]
-    path.write_text("\n".join(lines))
+    path.write_text("\n".join(["mtllib boom.mtl", "usemtl skin", *lines]))
 
 
 def write_dae(path):
@@ -192,7 +192,8 @@ URDF = """<robot name="crane">
   <link name="post"><visual><geometry><mesh filename="package://crane/meshes/post.stl"/></geometry></visual></link>
   <link name="boom"><visual><geometry><mesh filename="meshes/boom.obj"/></geometry></visual></link>
   <link name="hook"><visual><geometry><mesh filename="package://crane/meshes/hook.dae"/></geometry></visual></link>
-  <link name="load"><visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual></link>
+  <link name="load"><visual><geometry><box size="0.1 0.1 0.1"/></geometry>
+    <material name="wood"><texture filename="package://crane/meshes/skin.png"/></material></visual></link>
   <joint name="turn" type="revolute"><parent link="post"/><child link="boom"/>
     <origin xyz="0 0 1" rpy="0 0 0.3"/><axis xyz="0 0 1"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
   <joint name="lift" type="prismatic"><parent link="boom"/><child link="hook"/>
@@ -205,12 +206,13 @@ URDF = """<robot name="crane">
 
 @pytest.fixture
 def crane(tmp_path):
-    """A robot in a ROS package of its own: an STL, an OBJ and a DAE with a texture."""
+    """A robot in a ROS package of its own: an STL, an OBJ and a DAE with textures, and a box with one."""
     package = tmp_path / "crane"
     (package / "meshes").mkdir(parents=True)
     (package / "package.xml").write_text("<package><name>crane</name></package>")
     write_stl(package / "meshes" / "post.stl")
     write_obj(package / "meshes" / "boom.obj")
+    (package / "meshes" / "boom.mtl").write_text("newmtl skin\nmap_Kd skin.png\n")
     write_dae(package / "meshes" / "hook.dae")
     (package / "meshes" / "skin.png").write_bytes(PIXEL)
     file = package / "crane.urdf"
@@ -251,6 +253,7 @@ def test_a_robot_of_a_file_is_drawn_with_its_meshes_and_moved_by_sliders(crane, 
     buffer.set("map", "post", coframe.Transform(), static=True)
     page = open_page(view(buffer, robot=crane, fixed="map").url).drawn()
     page.until(f"{ROBOT}?.visible && {ROBOT}.loading === 0 && {ROBOT}.state === 'ok'")
+    page.until(f"{ROBOT}.textures === 3")
     assert page.ask(f"{ROBOT}.meshes") == 4
     robot = coframe.robots.load(crane)
     assert_stands_like(page, robot, {})

@@ -9,6 +9,7 @@ import coframe
 
 SECOND = 1_000_000_000
 BEGIN = 1_700_000_000 * SECOND
+MINUS = "\N{MINUS SIGN}"
 
 
 @pytest.fixture
@@ -42,10 +43,10 @@ def test_two_clicks_measure_what_the_buffer_says(page):
     click_on(page, "base")
     page.wait(lambda: page.text("#measured").startswith("From base"), "the second click")
     click_on(page, "arm")
-    number = r"([−\d.]+)"
+    number = rf"([{MINUS}\d.]+)"
     told = re.compile(rf"{number} m\s+Δx {number}\s+Δy {number}\s+Δz {number}")
     found = page.wait(lambda: told.fullmatch(page.text("#measured")), "a distance")
-    distance, *along = (float(part.replace("−", "-")) for part in found.groups())
+    distance, *along = (float(part.replace(MINUS, "-")) for part in found.groups())
     stamp = page.picture()[1]
     base, arm = (page.buffer.lookup("map", frame, stamp) for frame in ("base", "arm"))
     expected = arm.translation - base.translation

@@ -1,6 +1,8 @@
 """What programs draw: markers, maps, and how uncertain a pose is, each of it where it belongs."""
 
 import base64
+import struct
+import zlib
 from array import array
 
 import numpy as np
@@ -249,3 +251,48 @@ def test_heights_of_a_cloud_are_coloured_along_the_fixed_frame_or_its_own(view, 
         page.click("#body-displays .card[data-display=PointCloud2] .card-title")
         page.raw.uncheck("#body-displays input[aria-label='Axis of the fixed frame']")
         page.until(f"{display('/cloud')}.messages.length && JSON.stringify({colours_of}) === '[0,1]'")
+
+
+PICTURES = """() => [...document.querySelectorAll('#images figure:not([hidden])')].map((figure) => {
+    const canvas = figure.querySelector('canvas');
+    const pixel = (x, y) => [...canvas.getContext('2d').getImageData(x, y, 1, 1).data].slice(0, 3);
+    const text = figure.querySelector('figcaption').textContent;
+    return {text, size: [canvas.width, canvas.height], corners: [pixel(0, 0), pixel(canvas.width - 1, 0)]};
+})"""
+
+
+def test_pictures_of_cameras_are_shown_beside_the_scene(view, open_page, tmp_path):
+    """Also where nobody tells where the camera is."""
+    pixels = np.zeros((4, 6, 3), np.uint8)
+    pixels[0, 0], pixels[0, 5] = [10, 20, 30], [40, 50, 60]
+    raw = stamped("sensor_msgs/msg/Image", "camera", BEGIN + SECOND, height=4, width=6, step=20, encoding="bgr8")
+    raw.data = array("B", np.pad(pixels.reshape(4, 18), ((0, 0), (0, 2))).tobytes())
+    packed = stamped("sensor_msgs/msg/CompressedImage", "camera", BEGIN + SECOND, format="rgb8; png compressed")
+    packed.data = array("B", png(pixels))
+    odd = stamped("sensor_msgs/msg/Image", "camera", BEGIN + SECOND, height=1, width=1, step=2, encoding="16UC1")
+    topics = {"/raw": raw, "/packed": packed, "/odd": odd}
+    told = [(topic, BEGIN + SECOND, message) for topic, message in topics.items()]
+    page = open_page(view(recording(tmp_path, *told), fixed="map").url).drawn()
+    page.tab("displays")
+    for topic in topics:
+        page.raw.select_option("#body-displays select[aria-label='Add a display']", label=f"Image: {topic}")
+    go_to(page, 5)
+    shown = page.wait(lambda: len(found := page.ask(PICTURES)) == 2 and {one["text"]: one for one in found}, "both")
+    assert shown["/raw"]["size"] == shown["/packed"]["size"] == [6, 4]
+    assert shown["/packed"]["corners"] == [[10, 20, 30], [40, 50, 60]]
+    assert shown["/raw"]["corners"] == [[30, 20, 10], [60, 50, 40]]
+    assert "16UC1" in page.until(f"{display('/odd')}.state === 'error' && {display('/odd')}.text")
+    go_to(page, 0)
+    page.wait(lambda: not page.ask(PICTURES), "no picture before the first")
+
+
+def png(pixels):
+    """The simplest PNG of red, green and blue."""
+    height, width, _ = pixels.shape
+    rows = b"".join(b"\0" + row.tobytes() for row in pixels)
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    head = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b"")

@@ -148,7 +148,7 @@ export class Displays {
     if (!this.automatic || !this.started) return;
     for (const { topic, display } of topics) {
       const shown = this.list.filter((other) => other instanceof MessageDisplay).length;
-      if (this.offered.has(topic) || !KINDS[display]?.topic || shown >= MOST_AT_FIRST) continue;
+      if (this.offered.has(topic) || !KINDS[display]?.topic || KINDS[display].heavy || shown >= MOST_AT_FIRST) continue;
       this.offered.add(topic);
       this.create({ class: display, name: this.freeName(display), enabled: true, topic, options: {} });
     }

@@ -6,6 +6,7 @@ import { CameraDisplay, CAMERA_SPECS } from "./camera_info";
 import { CloudDisplay, cloudSpecs } from "./cloud";
 import type { Context, Display, DisplayConfig } from "./display";
 import { Ground, GROUND_SPECS } from "./ground";
+import { IMAGE_SPECS, ImageDisplay } from "./image";
 import { MapDisplay, MAP_SPECS } from "./map";
 import { MarkersDisplay, MARKER_SPECS } from "./markers";
 import type { OptionSpec } from "./options";
@@ -17,6 +18,8 @@ import { TF_SPECS, TfDisplay } from "./tf";
 
 interface Kind {
   specs: readonly OptionSpec[];
+  /** Whether it takes so much that it is shown only when asked for. */
+  heavy?: boolean;
   /** Whether it shows what comes on a topic. */
   topic: boolean;
   make(id: number, config: DisplayConfig, specs: readonly OptionSpec[], context: Context, meshes: Meshes): Display;
@@ -48,6 +51,7 @@ export const KINDS: Record<string, Kind> = {
   MarkerArray: markers,
   Range: plain(RANGE_SPECS, RangeDisplay),
   Camera: plain(CAMERA_SPECS, CameraDisplay),
+  Image: { ...plain(IMAGE_SPECS, ImageDisplay), heavy: true },
   CameraInfo: plain(CAMERA_SPECS, CameraDisplay),
 };
 

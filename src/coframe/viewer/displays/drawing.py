@@ -29,12 +29,14 @@ class Drawing(NamedTuple):
         stamp: When it was there, in nanoseconds; 0 is the latest.
         data: The binary message to the page, without its display and sequence.
         locked: Whether it moves on with its frame after that.
+        placed: Whether it is somewhere; what is shown beside the scene is not.
     """
 
     frame: str
     stamp: int
     data: bytearray
     locked: bool = False
+    placed: bool = True
 
 
 @dataclass(frozen=True)
