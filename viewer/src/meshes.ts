@@ -11,7 +11,8 @@ const MOST_BYTES = 200e6;
 /** Text is parsed in one go, during which the page stands still. */
 const MOST_TEXT_BYTES = 60e6;
 const MOST_VERTICES = 6e6;
-const BLANK = "data:image/gif;base64,R0lGODlhAQABAAAAACH5BAEKAAEALAAAAAABAAEAAAICTAEAOw==";
+/** For what must not be asked for: it fails at once. */
+export const NOTHING = "data:,";
 
 export interface LoadedMesh {
   object: THREE.Object3D;
@@ -83,18 +84,37 @@ async function fetchBytes(url: string, name: string): Promise<ArrayBuffer> {
 }
 
 async function parse(bytes: ArrayBuffer, url: string, name: string): Promise<LoadedMesh> {
-  const ending = /\.([a-z0-9]+)$/i.exec(name.split(/[?#]/)[0] ?? "")?.[1]?.toLowerCase() ?? "";
   const manager = new THREE.LoadingManager();
-  manager.setURLModifier((wanted) => (isOurs(wanted) ? wanted : BLANK));
+  manager.setURLModifier((wanted) => (isOurs(wanted) ? wanted : NOTHING));
+  const textures = ending(manager);
+  const loaded = await parsed(bytes, url, name, manager);
+  await textures();
+  dropEmptyTextures(loaded.object);
+  return loaded;
+}
+
+/** Waits until all that was asked for has come, or has failed to. */
+function ending(manager: THREE.LoadingManager): () => Promise<void> {
+  let busy = false;
+  let end = (): void => {};
+  manager.onStart = (): void => void (busy = true);
+  manager.onLoad = (): void => {
+    busy = false;
+    end();
+  };
+  return () => (busy ? new Promise((resolve) => (end = resolve)) : Promise.resolve());
+}
+
+async function parsed(bytes: ArrayBuffer, url: string, name: string, manager: THREE.LoadingManager): Promise<LoadedMesh> {
+  const kind = /\.([a-z0-9]+)$/i.exec(name.split(/[?#]/)[0] ?? "")?.[1]?.toLowerCase() ?? "";
   // What stands beside the file is served below its own address.
   const folder = url.startsWith("data:") ? "" : `${url}/`;
-  switch (ending) {
+  switch (kind) {
     case "stl":
       return { object: new THREE.Mesh(parseStl(bytes, name)), coloured: false };
     case "dae": {
       const scene = new ColladaLoader(manager).parse(text(bytes, name), folder)?.scene;
       if (!scene) throw new MeshError(`${short(name)} is no COLLADA file`);
-      mendTextures(scene, manager);
       return { object: scene, coloured: true };
     }
     case "obj":
@@ -122,9 +142,7 @@ async function parseObj(source: string, folder: string, manager: THREE.LoadingMa
     } catch (error) {
       if (!(error instanceof MeshError)) throw error;
     }
-  const object = loader.parse(source);
-  mendTextures(object, manager);
-  return { object, coloured };
+  return { object: loader.parse(source), coloured };
 }
 
 function parseStl(bytes: ArrayBuffer, name: string): THREE.BufferGeometry {
@@ -141,11 +159,6 @@ function text(bytes: ArrayBuffer, name: string): string {
   if (bytes.byteLength > MOST_TEXT_BYTES)
     throw new MeshError(`${short(name)} is a text file of ${Math.round(bytes.byteLength / 1e6)} MB, too large to draw`);
   return new TextDecoder().decode(bytes);
-}
-
-function mendTextures(object: THREE.Object3D, manager: THREE.LoadingManager): void {
-  manager.onLoad = () => dropEmptyTextures(object);
-  manager.onError = () => dropEmptyTextures(object);
 }
 
 /** A texture that could not be had would be drawn black. */

@@ -2,7 +2,7 @@
 
 import * as THREE from "three";
 import URDFLoader, { type URDFJoint, type URDFRobot } from "urdf-loader";
-import { dropEmptyTextures, hasPicture, materialsOf, type Meshes } from "../meshes";
+import { dropEmptyTextures, hasPicture, materialsOf, NOTHING, type Meshes } from "../meshes";
 import type { Placement } from "../placement";
 import type { Robot, Tick } from "../protocol";
 import { Display, release, type Context, type DisplayConfig } from "./display";
@@ -14,9 +14,6 @@ export const ROBOT_SPECS: readonly OptionSpec[] = [
   { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
   { key: "TF Prefix", label: "Frame prefix", kind: "frame", value: "" },
 ];
-
-/** For what the server's table does not know. */
-const NOTHING = "data:,";
 
 export class RobotDisplay extends Display {
   robot: Robot | null = null;
