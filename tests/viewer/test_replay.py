@@ -6,12 +6,17 @@ import json
 import urllib.error
 import urllib.parse
 import urllib.request
+from array import array
 
 import numpy as np
 import pytest
 
 import coframe
+from coframe.messages import find
+from coframe.viewer.displays import Options
 from coframe.viewer.http import STATIC
+from coframe.viewer.messages import Sighting
+from coframe.viewer.replay_displays import Pictures, ReplayDisplay, display_blocks
 
 SECOND = 1_000_000_000
 BEGIN = 1_700_000_000 * SECOND
@@ -206,6 +211,40 @@ def test_a_display_that_is_too_much_for_the_file_is_thinned_or_left_out(walker, 
         else:
             assert block["statuses"][0][1] == "error"
             assert "left out of this replay" in block["statuses"][0][2]
+
+
+class AtHand:
+    """A topic of one message."""
+
+    def __init__(self, message):
+        self.type = message.ROS_TYPE
+        self._sighting = Sighting(1, BEGIN, lambda: message)
+
+    def at(self, time):
+        return self._sighting if time == 0 or time >= BEGIN else None
+
+    def before(self, time, _count):
+        return [self._sighting] if self.at(time) else []
+
+
+def test_large_clouds_are_thinned_and_say_by_how_much(decoded):
+    count = 25_000
+    field = find("sensor_msgs/msg/PointField")
+    cloud = find("sensor_msgs/msg/PointCloud2")(height=1, width=count, point_step=12, row_step=12 * count)
+    cloud.fields = [field(name=name, offset=4 * i, datatype=7, count=1) for i, name in enumerate("xyz")]
+    cloud.data = array("B", np.arange(3 * count, dtype="<f4").tobytes())
+    cloud.header.frame_id, cloud.header.stamp.sec = "map", BEGIN // SECOND
+    buffer = coframe.Buffer(None)
+    buffer.set("map", "base", coframe.Transform(), BEGIN)
+    times = np.arange(3) * SECOND + BEGIN - SECOND
+    pictures = Pictures(buffer, "map", times, np.zeros(3))
+    (block,) = display_blocks([ReplayDisplay("/cloud", Options())], {"/cloud": AtHand(cloud)}, pictures)
+    replayed = Replayed(block, decoded)
+    assert replayed.at(0) == []
+    ((drawing, _, _),) = replayed.at(2)
+    assert drawing.step == 3
+    np.testing.assert_array_equal(drawing.points, np.arange(3 * count).reshape(-1, 3)[::3])
+    assert [status[1] for status in block["statuses"]] == ["waiting", "ok"]
 
 
 @pytest.mark.parametrize(
