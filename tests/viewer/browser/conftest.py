@@ -23,6 +23,7 @@ websockets = pytest.importorskip("websockets.sync.client", reason="the viewer ne
 
 SETTLING = 5.0  # seconds
 PATIENCE = 20.0  # seconds; two cores that others use too
+START_PATIENCE = 60.0  # of a process that starts beside a browser that starts
 SECOND = 1_000_000_000
 LAB_FRAMES = 11
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
@@ -251,7 +252,7 @@ def demo(tmp_path_factory) -> Iterator[Demo]:
 
 def _address(process, output):
     """The line of its own with the address."""
-    deadline = time.monotonic() + PATIENCE
+    deadline = time.monotonic() + START_PATIENCE
     while time.monotonic() < deadline and process.poll() is None:
         lines = output.read_text(errors="replace").splitlines()
         if found := [line for line in lines if line.startswith("http://127.0.0.1:")]:
