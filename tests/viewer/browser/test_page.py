@@ -117,6 +117,10 @@ def test_the_sheet_lists_the_keys_and_they_work(view, open_page):
     assert {"Space", "l", ",", ".", "v", "f", "m", "/", "d", "s", "?", "Esc"} <= listed
     page.key("Escape")
     page.wait(lambda: not page.raw.locator("dialog[open]").is_visible(), "its end")
+    page.click("#bar button[title=Export]")
+    page.click("text=Replay (HTML)")
+    page.key("Escape")
+    page.wait(lambda: not page.raw.locator("dialog[open]").is_visible(), "the end of another")
     page.key("m")
     page.wait(lambda: "click the first frame" in page.text("#measured"), "the ruler")
     page.key("v")
