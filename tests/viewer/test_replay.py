@@ -171,7 +171,11 @@ def replay_of(viewer, open_tab, *displays, seconds=4, rate=5):
 
 def test_displays_go_with_a_replay_as_a_tab_would_see_them(walker, view, open_tab, decoded):
     replay = replay_of(
-        view(walker), open_tab, {"topic": "/scan", "options": {"color_by": "distance"}}, {"topic": "/nowhere"}
+        view(walker),
+        open_tab,
+        {"topic": "/scan", "options": {"color_by": "distance"}},
+        {"topic": "/nowhere"},
+        {"topic": "/robot_description"},
     )
     (block,) = replay["displays"]
     assert (block["topic"], block["display"], block["every"]) == ("/scan", "LaserScan", 1)

@@ -78,13 +78,13 @@ def packed(array: NDArray[Any]) -> str:
 def display_blocks(
     displays: Sequence[ReplayDisplay], messages: Mapping[str, Messages], pictures: Pictures
 ) -> list[dict[str, Any]]:
-    """What the page needs of each display, in order; those without messages are left out.
+    """What the page needs of each display, in order; topics that are not there, or cannot be displayed, are left out.
 
     What is too much is thinned: clouds to `MOST_POINTS`, and a display whose drawings take more than half of what is
     left of `MOST_BYTES` to every so-manieth picture. The last one, a cloud or camera if there is one, takes all that
     is left.
     """
-    known = [display for display in displays if display.topic in messages]
+    known = [one for one in displays if one.topic in messages and messages[one.topic].type in DISPLAYS]
     order = sorted(range(len(known)), key=lambda index: messages[known[index].topic].type in _HEAVY)
     blocks: dict[int, dict[str, Any]] = {}
     left = MOST_BYTES
