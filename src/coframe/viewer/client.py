@@ -347,7 +347,7 @@ class Client:
                 status = Status("waiting", f"nobody publishes {wanted.topic}")
             else:
                 display.advance(buffer, fixed, at, now)
-                for drawing in display.take_unsent():
+                for _, drawing in display.take_unsent():
                     self._socket.send(drawing)
                 entries += display.poses()
                 status = display.status

@@ -38,6 +38,7 @@ _HOLD = "15s"
 _MOST_ENTRIES = 1000
 _MOST_LAYERS = 200
 _NS = 1_000_000_000
+_ANYWHERE = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 
 
 class Status(NamedTuple):
@@ -71,6 +72,9 @@ class _Entry:
         if self._fixed == fixed and self.pose is not None and not drawing.locked:
             return True
         self.pose, self._fixed = None, fixed
+        if not drawing.placed:
+            self.pose = _ANYWHERE
+            return True
         frame = drawing.frame.removeprefix("/")  # as in ROS 1; buffers take it off, too
         try:
             if drawing.locked:
@@ -145,20 +149,25 @@ class Display:
         elif self._layers:
             self._place_again(buffer, fixed, at)
 
-    def take_unsent(self) -> list[bytearray]:
-        """The drawings that the page has not got yet, which are given away."""
+    def take_unsent(self) -> list[tuple[int, bytearray]]:
+        """The drawings that the page has not got yet, with their numbers, which are given away."""
         drawings = []
         for entry in self._entries():
             if not entry.sent:
                 entry.sent = True
                 data = entry.drawing.take_data()
                 protocol.stamp_drawing(data, self.number, entry.sequence)
-                drawings.append(data)
+                drawings.append((entry.sequence, data))
         return drawings
 
     def poses(self) -> list[protocol.EntryPose]:
         """Where everything is that is to be seen."""
         return [protocol.EntryPose(self.number, entry.sequence, entry.pose) for entry in self._entries()]
+
+    def stamps(self) -> list[int | None]:
+        """When each of those was where it is, in nanoseconds; None for what moves on, or was told without a stamp."""
+        drawings = [entry.drawing for entry in self._entries()]
+        return [None if drawing.locked or drawing.stamp == 0 else drawing.stamp for drawing in drawings]
 
     def close(self) -> None:
         """Ends it; a drawing that is being made is thrown away."""

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 from coframe.errors import ViewerError, WireError
 from coframe.viewer.displays import Options
 from coframe.viewer.relations import relate
+from coframe.viewer.replay import MOST_DISPLAYS, ReplayLooks
+from coframe.viewer.replay_displays import ReplayDisplay
 from coframe.viewer.rviz import RvizConfig
 from coframe.viewer.timeline import MOST_BINS, edge_rows, next_stamp
 
@@ -243,6 +245,25 @@ async def _load_rviz(client: Client, request: Request) -> None:
     await client.answer("rviz", **config.description())
 
 
+async def _replay(client: Client, request: Request) -> None:
+    displays = []
+    for told in request.sequence("displays"):
+        if not isinstance(told, dict) or not isinstance(told.get("topic"), str):
+            raise BadRequestError("each display of a message 'replay' is an object with a topic")
+        options = told.get("options")
+        drawn = Options.of(options if isinstance(options, dict) else {}, client.origin)
+        displays.append(ReplayDisplay(told["topic"], drawn))
+    if len(displays) > MOST_DISPLAYS:
+        raise BadRequestError(f"a replay has {MOST_DISPLAYS} displays at most", "Hide some.")
+    rviz = request.mapping("rviz")
+    try:
+        json.dumps(rviz, allow_nan=False)
+    except (ValueError, RecursionError) as error:
+        raise BadRequestError(f"rviz of a message 'replay' is no JSON: {error}") from None
+    looks = ReplayLooks(tuple(displays), rviz)
+    await client.answer("replay", looks=client.stage.announce_replay(looks))
+
+
 async def _save_rviz(client: Client, request: Request) -> None:
     config = client.rviz or RvizConfig()
     displays, options, view = request.sequence("displays"), request.mapping("global"), request.mapping("view")
@@ -265,6 +286,7 @@ _DEEDS: dict[str, Callable[[Client, Request], Awaitable[None]]] = {
     "joints": _joints,
     "load_rviz": _load_rviz,
     "relate": _relate,
+    "replay": _replay,
     "save_rviz": _save_rviz,
     "step": _step,
     "subscribe": _subscribe,

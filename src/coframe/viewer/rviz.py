@@ -25,6 +25,7 @@ DISPLAY_CLASSES = frozenset(
         "Camera",
         "CameraInfo",
         "Grid",
+        "Image",
         "LaserScan",
         "Map",
         "Marker",

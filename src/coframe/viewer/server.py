@@ -16,7 +16,7 @@ from urllib.parse import parse_qsl, unquote, urlsplit
 from coframe.errors import ViewerError
 from coframe.viewer.http import STATIC, Visitors, file_response, page_file, response, sentence
 from coframe.viewer.meshes import MESH_TYPES, MeshError
-from coframe.viewer.replay import replay_page
+from coframe.viewer.replay import Sights, replay_page
 from coframe.viewer.ticker import Ticker
 from coframe.viewer.websocket import WebSocket
 
@@ -186,9 +186,9 @@ class ViewerServer:
         try:
             wanted = stage.replay_request(dict(parse_qsl(query)))
             template, robots = self._static / "replay.html", list(stage.descriptions.known.values())
-            page = await self._loop.run_in_executor(
-                stage.executor, replay_page, template, stage.source.buffer, wanted, robots, stage.meshes
-            )
+            with stage.opened(display.topic for display in wanted.looks.displays) as messages:
+                sights = Sights(stage.source.buffer, messages, robots, stage.meshes)
+                page = await self._loop.run_in_executor(stage.executor, replay_page, template, sights, wanted)
         except ViewerError as error:
             return sentence(HTTPStatus.BAD_REQUEST, f"{error} {error.hint}".strip(), policy)
         attachment = {"Content-Disposition": 'attachment; filename="coframe-replay.html"'}

@@ -30,12 +30,14 @@ class Drawing:
         stamp: When it was there, in nanoseconds; 0 is the latest.
         data: The binary message to the page, without its display and sequence.
         locked: Whether it moves on with its frame after that.
+        placed: Whether it is somewhere; what is shown beside the scene is not.
     """
 
     frame: str
     stamp: int
     data: bytearray
     locked: bool = False
+    placed: bool = True
 
     def take_data(self) -> bytearray:
         """The binary message, which the drawing lets go of: it is sent once, and may be large."""
