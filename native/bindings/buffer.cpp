@@ -431,6 +431,21 @@ nb::bytes encode(const BufferObject& self, bool is_static) {
   return nb::bytes(message.data(), message.size());
 }
 
+void add_frequent_methods(nb::handle cls) {
+  add_method(cls, "lookup", &py_lookup,
+             "lookup($self, /, target, source, stamp=None, *, timeout=None, extrapolate=None, hold=False)\n--\n\n"
+             "The transform that takes coordinates in `source` to coordinates in `target` at `stamp`.");
+  add_method(cls, "can_transform", &py_can_transform,
+             "can_transform($self, /, target, source, stamp=None, *, timeout=None)\n--\n\n"
+             "Whether lookup() would succeed, or does within `timeout`.");
+  add_method(cls, "set_values", &py_set_values,
+             "set_values($self, /, parent, child, stamp, x, y, z, qx, qy, qz, qw, static, authority)\n--\n\n"
+             "Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts).");
+  add_method(cls, "set_plain", &py_set_plain,
+             "set_plain($self, /, parent, child, transform, stamp, static)\n--\n\n"
+             "set_values() of a dynamic Transform between known frames; None where it is not just that.");
+}
+
 }  // namespace
 
 void define_buffer(nb::module_& module) {
@@ -485,18 +500,10 @@ void define_buffer(nb::module_& module) {
           arg("now") = 0)
       .def_prop_ro("statistics", &statistics)
       .def_prop_ro("changes", [](const BufferObject& self) { return self.core->changes(); });
-  add_method(cls, "lookup", &py_lookup,
-             "lookup($self, /, target, source, stamp=None, *, timeout=None, extrapolate=None, hold=False)\n--\n\n"
-             "The transform that takes coordinates in `source` to coordinates in `target` at `stamp`.");
-  add_method(cls, "can_transform", &py_can_transform,
-             "can_transform($self, /, target, source, stamp=None, *, timeout=None)\n--\n\n"
-             "Whether lookup() would succeed, or does within `timeout`.");
-  add_method(cls, "set_values", &py_set_values,
-             "set_values($self, /, parent, child, stamp, x, y, z, qx, qy, qz, qw, static, authority)\n--\n\n"
-             "Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts).");
-  add_method(cls, "set_plain", &py_set_plain,
-             "set_plain($self, /, parent, child, transform, stamp, static)\n--\n\n"
-             "set_values() of a dynamic Transform between known frames; None where it is not just that.");
+  add_frequent_methods(cls);
+  module.def("register_buffer_class", [](nb::type_object_t<BufferObject> cls) { add_frequent_methods(cls); }, arg("cls"),
+             "Gives a class on top of Buffer the most frequent methods as its own: CPython has a shorter way to call "
+             "those of an object's very class.");
   module.def("insert_texts", &py_insert_texts, arg("refusals"), arg("parent"), arg("child"), arg("stamp"), arg("x"),
              arg("y"), arg("z"), arg("qx"), arg("qy"), arg("qz"), arg("qw"), arg("authority"),
              "tf2's log lines for a transform that set_values refused: (level, text).");

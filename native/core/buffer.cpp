@@ -309,11 +309,6 @@ bool Buffer::quick_lookup(PathCache& paths, FrameId target, FrameId source, Stam
   return true;
 }
 
-bool Buffer::quick_check(PathCache& paths, FrameId target, FrameId source, Stamp stamp) const {
-  const std::uint64_t revision = tree_.revision().start_reading();
-  return check_path(tree_, paths, target, source, stamp) && tree_.revision().unchanged(revision);
-}
-
 bool Buffer::lookup_full(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed,
                          Pose& pose, Failure& failure) const {
   const Stamp target_asked = target_stamp;

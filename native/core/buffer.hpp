@@ -98,7 +98,10 @@ class Buffer {
   // false may also mean that lookup() has to decide.
   bool quick_lookup(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const;
   // Whether lookup() would answer; false may also mean that it has to decide.
-  bool quick_check(PathCache& paths, FrameId target, FrameId source, Stamp stamp) const;
+  bool quick_check(PathCache& paths, FrameId target, FrameId source, Stamp stamp) const {
+    const std::uint64_t revision = tree_.revision().start_reading();
+    return check_path(tree_, paths, target, source, stamp) && tree_.revision().unchanged(revision);
+  }
   // By name; notes the numbers of the frames in the question. With `extrapolation` also beyond the data, as far as it
   // allows; it learns how far that was.
   bool answer(Question& question, Answer& answer, Failure& failure, Extrapolation* extrapolation = nullptr) const;

@@ -361,6 +361,12 @@ def insert_texts(
 ) -> list[tuple[str, str]]:
     """tf2's log lines for a transform that set_values refused: (level, text)."""
 
+def register_buffer_class(cls: type[Buffer]) -> None:
+    """Gives a class on top of Buffer the most frequent methods as its own.
+
+    CPython has a shorter way to call those of an object's very class.
+    """
+
 def register_transform_class(cls: type[Transform]) -> None:
     """Look-ups return instances of `cls`, a subclass of Transform."""
 
