@@ -73,6 +73,9 @@ class Buffer {
   // The source has another name: notes it for the frames that its last messages told of, and for all to come.
   void rename(TransformStream& stream, std::string_view authority);
   DecodeFailure ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
+  // The same in two steps: first the transforms are there, then those who wait for them are woken.
+  DecodeFailure take_in(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
+  void tell_of_last(TransformStream& stream);
   void clear();
   // Forgets a frame with its link to its parent and those of its children to it; false if nobody knows it.
   bool remove_frame(std::string_view name);

@@ -118,6 +118,21 @@ bool read_transform(Reader& reader, TransformView& view) {
   return true;
 }
 
+// `read` reads a transform by its number, or tells that it cannot.
+template <class Read>
+DecodeFailure read_message(const std::uint8_t* data, std::size_t size, std::uint32_t& count, Read&& read) {
+  if (size < kHeader) return {size, "the message is shorter than its 4-byte header"};
+  if (data[0] != 0 || data[1] > 1) return {0, "the header does not say plain CDR (00 01 or 00 00)"};
+  Reader reader(data + kHeader, size - kHeader, data[1] == 0);
+  bool complete = reader.number(count);
+  for (std::uint32_t i = 0; complete && i < count; ++i) complete = read(reader, i);
+  if (!complete) return {kHeader + reader.position(), reader.reason()};
+  if (reader.left() > kLargestPadding) {
+    return {kHeader + reader.position(), "bytes are left over after the last transform"};
+  }
+  return {};
+}
+
 class Writer {
  public:
   Writer() : bytes_({'\0', '\1', '\0', '\0'}) {}
@@ -147,25 +162,19 @@ class Writer {
 
 DecodeFailure decode_tf_message(const std::uint8_t* data, std::size_t size, std::vector<TransformView>& out,
                                 std::span<const ExpectedNames> expected) {
-  const auto fail = [&](std::size_t offset, const char* reason) {
-    out.clear();
-    return DecodeFailure{offset, reason};
-  };
-  if (size < kHeader) return fail(size, "the message is shorter than its 4-byte header");
-  if (data[0] != 0 || data[1] > 1) return fail(0, "the header does not say plain CDR (00 01 or 00 00)");
-  Reader reader(data + kHeader, size - kHeader, data[1] == 0);
-  std::uint32_t count;
-  bool complete = reader.number(count);
-  for (std::uint32_t i = 0; complete && i < count; ++i) {
+  std::uint32_t count = 0;
+  const DecodeFailure failure = read_message(data, size, count, [&](Reader& reader, std::uint32_t i) {
     if (i == out.size()) out.emplace_back();  // else that of an earlier message is written over
-    complete = (i < expected.size() && reader.transform(expected[i], out[i])) || read_transform(reader, out[i]);
-  }
-  if (!complete) return fail(kHeader + reader.position(), reader.reason());
-  if (reader.left() > kLargestPadding) {
-    return fail(kHeader + reader.position(), "bytes are left over after the last transform");
-  }
-  out.resize(count);
-  return {};
+    return (i < expected.size() && reader.transform(expected[i], out[i])) || read_transform(reader, out[i]);
+  });
+  out.resize(failure.reason ? 0 : count);
+  return failure;
+}
+
+DecodeFailure check_tf_message(const std::uint8_t* data, std::size_t size) {
+  std::uint32_t count;
+  TransformView view;
+  return read_message(data, size, count, [&](Reader& reader, std::uint32_t) { return read_transform(reader, view); });
 }
 
 std::string encode_tf_message(const std::vector<TransformView>& transforms) {

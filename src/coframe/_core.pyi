@@ -470,7 +470,7 @@ def load_dds(path: str) -> None:
     """Loads the DDS library; RuntimeError where it does not fit."""
 
 def create_unchecked_topic(participant: int, name: str, type_name: str) -> int:
-    """A topic whose readers are given any bytes that come under the type's name: its number."""
+    """A topic for who checks the bytes himself: its number."""
 
 class QosProfile:
     """The four policies ROS programs set."""
@@ -493,7 +493,9 @@ class DomainParticipant:
 class Writer:
     """A DDS writer of serialised messages."""
 
-    def __init__(self, participant: int, topic: int, qos: QosProfile, user_data: str) -> None: ...
+    def __init__(
+        self, participant: int, topic: int, qos: QosProfile, user_data: str, unchecked: bool = False
+    ) -> None: ...
     def write(self, message: bytes) -> None:
         """Sends one serialised message, without the GIL."""
 
