@@ -400,13 +400,19 @@ nb::list py_insert_texts(unsigned refusals, std::string_view parent, std::string
   return lines;
 }
 
-std::size_t ingest(BufferObject& self, nb::handle message, bool is_static, std::string authority) {
-  const Memory bytes(message, PyBUF_SIMPLE);
-  TransformStream& stream = self.stream(is_static, std::move(authority));
-  std::size_t stored;
-  const DecodeFailure failure = self.core->ingest(stream, bytes.data<const std::uint8_t>(), bytes.size(), stored);
-  if (failure.reason) raise_decode_error(failure);
-  return stored;
+PyObject* py_ingest(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<3> signature("ingest", {"cdr", "static", "authority"}, 1, 1);
+  PyObject* values[3];
+  if (!signature.parse(arguments, count, keywords, values)) return nullptr;
+  return guarded([&] {
+    BufferObject& self = buffer_of(object);
+    TransformStream& stream = self.stream(is_true(values[1]), values[2] ? self.authority(values[2]) : 0);
+    const Memory bytes(values[0], PyBUF_SIMPLE);
+    std::size_t stored;
+    const DecodeFailure failure = self.core->ingest(stream, bytes.data<const std::uint8_t>(), bytes.size(), stored);
+    if (failure.reason) raise_decode_error(failure);
+    return PyLong_FromSize_t(stored);
+  });
 }
 
 nb::list frame_tuples(const BufferObject& self) {
@@ -444,6 +450,9 @@ void add_frequent_methods(nb::handle cls) {
   add_method(cls, "set_plain", &py_set_plain,
              "set_plain($self, /, parent, child, transform, stamp, static)\n--\n\n"
              "set_values() of a dynamic Transform between known frames; None where it is not just that.");
+  add_method(cls, "ingest", &py_ingest,
+             "ingest($self, /, cdr, *, static=False, authority='no recorded authority')\n--\n\n"
+             "Takes in a TFMessage's bytes; returns how many of its transforms were stored.");
 }
 
 }  // namespace
@@ -472,8 +481,6 @@ void define_buffer(nb::module_& module) {
       .def("latest_common_time", &py_latest_common_time, any("target"), any("source"))
       .def("chain", &py_chain, any("target"), any("target_stamp"), any("source"), any("source_stamp"),
            any("fixed"))
-      .def("ingest", &ingest, arg("cdr"), nb::kw_only(), arg("static") = false,
-           arg("authority") = "no recorded authority")
       .def("encode", &encode, nb::kw_only(), arg("static"))
       .def("clear", [](BufferObject& self) { self.core->clear(); })
       .def("remove_frame", [](BufferObject& self, std::string_view name) { return self.core->remove_frame(name); },

@@ -26,14 +26,19 @@ class Reader {
 
   template <class T>
   bool number(T& value) {
-    if (!align(sizeof(T)) || left() < sizeof(T)) return fail("the message ends inside a number");
-    std::uint8_t bytes[sizeof(T)];
-    std::memcpy(bytes, body_ + position_, sizeof(T));
+    return numbers(&value, 1);
+  }
+
+  template <class T>
+  bool numbers(T* values, std::size_t count) {
+    const std::size_t size = count * sizeof(T);
+    if (!align(sizeof(T)) || left() < size) return fail("the message ends inside a number");
+    std::memcpy(values, body_ + position_, size);
     if (swap_) {
-      for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+      auto* bytes = reinterpret_cast<std::uint8_t*>(values);
+      for (std::size_t i = 0; i < size; i += sizeof(T)) std::reverse(bytes + i, bytes + i + sizeof(T));
     }
-    std::memcpy(&value, bytes, sizeof(T));
-    position_ += sizeof(T);
+    position_ += size;
     return true;
   }
 
@@ -109,13 +114,7 @@ bool read_transform(Reader& reader, TransformView& view) {
   if (!reader.text(view.parent) || !reader.text(view.child)) return false;
   view.name_bytes = reader.bytes_since(names);
   view.as_expected = false;
-  for (double& value : view.values.translation) {
-    if (!reader.number(value)) return false;
-  }
-  for (double& value : view.values.rotation) {
-    if (!reader.number(value)) return false;
-  }
-  return true;
+  return reader.numbers(view.values.translation, 3) && reader.numbers(view.values.rotation, 4);
 }
 
 // `read` reads a transform by its number, or tells that it cannot.
