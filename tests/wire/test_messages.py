@@ -126,6 +126,7 @@ def test_transforms_reach_programs_that_know_their_type(participant, node, child
     eventually(lambda: there.matched == 2 and back.matched == 1)
     stamped = find("geometry_msgs/msg/TransformStamped")(child_frame_id="lidar")
     data = codec.serialize(TF_MESSAGE(transforms=[stamped]))
+    arrived.clear()
     there.write(data)
     assert [sample.data for sample in here.take()] == [data], "in this process"
     assert arrived.wait(10_000_000_000)
