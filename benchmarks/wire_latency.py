@@ -1,7 +1,7 @@
 """How long a transform is on its way between two processes, and what listening costs.
 
-A talker publishes messages of ten transforms at 1 kHz, all of them stamped by the monotonic clock and the first one at the
-last moment before it is sent: its latency is measured. The figures of the listener:
+A talker publishes messages of ten transforms at 1 kHz, all of them stamped by the monotonic clock and the first one at
+the last moment before it is sent: its latency is measured. The figures of the listener:
 
     python -m benchmarks.wire_latency cpu coframe 5         processor time, percent of one core
     python -m benchmarks.wire_latency latency coframe 5     till it is there: nanoseconds, median and 99th percentile

@@ -116,20 +116,9 @@ History::History() { grow(); }
 
 History::~History() = default;
 
-bool History::place(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const {
-  const View samples = view();
-  Pair pair;
-  if (!samples.surrounded(stamp, hint, pair)) {
-    if (samples.surrounded(stamp, hint + 1, pair)) {
-      ++hint;
-    } else if (samples.find(stamp, pair, hint) != Found::ok) {
-      return false;
-    }
-  }
-  if (pair.older->parent() != parent || pair.newer->parent() != parent) return false;
-  link.older = pair.older->numbers();
-  link.newer = pair.newer->numbers();
-  link.share = pair.part / pair.whole;
+bool History::find_elsewhere(const View& samples, Stamp stamp, std::uint64_t& hint, Pair& pair) {
+  if (!samples.surrounded(stamp, hint + 1, pair)) return samples.find(stamp, pair, hint) == Found::ok;
+  ++hint;
   return true;
 }
 

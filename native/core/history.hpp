@@ -228,7 +228,16 @@ class History {
 
   // Where on its way the pose at `stamp` lies, if it is told in `parent`; false where View::at() has to say why not.
   // `hint` is of the caller's last question: the next one is mostly about a time close by.
-  bool place(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const;
+  bool place(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const {
+    const View samples = view();
+    Pair pair;
+    if (!samples.surrounded(stamp, hint, pair) && !find_elsewhere(samples, stamp, hint, pair)) return false;
+    if (pair.older->parent() != parent || pair.newer->parent() != parent) return false;
+    link.older = pair.older->numbers();
+    link.newer = pair.newer->numbers();
+    link.share = pair.part / pair.whole;
+    return true;
+  }
   // Whether a sample is told in that frame.
   bool mentions(FrameId parent) const;
 
@@ -266,6 +275,7 @@ class History {
   void release(ChunkPool& pool);
 
  private:
+  static bool find_elsewhere(const View& samples, Stamp stamp, std::uint64_t& hint, Pair& pair);
   Insertion insert_behind(const HistoryContext& context, Stamp stamp, const Sample& sample);
   Insertion insert_fixed(const HistoryContext& context, const Sample& sample);
   void append(const HistoryContext& context, Stamp stamp, const Sample& sample);

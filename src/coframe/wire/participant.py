@@ -290,7 +290,7 @@ class Participant:
             return self._topics[key]
 
     def _tf_topic(self, topic: str) -> tuple[str, str, int]:
-        """As `_topic_of`, for transforms: the native endpoints check their bytes, and readers count what is malformed."""
+        """As `_topic_of`, for transforms: the native endpoints check the bytes, and readers count what is malformed."""
         name, type_name = names.dds_topic(topic), names.dds_type(_TF_TYPE)
         with self._lock:
             if name not in self._tf_topics:
