@@ -106,8 +106,8 @@ void define_participant(nb::module_& wire) {
 
 void define_writer(nb::module_& wire) {
   nb::class_<PyWriter>(wire, "Writer", "A DDS writer of serialised messages.")
-      .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&>(), nb::arg("participant"),
-           nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), ReleaseGil())
+      .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, bool>(), nb::arg("participant"),
+           nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("unchecked") = false, ReleaseGil())
       .def(
           "write",
           [](const PyWriter& self, nb::bytes message) {
@@ -188,7 +188,7 @@ void define_wire(nb::module_& wire) {
   wire.def("load_dds", &dds::load, nb::arg("path"), "Loads the DDS library; RuntimeError where it does not fit.");
   wire.def("create_unchecked_topic", &dds::create_unchecked_topic, nb::arg("participant"), nb::arg("name"),
            nb::arg("type_name"), ReleaseGil(),
-           "A topic whose readers are given any bytes that come under the type's name: its number.");
+           "A topic for who checks the bytes himself: its number.");
   nb::class_<QosProfile>(wire, "QosProfile", "The four policies ROS programs set.")
       .def(
           "__init__",

@@ -361,6 +361,12 @@ def insert_texts(
 ) -> list[tuple[str, str]]:
     """tf2's log lines for a transform that set_values refused: (level, text)."""
 
+def register_buffer_class(cls: type[Buffer]) -> None:
+    """Gives a class on top of Buffer the most frequent methods as its own.
+
+    CPython has a shorter way to call those of an object's very class.
+    """
+
 def register_transform_class(cls: type[Transform]) -> None:
     """Look-ups return instances of `cls`, a subclass of Transform."""
 
@@ -475,7 +481,7 @@ def load_dds(path: str) -> None:
     """Loads the DDS library; RuntimeError where it does not fit."""
 
 def create_unchecked_topic(participant: int, name: str, type_name: str) -> int:
-    """A topic whose readers are given any bytes that come under the type's name: its number."""
+    """A topic for who checks the bytes himself: its number."""
 
 class QosProfile:
     """The four policies ROS programs set."""
@@ -498,7 +504,9 @@ class DomainParticipant:
 class Writer:
     """A DDS writer of serialised messages."""
 
-    def __init__(self, participant: int, topic: int, qos: QosProfile, user_data: str) -> None: ...
+    def __init__(
+        self, participant: int, topic: int, qos: QosProfile, user_data: str, unchecked: bool = False
+    ) -> None: ...
     def write(self, message: bytes) -> None:
         """Sends one serialised message, without the GIL."""
 
