@@ -46,18 +46,27 @@ COFRAME_INLINE PoseLanes step_at(const JointMotion& joint, Positions positions, 
   return step;
 }
 
+// As x, y, z, qx, qy, qz, qw, row after row.
+COFRAME_INLINE void write(const PoseLanes& pose, double* rows) {
+  store_fours(pose.p.x, pose.p.y, pose.p.z, pose.q.x, rows, 7);
+  store_fours(pose.q.x, pose.q.y, pose.q.z, pose.q.w, rows + 3, 7);
+}
+
 template <JointKind kKind>
-bool follow(const JointMotion& joint, Positions positions, std::size_t n, const PoseRows* parents, PoseRows& poses,
+bool follow(const JointMotion& joint, Positions positions, std::size_t n, const PoseRows* parents, PoseRows* poses,
             double* out) {
-  double nowhere[7];
-  double* places[kLanes];
   Lanes odd = splat(0.0);
   for (std::size_t i = 0; i < n; i += kLanes) {
     PoseLanes pose = step_at<kKind>(joint, positions, i, odd);
     if (parents) pose = seen<false>(load(*parents, i), pose);
-    store(pose, poses, i);
-    for (std::size_t k = 0; k < kLanes; ++k) places[k] = i + k < n ? out + 7 * (i + k) : nowhere;
-    write(pose.p, pose.q, places);
+    if (poses) store(pose, *poses, i);
+    if (i + kLanes <= n) {
+      write(pose, out + 7 * i);
+    } else {
+      double rows[7 * kLanes];
+      write(pose, rows);
+      std::memcpy(out + 7 * i, rows, (n - i) * 7 * sizeof(double));
+    }
   }
   return all_above(odd, -1.0);
 }
@@ -65,7 +74,7 @@ bool follow(const JointMotion& joint, Positions positions, std::size_t n, const 
 }  // namespace
 
 bool follow_joint(const JointMotion& joint, Positions positions, std::size_t n, const PoseRows* parents,
-                  PoseRows& poses, double* out) {
+                  PoseRows* poses, double* out) {
   switch (joint.kind) {
     case JointKind::turning:
       return follow<JointKind::turning>(joint, positions, n, parents, poses, out);

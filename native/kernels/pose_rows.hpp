@@ -31,14 +31,6 @@ COFRAME_INLINE void store(const PoseLanes& pose, PoseRows& rows, std::size_t i) 
   store_lanes(pose.p.z, rows.p[2] + i);
 }
 
-// To kLanes places of seven numbers each: x, y, z, qx, qy, qz, qw.
-COFRAME_INLINE void write(const Vector<Lanes>& p, const Quaternion<Lanes>& q, double* const* places) {
-  store_columns(p.x, p.y, places, 0);
-  store_columns(p.z, q.x, places, 2);
-  store_columns(q.y, q.z, places, 4);
-  store_columns(q.z, q.w, places, 5);
-}
-
 }  // namespace
 
 }  // namespace coframe::COFRAME_LEVEL

@@ -136,7 +136,11 @@ void write_poses(const PoseRows& poses, std::size_t n, const std::size_t* at, do
   for (std::size_t i = 0; i < n; i += kLanes) {
     find_places<7>(i, n, at, out, nowhere, places);
     const PoseLanes pose = load(poses, i);
-    write(pose.p, canonical(pose.q), places);
+    const Quaternion<Lanes> q = canonical(pose.q);
+    store_columns(pose.p.x, pose.p.y, places, 0);
+    store_columns(pose.p.z, q.x, places, 2);
+    store_columns(q.y, q.z, places, 4);
+    store_columns(q.z, q.w, places, 5);
   }
 }
 

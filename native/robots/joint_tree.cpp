@@ -79,7 +79,7 @@ JointTree::JointTree(const std::vector<JointDescription>& joints) {
   for (const JointDescription& joint : joints) {
     const auto before = static_cast<std::ptrdiff_t>(nodes_.size());
     if (joint.parent < -1 || joint.parent >= before) throw std::invalid_argument("parents must stand before children");
-    nodes_.push_back({motion_of(joint), joint.parent, joint.leader, joint.multiplier, joint.offset, 0});
+    nodes_.push_back({motion_of(joint), joint.parent, joint.leader, joint.multiplier, joint.offset, false, 0});
   }
   check_leaders();
   order_depth_first();
@@ -114,9 +114,12 @@ void JointTree::order_depth_first() {
     if (parent >= 0 && --left[static_cast<std::size_t>(parent)] == 0) {
       free_places.push_back(nodes_[static_cast<std::size_t>(parent)].place);
     }
-    if (free_places.empty()) free_places.push_back(places_++);
-    nodes_[joint].place = free_places.back();
-    if (left[joint] > 0) free_places.pop_back();
+    nodes_[joint].is_parent = left[joint] > 0;
+    if (nodes_[joint].is_parent) {
+      if (free_places.empty()) free_places.push_back(places_++);
+      nodes_[joint].place = free_places.back();
+      free_places.pop_back();
+    }
     waiting.insert(waiting.end(), children[joint + 1].begin(), children[joint + 1].end());
   }
 }
@@ -168,8 +171,9 @@ std::size_t JointTree::poses(const std::vector<JointPositions>& given, std::size
       const Node& node = nodes_[joint];
       const PoseRows* parents =
           in_root && node.parent >= 0 ? &rows[nodes_[static_cast<std::size_t>(node.parent)].place] : nullptr;
+      PoseRows* poses = in_root && node.is_parent ? &rows[node.place] : nullptr;
       if (!read(joint, given, first, count, columns) ||
-          !kernel.follow_joint(node.motion, columns, count, parents, rows[node.place], out + 7 * (joint * n + first))) {
+          !kernel.follow_joint(node.motion, columns, count, parents, poses, out + 7 * (joint * n + first))) {
         return joint;
       }
     }

@@ -46,7 +46,8 @@ class JointTree {
     JointMotion motion;
     std::ptrdiff_t parent, leader;
     double multiplier, offset;
-    std::size_t place;  // where its rows are kept while its children are worked on
+    bool is_parent;
+    std::size_t place;  // where a parent's rows are kept while its children are worked on
   };
   // What a joint's position is made of in the end.
   struct Drive {
