@@ -73,7 +73,7 @@ class JointTreeObject {
       given[joint] = {reinterpret_cast<const char*>(place), 0, sizeof(double)};
     }
     std::vector<double> poses(7 * tree_.size());
-    if (tree_.poses(given, 1, in_root, poses.data()) != tree_.size()) return nb::none();
+    if (tree_.poses(given, 1, in_root, 1, poses.data()) != tree_.size()) return nb::none();
     nb::dict found;
     if (in_root) found[root_] = make_transform(Pose{}, root_, root_);
     for (std::size_t j = 0; j < tree_.size(); ++j) {
@@ -85,7 +85,8 @@ class JointTreeObject {
 
   // Poses of many configurations to `out`, joint after joint. Positions as (joint, float64 array of one axis, or of two
   // for a joint of several numbers). The name of the first joint with a position that is none, or None.
-  nb::object poses_into(nb::list positions, std::size_t count, bool in_root, nb::handle out) const {
+  nb::object poses_into(nb::list positions, std::size_t count, bool in_root, nb::handle out,
+                        unsigned threads) const {
     const Memory rows(out, PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS);
     if (rows.size() / sizeof(double) / 7 != tree_.size() * count || rows.size() % (7 * sizeof(double)) != 0) {
       throw nb::value_error("out must have 7 float64 for each joint in each configuration");
@@ -97,8 +98,8 @@ class JointTreeObject {
       given[joint] = held.emplace_back(pair[1]).positions(count, position_size(tree_.kind(joint)));
     }
     std::size_t bad;
-    without_gil_if(tree_.size() * count > kManyPoses,
-                   [&] { bad = tree_.poses(given, count, in_root, rows.data<double>()); });
+    without_gil_if(threads > 1 || tree_.size() * count > kManyPoses,
+                   [&] { bad = tree_.poses(given, count, in_root, threads, rows.data<double>()); });
     return bad == tree_.size() ? nb::none() : names_[bad];
   }
 
@@ -180,7 +181,7 @@ void define_robots(nb::module_& module) {
       .def("transforms", &JointTreeObject::transforms, arg("positions"), arg("in_root"),
            "Of one configuration; None where a position is none.")
       .def("poses_into", &JointTreeObject::poses_into, arg("positions"), arg("count"), arg("in_root"), arg("out"),
-           "Of many configurations; the first joint with a position that is none.");
+           arg("threads"),           "Of many configurations; the first joint with a position that is none.");
 }
 
 }  // namespace coframe::bindings

@@ -1,10 +1,13 @@
 #include "robots/joint_tree.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
+
+#include "core/parts.hpp"
 
 namespace coframe {
 
@@ -160,20 +163,31 @@ bool JointTree::read(std::size_t joint, const std::vector<JointPositions>& given
   return true;
 }
 
-std::size_t JointTree::poses(const std::vector<JointPositions>& given, std::size_t n, bool in_root,
+std::size_t JointTree::poses(const std::vector<JointPositions>& given, std::size_t n, bool in_root, unsigned threads,
                              double* out) const {
+  const Work work{given, n, in_root, out};
+  std::atomic<std::size_t> bad = size();
+  in_parts(n, kBlock, threads, [&](std::size_t first, std::size_t last) {
+    const std::size_t found = poses_of_part(work, first, last);
+    if (found != size()) bad = found;
+  });
+  return bad;
+}
+
+std::size_t JointTree::poses_of_part(const Work& work, std::size_t first, std::size_t last) const {
   const std::unique_ptr<PoseRows[]> rows(new PoseRows[places_]);
   alignas(64) double columns[7][kRowBlock];
   const Kernels& kernel = kernels();
-  for (std::size_t first = 0; first < n; first += kBlock) {
-    const std::size_t count = std::min(kBlock, n - first);
+  for (; first < last; first += kBlock) {
+    const std::size_t count = std::min(kBlock, last - first);
     for (const std::size_t joint : order_) {
       const Node& node = nodes_[joint];
       const PoseRows* parents =
-          in_root && node.parent >= 0 ? &rows[nodes_[static_cast<std::size_t>(node.parent)].place] : nullptr;
-      PoseRows* poses = in_root && node.is_parent ? &rows[node.place] : nullptr;
-      if (!read(joint, given, first, count, columns) ||
-          !kernel.follow_joint(node.motion, columns, count, parents, poses, out + 7 * (joint * n + first))) {
+          work.in_root && node.parent >= 0 ? &rows[nodes_[static_cast<std::size_t>(node.parent)].place] : nullptr;
+      PoseRows* poses = work.in_root && node.is_parent ? &rows[node.place] : nullptr;
+      double* out = work.out + 7 * (joint * work.n + first);
+      if (!read(joint, work.given, first, count, columns) ||
+          !kernel.follow_joint(node.motion, columns, count, parents, poses, out)) {
         return joint;
       }
     }

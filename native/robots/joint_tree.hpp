@@ -38,8 +38,9 @@ class JointTree {
   // Where the link behind each joint is, told in the root link or else in the link before it: x, y, z, qx, qy, qz, qw of
   // joint j in configuration i at out + 7 * (j * n + i). Joints that are not given follow their leaders, or are at 0.
   // The first joint with a position that is no position, because it is not finite or a zero quaternion; size() if there
-  // is none.
-  std::size_t poses(const std::vector<JointPositions>& given, std::size_t n, bool in_root, double* out) const;
+  // is none. So many threads share the work.
+  std::size_t poses(const std::vector<JointPositions>& given, std::size_t n, bool in_root, unsigned threads,
+                    double* out) const;
 
  private:
   struct Node {
@@ -55,6 +56,15 @@ class JointTree {
     double multiplier, offset;
   };
 
+  // All configurations, whose places in `out` and in the positions are known, and of which a part is worked on.
+  struct Work {
+    const std::vector<JointPositions>& given;
+    std::size_t n;
+    bool in_root;
+    double* out;
+  };
+
+  std::size_t poses_of_part(const Work& work, std::size_t first, std::size_t last) const;
   Drive drive(std::size_t joint, const std::vector<JointPositions>& given) const;
   bool read(std::size_t joint, const std::vector<JointPositions>& given, std::size_t first, std::size_t n,
             double (*columns)[kRowBlock]) const;

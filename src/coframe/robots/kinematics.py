@@ -41,7 +41,7 @@ class Chain:
         """
         return self._tree.transforms(positions if type(positions) is dict else dict(positions), in_root)
 
-    def poses(self, positions: Mapping[str, Array], count: int, out: Array, *, in_root: bool) -> str | None:
+    def poses(self, positions: Mapping[str, Array], count: int, out: Array, *, in_root: bool, threads: int = 1) -> str | None:
         """Where the links are in many configurations.
 
         Args:
@@ -49,11 +49,12 @@ class Chain:
             count: How many configurations.
             out: Is filled: (J, count, 7) float64, x, y, z, qx, qy, qz, qw.
             in_root: Told in the root link, else in the link before each joint.
+            threads: So many share the work.
 
         Returns:
             The first joint with a position that is not finite, or a quaternion of zero; None if there is none.
         """
-        return self._tree.poses_into(list(positions.items()), count, in_root, out)
+        return self._tree.poses_into(list(positions.items()), count, in_root, out, threads)
 
     def path(self, link: str) -> list[int]:
         """The joints between the root and a link, from the link upwards."""

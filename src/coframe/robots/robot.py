@@ -74,13 +74,13 @@ class Robot:
 
     @overload
     def frames(
-        self, positions: Mapping[str, ArrayLike] | None = None, *, out: None = None
+        self, positions: Mapping[str, ArrayLike] | None = None, *, out: None = None, threads: int = 1
     ) -> dict[str, Transform]: ...
     @overload
-    def frames(self, positions: Mapping[str, ArrayLike], *, out: Array) -> Array: ...
+    def frames(self, positions: Mapping[str, ArrayLike], *, out: Array, threads: int = 1) -> Array: ...
 
     def frames(
-        self, positions: Mapping[str, ArrayLike] | None = None, *, out: Array | None = None
+        self, positions: Mapping[str, ArrayLike] | None = None, *, out: Array | None = None, threads: int = 1
     ) -> dict[str, Transform] | Array:
         """Where every link is, told in the root link.
 
@@ -90,6 +90,7 @@ class Robot:
                 follows it unless it is given itself; others that are left out are at 0. Limits are not enforced.
             out: With arrays: filled and returned instead of new transforms, which is faster. (L, N, 7) float64 gets
                 x, y, z, qx, qy, qz, qw of the L links, the root link first and then as the joints move them.
+            threads: So many share the work.
 
         Returns:
             By link, the root link first. With arrays all are batches of shape (N,).
@@ -106,7 +107,7 @@ class Robot:
             return self._of_one(known, in_root=True)
         poses = np.empty((len(self.links), *shape, 7)) if out is None else _checked_rows(out, (len(self.links), *shape))
         poses[0] = _UNMOVED
-        self._fill(poses[1:], known, shape, in_root=True)
+        self._fill(poses[1:], known, shape, in_root=True, threads=threads)
         if out is not None:
             return out
         links = [self.root, *(joint.child for joint in self.joints.values())]
@@ -205,7 +206,10 @@ class Robot:
         size = self.joints[name].size
         if not size:
             raise ValueError(f"joint {name!r} is fixed: it has no position")
-        array = np.asarray(value, dtype=np.float64)
+        try:
+            array = np.asarray(value, dtype=np.float64)
+        except (OverflowError, TypeError) as error:
+            raise ValueError(f"the position of joint {name!r}: {error}") from None
         if size > 1 and array.shape[-1:] != (size,):
             raise ValueError(f"joint {name!r} is {self.joints[name].type}: it takes (..., {size}), not {array.shape}")
         return array
@@ -217,11 +221,13 @@ class Robot:
             raise ValueError("the position of a joint that follows another is not finite")
         return found
 
-    def _fill(self, poses: Array, known: dict[str, Array], shape: tuple[int, ...], *, in_root: bool) -> None:
+    def _fill(
+        self, poses: Array, known: dict[str, Array], shape: tuple[int, ...], *, in_root: bool, threads: int = 1
+    ) -> None:
         """Poses (J, ..., 7) of the links behind the joints."""
         rows = shape or (1,)
         columns = {name: np.broadcast_to(value, (*rows, *_axes(self.joints[name]))) for name, value in known.items()}
-        bad = self._chain.poses(columns, rows[0], poses, in_root=in_root)
+        bad = self._chain.poses(columns, rows[0], poses, in_root=in_root, threads=threads)
         if bad is not None:
             raise ValueError(_no_position(bad))
 
