@@ -33,9 +33,7 @@ def contenders(ours: str, theirs: str, count: int, their_count: int) -> Generato
 
 
 def many(name: str, ours: str, theirs: str, beside: str, bar: Bar | None = None) -> Row:
-    return Row(
-        f"talos, 1e5 configurations, {name}, each", beside, lambda: contenders(ours, theirs, MANY, THEIRS), bar
-    )
+    return Row(f"talos, 1e5 configurations, {name}, each", beside, lambda: contenders(ours, theirs, MANY, THEIRS), bar)
 
 
 NEW, INTO = "robot.frames(positions)", "robot.frames(positions, out=out)"

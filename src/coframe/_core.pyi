@@ -400,8 +400,8 @@ class JointTree:
 
     Args:
         root: The link that no joint moves.
-        joints: Parents before children: name, type, parent link, child link, origin (x, y, z, qx, qy, qz, qw), axis, and
-            whom it follows, (joint, multiplier, offset), or None.
+        joints: Parents before children: name, type, parent link, child link, origin (x, y, z, qx, qy, qz, qw), axis,
+            and whom it follows, (joint, multiplier, offset), or None.
 
     Raises:
         ValueError: A parent stands behind its child, or joints follow each other in a circle.

@@ -105,11 +105,13 @@ def test_many_configurations_at_once_equal_one_after_another():
     np.testing.assert_allclose((together["c"] @ links["spin"]).matrix, together["d"].matrix, atol=1e-14)
 
 
-def test_angles_of_any_size_turn_as_scipy_says():
+def test_angles_of_any_size_turn_as_numpy_says():
     robot = parse_urdf(described(joint("spin", "continuous", "base", "a", "<axis xyz='0 0.6 0.8'/>")))
     quarters = np.arange(-2000, 2000) * (np.pi / 4)
     angles = np.concatenate((quarters, np.nextafter(quarters, 9e9), [1e5, 2e5, -2e5 - 1e-3, 1e9, -1e15, 1e-300, -0.0]))
-    expected = [ORIGIN @ about((0, 0.6, 0.8), angle) for angle in angles]
+    sine, cosine = np.sin(angles / 2), np.cos(angles / 2)
+    turns = Rotation.from_quat(np.stack([0 * angles, 0.6 * sine, 0.8 * sine, cosine], axis=-1))
+    expected = [ORIGIN @ matrix(rotation=turn) for turn in turns]
     np.testing.assert_allclose(robot.frames({"spin": angles})["a"].matrix, expected, rtol=0, atol=1e-14)
     np.testing.assert_allclose(np.linalg.norm(robot.frames({"spin": angles})["a"].quaternion, axis=-1), 1, atol=1e-15)
 

@@ -33,7 +33,7 @@ class Chain:
         """Where the links are in one configuration.
 
         Args:
-            positions: By joint a float, of a joint of several numbers a list of them; others are as they follow, or at 0.
+            positions: By joint a float, of a joint of several numbers a list; others are as they follow, or at 0.
             in_root: Told in the root link and by link, the root link included; else by joint in the link before it.
 
         Returns:
@@ -41,7 +41,9 @@ class Chain:
         """
         return self._tree.transforms(positions if type(positions) is dict else dict(positions), in_root)
 
-    def poses(self, positions: Mapping[str, Array], count: int, out: Array, *, in_root: bool, threads: int = 1) -> str | None:
+    def poses(
+        self, positions: Mapping[str, Array], count: int, out: Array, *, in_root: bool, threads: int = 1
+    ) -> str | None:
         """Where the links are in many configurations.
 
         Args:

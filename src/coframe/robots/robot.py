@@ -280,7 +280,9 @@ def _batch(rows: Array, target: str, source: str) -> Transform:
 def _checked_rows(out: Array, shape: tuple[int, ...]) -> Array:
     wanted = (*shape, 7)
     if len(wanted) != 3 or out.shape != wanted or out.dtype != np.float64 or not out.flags.carray:
-        raise ValueError(f"out must be a contiguous float64 array (L, N, 7), here {wanted}, not {out.dtype} {out.shape}")
+        raise ValueError(
+            f"out must be a contiguous float64 array (L, N, 7), here {wanted}, not {out.dtype} {out.shape}"
+        )
     return out
 
 
