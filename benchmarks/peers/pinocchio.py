@@ -1,5 +1,6 @@
 """Pinocchio's forward kinematics as a program in Python asks for it, and the robot that it is asked about."""
 
+import importlib
 import importlib.metadata
 from pathlib import Path
 from typing import Any
@@ -32,16 +33,15 @@ class Kinematics:
 
     def __init__(self, path: Path, robot: Robot, positions: dict[str, Any]) -> None:
         try:
-            import pinocchio
+            self.pin: Any = importlib.import_module("pinocchio")
         except ImportError:
             raise MissingPeerError(INSTALL) from None
-        self.pin: Any = pinocchio
-        self.model: Any = pinocchio.buildModelFromUrdf(str(path))
+        self.model: Any = self.pin.buildModelFromUrdf(str(path))
         self.data: Any = self.model.createData()
         self.q = np.zeros((len(next(iter(positions.values()))), self.model.nq))
         for name, values in positions.items():
             self.q[:, self.model.joints[self.model.getJointId(name)].idx_q] = values
-        self.links = [self.model.getFrameId(link, pinocchio.FrameType.BODY) for link in robot.frames()]
+        self.links = [self.model.getFrameId(link, self.pin.FrameType.BODY) for link in robot.frames()]
 
     def move(self) -> None:
         """All configurations, one after the other; each one's poses replace the last one's."""

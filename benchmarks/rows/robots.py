@@ -1,6 +1,7 @@
 """Where the links of a robot are: for many configurations in one call, and for one."""
 
 from collections.abc import Generator
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +23,7 @@ def contenders(ours: str, theirs: str, count: int, their_count: int) -> Generato
     moving = [name for name, joint in robot.joints.items() if joint.size]
     positions = {name: rng.uniform(-np.pi, np.pi, max(count, their_count)) for name in moving}
     given = {name: values[:count] if count > 1 else float(values[0]) for name, values in positions.items()}
-    names = {"robot": robot, "positions": given, "out": np.empty((len(robot.links), count, 7))}
+    names: dict[str, Any] = {"robot": robot, "positions": given, "out": np.empty((len(robot.links), count, 7))}
     yield batch(ours, count, **names) if count > 1 else Statement(ours, names)
     other = pinocchio.Kinematics(path, robot, {name: values[:their_count] for name, values in positions.items()})
     for rows, frame in zip(other.poses(), robot.frames(positions).values(), strict=True):
