@@ -10,6 +10,7 @@ import coframe
 from coframe.cli.bag import bag
 from coframe.cli.demo import demo
 from coframe.cli.echo import echo
+from coframe.cli.joints import joints
 from coframe.cli.lookup import lookup
 from coframe.cli.robot import robot
 from coframe.cli.static import static
@@ -48,6 +49,7 @@ app.command()(view)
 app.command()(lookup)
 app.command()(trajectory)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(robot)
+app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(joints)
 app.add_typer(bag, name="bag")
 # The numbers of a transform may be negative: this command reads its arguments itself.
 app.command(add_help_option=False, context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(static)

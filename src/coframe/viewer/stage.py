@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from coframe.errors import ViewerError
 from coframe.viewer.descriptions import ROBOT_DESCRIPTION, Descriptions
-from coframe.viewer.joints import JointPublisher
+from coframe.viewer.joints import JOINT_STATES, JointPublisher
 from coframe.viewer.meshes import MeshTable
 from coframe.viewer.replay import ReplayRequest
 from coframe.viewer.scene import Scene
@@ -41,6 +41,7 @@ class Stage:
         rviz: What a tab shows at first.
         robot: One that is shown besides those that topics tell of.
         meshes: Where meshes may come from; None: from nowhere.
+        joint_states: Where the positions of a robot's joints are sent.
     """
 
     def __init__(
@@ -51,12 +52,14 @@ class Stage:
         rviz: RvizConfig | None = None,
         robot: Robot | None = None,
         meshes: MeshTable | None = None,
+        joint_states: str = JOINT_STATES,
     ) -> None:
         self.source = source
         self.meshes = MeshTable(lambda _name: None) if meshes is None else meshes
         self.descriptions = Descriptions(robot, _description_topics(rviz), self.meshes)
         self.scene = Scene(source.buffer, ages=source.mode == "live")
         self.rviz = rviz
+        self._joint_states = joint_states
         self.fixed = fixed or (rviz.fixed_frame if rviz is not None else "")
         self.saved_rviz: str | None = None
         self.topics: list[Topic] = []
@@ -128,7 +131,7 @@ class Stage:
         """
         if self.source.connection is None:
             raise ViewerError("only a live viewer sends joint states", hint="Start it by `coframe view live`.")
-        return JointPublisher(self.source.connection, robot)
+        return JointPublisher(self.source.connection, robot, self._joint_states)
 
     def replay_request(self, told: Mapping[str, str]) -> ReplayRequest:
         """What is to be replayed, from a query; by default all that there is.
