@@ -144,9 +144,7 @@ def test_a_locked_joint_that_mimics_is_a_warning():
         (robot_of(TREE[0], joint("bc", "b", "c", "<mimic joint='bc'/>", "continuous")), 6, "in a circle: bc"),
         (robot_of(TREE[0], joint("bc", "b", "c", "<mimic joint='ab'/>", "floating")), 6, "but 'bc' is floating"),
         (
-            robot_of(
-                joint("ab", "a", "b", "", "floating"), joint("bc", "b", "c", "<mimic joint='ab'/>", "continuous")
-            ),
+            robot_of(joint("ab", "a", "b", "", "floating"), joint("bc", "b", "c", "<mimic joint='ab'/>", "continuous")),
             6,
             "joint 'bc' mimics 'ab', but 'ab' is floating",
         ),
