@@ -401,6 +401,46 @@ def mcap_records(data: Any) -> tuple[bytes, bytes, bytes, bytes, bytes, list[tup
 def ingest_slices(buffer: Buffer, data: Any, starts: Any, ends: Any, static: bool, authority: str) -> tuple[int, str]:
     """Buffer.ingest() of many parts of `data`, told by uint64 arrays: how many are damaged, and why the first is."""
 
+class JointTree:
+    """A tree of joints, and where all its links are.
+
+    Args:
+        root: The link that no joint moves.
+        joints: Parents before children: name, type, parent link, child link, origin (x, y, z, qx, qy, qz, qw), axis,
+            and whom it follows, (joint, multiplier, offset), or None.
+
+    Raises:
+        ValueError: A parent stands behind its child, or joints follow each other in a circle.
+    """
+
+    def __init__(self, root: str, joints: list[tuple[object, ...]]) -> None: ...
+    def transforms(self, positions: dict[str, Any], in_root: bool) -> dict[str, PublicTransform] | None:
+        """Of one configuration, by link in the root link, or by joint in the link before it.
+
+        Args:
+            positions: By joint: a number, or a list or tuple of them for a joint that has several.
+            in_root: Which of the two.
+
+        Returns:
+            None where a position is not finite, not of the joint's size, or of no joint that moves.
+        """
+
+    def poses_into(
+        self, positions: list[tuple[str, Any]], count: int, in_root: bool, out: Any, threads: int
+    ) -> str | None:
+        """Of many configurations.
+
+        Args:
+            positions: (joint, float64 array): (N,), of a joint with several numbers (N, size), of any strides.
+            count: N.
+            in_root: As of transforms().
+            out: Is filled: (J, N, 7) float64, in the order of the joints.
+            threads: So many share the work.
+
+        Returns:
+            The first joint found with a position that is not finite, or a quaternion of zero; None if there is none.
+        """
+
 def transform_fields(pose: Sequence[float], fields: Sequence[Sequence[Any]], threads: int) -> None:
     """Moves points by a pose (x, y, z, qx, qy, qz, qw), in place.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from coframe.cli.bag import bag
 from coframe.cli.demo import demo
 from coframe.cli.echo import echo
+from coframe.cli.joints import joints
 from coframe.cli.lookup import lookup
 from coframe.cli.new_app import new_app
 from coframe.cli.robot import robot
@@ -21,6 +22,7 @@ app.command()(view)
 app.command()(lookup)
 app.command()(trajectory)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(robot)
+app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(joints)
 app.add_typer(bag, name="bag")
 # The numbers of a transform may be negative: this command reads its arguments itself.
 app.command(add_help_option=False, context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(static)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from coframe.buffer import Buffer
 from coframe.errors import ViewerError
 from coframe.robots import load
+from coframe.viewer.joints import JOINT_STATES
 from coframe.viewer.robots import mesh_table
 from coframe.viewer.rviz import RvizConfig
 from coframe.viewer.sources import BufferSource
@@ -91,6 +92,7 @@ def show(
     mesh_roots: Iterable[str | os.PathLike[str]] = (),
     host: str = "127.0.0.1",
     port: int | None = None,
+    joint_states: str = JOINT_STATES,
 ) -> Viewer:
     """Shows transforms in a browser tab: open the ``url`` of what is returned, or leave it to Jupyter.
 
@@ -104,6 +106,7 @@ def show(
         mesh_roots: Folders below which meshes may be fetched, besides those of ROS packages that are named.
         host: The address to listen on. Others than this machine's own let everybody in who reaches it.
         port: The port; None takes 7676, or any other where that is taken; 0 takes any.
+        joint_states: The topic that the sliders of a robot's joints publish on.
 
     Raises:
         ViewerError: A package is missing, a file cannot be read, or the address cannot be listened on.
@@ -164,7 +167,9 @@ def _viewer(
     roots = [Path(root) for root in mesh_roots]
     description = None if robot is None else load(robot, packages=roots)
     meshes = mesh_table(None if robot is None else Path(robot), roots)
-    stage = Stage(make_source(), fixed=fixed, rviz=config, robot=description, meshes=meshes)
+    stage = Stage(
+        make_source(), fixed=fixed, rviz=config, robot=description, meshes=meshes, joint_states=joint_states
+    )
     return Viewer(stage, host=host, port=port)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from coframe.errors import ViewerError
 from coframe.viewer.descriptions import ROBOT_DESCRIPTION, Descriptions
-from coframe.viewer.joints import JointPublisher
+from coframe.viewer.joints import JOINT_STATES, JointPublisher
 from coframe.viewer.meshes import MeshTable
 from coframe.viewer.replay import NO_LOOKS, ReplayLooks, ReplayRequest
 from coframe.viewer.scene import Scene
@@ -45,6 +45,7 @@ class Stage:
         rviz: What a tab shows at first.
         robot: One that is shown besides those that topics tell of.
         meshes: Where meshes may come from; None: from nowhere.
+        joint_states: Where the positions of a robot's joints are sent.
     """
 
     def __init__(
@@ -55,6 +56,7 @@ class Stage:
         rviz: RvizConfig | None = None,
         robot: Robot | None = None,
         meshes: MeshTable | None = None,
+        joint_states: str = JOINT_STATES,
     ) -> None:
         self.edition = 0
         self.source = source
@@ -62,6 +64,7 @@ class Stage:
         self.descriptions = Descriptions(robot, _description_topics(rviz), self.meshes)
         self.scene = Scene(source.buffer, ages=source.mode == "live")
         self.rviz = rviz
+        self._joint_states = joint_states
         self.fixed = fixed or (rviz.fixed_frame if rviz is not None else "")
         self.saved_rviz: str | None = None
         self.topics: list[Topic] = []
@@ -159,7 +162,7 @@ class Stage:
         """
         if self.source.connection is None:
             raise ViewerError("only a live viewer sends joint states", hint="Start it by `coframe view live`.")
-        return JointPublisher(self.source.connection, robot)
+        return JointPublisher(self.source.connection, robot, self._joint_states)
 
     def announce_replay(self, looks: ReplayLooks) -> str:
         """Notes how a replay is to look; the name under which it is asked for then."""
