@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -65,12 +66,13 @@ struct BufferObject {
     return authorities.find(name, [this](std::string_view text) { return core->authority(text); });
   }
 
-  // The source of messages by this authority.
-  TransformStream& stream(bool is_static, std::string name) {
+  // The source of messages by this authority; its frames are renamed as they are when it is first asked for.
+  TransformStream& stream(bool is_static, std::string name, const std::optional<Renaming>& renaming = {}) {
     const std::pair<bool, std::string> key(is_static, std::move(name));
     const auto found = streams.find(key);
-    return found != streams.end() ? found->second
-                                  : streams.emplace(key, core->open_stream(is_static, key.second)).first->second;
+    if (found != streams.end()) return found->second;
+    auto names = renaming ? std::make_shared<const Renaming>(*renaming) : nullptr;
+    return streams.emplace(key, core->open_stream(is_static, key.second, std::move(names))).first->second;
   }
 
   IdentityCache frames, authorities;

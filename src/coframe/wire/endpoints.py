@@ -10,6 +10,7 @@ from coframe.errors import WireError
 from coframe.wire import names
 from coframe.wire.discovery_info import NodeInfo
 from coframe.wire.graph import DdsEndpoint, Graph
+from coframe.wire.publishers import TfPublisher, publisher_of
 
 if TYPE_CHECKING:
     from coframe.wire.participant import Participant
@@ -196,9 +197,18 @@ class TfReader(WireEndpoint):
     """Stores the transforms of a topic in a buffer as they arrive, on DDS's own thread."""
 
     def __init__(
-        self, native: _core.TfReader, node: GraphNode, topic: str, dds_type: str, qos: QoS, *, name_writers: bool
+        self,
+        native: _core.TfReader,
+        node: GraphNode,
+        topic: str,
+        dds_type: str,
+        qos: QoS,
+        *,
+        static: bool,
+        name_writers: bool,
     ) -> None:
         self._reader = native
+        self._static = static
         self._named: dict[int, str] | None = {} if name_writers else None
         self._naming = threading.Lock()
         super().__init__(native, node, topic, dds_type, qos)
@@ -216,6 +226,17 @@ class TfReader(WireEndpoint):
         """The messages that wait, as for a `Subscription`: none."""
         del limit
         return []
+
+    def publishers(self, graph: Graph) -> list[TfPublisher]:
+        """Who was heard so far, also who has left."""
+        if self._closed:
+            return []
+        present = graph.writers(self.topic)
+        topic = names.any_ros_name(self.topic)
+        return [
+            publisher_of(heard, graph.writer_node(heard[0]), topic, static=self._static, present=heard[0] in present)
+            for heard in self._reader.heard()
+        ]
 
     def name_writers(self, graph: Graph) -> None:
         """Lets the buffer note the publishing nodes, as far as the graph tells them."""

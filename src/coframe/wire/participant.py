@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
     from coframe import Buffer
     from coframe.wire.names import Kind
+    from coframe.wire.publishers import TfPublisher
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -125,7 +126,7 @@ class Participant:
                 self.announce()
 
     def publisher(
-        self, node: GraphNode, topic: str, message_type: type, qos: QoS, *, kind: Kind = "topic"
+        self, node: GraphNode, topic: str, message_type: type, qos: QoS, *, kind: Kind = "topic", user_data: str = ""
     ) -> Publisher:
         """A publisher of `node`.
 
@@ -136,12 +137,13 @@ class Participant:
                 (client's identifier, sequence number) between the encapsulation and the message.
             qos: what is offered.
             kind: "topic", "request" or "reply".
+            user_data: what readers can learn of it from DDS, before the first message.
 
         Raises:
             WireError: DDS refuses.
         """
         name, type_name, entity = self._topic_of(topic, message_type, kind)
-        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), ""), topic)
+        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), user_data), topic)
         return Publisher(native, node, name, type_name, qos)
 
     def subscription(
@@ -171,6 +173,17 @@ class Participant:
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
         return Subscription(native, node, name, type_name, qos)
 
+    def tf_subscription(self, node: GraphNode, topic: str, qos: QoS, on_data: _core.Event) -> Subscription:
+        """A subscription of `node` to any bytes that come as TFMessage: who takes them checks them.
+
+        Raises:
+            WireError: DDS refuses.
+        """
+        name, type_name = names.dds_topic(topic), names.dds_type("tf2_msgs/msg/TFMessage")
+        entity = self._tf_topic(name, type_name)
+        native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
+        return Subscription(native, node, name, type_name, qos)
+
     def tf_reader(
         self,
         node: GraphNode,
@@ -180,6 +193,7 @@ class Participant:
         static: bool,
         qos: QoS | None = None,
         authority: str | None = "default_authority",
+        renaming: _core.Renaming | None = None,
     ) -> TfReader:
         """A subscription of `node` that stores transforms in `buffer` as they arrive, without Python.
 
@@ -190,6 +204,7 @@ class Participant:
             static: whether they hold for all times.
             qos: what is asked for; None: as tf2's listener.
             authority: what the buffer notes as their source; None: the name of the publishing node.
+            renaming: what the frames are called in the buffer (`coframe.frame_names.renaming`); None: as they come.
 
         Raises:
             WireError: DDS refuses.
@@ -199,10 +214,12 @@ class Participant:
         entity = self._tf_topic(name, type_name)
         source = initial_authority(authority)
         native = _create(
-            lambda: _core.TfReader(self._native.entity, entity, _native_qos(chosen), "", buffer, static, source),
+            lambda: _core.TfReader(
+                self._native.entity, entity, _native_qos(chosen), "", buffer, static, source, renaming
+            ),
             topic,
         )
-        reader = TfReader(native, node, name, type_name, chosen, name_writers=authority is None)
+        reader = TfReader(native, node, name, type_name, chosen, static=static, name_writers=authority is None)
         reader.name_writers(self._graph)
         self._refusals.add(reader, buffer)
         return reader
@@ -240,6 +257,14 @@ class Participant:
     def subscribers(self, topic: str, *, kind: Kind = "topic") -> list[Endpoint]:
         """Who subscribes to a topic, by its ROS name."""
         return self._describe(self._graph.readers(names.dds_topic(topic, kind)))
+
+    def tf_publishers(self, reader: TfReader) -> list[TfPublisher]:
+        """Who was heard by a reader of transforms, also who has left."""
+        return reader.publishers(self._graph)
+
+    def writers(self, topic: str) -> dict[int, DdsEndpoint]:
+        """The writers on a topic as DDS describes them, by the handles that their samples bear."""
+        return self._graph.writers(names.dds_topic(topic))
 
     def writer_node(self, handle: int) -> str | None:
         """The full name of the node that wrote a sample, such as "/talker"; None if no node has claimed it."""
