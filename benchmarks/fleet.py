@@ -7,6 +7,7 @@ relay's processor time in percent of one core and how many transforms have not a
     python -m benchmarks.fleet 10 20 50 10        # robots, frames of each, Hz, seconds
 """
 
+import itertools
 import os
 import subprocess
 import sys
@@ -49,7 +50,7 @@ def talk(name: str, frames: int, hertz: float, seconds: float) -> None:
     tf_message = find("tf2_msgs/msg/TFMessage")
     message = tf_message()
     names = ["map", *(f"link_{number}" for number in range(frames))]
-    for parent, frame in zip(names, names[1:], strict=False):
+    for parent, frame in itertools.pairwise(names):
         stamped = find("geometry_msgs/msg/TransformStamped")()
         stamped.header.frame_id, stamped.child_frame_id = parent, frame
         stamped.transform.rotation.w = 1.0

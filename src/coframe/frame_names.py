@@ -22,7 +22,7 @@ from coframe import _core
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["oddities", "prefix_advice", "renaming"]
+__all__ = ["kept", "oddities", "prefix_advice", "renaming"]
 
 
 def renaming(prefix: str = "", keep: Iterable[str] = ()) -> _core.Renaming | None:

@@ -11,6 +11,7 @@ from coframe.cli.bag import bag
 from coframe.cli.demo import demo
 from coframe.cli.echo import echo
 from coframe.cli.lookup import lookup
+from coframe.cli.relay import relay
 from coframe.cli.robot import robot
 from coframe.cli.static import static
 from coframe.cli.trajectory import trajectory
@@ -45,6 +46,7 @@ def _main(
 app.command()(demo)
 app.command()(echo)
 app.command()(view)
+app.command()(relay)
 app.command()(lookup)
 app.command()(trajectory)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(robot)

@@ -7,18 +7,21 @@ import sys
 import threading
 import time
 import webbrowser
-from pathlib import Path
+from pathlib import Path  # noqa: TC003 - typer reads the annotations
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 import coframe
-from coframe.cli.session import DomainOption, TfStaticTopicOption, TfTopicOption, session
+from coframe.cli.session import DomainOption, KeepOption, PrefixOption, TfStaticTopicOption, TfTopicOption, session
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from coframe.bags import Recording
     from coframe.viewer import Viewer
 
-__all__ = ["announce", "view"]
+__all__ = ["announce", "view", "viewer_beside"]
 
 HostOption = Annotated[str, typer.Option(help="The address to listen on; others than this machine's let others in.")]
 PortOption = Annotated[
@@ -44,25 +47,41 @@ def view(
     domain: DomainOption = None,
     tf_topic: TfTopicOption = "/tf",
     tf_static_topic: TfStaticTopicOption = "/tf_static",
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
 ) -> None:
     """See all frames and the data in them in a browser tab, live or from a recording, at any time of it.
 
     Example: coframe view run.mcap -d lab.rviz
     """
     with session(), contextlib.ExitStack() as stack:
-        source = (
-            stack.enter_context(
-                coframe.connect("coframe_view", domain=domain, tf_topic=tf_topic, tf_static_topic=tf_static_topic)
-            )
-            if bag == "live"
-            else Path(bag)
-        )
+        source: coframe.Connection | Recording
+        if bag == "live":
+            topics = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
+            source = coframe.connect("coframe_view", domain=domain, **topics, prefix=prefix, keep=keep)
+        else:
+            source = coframe.open_bag(bag, prefix=prefix, keep=keep)
+        stack.enter_context(source)
         viewer = stack.enter_context(
             coframe.show(source, fixed=fixed, host=host, port=port, rviz=rviz, robot=robot, mesh_roots=mesh_root or [])
         )
         announce(viewer, browser=not no_browser)
         while True:  # until Ctrl-C, which an endless wait would not hear everywhere
             time.sleep(60.0)
+
+
+@contextlib.contextmanager
+def viewer_beside(ros: coframe.Connection, port: int | None, *, browser: bool) -> Iterator[None]:
+    """The viewer, where what it needs is installed; else a sentence, and the terminal does."""
+    try:
+        viewer = coframe.show(ros, port=port)
+    except coframe.ViewerError as error:
+        typer.echo(f"coframe: no viewer: {error}", err=True)
+        yield
+        return
+    with viewer:
+        announce(viewer, browser=browser)
+        yield
 
 
 def announce(viewer: Viewer, *, browser: bool) -> None:

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from coframe import frame_names
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection
+    from collections.abc import Callable, Collection, Iterable
 
-__all__ = ["TfPublisher"]
+__all__ = ["OnceEach", "TfPublisher", "publisher_of", "state_of"]
 
 _NS = 1_000_000_000
 SILENT_AFTER = 1.0  # seconds
@@ -69,6 +69,25 @@ class TfPublisher(NamedTuple):
             f"the clock of {self.node} on {self.topic} is {abs(self.lag) / _NS:.2f} s {where} this machine's: "
             "synchronise both (chrony, NTP), or its transforms meet no others"
         )
+
+
+def state_of(publishers: Iterable[TfPublisher]) -> str:
+    """How whoever has these publishers does.
+
+    Returns:
+        "waiting" (nothing came yet), "live", "silent" (nothing that moves for a second) or "gone" (none of them is
+        there any more).
+    """
+    everyone = list(publishers)
+    present = [publisher for publisher in everyone if publisher.present]
+    moving = [publisher for publisher in everyone if not publisher.static]
+    if not everyone:
+        return "waiting"
+    if not present:
+        return "gone"
+    if moving and not any(publisher.present and not publisher.silent() for publisher in moving):
+        return "silent"
+    return "live"
 
 
 def publisher_of(heard: Heard, node: str | None, topic: str, *, static: bool, present: bool) -> TfPublisher:

@@ -12,7 +12,7 @@ from coframe import _core
 from coframe.errors import WireError
 from coframe.frame_names import kept, renaming
 from coframe.wire.participant import Participant
-from coframe.wire.publishers import SILENT_AFTER, OnceEach, TfPublisher, publisher_of
+from coframe.wire.publishers import SILENT_AFTER, OnceEach, TfPublisher, publisher_of, state_of
 from coframe.wire.qos import TF_STATIC_WRITER, QoS
 
 if TYPE_CHECKING:
@@ -158,6 +158,17 @@ class Relay:
         self._thread.start()
 
     @property
+    def routes(self) -> list[str]:
+        """What is read and written, a line each."""
+        lines = []
+        for inlet in self._inlets:
+            for outlet, source in inlet.ways:
+                prefix = outlet.robots[source].prefix
+                names = "names as they are" if not prefix else f"{'without' if self._split else 'with'} {prefix}"
+                lines.append(f"{inlet.topic} -> {outlet.topic}, {names}")
+        return lines
+
+    @property
     def robots(self) -> list[RelayedRobot]:
         """How each robot does."""
         found: dict[str, list[TfPublisher]] = {robot.name: [] for robot in self._robots}
@@ -165,7 +176,7 @@ class Relay:
             for way in inlet.ways:
                 for robot, publisher in self._publishers(inlet, way):
                     found[robot].append(publisher)
-        return [RelayedRobot(name, _state(publishers), publishers) for name, publishers in found.items()]
+        return [RelayedRobot(name, state_of(publishers), publishers) for name, publishers in found.items()]
 
     def edges(self) -> list[RelayedEdge]:
         """Every edge that is written, or contested, and where it comes from."""
@@ -360,17 +371,6 @@ class Relay:
                         if writer not in present and time.monotonic_ns() - heard_at > _FORGET_AFTER * _NS:
                             outlet.native.forget_writer(source, writer)
                             self._ours.pop(writer, None)
-
-
-def _state(publishers: list[TfPublisher]) -> str:
-    moving = [publisher for publisher in publishers if not publisher.static]
-    if not publishers:
-        return "waiting"
-    if not any(publisher.present for publisher in publishers):
-        return "gone"
-    if moving and not any(publisher.present and not publisher.silent() for publisher in moving):
-        return "silent"
-    return "live"
 
 
 def _topic(topic: str, *, static: bool) -> str:
