@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections import deque
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from coframe import _core
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from coframe.wire.participant import Participant
     from coframe.wire.qos import QoS
 
+_REMEMBERED = 100  # publishers that have left
 _NO_AUTHORITY = "<no authority available>"
 
 NativeEndpoint: TypeAlias = "_core.Writer | _core.Reader | _core.TfReader"
@@ -210,6 +212,7 @@ class TfReader(WireEndpoint):
         self._reader = native
         self._static = static
         self._named: dict[int, str] | None = {} if name_writers else None
+        self._gone: deque[int] = deque()
         self._naming = threading.Lock()
         super().__init__(native, node, topic, dds_type, qos)
 
@@ -245,8 +248,10 @@ class TfReader(WireEndpoint):
         with self._naming:
             writers = graph.writers(self.topic)
             for handle in self._named.keys() - writers.keys():
-                self._reader.forget_writer(handle)
+                self._gone.append(handle)
                 del self._named[handle]
+            while len(self._gone) > _REMEMBERED:
+                self._reader.forget_writer(self._gone.popleft())
             for handle, writer in writers.items():
                 node = graph.owner(writer.guid)
                 if node is not None and self._named.get(handle) != node:

@@ -15,6 +15,7 @@ from coframe.wire.discovery_info import MAX_NAME, TOPIC, encode_info, gid_size
 from coframe.wire.endpoints import GraphNode, Publisher, Subscription, TfReader, WireEndpoint, initial_authority
 from coframe.wire.graph import DdsEndpoint, Endpoint, Graph
 from coframe.wire.mismatch import MismatchWatch
+from coframe.wire.publishers import OnceEach
 from coframe.wire.qos import GRAPH_WRITER, TF, TF_STATIC_READER, QoS
 from coframe.wire.refusals import RefusalWatch
 from coframe.wire.statics import StaticTopic, StaticWriter
@@ -57,6 +58,7 @@ class Participant:
         self._graph = Graph(self._native.entity, graph_topic, self._wake)
         self._mismatches = MismatchWatch(self._graph, self._warn)
         self._refusals = RefusalWatch(self._graph, self._warn)
+        self._odd_names = OnceEach(self._warn)
         self._watchers: list[_core.Event] = []
         self._warning_callbacks: list[Callable[[str], None]] = []
         self._ending = False
@@ -343,12 +345,20 @@ class Participant:
                 if version != seen or self._mismatches.waiting:
                     self._mismatches.check(self._endpoints())
                 seen = version
-                self._refusals.check([end for end in self._endpoints() if isinstance(end, TfReader)])
+                listeners = [end for end in self._endpoints() if isinstance(end, TfReader)]
+                self._refusals.check(listeners)
+                self._tell_odd_names(listeners)
             except Exception:
                 # A callback of the user's, or an endpoint that was closed meanwhile.
                 if not self._ending:
                     _logger.exception("coframe's housekeeping of the ROS graph failed and goes on")
             self._wake.wait(_CHECK_PERIOD_NS)
+
+    def _tell_odd_names(self, listeners: list[TfReader]) -> None:
+        for listener in listeners:
+            for publisher in listener.publishers(self._graph):
+                for sentence in publisher.oddities:
+                    self._odd_names(sentence, sentence)
 
     def _graph_changed(self) -> None:
         with self._lock:
