@@ -4,16 +4,21 @@ Each robot is a process that publishes the transforms of its frames on topics of
 puts its name in front of them and writes all to /tf; this process has a buffer that keeps everything. It prints the
 relay's processor time in percent of one core and how many transforms have not arrived:
 
-    python -m benchmarks.fleet 10 20 50 10        # robots, frames of each, Hz, seconds
+    python -m benchmarks.fleet 10 20 50 10              # robots, frames of each, Hz, seconds
+    python -m benchmarks.fleet direct 10 20 50 10       # without a relay: what the listener itself takes
 """
 
+import contextlib
 import itertools
 import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    import coframe
 
 PATIENCE = 60.0  # seconds
 KEEP = ("map",)
@@ -27,18 +32,51 @@ class Outcome(NamedTuple):
     lost: int
 
 
-def child(*arguments: object) -> "subprocess.Popen[str]":
-    command = [sys.executable, "-m", "benchmarks.fleet", *map(str, arguments)]
-    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+class Child:
+    """A process of this module that goes on, and answers, line by line."""
+
+    def __init__(self, *arguments: object) -> None:
+        command = [sys.executable, "-m", "benchmarks.fleet", *map(str, arguments)]
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+    def go_on(self) -> None:
+        assert self._process.stdin
+        self._process.stdin.write("\n")
+        self._process.stdin.flush()
+
+    def answer(self) -> str:
+        assert self._process.stdout
+        line = self._process.stdout.readline()
+        if not line:
+            raise SystemExit("a process ended by itself")
+        return line
+
+    def ask(self) -> str:
+        self.go_on()
+        return self.answer()
+
+    def close(self) -> None:
+        self._process.kill()
+        self._process.communicate()
 
 
-def ask(process: "subprocess.Popen[str]") -> str:
-    """Lets a child go on, and waits for its word."""
-    assert process.stdin
-    assert process.stdout
-    process.stdin.write("\n")
-    process.stdin.flush()
-    return process.stdout.readline()
+@contextlib.contextmanager
+def fleet(robots: int, frames: int, hertz: float, seconds: float) -> Iterator[list[Child]]:
+    """The robots, which have found who listens once they have answered."""
+    talkers = [Child("talk", f"robot{number}", frames, hertz, seconds) for number in range(robots)]
+    try:
+        yield talkers
+    finally:
+        for talker in talkers:
+            talker.close()
+
+
+def let_talk(talkers: list[Child]) -> None:
+    """Till the last one has sent all it has."""
+    for talker in talkers:
+        talker.go_on()
+    for talker in talkers:
+        talker.answer()
 
 
 def talk(name: str, frames: int, hertz: float, seconds: float) -> None:
@@ -77,9 +115,11 @@ def relay(robots: int) -> None:
 
     with coframe.relay([f"robot{number}" for number in range(robots)], prefix_each=True, keep=KEEP):
         answer("ready")
+        sys.stdin.readline()
         begin, spent = time.monotonic(), time.process_time()
-        answer("begun")
-        answer(str(100 * (time.process_time() - spent) / (time.monotonic() - begin)))
+        print("begun", flush=True)
+        sys.stdin.readline()
+        print(100 * (time.process_time() - spent) / (time.monotonic() - begin), flush=True)
         sys.stdin.readline()
 
 
@@ -100,43 +140,52 @@ def measure(robots: int = 10, frames: int = 20, hertz: float = 50.0, seconds: fl
     """One run."""
     import coframe
 
-    processes = [child("relay", robots)]
-    processes += [child("talk", f"robot{number}", frames, hertz, seconds) for number in range(robots)]
+    middleman = Child("relay", robots)
     try:
-        with coframe.connect("fleet_listener", cache=None) as ros:
-            for process in processes:
-                if ask(process) != "ready\n":
-                    raise SystemExit("a process did not start")
+        with fleet(robots, frames, hertz, seconds) as talkers, coframe.connect("fleet_listener", cache=None) as ros:
+            for child in (middleman, *talkers):
+                child.ask()
             wait(lambda: len(ros.participant.publishers("/tf")) == 1)
-            middleman, *talkers = processes
-            ask(middleman)
-            for talker in talkers:
-                assert talker.stdin
-                talker.stdin.write("\n")
-                talker.stdin.flush()
-            for talker in talkers:
-                assert talker.stdout
-                talker.stdout.readline()
-            cpu = float(ask(middleman))
-            sent = robots * frames * int(hertz * seconds)
-            settle(lambda: ros.buffer.statistics["stored"])
-            return Outcome(cpu, sent, sent - sum(edge.samples for edge in ros.buffer.edges()))
+            middleman.ask()
+            let_talk(talkers)
+            cpu = float(middleman.ask())
+            return outcome(ros.buffer, robots * frames * int(hertz * seconds), cpu)
     finally:
-        for process in processes:
-            process.kill()
-            process.communicate()
+        middleman.close()
 
 
-def settle(count: Callable[[], int]) -> None:
-    """Waits until nothing has come for a second."""
-    before, since = count(), time.monotonic()
+def direct(robots: int, frames: int, hertz: float, seconds: float) -> Outcome:
+    """The same without a relay: the processor time is that of the listener, which names the frames itself."""
+    import coframe
+    from coframe.frame_names import renaming
+    from coframe.wire import Participant
+
+    buffer, participant = coframe.Buffer(None), Participant.get()
+    node = participant.add_node("/", "fleet_listener")
+    for number in range(robots):
+        names = renaming(f"robot{number}/", KEEP)
+        participant.tf_reader(node, f"/robot{number}/tf", buffer, static=False, renaming=names)
+    with fleet(robots, frames, hertz, seconds) as talkers:
+        for talker in talkers:
+            talker.ask()
+        begin, spent = time.monotonic(), time.process_time()
+        let_talk(talkers)
+        cpu = 100 * (time.process_time() - spent) / (time.monotonic() - begin)
+        return outcome(buffer, robots * frames * int(hertz * seconds), cpu)
+
+
+def outcome(buffer: "coframe.Buffer", sent: int, cpu: float) -> Outcome:
+    """Once nothing has come for a second."""
+    before, since = buffer.statistics["stored"], time.monotonic()
     while time.monotonic() - since < 1.0:
         time.sleep(0.05)
-        if count() != before:
-            before, since = count(), time.monotonic()
+        if buffer.statistics["stored"] != before:
+            before, since = buffer.statistics["stored"], time.monotonic()
+    return Outcome(cpu, sent, sent - sum(edge.samples for edge in buffer.edges()))
 
 
 def main(*arguments: str) -> None:
+    # This machine's loopback only, and away from whoever else is on it.
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))
     what, *rest = arguments
@@ -145,8 +194,10 @@ def main(*arguments: str) -> None:
     elif what == "relay":
         relay(int(rest[0]))
     else:
-        outcome = measure(int(what), int(rest[0]), float(rest[1]), float(rest[2]))
-        print(outcome.cpu, outcome.lost, flush=True)
+        run = direct if what == "direct" else measure
+        robots, frames, hertz, seconds = rest if what == "direct" else arguments
+        result = run(int(robots), int(frames), float(hertz), float(seconds))
+        print(result.cpu, result.lost, flush=True)
 
 
 if __name__ == "__main__":

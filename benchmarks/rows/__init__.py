@@ -1,6 +1,6 @@
 """The rows of the table, a file for each of their subjects."""
 
-from benchmarks.rows import batch, history, insertion, listener, recordings, sensors, single, startup, viewer
+from benchmarks.rows import batch, fleet, history, insertion, listener, recordings, sensors, single, startup, viewer
 
 ROWS = {
     "single": single.ROWS,
@@ -8,6 +8,7 @@ ROWS = {
     "batch": batch.ROWS,
     "sensors": sensors.ROWS,
     "listener": listener.ROWS,
+    "fleet": fleet.ROWS,
     "recordings": recordings.ROWS,
     "history": history.ROWS,
     "startup": startup.ROWS,

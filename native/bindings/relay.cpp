@@ -25,14 +25,16 @@ nb::str text_of(const std::string& name) {
       PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace"));
 }
 
-nb::object pass_on(Relay& self, Relay::SourceId source, Relay::WriterId writer, nb::bytes message, std::int64_t at) {
+void add(Relay& self, Relay::SourceId source, Relay::WriterId writer, nb::bytes message, std::int64_t at) {
   if (source >= self.sources()) throw nb::index_error("there is no such source");
   const std::int64_t steady = at < 0 ? now<std::chrono::steady_clock>() : at;
-  const std::string passed =
-      self.pass(source, writer, reinterpret_cast<const std::uint8_t*>(message.c_str()), message.size(), steady,
-                now<std::chrono::system_clock>());
-  if (passed.empty()) return nb::none();
-  return nb::bytes(passed.data(), passed.size());
+  self.add(source, writer, reinterpret_cast<const std::uint8_t*>(message.c_str()), message.size(), steady,
+           now<std::chrono::system_clock>());
+}
+
+nb::object take(Relay& self) {
+  const std::string message = self.take();
+  return message.empty() ? nb::object(nb::none()) : nb::object(nb::bytes(message.data(), message.size()));
 }
 
 nb::list edges(const Relay& self) {
@@ -83,8 +85,9 @@ void define_relay(nb::module_& module) {
             return self.add_source(renaming, split ? Relay::Direction::split : Relay::Direction::merge);
           },
           nb::arg("renaming"), nb::arg("split"), "The number of another source.")
-      .def("pass_on", &pass_on, nb::arg("source"), nb::arg("writer"), nb::arg("message"), nb::arg("at") = -1,
-           "The message to write for one that came from a writer of a source, or None.")
+      .def("add", &add, nb::arg("source"), nb::arg("writer"), nb::arg("message"), nb::arg("at") = -1,
+           "Takes a message in that came from a writer of a source.")
+      .def("take", &take, "One message of what was taken in since the last one, or None.")
       .def("forget_writer", &Relay::forget_writer, nb::arg("source"), nb::arg("writer"), "The writer has left.")
       .def("edges", &edges, "What is known of each edge.")
       .def("writers", &writers, nb::arg("source"), "What each writer of a source has sent.");

@@ -30,18 +30,16 @@ Relay::SourceId Relay::add_source(Renaming renaming, Direction direction) {
   return static_cast<SourceId>(sources_.size() - 1);
 }
 
-std::string Relay::pass(SourceId source, WriterId writer, const std::uint8_t* data, std::size_t size,
-                        std::int64_t now, std::int64_t wall) {
+void Relay::add(SourceId source, WriterId writer, const std::uint8_t* data, std::size_t size, std::int64_t now,
+                std::int64_t wall) {
   Writer& from = writer_of(sources_.at(source), writer);
   ++from.messages;
   from.heard_at = now;
   if (decode_tf_message(data, size, decoded_, from.expected).reason) {
     ++from.malformed;
-    return {};
+    return;
   }
   Stamp newest = 0;
-  bool is_news = false;
-  written_.clear();
   for (std::size_t i = 0; i < decoded_.size(); ++i) {
     const TransformView& view = decoded_[i];
     newest = std::max(newest, view.stamp);
@@ -54,7 +52,7 @@ std::string Relay::pass(SourceId source, WriterId writer, const std::uint8_t* da
     }
     if (!is_listened_to(place - 1, source, view, now)) continue;
     Edge& edge = edges_[place - 1];
-    is_news |= edge.passed == 0 || !same(edge.values, view.values);
+    is_news_ |= edge.passed == 0 || !same(edge.values, view.values);
     edge.writer = writer;
     edge.newest = view.stamp;
     edge.heard_at = now;
@@ -67,13 +65,19 @@ std::string Relay::pass(SourceId source, WriterId writer, const std::uint8_t* da
     }
   }
   if (!is_static_ && newest != 0) from.lag.add(wall - newest);
-  if (is_static_ && is_news) {
+  if (decoded_.capacity() > kMaxRemembered) decoded_ = {};
+}
+
+std::string Relay::take() {
+  if (is_static_ && std::exchange(is_news_, false)) {
     for (const Claim& claim : claims_) {
       if (edges_[claim.edge].passed > 0) write(edges_[claim.edge]);
     }
   }
-  std::string message = written_.empty() ? std::string() : encode_tf_message(written_);
-  if (decoded_.capacity() > kMaxRemembered) decoded_ = {};
+  if (written_.empty()) return {};
+  std::string message = encode_tf_message(written_);
+  written_.clear();
+  if (written_.capacity() > kMaxRemembered) written_ = {};
   return message;
 }
 

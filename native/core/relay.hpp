@@ -64,9 +64,11 @@ class Relay {
   Relay(bool is_static, std::int64_t period) : is_static_(is_static), period_(period) {}
 
   SourceId add_source(Renaming renaming, Direction direction);
-  // The message to write, empty if there is none; a malformed one is counted. `wall` is the system clock's time.
-  std::string pass(SourceId source, WriterId writer, const std::uint8_t* data, std::size_t size, std::int64_t now,
-                   std::int64_t wall);
+  // Takes a message in; a malformed one is counted. `wall` is the system clock's time.
+  void add(SourceId source, WriterId writer, const std::uint8_t* data, std::size_t size, std::int64_t now,
+           std::int64_t wall);
+  // One message of what was taken in since the last one; empty if nothing is to be written.
+  std::string take();
   void forget_writer(SourceId source, WriterId writer) { sources_[source].writers.erase(writer); }
 
   std::size_t sources() const { return sources_.size(); }
@@ -100,6 +102,7 @@ class Relay {
   std::unordered_map<std::string, std::uint32_t> claim_of_;               // by child
   std::unordered_map<std::string, std::uint32_t> edge_of_;                // by parent, NUL, child
   std::vector<TransformView> decoded_, written_;
+  bool is_news_ = false;  // a static edge has changed
 };
 
 }  // namespace coframe

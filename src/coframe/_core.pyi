@@ -478,8 +478,8 @@ class Relay:
     def add_source(self, renaming: Renaming, split: bool) -> int:
         """The number of another source. With `split` only what has the prefix or is kept passes, without the prefix."""
 
-    def pass_on(self, source: int, writer: int, message: bytes, at: int = -1) -> bytes | None:
-        """The message to write for one that came from a writer of a source, or None.
+    def add(self, source: int, writer: int, message: bytes, at: int = -1) -> None:
+        """Takes a message in that came from a writer of a source.
 
         Args:
             source: Its number.
@@ -487,6 +487,9 @@ class Relay:
             message: A TFMessage's CDR; what is malformed is counted.
             at: When it came, in nanoseconds of a clock that never goes back; negative: now, by the steady clock.
         """
+
+    def take(self) -> bytes | None:
+        """One message of what was taken in since the last one, or None."""
 
     def forget_writer(self, source: int, writer: int) -> None:
         """The writer has left."""

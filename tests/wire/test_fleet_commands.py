@@ -28,7 +28,7 @@ def command(child):
 @pytest.fixture
 def ros(domain_id):
     """What a listener on /tf hears."""
-    with coframe.connect("listener") as connection:
+    with coframe.connect("listener", domain=domain_id) as connection:
         yield connection
 
 

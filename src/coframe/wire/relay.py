@@ -30,6 +30,9 @@ _logger = logging.getLogger("coframe.wire")
 _NS = 1_000_000_000
 _CHECK_PERIOD_NS = _NS // 2
 _TAKE = 100
+# The first message passes at once; those that come right behind it wait so many seconds, and go together: of many
+# robots each write, and each time that the thread wakes up, serves several.
+_PAUSE = 0.005
 _FORGET_AFTER = 60.0  # seconds
 # By this other relays know the writers of a relay; in the form in which ROS tells of types.
 _MARK = "coframe=relay;"
@@ -154,6 +157,9 @@ class Relay:
         except BaseException:
             self.participant.close()
             raise
+        # The topics that are written, each once, with one that is read for them.
+        pairs = [(inlet, way.outlet) for inlet in self._inlets for way in inlet.ways]
+        self._pairs = list({outlet.topic: (inlet, outlet) for inlet, outlet in pairs}.values())
         self._thread = threading.Thread(target=self._run, name="coframe-relay", daemon=True)
         self._thread.start()
 
@@ -182,7 +188,7 @@ class Relay:
         """Every edge that is written, or contested, and where it comes from."""
         now = time.monotonic_ns()
         edges = []
-        for inlet, outlet in self._pairs():
+        for inlet, outlet in self._pairs:
             with self._lock:
                 told = outlet.native.edges()
             for parent, child, source, writer, rival, contested, passed, thinned, newest, heard_at in told:
@@ -258,17 +264,16 @@ class Relay:
         outlet.robots.append(robot)
         return _Way(outlet, outlet.native.add_source(names, self._split))
 
-    def _pairs(self) -> list[tuple[_Inlet, _Outlet]]:
-        """The topics that are written, each once, with one that is read for them."""
-        return list({id(way.outlet): (inlet, way.outlet) for inlet in self._inlets for way in inlet.ways}.values())
-
     def _run(self) -> None:
         checked = 0
+        pause = threading.Event()
         while not self._ending:
             self._event.wait(_CHECK_PERIOD_NS)
             try:
                 for inlet in self._inlets:
-                    self._drain(inlet)
+                    self._take(inlet)
+                for _, outlet in self._pairs:
+                    self._write(outlet)
                 if time.monotonic_ns() - checked >= _CHECK_PERIOD_NS:
                     checked = time.monotonic_ns()
                     self._check()
@@ -276,19 +281,22 @@ class Relay:
                 # A callback of the user's, or DDS that is being closed.
                 if not self._ending:
                     _logger.exception("a relay of transforms failed and goes on")
+            pause.wait(_PAUSE)
 
-    def _drain(self, inlet: _Inlet) -> None:
-        while samples := inlet.subscription.take(_TAKE):
-            for data, _, writer in samples:
+    def _take(self, inlet: _Inlet) -> None:
+        while inlet.subscription.pending():
+            for data, _, writer in inlet.subscription.take(_TAKE):
                 if self._is_relay(inlet.topic, writer):
                     continue
                 for outlet, source in inlet.ways:
                     with self._lock:
-                        message = outlet.native.pass_on(source, writer, data)
-                    if message is not None:
-                        self._write(outlet, message)
+                        outlet.native.add(source, writer, data)
 
-    def _write(self, outlet: _Outlet, message: bytes) -> None:
+    def _write(self, outlet: _Outlet) -> None:
+        with self._lock:
+            message = outlet.native.take()
+        if message is None:
+            return
         try:
             outlet.publisher.write(message)
         except WireError as error:
