@@ -64,7 +64,7 @@ nb::list writers(const Relay& self, Relay::SourceId source) {
 
 nb::tuple heard_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t heard_at, const Lag& lag,
                       const NameOddities& odd) {
-  const nb::object behind = lag.known() ? nb::object(nb::int_(lag.median())) : nb::object(nb::none());
+  const nb::object behind = lag.known() ? nb::object(nb::int_(lag.typical())) : nb::object(nb::none());
   return nb::make_tuple(writer, messages, heard_at, behind, text_of(odd.slashed), text_of(odd.prefixed),
                         text_of(odd.plain));
 }

@@ -10,7 +10,7 @@
 
 namespace coframe::bindings {
 
-// (handle, messages, heard at, median lag or None, examples of names: with a slash, with the prefix, without it)
+// (handle, messages, heard at, typical lag or None, examples of names: with a slash, with the prefix, without it)
 nanobind::tuple heard_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t heard_at, const Lag& lag,
                             const NameOddities& odd);
 

@@ -1,4 +1,5 @@
-// How far a source's stamps are behind the clock of whoever receives them: the median, which one late message moves little.
+// How far a source's stamps are behind the clock of whoever receives them: the lower quartile of the last messages. The
+// way only ever adds to it, which the least would show best, were it not for single stamps that are wild.
 #pragma once
 
 #include <algorithm>
@@ -19,12 +20,12 @@ class Lag {
   // Whether there are enough to tell.
   bool known() const { return count_ >= kSamples; }
   // Negative: the stamps are ahead. Of those that are there, one at least.
-  std::int64_t median() const {
+  std::int64_t typical() const {
     auto sorted = last_;
     const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kSamples));
-    const auto middle = sorted.begin() + (end - sorted.begin()) / 2;
-    std::nth_element(sorted.begin(), middle, end);
-    return *middle;
+    const auto quartile = sorted.begin() + (end - sorted.begin()) / 4;
+    std::nth_element(sorted.begin(), quartile, end);
+    return *quartile;
   }
 
  private:

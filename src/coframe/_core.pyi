@@ -606,7 +606,7 @@ class TfReader:
 
         Returns:
             The writer's handle; how many messages; when the last one came, in nanoseconds of the steady clock; by how
-            much its stamps were behind the system clock, the median of its last messages, or None; examples of names
+            much its stamps were behind the system clock, the lower quartile of its last messages, or None; examples of names
             that begin with a slash, have the prefix already, and have not.
         """
 

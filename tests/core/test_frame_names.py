@@ -171,7 +171,7 @@ def test_oddities_are_told_by_example():
     assert "half a prefix: 'robot1/odom' beside 'odom'" in told[1]
 
 
-def test_how_far_a_source_is_off_is_a_median():
+def test_how_far_a_source_is_off_is_no_matter_of_one_message():
     import time
 
     native = _core.Relay(False, 0)

@@ -32,8 +32,8 @@ class TfPublisher(NamedTuple):
         static: Whether its transforms hold for all times.
         messages: How many came.
         age: Seconds since the last one.
-        lag: By how much its stamps were behind this machine's clock when they came, in nanoseconds, the median of its
-            last messages; negative: ahead. None: static, or not enough messages yet.
+        lag: By how much its stamps were behind this machine's clock when they came, in nanoseconds, the lower
+            quartile of its last messages; negative: ahead. None: static, or not enough messages yet.
         present: Whether it is still there.
         oddities: What is odd about its names, a sentence each.
     """
