@@ -606,8 +606,8 @@ class TfReader:
 
         Returns:
             The writer's handle; how many messages; when the last one came, in nanoseconds of the steady clock; by how
-            much its stamps were behind the system clock, the lower quartile of its last messages, or None; examples of names
-            that begin with a slash, have the prefix already, and have not.
+            much its stamps were behind the system clock, the lower quartile of its last messages, or None; examples of
+            names that begin with a slash, have the prefix already, and have not.
         """
 
     def forget_writer(self, writer: int) -> None:
