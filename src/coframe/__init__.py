@@ -25,6 +25,7 @@ from coframe.wire.connection import Connection, connect
 if TYPE_CHECKING:
     from coframe.bags import open_bag
     from coframe.viewer.show import show
+    from coframe.wire.relay import relay
 
 __version__ = "0.1.0"
 
@@ -51,10 +52,11 @@ __all__ = [
     "__version__",
     "connect",
     "open_bag",
+    "relay",
     "show",
 ]
 
-_LATE = {"open_bag": "coframe.bags", "show": "coframe.viewer"}
+_LATE = {"open_bag": "coframe.bags", "relay": "coframe.wire.relay", "show": "coframe.viewer"}
 
 
 def __getattr__(name: str) -> Any:

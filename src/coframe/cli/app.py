@@ -8,6 +8,7 @@ from coframe.cli.echo import echo
 from coframe.cli.joints import joints
 from coframe.cli.lookup import lookup
 from coframe.cli.new_app import new_app
+from coframe.cli.relay import relay
 from coframe.cli.robot import robot
 from coframe.cli.static import static
 from coframe.cli.trajectory import trajectory
@@ -19,6 +20,7 @@ app = new_app()
 app.command()(demo)
 app.command()(echo)
 app.command()(view)
+app.command()(relay)
 app.command()(lookup)
 app.command()(trajectory)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(robot)

@@ -13,7 +13,7 @@ from rich.text import Text
 
 from coframe.bags import summarize
 from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, seconds
-from coframe.cli.session import printable, session
+from coframe.cli.session import KeepOption, PrefixOption, printable, session
 
 if TYPE_CHECKING:
     from coframe.bags import Summary
@@ -32,13 +32,15 @@ def _bag() -> None:
 def info(
     bag: BagArgument,
     namespace: NamespaceOption = None,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
     as_json: Annotated[bool, typer.Option("--json", help="As JSON, with all digits.")] = False,
 ) -> None:
     """Tell what the recording BAG holds: topics, trees of frames, gaps, and which sensors could be transformed.
 
     Example: coframe bag info run.mcap
     """
-    with session(), opened(bag, namespace) as recording:
+    with session(), opened(bag, namespace, prefix, keep) as recording:
         summary = summarize(recording)
         if as_json:
             print(json.dumps(_plain(summary), indent=2))
