@@ -361,6 +361,12 @@ def insert_texts(
 ) -> list[tuple[str, str]]:
     """tf2's log lines for a transform that set_values refused: (level, text)."""
 
+def register_buffer_class(cls: type[Buffer]) -> None:
+    """Gives a class on top of Buffer the most frequent methods as its own.
+
+    CPython has a shorter way to call those of an object's very class.
+    """
+
 def register_transform_class(cls: type[Transform]) -> None:
     """Look-ups return instances of `cls`, a subclass of Transform."""
 
@@ -471,27 +477,38 @@ def deskew_fields(
         How many points have no transform, and the first of them. If all of them, none is touched.
     """
 
-def poses_into(
-    buffer: Buffer,
-    fixed: str,
-    frames: list[str],
-    roots: list[str | None],
-    stamp: int,
-    hold: int,
-    poses: Any,
-    told: Any,
-) -> None:
-    """Many frames at one time, seen from one of them.
+class PoseTable:
+    """Many frames, looked up together again and again; for one thread.
 
     Args:
         buffer: Where they are looked up.
         fixed: The frame that the poses are told in.
         frames: N frames.
         roots: None, or the frame that a frame is seen from instead of `fixed`.
-        stamp: Nanoseconds; 0 is the latest, for each frame its own.
-        hold: How many nanoseconds beyond its samples a link is taken to stand still.
-        poses: (N, 7) float64, gets x, y, z, qx, qy, qz, qw, or NaN.
-        told: (N,) uint8, gets 0: exactly; 1: held beyond the samples of a link; 2: not at all; 3: seen from its root.
+    """
+
+    def __init__(self, buffer: Buffer, fixed: str, frames: list[str], roots: list[str | None]) -> None: ...
+    def look_up(self, stamp: int, hold: int, poses: Any, told: Any) -> None:
+        """Where all of them are at one time.
+
+        Args:
+            stamp: Nanoseconds; 0 is the latest, for each frame its own.
+            hold: How many nanoseconds beyond its samples a link is taken to stand still.
+            poses: (N, 7) float64, gets x, y, z, qx, qy, qz, qw, or NaN.
+            told: (N,) uint8, gets 0: exactly; 1: held beyond the samples of a link; 2: not at all; 3: seen from its
+                root.
+        """
+
+def poses_near(poses: Any, told: Any, origin: Any, fixed: int, reach: float, near: Any) -> int:
+    """Poses as float32, relative to an origin; how many are far from it.
+
+    Args:
+        poses: (N, 7) float64: x, y, z, qx, qy, qz, qw.
+        told: (N,) uint8: how they were come by, as of `PoseTable.look_up`.
+        origin: (3,) float64.
+        fixed: The index of a frame that is never far; -1: none.
+        reach: How far from the origin is far, along an axis; frames are counted whose `told` is 0 or 1.
+        near: (N, 7) float32, gets the poses.
     """
 
 PUBLICATIONS: int
@@ -504,7 +521,7 @@ def load_dds(path: str) -> None:
     """Loads the DDS library; RuntimeError where it does not fit."""
 
 def create_unchecked_topic(participant: int, name: str, type_name: str) -> int:
-    """A topic whose readers are given any bytes that come under the type's name: its number."""
+    """A topic for who checks the bytes himself: its number."""
 
 class QosProfile:
     """The four policies ROS programs set."""
@@ -527,7 +544,9 @@ class DomainParticipant:
 class Writer:
     """A DDS writer of serialised messages."""
 
-    def __init__(self, participant: int, topic: int, qos: QosProfile, user_data: str) -> None: ...
+    def __init__(
+        self, participant: int, topic: int, qos: QosProfile, user_data: str, unchecked: bool = False
+    ) -> None: ...
     def write(self, message: bytes) -> None:
         """Sends one serialised message, without the GIL."""
 
