@@ -44,6 +44,15 @@ nb::list matched_handles(const Endpoint& endpoint) {
   return list;
 }
 
+// Calls `write`, a method of Writer, with the message and without the GIL.
+template <void (Writer::*write)(const void*, std::size_t) const>
+void write_bytes(const PyWriter& writer, nb::bytes message) {
+  const char* data = message.c_str();
+  const std::size_t size = message.size();
+  WithoutGil release;
+  (writer.*write)(data, size);
+}
+
 nb::tuple to_tuple(const QosProfile& qos) {
   return nb::make_tuple(qos.depth, qos.reliable, qos.transient_local, qos.keep_all);
 }
@@ -95,15 +104,9 @@ void define_writer(nb::module_& wire) {
   nb::class_<PyWriter>(wire, "Writer", "A DDS writer of serialised messages.")
       .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&>(), nb::arg("participant"),
            nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), ReleaseGil())
-      .def(
-          "write",
-          [](const PyWriter& self, nb::bytes message) {
-            const char* data = message.c_str();
-            const std::size_t size = message.size();
-            WithoutGil release;
-            self.write(data, size);
-          },
-          nb::arg("message"), "Sends one serialised message, without the GIL.")
+      .def("write", &write_bytes<&Writer::write>, nb::arg("message"), "Sends one serialised message, without the GIL.")
+      .def("forward", &write_bytes<&Writer::forward>, nb::arg("message"),
+           "The same on an unchecked topic, whose bytes nobody here understands.")
       .def_prop_ro("guid", [](const PyWriter& self) { return to_bytes(self.guid()); })
       .def_prop_ro("matched", &PyWriter::matched, "How many readers the writer has found.", ReleaseGil())
       .def("matched_handles", &matched_handles<PyWriter>, "The handles of those readers.")
@@ -175,7 +178,7 @@ void define_wire(nb::module_& wire) {
   wire.def("load_dds", &dds::load, nb::arg("path"), "Loads the DDS library; RuntimeError where it does not fit.");
   wire.def("create_unchecked_topic", &dds::create_unchecked_topic, nb::arg("participant"), nb::arg("name"),
            nb::arg("type_name"), ReleaseGil(),
-           "A topic whose readers are given any bytes that come under the type's name: its number.");
+           "A topic whose readers are given, and whose writers forward, any bytes under the type's name: its number.");
   nb::class_<QosProfile>(wire, "QosProfile", "The four policies ROS programs set.")
       .def(
           "__init__",

@@ -9,10 +9,31 @@ Writer::Writer(dds::Entity participant, dds::Entity topic, const QosProfile& pro
   entity_ = dds::check(dds::functions().dds_create_writer(participant, topic, qos.get(), nullptr), "create a writer");
 }
 
-void Writer::write(const void* data, std::size_t size) const {
+namespace {
+
+void check_encapsulation(std::size_t size) {
   if (size < 4) throw std::invalid_argument("a serialised message begins with 4 bytes of encapsulation");
+}
+
+}  // namespace
+
+void Writer::write(const void* data, std::size_t size) const {
+  check_encapsulation(size);
   const dds::SampleContainer sample{data, size};
   dds::check(dds::functions().dds_write(entity_, &sample), "write");
+}
+
+void Writer::forward(const void* data, std::size_t size) const {
+  check_encapsulation(size);
+  const dds::Functions& f = dds::functions();
+  const dds::Sertype* type = nullptr;
+  dds::check(f.dds_get_entity_sertype(entity_, &type), "read the writer's type");
+  dds::IoVector bytes{};
+  bytes.data = const_cast<void*>(data);
+  bytes.size = static_cast<decltype(bytes.size)>(size);
+  dds::Serdata* sample = f.ddsi_serdata_from_ser_iov(type, dds::kWholeSample, 1, &bytes, size);
+  if (sample == nullptr) throw std::invalid_argument("the encapsulation is none that DDS knows");
+  dds::check(f.dds_writecdr(entity_, sample), "write");  // which takes the sample
 }
 
 void Writer::close() noexcept {

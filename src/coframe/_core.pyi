@@ -464,7 +464,7 @@ def load_dds(path: str) -> None:
     """Loads the DDS library; RuntimeError where it does not fit."""
 
 def create_unchecked_topic(participant: int, name: str, type_name: str) -> int:
-    """A topic whose readers are given any bytes that come under the type's name: its number."""
+    """A topic whose readers are given, and whose writers forward, any bytes under the type's name: its number."""
 
 class QosProfile:
     """The four policies ROS programs set."""
@@ -490,6 +490,9 @@ class Writer:
     def __init__(self, participant: int, topic: int, qos: QosProfile, user_data: str) -> None: ...
     def write(self, message: bytes) -> None:
         """Sends one serialised message, without the GIL."""
+
+    def forward(self, message: bytes) -> None:
+        """The same on an unchecked topic, whose bytes nobody here understands."""
 
     @property
     def guid(self) -> bytes: ...
