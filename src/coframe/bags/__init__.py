@@ -1,7 +1,7 @@
 """Recordings without ROS: rosbag2 (MCAP, SQLite) and bags of ROS 1."""
 
 from coframe.bags.instants import parse_instant
-from coframe.bags.offered_qos import OfferedQos
+from coframe.bags.offered_qos import OfferedQos, from_yaml
 from coframe.bags.recording import RecordedMessage, Recording, Topic, open_bag
 from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
 from coframe.bags.trajectories import FORMATS, format_of, write_trajectory
@@ -21,6 +21,7 @@ __all__ = [
     "TreeSummary",
     "Writer",
     "format_of",
+    "from_yaml",
     "open_bag",
     "parse_instant",
     "summarize",

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from coframe.bags.problems import Problems
     from coframe.bags.storage import Channel
 
-__all__ = ["decoder", "message_class"]
+__all__ = ["decoder", "fits_humble", "humble_store", "message_class", "ros2_name"]
 
 _TYPE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*/msg/[A-Za-z][A-Za-z0-9_]*", re.ASCII)
 _LONGEST_DEFINITION = 1 << 20
@@ -27,9 +27,14 @@ _ALIASES = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
 def message_class(ros_type: str) -> Any:
     """The class that coframe has for a type, or None."""
     try:
-        return find(_ALIASES.get(ros_type, ros_type))
+        return find(ros2_name(ros_type))
     except LookupError:
         return None
+
+
+def ros2_name(ros_type: str) -> str:
+    """What ROS 2 calls a type that ROS 1 may call differently."""
+    return _ALIASES.get(ros_type, ros_type)
 
 
 def decoder(channel: Channel, problems: Problems) -> Callable[[bytes], Any]:
@@ -119,8 +124,17 @@ def _fits(store: Any) -> bool:
     return all(_layout(name, fields) == humble[name] for name, (_, fields) in store.fielddefs.items() if name in humble)
 
 
+def fits_humble(name: str, definition: bytes) -> bool:
+    """Whether a type of ROS 1, as a recording describes it, is one of ROS 2 Humble."""
+    try:
+        return _fits(_store(name, definition, "ros1msg")) and ros2_name(name) in _humble()
+    except _UnknownTypeError:
+        return False
+
+
 @functools.cache
-def _humble_store() -> Any:
+def humble_store() -> Any:
+    """A type store of rosbags with the types of ROS 2 Humble."""
     from rosbags.typesys import Stores, get_typestore  # noqa: PLC0415
 
     return get_typestore(Stores.ROS2_HUMBLE)
@@ -128,13 +142,13 @@ def _humble_store() -> Any:
 
 @functools.cache
 def _humble() -> dict[str, Any]:
-    return {name: _layout(name, fields) for name, (_, fields) in _humble_store().fielddefs.items()}
+    return {name: _layout(name, fields) for name, (_, fields) in humble_store().fielddefs.items()}
 
 
 def _deserialize_ros1(data: bytes, name: str) -> Any:
     """By way of CDR, which differs in its padding and leaves the numbers of headers out."""
-    name = _ALIASES.get(name, name)
-    return deserialize(_humble_store().ros1_to_cdr(data, name), find(name))
+    name = ros2_name(name)
+    return deserialize(humble_store().ros1_to_cdr(data, name), find(name))
 
 
 def _layout(name: str, fields: Any) -> list[Any]:

@@ -11,6 +11,8 @@ from coframe.cli.bag import bag
 from coframe.cli.demo import demo
 from coframe.cli.echo import echo
 from coframe.cli.lookup import lookup
+from coframe.cli.play import PlayCommand, play
+from coframe.cli.record import record
 from coframe.cli.robot import robot
 from coframe.cli.static import static
 from coframe.cli.trajectory import trajectory
@@ -47,6 +49,8 @@ app.command()(echo)
 app.command()(view)
 app.command()(lookup)
 app.command()(trajectory)
+app.command()(record)
+app.command(cls=PlayCommand)(play)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(robot)
 app.add_typer(bag, name="bag")
 # The numbers of a transform may be negative: this command reads its arguments itself.
