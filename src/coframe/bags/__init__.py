@@ -1,6 +1,8 @@
 """Recordings without ROS: rosbag2 (MCAP, SQLite) and bags of ROS 1."""
 
 from coframe.bags.instants import parse_instant
+from coframe.bags.mcap_writer import COMPRESSIONS
+from coframe.bags.mending import Mended, mend
 from coframe.bags.offered_qos import OfferedQos, from_yaml
 from coframe.bags.recording import RecordedMessage, Recording, Topic, open_bag
 from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
@@ -9,8 +11,10 @@ from coframe.bags.writer import Writer
 from coframe.errors import RecordingError
 
 __all__ = [
+    "COMPRESSIONS",
     "FORMATS",
     "EdgeSummary",
+    "Mended",
     "OfferedQos",
     "RecordedMessage",
     "Recording",
@@ -22,6 +26,7 @@ __all__ = [
     "Writer",
     "format_of",
     "from_yaml",
+    "mend",
     "open_bag",
     "parse_instant",
     "summarize",

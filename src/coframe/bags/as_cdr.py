@@ -6,13 +6,15 @@ import functools
 from typing import TYPE_CHECKING
 
 from coframe.bags.decoding import fits_humble, humble_store, ros2_name
+from coframe.messages import deserialize, find
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from coframe.bags.storage import Channel
+    from coframe.messages.generated.geometry_msgs.msg import TransformStamped
 
-__all__ = ["as_cdr"]
+__all__ = ["as_cdr", "transforms_of"]
 
 
 def as_cdr(channel: Channel) -> tuple[str, Callable[[bytes], bytes]] | None:
@@ -29,6 +31,19 @@ def as_cdr(channel: Channel) -> tuple[str, Callable[[bytes], bytes]] | None:
     if not fits_humble(channel.type, channel.definition):
         return None
     return name, functools.partial(_from_ros1, name)
+
+
+def transforms_of(convert: Callable[[bytes], bytes], data: bytes) -> list[TransformStamped]:
+    """The transforms in a message of them; none of a damaged one, which is told of when it is dealt with itself.
+
+    Args:
+        convert: As `as_cdr` gives it.
+        data: The message as it was recorded.
+    """
+    try:
+        return list(deserialize(convert(data), find("tf2_msgs/msg/TFMessage")).transforms)
+    except Exception:  # noqa: BLE001 - the libraries have many ways to say that bytes are damaged
+        return []
 
 
 def _from_ros1(name: str, data: bytes) -> bytes:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from coframe.bags.problems import Problems
     from coframe.bags.storage import Channel
 
-__all__ = ["decoder", "fits_humble", "humble_store", "message_class", "ros2_name"]
+__all__ = ["UnknownTypeError", "decoder", "fits_humble", "humble_store", "message_class", "ros2_name", "store_for"]
 
 _TYPE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*/msg/[A-Za-z][A-Za-z0-9_]*", re.ASCII)
 _LONGEST_DEFINITION = 1 << 20
@@ -54,12 +54,12 @@ def decoder(channel: Channel, problems: Problems) -> Callable[[bytes], Any]:
         return bytes
     try:
         return _ros_decoder(channel)
-    except _UnknownTypeError as error:
+    except UnknownTypeError as error:
         problems.add(f"{channel.topic}: messages of the type {channel.type} are given as bytes: {error}")
         return bytes
 
 
-class _UnknownTypeError(Exception):
+class UnknownTypeError(Exception):
     """Nobody says how messages of a type are to be read."""
 
 
@@ -67,7 +67,7 @@ def _ros_decoder(channel: Channel) -> Callable[[bytes], Any]:
     own = message_class(channel.type)
     if not channel.definition and own is not None and channel.encoding == "cdr":
         return lambda data: deserialize(data, own)
-    store = _store(channel.type, channel.definition, channel.definition_format)
+    store = store_for(channel.type, channel.definition, channel.definition_format)
     own = own if own is not None and _fits(store) else None
     if channel.encoding == "cdr":
         if own is not None:
@@ -90,23 +90,23 @@ def _guarded(decode: Callable[..., Any], name: str, data: bytes) -> Any:
 
 
 @functools.lru_cache(maxsize=256)
-def _store(name: str, definition: bytes, definition_format: str) -> Any:
+def store_for(name: str, definition: bytes, definition_format: str) -> Any:
     """A type store of rosbags in which the type is known.
 
     Raises:
-        _UnknownTypeError: It is not.
+        UnknownTypeError: It is not.
     """
     try:
         from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore  # noqa: PLC0415
     except ModuleNotFoundError:
-        raise _UnknownTypeError("the package rosbags is not installed (pip install 'coframe[bags]')") from None
+        raise UnknownTypeError("the package rosbags is not installed (pip install 'coframe[bags]')") from None
     if not definition:
         known = get_typestore(Stores.LATEST)
         if name in known.types:
             return known
-        raise _UnknownTypeError("the recording does not say what they are made of")
+        raise UnknownTypeError("the recording does not say what they are made of")
     if not _TYPE_NAME.fullmatch(name) or len(definition) > _LONGEST_DEFINITION:
-        raise _UnknownTypeError("that cannot be the name of a type, or its definition is too long")
+        raise UnknownTypeError("that cannot be the name of a type, or its definition is too long")
     text = definition.decode("utf-8", "replace")
     store = get_typestore(Stores.EMPTY)
     try:
@@ -114,7 +114,7 @@ def _store(name: str, definition: bytes, definition_format: str) -> Any:
         store.get_msgdef(name)
     except Exception as error:  # noqa: BLE001 - of the parser, of its code, of ours that it makes
         reason = str(error).partition("\n")[0] or type(error).__name__
-        raise _UnknownTypeError(f"its definition cannot be used ({reason[:200]})") from None
+        raise UnknownTypeError(f"its definition cannot be used ({reason[:200]})") from None
     return store
 
 
@@ -127,8 +127,8 @@ def _fits(store: Any) -> bool:
 def fits_humble(name: str, definition: bytes) -> bool:
     """Whether a type of ROS 1, as a recording describes it, is one of ROS 2 Humble."""
     try:
-        return _fits(_store(name, definition, "ros1msg")) and ros2_name(name) in _humble()
-    except _UnknownTypeError:
+        return _fits(store_for(name, definition, "ros1msg")) and ros2_name(name) in _humble()
+    except UnknownTypeError:
         return False
 
 

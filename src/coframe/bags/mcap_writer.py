@@ -1,7 +1,7 @@
 """One MCAP file that is whole at any moment; the format is described at https://mcap.dev/spec.
 
-What was written is followed by a file's end of 50 bytes, and each next chunk goes over that end and brings its own. So a
-recorder that is killed leaves a file that any reader opens; only the index is missing, which `close` writes.
+What was written is followed by a file's end of 50 bytes, and each next chunk goes over that end and brings its own. So
+a recorder that is killed leaves a file that any reader opens; only the index is missing, which `close` writes.
 """
 
 from __future__ import annotations
@@ -84,13 +84,22 @@ class McapWriter:
         return len(self._pending)
 
     def add_channel(
-        self, topic: str, ros_type: str, *, encoding: str, definition: str, definition_format: str, about: Mapping[str, str]
+        self,
+        topic: str,
+        ros_type: str,
+        *,
+        encoding: str,
+        definition: str,
+        definition_format: str,
+        about: Mapping[str, str],
     ) -> int:
         """A channel for messages of a type on a topic: its number."""
         key = (ros_type, definition_format, definition)
         if key not in self._schemas:
             self._schemas[key] = len(self._schemas) + 1
-            text = struct.pack("<H", self._schemas[key]) + b"".join(map(_text, (ros_type, definition_format, definition)))
+            text = struct.pack("<H", self._schemas[key]) + b"".join(
+                map(_text, (ros_type, definition_format, definition))
+            )
             self._define(_record(_SCHEMA, text))
         number = len(self.counts)
         self.counts.append(0)
@@ -128,7 +137,9 @@ class McapWriter:
         chunk = _record(_CHUNK, head + struct.pack("<Q", len(packed)) + packed)
         indices, offsets = self._message_indices(self._end + len(chunk))
         about = times + struct.pack("<QQI", self._end, len(chunk), len(offsets)) + offsets
-        about += struct.pack("<Q", len(indices)) + self._compression + struct.pack("<QQ", len(packed), len(self._pending))
+        about += (
+            struct.pack("<Q", len(indices)) + self._compression + struct.pack("<QQ", len(packed), len(self._pending))
+        )
         flushed, self._index = self._index, {}
         self._pending.clear()
         self._append(chunk + indices)

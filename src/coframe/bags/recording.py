@@ -295,7 +295,9 @@ class Recording:
             RecordingError: There is no such topic.
         """
         tracks = [
-            track for name in (self._tracks if topics is None else map(self._name, topics)) for track in self._tracks[name]
+            track
+            for name in (self._tracks if topics is None else map(self._name, topics))
+            for track in self._tracks[name]
         ]
         if not tracks:
             return

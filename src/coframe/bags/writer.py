@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import importlib
-import os
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe import time
 from coframe.bags.definitions import definition_of
@@ -18,6 +17,7 @@ from coframe.bags.transforms import is_static
 from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
+    import os
     from collections.abc import Callable, Hashable, Sequence
     from datetime import timedelta
 
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["Writer"]
 
 _LARGEST_CHUNK = 4 << 20  # bytes before compression
+T = TypeVar("T")
 _VERSION = 5  # of the metadata: what Humble writes, and all later ones read
 
 
@@ -272,7 +273,7 @@ class Writer:
         self._facts.files.append(_File(name))
         return McapWriter(self.path / name, self._compression)
 
-    def _writing(self, write: Callable[[], Any]) -> Any:
+    def _writing(self, write: Callable[[], T]) -> T:
         try:
             return write()
         except OSError as error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -54,11 +55,15 @@ def play(
     ] = None,
     rate: Annotated[float, typer.Option("--rate", "-r", help="Seconds of the recording in a second.")] = 1.0,
     loop: Annotated[bool, typer.Option("--loop", "-l", help="Again and again.")] = False,
-    start_offset: Annotated[str, typer.Option(help="How far from its beginning it starts: 10s, 2min, or seconds.")] = "0s",
+    start_offset: Annotated[
+        str, typer.Option(help="How far from its beginning it starts: 10s, 2min, or seconds.")
+    ] = "0s",
     start_paused: Annotated[bool, typer.Option("--start-paused", "-p", help="Stand still at first.")] = False,
     clock: Annotated[
         float | None,
-        typer.Option(metavar="[HZ]", help="Tell /clock so often, 40 times if nothing is said.", show_default="as recorded"),
+        typer.Option(
+            metavar="[HZ]", help="Tell /clock so often, 40 times if nothing is said.", show_default="as recorded"
+        ),
     ] = None,
     delay: Annotated[str, typer.Option(help="How long to wait for subscribers at first.")] = "1s",
     domain: DomainOption = None,
@@ -101,13 +106,15 @@ def _renaming(text: str) -> tuple[str, str]:
 def _watch(player: Player) -> None:
     told: set[str] = set()
     console = Console(stderr=True)
-    print(f"playing {player.recording.path}" + (f"; {_HELP}" if sys.stdin.isatty() else ""), file=sys.stderr, flush=True)
+    print(
+        f"playing {player.recording.path}" + (f"; {_HELP}" if sys.stdin.isatty() else ""), file=sys.stderr, flush=True
+    )
 
     def picture() -> Text:
         return _line(player)
 
     live = Live(get_renderable=picture, console=console, refresh_per_second=1 / _REFRESH, transient=True)
-    with keys() as key, live if console.is_terminal else player:
+    with keys() as key, live if console.is_terminal else contextlib.nullcontext():
         while not player.wait(0.0):
             _obey(player, key(_REFRESH))
             for problem in [problem for problem in player.problems if problem not in told]:

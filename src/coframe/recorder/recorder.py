@@ -234,7 +234,9 @@ def record(
     folder = datetime.now().astimezone().strftime("rosbag2_%Y_%m_%d-%H_%M_%S") if path is None else path
     writer = Writer(folder, compression=compression, max_size=max_size, max_duration=max_duration)
     try:
-        return Recorder(writer, wanted, domain=domain, backlog=backlog, on_topic=on_topic or (lambda _topic, _type: None))
+        return Recorder(
+            writer, wanted, domain=domain, backlog=backlog, on_topic=on_topic or (lambda _topic, _type: None)
+        )
     except BaseException:
         writer.close()
         raise
