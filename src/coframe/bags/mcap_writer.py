@@ -157,7 +157,9 @@ class McapWriter:
         """
         try:
             self.flush()
-            self._append(b"", self._summary())
+            summary = self._summary()
+            self._append(b"", summary)
+            self._end += len(summary)
             os.fsync(self._file.fileno())
         finally:
             self._file.close()
