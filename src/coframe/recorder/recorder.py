@@ -232,11 +232,10 @@ def record(
     """
     wanted = Wanted(topics, regex, exclude)
     folder = datetime.now().astimezone().strftime("rosbag2_%Y_%m_%d-%H_%M_%S") if path is None else path
-    writer = Writer(folder, compression=compression, max_size=max_size, max_duration=max_duration)
+    participant = Participant.get(domain)  # before there is a folder: this is what may fail
     try:
-        return Recorder(
-            writer, wanted, domain=domain, backlog=backlog, on_topic=on_topic or (lambda _topic, _type: None)
-        )
-    except BaseException:
-        writer.close()
-        raise
+        writer = Writer(folder, compression=compression, max_size=max_size, max_duration=max_duration)
+        tell = on_topic or (lambda _topic, _type: None)
+        return Recorder(writer, wanted, domain=domain, backlog=backlog, on_topic=tell)
+    finally:
+        participant.close()

@@ -99,8 +99,8 @@ class Subscriptions:
         return {topic for topic, _ in self._rivals}
 
     def take(self) -> Iterator[Received]:
-        """What has arrived."""
-        for offer, reader in list(self._readers.items()):
+        """What has arrived, first that of latched topics, which others build upon."""
+        for offer, reader in sorted(self._readers.items(), key=lambda pair: not pair[0].transient_local):
             source = Source(offer.topic, offer.type, offer.transient_local)
             while reader.pending():
                 for sample in reader.take(_TAKE):
