@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
-__all__ = ["COMPRESSIONS", "McapWriter"]
+__all__ = ["COMPRESSIONS", "McapWriter", "compressor"]
 
 COMPRESSIONS = ("none", "zstd", "lz4")
 
@@ -53,7 +53,7 @@ class McapWriter:
     """
 
     def __init__(self, path: Path, compression: str = "zstd") -> None:
-        self._compress = _compressor(compression)
+        self._compress = compressor(compression)
         self._compression = _text("" if compression == "none" else compression)
         self._file = path.open("xb", buffering=0)
         self._definitions = bytearray()  # schemas and channels, which are said again at the end
@@ -240,7 +240,13 @@ def _text(text: str) -> bytes:
 _END = _record(_DATA_END, bytes(4)) + _record(_FOOTER, bytes(20)) + _MAGIC
 
 
-def _compressor(name: str) -> Callable[[bytes], bytes]:
+def compressor(name: str) -> Callable[[bytes], bytes]:
+    """What compresses a chunk.
+
+    Raises:
+        ValueError: There is no such compression.
+        RecordingError: The package for it is not installed.
+    """
     if name not in COMPRESSIONS:
         raise ValueError(f"there is no compression {name!r}: it is one of {', '.join(COMPRESSIONS)}")
     if name == "none":

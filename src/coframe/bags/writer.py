@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from coframe import time
 from coframe.bags.definitions import definition_of
 from coframe.bags.latched import Latched
-from coframe.bags.mcap_writer import McapWriter
+from coframe.bags.mcap_writer import McapWriter, compressor
 from coframe.bags.offered_qos import OfferedQos, to_yaml
 from coframe.bags.transforms import is_static
 from coframe.errors import RecordingError
@@ -104,6 +104,7 @@ class Writer:
         self._max_size = max_size
         self._max_duration = None if max_duration is None else time.duration_ns(max_duration)
         self._dump = _yaml_dump()
+        compressor(compression)  # is there, or there will be no folder
         self._facts = _Facts()
         self._numbers: dict[tuple[str, str], int] = {}
         self._closed = 0  # bytes of finished files

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import importlib
 import os
+import re
 import select
 import sys
 import time
@@ -17,6 +18,7 @@ __all__ = ["keys"]
 
 # What terminals send for the arrows, and what Windows gives for them after the first byte.
 _ARROWS = {"\x1b[A": "up", "\x1b[B": "down", "\x1b[C": "right", "\x1b[D": "left"}
+_KEY = re.compile(r"\x1b\[[A-D]|.", re.DOTALL)
 _WINDOWS_ARROWS = {"H": "up", "P": "down", "M": "right", "K": "left"}
 
 
@@ -29,7 +31,7 @@ def keys() -> Iterator[Callable[[float], str]]:
         yield _windows_key
     else:
         with _unbuffered():
-            yield _posix_key
+            yield _PosixKeys()
 
 
 def _none(timeout: float) -> str:
@@ -49,14 +51,20 @@ def _unbuffered() -> Iterator[None]:
         termios.tcsetattr(sys.stdin, termios.TCSADRAIN, before)
 
 
-def _posix_key(timeout: float) -> str:
-    ready, _, _ = select.select([sys.stdin], [], [], timeout)
-    if not ready:
-        return ""
-    text = os.read(sys.stdin.fileno(), 16).decode("utf-8", "replace")
-    if not text:  # the terminal has gone
-        time.sleep(timeout)
-    return _ARROWS.get(text, text[:1])
+class _PosixKeys:
+    """What was typed, key by key: several may come at once."""
+
+    def __init__(self) -> None:
+        self._typed: list[str] = []
+
+    def __call__(self, timeout: float) -> str:
+        if not self._typed and select.select([sys.stdin], [], [], timeout)[0]:
+            text = os.read(sys.stdin.fileno(), 64).decode("utf-8", "replace")
+            self._typed = _KEY.findall(text)
+            if not text:  # the terminal has gone
+                time.sleep(timeout)
+        key = self._typed.pop(0) if self._typed else ""
+        return _ARROWS.get(key, key)
 
 
 def _windows_key(timeout: float) -> str:
