@@ -209,6 +209,17 @@ def test_a_full_disk_ends_it_with_a_sentence_and_leaves_what_was_written(tmp_pat
     assert len(read_by_rosbags(tmp_path / "run")) == 2 * (COUNT + 1)
 
 
+def test_times_of_sending_that_are_none_do_no_harm(tmp_path):
+    """Publishers may say anything, and DDS has numbers for "invalid" and "for ever"."""
+    with Writer(tmp_path / "run") as writer:
+        topic = writer.add_topic("/words", "std_msgs/msg/String")
+        for published in (-(2**63), -1, 2**63 - 1, 2**64):
+            writer.write(topic, b"\0\1\0\0", START, published=published)
+    with (tmp_path / "run" / "run_0.mcap").open("rb") as stream:
+        told = [message.publish_time for *_, message in make_reader(stream).iter_messages()]
+    assert told == [START, START, 2**63 - 1, START]
+
+
 def test_quality_of_service_of_every_version():
     profiles = (OfferedQos(), OfferedQos(7, reliable=False, transient_local=True), OfferedQos(keep_all=True))
     assert from_yaml(to_yaml(profiles)) == profiles

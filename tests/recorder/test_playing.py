@@ -193,6 +193,18 @@ def test_damaged_messages_are_left_out_and_told_of(tmp_path, hear):
     assert words(said()) == ["a", "b"]
 
 
+def test_names_that_dds_does_not_take_are_left_out_and_told_of(tmp_path, hear):
+    with Writer(tmp_path / "run") as writer:
+        for topic in ("words", "", "/words", "/a b\x1b[2J"):
+            writer.write(writer.add_topic(topic, STRING), text(topic), START)
+        writer.write(writer.add_topic("/typeless", ""), text("x"), START)
+    said = hear("/words")
+    with coframe.play(tmp_path / "run", delay=SETTLED) as player:
+        assert player.wait(20)
+        assert [problem.partition(" is not played")[0] for problem in player.problems[:2]] == ["words", ""]
+    assert words(said()) == ["/words"]
+
+
 @pytest.mark.parametrize(
     ("options", "reason"),
     [

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Writer"]
 
+_MOST_TOPICS = 65_000  # channels have numbers of 16 bits
+_TOO_LATE = 1 << 63
 _LARGEST_CHUNK = 4 << 20  # bytes before compression
 T = TypeVar("T")
 _VERSION = 5  # of the metadata: what Humble writes, and all later ones read
@@ -141,9 +143,14 @@ class Writer:
             encoding: Of the messages.
             definition: What the type is made of; None: as coframe knows it.
             definition_format: Of that text.
+
+        Raises:
+            RecordingError: There are more topics than an MCAP file can have.
         """
         key = (name, ros_type)
         if key not in self._numbers:
+            if len(self._numbers) >= _MOST_TOPICS:
+                raise RecordingError(f"{self.path} cannot have more than {_MOST_TOPICS} topics", hint="Choose some.")
             known = definition_of(ros_type) if definition is None else definition
             if not known and ros_type not in self.undescribed:
                 self.undescribed.append(ros_type)
@@ -171,7 +178,7 @@ class Writer:
             topic: Its number.
             data: The serialised message.
             received: When it was received, in nanoseconds.
-            published: When it was sent; None: when it was received.
+            published: When it was sent; None, or a time that is none: when it was received.
             publisher: Whose it is, of several publishers of a latched topic.
 
         Raises:
@@ -182,7 +189,7 @@ class Writer:
             self._begin_file(received)
         elif self._first_time is None:
             self._first_time = received
-        published = received if published is None else published
+        published = received if published is None or not 0 <= published < _TOO_LATE else published
         facts = self._facts.topics[topic]
         self._put(facts, data, received, published)
         if facts.latched is not None:

@@ -124,7 +124,11 @@ class Outlets:
                 channels.setdefault(key, channel)
                 offers.setdefault(key, []).extend(QoS(*profile) for profile in from_yaml(channel.offered_qos))
         for key, channel in channels.items():
-            self._outlets[key] = self._outlet(channel, offers[key])
+            try:
+                self._outlets[key] = self._outlet(channel, offers[key])
+            except (WireError, ValueError) as error:  # recordings may hold names that DDS does not take
+                self._outlets[key] = None
+                self.problems.append(f"{channel.topic} is not played: {error}")
 
     def _outlet(self, channel: Channel, offered: list[QoS]) -> _Outlet | None:
         converted = as_cdr(channel)
