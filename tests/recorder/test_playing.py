@@ -16,7 +16,7 @@ from coframe.wire import QoS
 STRING, CLOCK = "std_msgs/msg/String", "rosgraph_msgs/msg/Clock"
 LATCHED = OfferedQos(1, transient_local=True)
 DEEP = QoS(depth=1000)
-SETTLED = "300ms"
+SETTLED = "200ms"
 
 
 def text(words):
@@ -93,7 +93,7 @@ def test_a_listener_gets_the_answers_of_the_original_also_from_the_middle(bag):
 
 
 def test_what_is_latched_comes_first_and_to_those_who_come_late(bag, hear, eventually):
-    with coframe.play(bag, delay=SETTLED, start_offset="1500ms", paused=True) as player:
+    with coframe.play(bag, delay=SETTLED, start_offset="1500ms", paused=True, rate=4.0) as player:
         late = QoS(depth=10, transient_local=True)
         statics, robot, said = hear("/tf_static", TF, late), hear("/robot", STRING, late), hear("/words")
         eventually(lambda: statics() and robot())

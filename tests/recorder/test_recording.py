@@ -81,6 +81,24 @@ def test_publishers_that_offer_different_things_are_each_heard_once(participant,
     assert sorted(data_by_topic(tmp_path / "run")["/tf_static"]) == sorted(expected)
 
 
+def test_topics_that_are_not_ros_harm_nothing(participant, node, eventually, tmp_path):
+    from coframe import _core
+    from coframe.wire import types
+
+    entity = participant._native.entity
+    topic = types.create_unchecked_topic(entity, "rt/odd", "NotOfRos")
+    foreign = _core.Writer(entity, topic, _core.QosProfile(1, True, True, False), "")
+    publisher = participant.publisher(node, "/words", STRING, QoS())
+    with coframe.record(tmp_path / "run") as recorder:
+        eventually(lambda: publisher.matched)
+        publisher.write(text("hello"))
+        foreign.forward(b"\0\1\0\0abcd")
+        eventually(lambda: recorder.statistics.messages == 1)
+        assert recorder.statistics.refused == ["/odd"]
+    foreign.close()
+    assert data_by_topic(tmp_path / "run") == {"/words": [text("hello")]}
+
+
 @pytest.mark.parametrize(
     ("choice", "chosen"),
     [

@@ -138,6 +138,8 @@ def _finish(recorder: Recorder) -> None:
             _warn(f"{topic}: {count} messages were dropped: the disk was too slow for them")
         if told.missing:
             _warn(f"nobody published on {', '.join(told.missing)}")
+        if told.refused:
+            _warn(f"not recorded, because they are not ROS's or there are too many: {', '.join(told.refused)}")
         if recorder.writer.undescribed:
             types = ", ".join(recorder.writer.undescribed)
             _warn(f"recorded without a description, which readers will need: {types}")

@@ -38,6 +38,7 @@ class RecorderStatistics(NamedTuple):
         waiting: Bytes that were received and are not on the disk yet.
         dropped: Messages by topic that the disk was too slow for.
         missing: Topics that were asked for by name and that nobody publishes on yet.
+        refused: Topics that cannot be joined: their type is not ROS's, or there are too many.
     """
 
     messages: int
@@ -46,6 +47,7 @@ class RecorderStatistics(NamedTuple):
     waiting: int
     dropped: dict[str, int]
     missing: list[str]
+    refused: list[str]
 
 
 class Recorder:
@@ -101,6 +103,7 @@ class Recorder:
             waiting=self._backlog.size,
             dropped=dict(self._backlog.dropped),
             missing=self._wanted.missing(joined),
+            refused=sorted(self._subscriptions.refused()),
         )
 
     def wait(self, timeout: float | None = None) -> bool:

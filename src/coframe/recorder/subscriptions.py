@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 import time
+from contextlib import suppress
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.errors import WireError
 from coframe.recorder.backlog import Received, Source
 from coframe.wire.qos import QoS
 
@@ -83,7 +85,7 @@ class Subscriptions:
         self._offers: dict[int, _Offer] = {}  # by publisher, also of those that have gone
         self._readers: dict[_Offer, Subscription] = {}
         self._rivals: dict[tuple[str, str], list[_Offer]] = {}  # by topic and type
-        self.left_out = 0
+        self._refused: set[_Offer] = set()
 
     def refresh(self) -> list[tuple[str, str, list[QoS]]]:
         """Joins what has appeared since: each new topic, its type, and what its publishers offer."""
@@ -96,7 +98,11 @@ class Subscriptions:
 
     def topics(self) -> set[str]:
         """Those that were joined."""
-        return {topic for topic, _ in self._rivals}
+        return {topic for topic, _ in list(self._rivals)}
+
+    def refused(self) -> set[str]:
+        """Those that cannot be joined: their type is not ROS's, or there are too many."""
+        return {offer.topic for offer in list(self._refused)}
 
     def take(self) -> Iterator[Received]:
         """What has arrived, first that of latched topics, which others build upon."""
@@ -116,18 +122,24 @@ class Subscriptions:
         key = (topic, publisher.ros_type)
         offer = _Offer(*key, publisher.qos.reliable, publisher.qos.transient_local)
         self._offers[handle] = offer
-        if key in new or key not in self._rivals:
+        if offer in self._refused or (offer not in self._readers and not self._subscribe(offer)):
+            return
+        rivals = self._rivals.setdefault(key, [])
+        if key in new or not rivals:
             new.setdefault(key, []).append(publisher.qos)
-        if offer in self._readers:
-            return
-        if len(self._readers) >= _MOST:
-            self.left_out += 1
-            return
-        qos = QoS(depth=_DEPTH, reliable=offer.reliable, transient_local=offer.transient_local)
-        self._rivals.setdefault(key, []).append(offer)
-        self._readers[offer] = self._participant.raw_subscription(
-            self._node, topic, publisher.ros_type, qos, on_data=self._event
-        )
+        if offer not in rivals:
+            rivals.append(offer)
+
+    def _subscribe(self, offer: _Offer) -> bool:
+        if len(self._readers) < _MOST and "/" in offer.type:  # as all types of ROS have
+            qos = QoS(depth=_DEPTH, reliable=offer.reliable, transient_local=offer.transient_local)
+            with suppress(WireError):
+                self._readers[offer] = self._participant.raw_subscription(
+                    self._node, offer.topic, offer.type, qos, on_data=self._event
+                )
+                return True
+        self._refused.add(offer)
+        return False
 
     def _is_for(self, offer: _Offer, publisher: int) -> bool:
         rivals = self._rivals[offer.topic, offer.type]
