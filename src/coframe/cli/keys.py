@@ -1,78 +1,106 @@
-"""Single keys as they are pressed, where standard input is a terminal."""
+"""Single keys of the terminal, as they are pressed."""
 
 from __future__ import annotations
 
 import contextlib
-import importlib
 import os
-import re
 import select
 import sys
 import time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
-__all__ = ["keys"]
+__all__ = ["Keys", "keys"]
 
-# What terminals send for the arrows, and what Windows gives for them after the first byte.
-_ARROWS = {"\x1b[A": "up", "\x1b[B": "down", "\x1b[C": "right", "\x1b[D": "left"}
-_KEY = re.compile(r"\x1b\[[A-D]|.", re.DOTALL)
-_WINDOWS_ARROWS = {"H": "up", "P": "down", "M": "right", "K": "left"}
+_NAMES = {
+    "\x1b[A": "up",
+    "\x1b[B": "down",
+    "\x1b[C": "right",
+    "\x1b[D": "left",
+    "\x1bOA": "up",
+    "\x1bOB": "down",
+    "\x1bOC": "right",
+    "\x1bOD": "left",
+    "\x1b[5~": "page up",
+    "\x1b[6~": "page down",
+    # What Windows gives for them.
+    "\xe0H": "up",
+    "\xe0P": "down",
+    "\xe0M": "right",
+    "\xe0K": "left",
+    "\xe0I": "page up",
+    "\xe0Q": "page down",
+}
+
+
+class Keys:
+    """Reads keys while :func:`keys` is open."""
+
+    def read(self, timeout: float) -> str | None:
+        """The next key: its character, or `up`, `down`, `left`, `right`, `page up`, `page down`; None: none in time."""
+        raise NotImplementedError
+
+
+class _NoKeys(Keys):
+    """Where standard input is no terminal."""
+
+    def read(self, timeout: float) -> None:
+        time.sleep(timeout)
+
+
+class _PosixKeys(Keys):
+    def __init__(self, descriptor: int) -> None:
+        self._descriptor = descriptor
+        self._waiting = ""
+
+    def read(self, timeout: float) -> str | None:
+        if not self._waiting:
+            if not select.select([self._descriptor], [], [], timeout)[0]:
+                return None
+            self._waiting = os.read(self._descriptor, 1024).decode(errors="replace")
+            if not self._waiting:  # the terminal is gone
+                raise KeyboardInterrupt
+        for sequence, name in _NAMES.items():
+            if self._waiting.startswith(sequence):
+                self._waiting = self._waiting[len(sequence) :]
+                return name
+        key, self._waiting = self._waiting[0], self._waiting[1:]
+        return key
+
+
+class _WindowsKeys(Keys):
+    def read(self, timeout: float) -> str | None:
+        import msvcrt  # noqa: PLC0415 - Windows has it
+
+        end = time.monotonic() + timeout
+        while not msvcrt.kbhit():  # type: ignore[attr-defined,unused-ignore]
+            if time.monotonic() >= end:
+                return None
+            time.sleep(0.01)
+        key: str = msvcrt.getwch()  # type: ignore[attr-defined,unused-ignore]
+        if key in "\x00\xe0":
+            key = "\xe0" + msvcrt.getwch()  # type: ignore[attr-defined,unused-ignore]
+        return _NAMES.get(key, key)
 
 
 @contextlib.contextmanager
-def keys() -> Iterator[Callable[[float], str]]:
-    """What gives the next key within so many seconds: "up", "right", a character, or "" if there was none."""
+def keys() -> Iterator[Keys]:
+    """Keys come one by one and are not shown; where standard input is no terminal, none ever comes."""
     if not sys.stdin.isatty():
-        yield _none
-    elif os.name == "nt":
-        yield _windows_key
-    else:
-        with _unbuffered():
-            yield _PosixKeys()
-
-
-def _none(timeout: float) -> str:
-    time.sleep(timeout)
-    return ""
-
-
-@contextlib.contextmanager
-def _unbuffered() -> Iterator[None]:
-    termios: Any = importlib.import_module("termios")
-    tty: Any = importlib.import_module("tty")
-    before = termios.tcgetattr(sys.stdin)
-    tty.setcbreak(sys.stdin)
+        yield _NoKeys()
+        return
     try:
-        yield
+        import termios  # noqa: PLC0415 - Windows has none
+        import tty  # noqa: PLC0415
+    except ModuleNotFoundError:
+        yield _WindowsKeys()
+        return
+    descriptor = sys.stdin.fileno()
+    before = termios.tcgetattr(descriptor)
+    tty.setcbreak(descriptor)
+    try:
+        yield _PosixKeys(descriptor)
     finally:
-        termios.tcsetattr(sys.stdin, termios.TCSADRAIN, before)
-
-
-class _PosixKeys:
-    """What was typed, key by key: several may come at once."""
-
-    def __init__(self) -> None:
-        self._typed: list[str] = []
-
-    def __call__(self, timeout: float) -> str:
-        if not self._typed and select.select([sys.stdin], [], [], timeout)[0]:
-            text = os.read(sys.stdin.fileno(), 64).decode("utf-8", "replace")
-            self._typed = _KEY.findall(text)
-            if not text:  # the terminal has gone
-                time.sleep(timeout)
-        key = self._typed.pop(0) if self._typed else ""
-        return _ARROWS.get(key, key)
-
-
-def _windows_key(timeout: float) -> str:
-    msvcrt: Any = importlib.import_module("msvcrt")
-    end = time.monotonic() + timeout
-    while not msvcrt.kbhit():
-        if time.monotonic() >= end:
-            return ""
-        time.sleep(0.02)
-    key: str = msvcrt.getwch()
-    return _WINDOWS_ARROWS.get(msvcrt.getwch(), "") if key in {"\0", "\xe0"} else key
+        termios.tcsetattr(descriptor, termios.TCSADRAIN, before)

@@ -114,16 +114,16 @@ def _watch(player: Player) -> None:
         return _line(player)
 
     live = Live(get_renderable=picture, console=console, refresh_per_second=1 / _REFRESH, transient=True)
-    with keys() as key, live if console.is_terminal else contextlib.nullcontext():
+    with keys() as pressed, live if console.is_terminal else contextlib.nullcontext():
         while not player.wait(0.0):
-            _obey(player, key(_REFRESH))
+            _obey(player, pressed.read(_REFRESH))
             for problem in [problem for problem in player.problems if problem not in told]:
                 told.add(problem)
                 print(f"coframe: {printable(problem)}", file=sys.stderr)
     print(f"played {player.played} messages")
 
 
-def _obey(player: Player, key: str) -> None:
+def _obey(player: Player, key: str | None) -> None:
     if key == " ":
         player.resume() if player.clock.paused else player.pause()
     elif key == "right":

@@ -74,8 +74,8 @@ class Outlets:
             return False
         try:
             outlet.write(outlet.convert(data))
-        except WireError:
-            self._problem(f"{channel.topic}: a subscription does not keep up, and misses messages")
+        except WireError as error:  # a subscription does not keep up, for example
+            self._problem(str(error))
             return False
         except Exception:  # noqa: BLE001 - of DDS and of the library that converts, which have many ways to say it
             self._problem(f"{channel.topic}: there are damaged messages, which are left out")

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
 _logger = logging.getLogger("coframe.wire")
 
+_TF_TYPE = "tf2_msgs/msg/TFMessage"
 _ENCLAVE = "enclave=/;"  # what ROS participants say of themselves
 _CHECK_PERIOD_NS = 1_000_000_000
 
@@ -148,8 +149,11 @@ class Participant:
         Raises:
             WireError: DDS refuses.
         """
-        name, type_name, entity = self._topic_of(topic, message_type, kind)
-        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), ""), topic)
+        of_transforms = types.ros_type(message_type) == _TF_TYPE
+        name, type_name, entity = (
+            self._unchecked_topic(topic, _TF_TYPE) if of_transforms else self._topic_of(topic, message_type, kind)
+        )
+        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), "", of_transforms), topic)
         return Publisher(native, node, name, type_name, qos)
 
     def subscription(
@@ -161,6 +165,7 @@ class Participant:
         *,
         on_data: _core.Event | None = None,
         kind: Kind = "topic",
+        adapts: bool = False,
     ) -> Subscription:
         """A subscription of `node`; the arguments are those of `publisher`.
 
@@ -171,13 +176,14 @@ class Participant:
             qos: what is asked for.
             on_data: is set whenever messages arrive.
             kind: "topic", "request" or "reply".
+            adapts: the caller follows what publishers offer, so that nobody is warned of those that offer less.
 
         Raises:
             WireError: DDS refuses.
         """
         name, type_name, entity = self._topic_of(topic, message_type, kind)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
-        return Subscription(native, node, name, type_name, qos)
+        return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
     def raw_publisher(self, node: GraphNode, topic: str, ros_type: str, qos: QoS) -> RawPublisher:
         """A publisher of `node` for messages of any type, whose bytes it passes on as they are.
@@ -191,15 +197,16 @@ class Participant:
         Raises:
             WireError: DDS refuses.
         """
-        name, type_name = names.dds_topic(topic), names.dds_type(ros_type)
-        entity = self._unchecked_topic(name, type_name)
-        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), ""), topic)
+        name, type_name, entity = self._unchecked_topic(topic, ros_type)
+        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), "", True), topic)
         return RawPublisher(native, node, name, type_name, qos)
 
     def raw_subscription(
         self, node: GraphNode, topic: str, ros_type: str, qos: QoS, *, on_data: _core.Event | None = None
     ) -> Subscription:
         """A subscription of `node` to messages of any type, whose bytes nobody checks.
+
+        The caller follows what publishers offer: nobody is warned of those that offer less than this one asks for.
 
         Args:
             node: its node.
@@ -211,10 +218,9 @@ class Participant:
         Raises:
             WireError: DDS refuses.
         """
-        name, type_name = names.dds_topic(topic), names.dds_type(ros_type)
-        entity = self._unchecked_topic(name, type_name)
+        name, type_name, entity = self._unchecked_topic(topic, ros_type)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
-        return Subscription(native, node, name, type_name, qos)
+        return Subscription(native, node, name, type_name, qos, adapts=True)
 
     def tf_reader(
         self,
@@ -240,8 +246,7 @@ class Participant:
             WireError: DDS refuses.
         """
         chosen = qos or (TF_STATIC_READER if static else TF)
-        name, type_name = names.dds_topic(topic), names.dds_type("tf2_msgs/msg/TFMessage")
-        entity = self._unchecked_topic(name, type_name)
+        name, type_name, entity = self._unchecked_topic(topic, _TF_TYPE)
         source = initial_authority(authority)
         native = _create(
             lambda: _core.TfReader(self._native.entity, entity, _native_qos(chosen), "", buffer, static, source),
@@ -342,13 +347,14 @@ class Participant:
                 self._topics[key] = types.create_topic(self._native.entity, name, data_type)
             return self._topics[key]
 
-    def _unchecked_topic(self, name: str, type_name: str) -> int:
-        """For those who check the bytes themselves, or only pass them on."""
-        key = (name, type_name)
+    def _unchecked_topic(self, topic: str, ros_type: str) -> tuple[str, str, int]:
+        """As `_topic_of`, for those who check the bytes themselves, or only pass them on."""
+        name, type_name = names.dds_topic(topic), names.dds_type(ros_type)
         with self._lock:
-            if key not in self._unchecked_topics:
-                self._unchecked_topics[key] = types.create_unchecked_topic(self._native.entity, name, type_name)
-            return self._unchecked_topics[key]
+            if (name, type_name) not in self._unchecked_topics:
+                entity = types.create_unchecked_topic(self._native.entity, name, type_name)
+                self._unchecked_topics[name, type_name] = entity
+            return name, type_name, self._unchecked_topics[name, type_name]
 
     def _describe(self, endpoints: dict[int, DdsEndpoint]) -> list[Endpoint]:
         return [self._graph.describe(endpoint) for endpoint in endpoints.values()]
