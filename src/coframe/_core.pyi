@@ -602,6 +602,9 @@ class Writer:
     def write(self, message: bytes) -> None:
         """Sends one serialised message, without the GIL."""
 
+    def forward(self, message: bytes) -> None:
+        """The same on an unchecked topic for a message of any type, whose bytes nobody looks at."""
+
     @property
     def guid(self) -> bytes: ...
     @property

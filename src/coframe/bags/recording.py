@@ -290,6 +290,42 @@ class Recording:
             chosen &= stamps < time.stamp_ns(stop)
         return self._read_all(name, np.flatnonzero(chosen))
 
+    def channels(self) -> list[Channel]:
+        """What was recorded on which topic, as the files say: one for each file, topic and type."""
+        return [track.channel for tracks in self._tracks.values() for track in tracks]
+
+    def in_order(
+        self, topics: Iterable[str] | None = None, start: int | None = None, stop: int | None = None
+    ) -> Iterator[tuple[Channel, int, bytes]]:
+        """The messages of several topics as they were received: (channel, time of receipt in nanoseconds, bytes).
+
+        Args:
+            topics: Their names; None: all.
+            start: Only those received at or after this, in nanoseconds.
+            stop: Only those received before this.
+
+        Raises:
+            RecordingError: There is no such topic.
+        """
+        tracks = [
+            track
+            for name in (self._tracks if topics is None else map(self._name, topics))
+            for track in self._tracks[name]
+        ]
+        if not tracks:
+            return
+        received = np.concatenate([_numbers(track.received) for track in tracks])
+        positions = np.concatenate([np.array(track.positions, dtype=np.uint64) for track in tracks])
+        of_track = np.repeat(np.arange(len(tracks)), [len(track.received) for track in tracks])
+        order = np.argsort(received, kind="stable")
+        first = 0 if start is None else int(np.searchsorted(received[order], start))
+        last = len(order) if stop is None else int(np.searchsorted(received[order], stop))
+        for row in order[first:last]:
+            track = tracks[of_track[row]]
+            data = self._bytes(track, int(positions[row]))
+            if data is not None:
+                yield track.channel, int(received[row]), data
+
     def _read_all(self, name: str, rows: NDArray[np.intp]) -> Iterator[RecordedMessage]:
         for row in rows.tolist():
             message = self._read(name, row)
@@ -340,16 +376,21 @@ class Recording:
         """One message; None, and a problem more, if it can no longer be read."""
         index = self._index(name)
         track = index.tracks[index.of_track[row]]
-        try:
-            data = track.storage.read(int(index.positions[row]))
-        except (DamagedError, OSError) as error:
-            track.storage.problem(f"a message on {name} cannot be read again: {error}")
+        data = self._bytes(track, int(index.positions[row]))
+        if data is None:
             return None
         key = id(track.channel)
         if key not in self._decoders:
             self._decoders[key] = decoder(track.channel, self._problems)
         stamp, received = int(self.stamps(name)[row]), int(index.received[row])
         return RecordedMessage(name, track.channel.type, stamp, received, data, self._decoders[key])
+
+    def _bytes(self, track: _Track, position: int) -> bytes | None:
+        try:
+            return track.storage.read(position)
+        except (DamagedError, OSError) as error:
+            track.storage.problem(f"a message on {track.channel.topic} cannot be read again: {error}")
+            return None
 
     def _track_stamps(self, track: _Track) -> NDArray[np.int64]:
         received = _numbers(track.received)

@@ -8,6 +8,8 @@ from coframe.cli.echo import echo
 from coframe.cli.joints import joints
 from coframe.cli.lookup import lookup
 from coframe.cli.new_app import new_app
+from coframe.cli.play import PlayCommand, play
+from coframe.cli.record import record
 from coframe.cli.relay import relay
 from coframe.cli.robot import robot
 from coframe.cli.static import static
@@ -23,6 +25,8 @@ app.command()(view)
 app.command()(relay)
 app.command()(lookup)
 app.command()(trajectory)
+app.command()(record)
+app.command(cls=PlayCommand)(play)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(robot)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(joints)
 app.add_typer(bag, name="bag")
