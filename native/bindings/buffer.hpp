@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "core/buffer.hpp"
@@ -65,17 +66,21 @@ struct BufferObject {
     return authorities.find(name, [this](std::string_view text) { return core->authority(text); });
   }
 
+  using StreamKey = std::tuple<bool, TransformStream::Encoding, std::string>;
   // The source of messages by this authority.
-  TransformStream& stream(bool is_static, std::string name) {
-    const std::pair<bool, std::string> key(is_static, std::move(name));
+  TransformStream& stream(bool is_static, std::string name,
+                          TransformStream::Encoding encoding = TransformStream::Encoding::cdr) {
+    StreamKey key(is_static, encoding, std::move(name));
     const auto found = streams.find(key);
-    return found != streams.end() ? found->second
-                                  : streams.emplace(key, core->open_stream(is_static, key.second)).first->second;
+    if (found != streams.end()) return found->second;
+    TransformStream stream = core->open_stream(is_static, std::get<2>(key));
+    stream.encoding = encoding;
+    return streams.emplace(std::move(key), std::move(stream)).first->second;
   }
 
   IdentityCache frames, authorities;
   PathCache paths;  // guarded by the GIL, unlike the core's own
-  std::map<std::pair<bool, std::string>, TransformStream> streams;
+  std::map<StreamKey, TransformStream> streams;
 };
 
 }  // namespace coframe::bindings

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "core/dump.hpp"
+#include "core/frozen.hpp"
+#include "core/ros1.hpp"
 
 namespace coframe {
 
@@ -187,7 +189,8 @@ void Buffer::rename(TransformStream& stream, std::string_view authority) {
 DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size,
                              std::size_t& stored) {
   stored = 0;
-  const DecodeFailure failure = decode_tf_message(data, size, stream.decoded, stream.expected);
+  const auto decode = stream.encoding == TransformStream::Encoding::cdr ? decode_tf_message : decode_ros1_tf_message;
+  const DecodeFailure failure = decode(data, size, stream.decoded, stream.expected);
   const std::size_t transforms = stream.decoded.size();
   stream.inserted.resize(transforms);
   {
@@ -267,6 +270,15 @@ std::shared_ptr<Buffer> Buffer::snapshot() const {
   std::shared_ptr<Buffer> copy(new Buffer(tree_));
   copy->counts_ = counts_;
   return copy;
+}
+
+std::shared_ptr<Buffer> Buffer::restored(Stamp cache_length, std::span<const std::uint8_t> table,
+                                         std::span<const std::uint8_t> chunks, std::shared_ptr<const void> memory,
+                                         const char*& reason) {
+  auto buffer = std::make_shared<Buffer>(cache_length);
+  reason = restore(buffer->tree_, table, chunks, std::move(memory));
+  buffer->freeze();
+  return reason ? nullptr : buffer;
 }
 
 // A sample at the latest common time may be dropped between the choice of that time and the look at the sample; a

@@ -9,6 +9,7 @@ from coframe.errors import (
     DecodeError,
     ExtrapolationException,
     FrameMismatchException,
+    FrozenFileError,
     InvalidArgumentException,
     LookupException,
     PackageError,
@@ -24,6 +25,7 @@ from coframe.wire.connection import Connection, connect
 
 if TYPE_CHECKING:
     from coframe.bags import open_bag
+    from coframe.frozen import load
     from coframe.viewer.show import show
 
 __version__ = "0.1.0"
@@ -37,6 +39,7 @@ __all__ = [
     "ExtrapolationException",
     "FrameInfo",
     "FrameMismatchException",
+    "FrozenFileError",
     "InvalidArgumentException",
     "LookupException",
     "PackageError",
@@ -50,11 +53,12 @@ __all__ = [
     "WireError",
     "__version__",
     "connect",
+    "load",
     "open_bag",
     "show",
 ]
 
-_LATE = {"open_bag": "coframe.bags", "show": "coframe.viewer"}
+_LATE = {"load": "coframe.frozen", "open_bag": "coframe.bags", "show": "coframe.viewer"}
 
 
 def __getattr__(name: str) -> Any:

@@ -392,8 +392,13 @@ def mcap_records(data: Any) -> tuple[bytes, bytes, bytes, bytes, bytes, list[tup
         bytes end (uint64); of each schema and channel its opcode and the two ends of its content; the bytes dealt with.
     """
 
-def ingest_slices(buffer: Buffer, data: Any, starts: Any, ends: Any, static: bool, authority: str) -> tuple[int, str]:
-    """Buffer.ingest() of many parts of `data`, told by uint64 arrays: how many are damaged, and why the first is."""
+def ingest_slices(
+    buffer: Buffer, data: Any, starts: Any, ends: Any, static: bool, authority: str, encoding: str = "cdr"
+) -> tuple[int, str]:
+    """Buffer.ingest() of many parts of `data`, told by uint64 arrays: how many are damaged, and why the first is.
+
+    `encoding` is "cdr", or "ros1" for tf2_msgs/TFMessage and tf/tfMessage of ROS 1.
+    """
 
 def transform_fields(pose: Sequence[float], fields: Sequence[Sequence[Any]], threads: int) -> None:
     """Moves points by a pose (x, y, z, qx, qy, qz, qw), in place.
@@ -452,6 +457,35 @@ def poses_into(
         hold: How many nanoseconds beyond its samples a link is taken to stand still.
         poses: (N, 7) float64, gets x, y, z, qx, qy, qz, qw, or NaN.
         told: (N,) uint8, gets 0: exactly; 1: held beyond the samples of a link; 2: not at all; 3: seen from its root.
+    """
+
+def frozen_parts(buffer: Buffer) -> tuple[bytes, int]:
+    """Of a frozen buffer the table that a file of it begins with, and how many chunks of samples it has."""
+
+def frozen_chunks(buffer: Buffer, first: int, count: int) -> bytes:
+    """Some of these chunks; fewer at the end."""
+
+def become_frozen(buffer: Buffer, file: Any, table: int, table_size: int, samples: int, samples_size: int) -> str:
+    """Makes a new buffer one that uses a file's bytes where they lie.
+
+    Args:
+        buffer: One that nobody uses yet.
+        file: The whole file, by the buffer protocol; held as long as it is needed.
+        table: Where the table begins.
+        table_size: How many bytes it has.
+        samples: Where the chunks of samples begin, at a multiple of 64.
+        samples_size: How many bytes they have.
+
+    Returns:
+        What is wrong with them; nothing if they are good.
+    """
+
+def samples_of(buffer: Buffer, child: str) -> tuple[bytes, bytes, bytes, list[str]]:
+    """The samples of one frame of a frozen buffer.
+
+    Returns:
+        Stamps (int64), poses (rows of 7 float64: x, y, z, qx, qy, qz, qw), which of the names each parent has (uint32),
+        these names.
     """
 
 PUBLICATIONS: int

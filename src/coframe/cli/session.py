@@ -12,6 +12,7 @@ import typer
 
 from coframe.errors import (
     DecodeError,
+    FrozenFileError,
     RecordingError,
     RobotDescriptionError,
     TransformException,
@@ -67,12 +68,22 @@ def session() -> Iterator[None]:
         pass
     except BrokenPipeError:  # the reader, `head` perhaps, has seen enough
         sys.stderr.close()
-    except (WireError, ViewerError, TransformException, DecodeError, RobotDescriptionError, RecordingError) as error:
+    except _OURS as error:
         fail(str(error), error.hint)
     finally:
         for number, handler in previous.items():
             signal.signal(number, handler)
 
+
+_OURS = (
+    DecodeError,
+    FrozenFileError,
+    RecordingError,
+    RobotDescriptionError,
+    TransformException,
+    ViewerError,
+    WireError,
+)
 
 # Windows has no SIGHUP.
 _ENDING = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
