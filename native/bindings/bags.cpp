@@ -1,6 +1,7 @@
 // Recordings: many messages in one call.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
 
 #include <string>
 #include <utility>

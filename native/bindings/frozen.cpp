@@ -1,6 +1,7 @@
 // Buffers as files, and the samples of a buffer as arrays.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
 
 #include <algorithm>
 #include <unordered_map>
