@@ -534,7 +534,7 @@ class Buffer(_core.Buffer):
                 f"the buffer is frozen: the transform from {parent!r} to {child!r} was not stored",
                 target=parent,
                 source=child,
-                hint="A snapshot(), a loaded file and a buffer after freeze() only answer: set it in one that lives on.",
+                hint="A snapshot(), a loaded file or a buffer after freeze() only answers: set it in one that lives.",
             )
 
     def __contains__(self, frame: object) -> bool:

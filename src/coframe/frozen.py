@@ -122,7 +122,7 @@ def load(path: str | os.PathLike[str], *, verify: bool = False) -> FrozenBuffer:
     """A buffer out of a file that :meth:`coframe.Buffer.save` wrote; nothing is read before it is asked for.
 
     Args:
-        path: The file. It must not be changed while it is open; :meth:`coframe.Buffer.save` puts a new one in its place.
+        path: The file. Nobody may change it while it is open; :meth:`coframe.Buffer.save` puts a new one in its place.
         verify: Read all of it first and compare it with its checksum; else only its header and table are.
 
     Raises:

@@ -124,7 +124,7 @@ def test_a_file_appears_whole_or_not_at_all(path, monkeypatch):
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        (lambda data: b"", "is no frozen buffer"),
+        (lambda _data: b"", "is no frozen buffer"),
         (lambda data: b"SQLite format 3\0" + data[16:], "is no frozen buffer"),
         (lambda data: data[:20], "is damaged: it is cut off"),
         (lambda data: data[:-1], "is damaged: it is cut off"),
@@ -200,8 +200,8 @@ def survives(path):
                 for stamp in stamps[:20].tolist():
                     loaded.can_transform(target, source, stamp)
                 loaded.trajectory(target, source, SECOND, 3 * SECOND)
-            except (coframe.TransformException, ValueError) as error:
-                assert str(error)
+            except (coframe.TransformException, ValueError):
+                continue
     return True
 
 

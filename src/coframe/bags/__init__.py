@@ -1,5 +1,7 @@
 """Recordings without ROS: rosbag2 (MCAP, SQLite) and bags of ROS 1."""
 
+from coframe.bags.cloud_files import CLOUD_FORMATS, write_clouds
+from coframe.bags.clouds import Cloud, Clouds
 from coframe.bags.instants import parse_instant
 from coframe.bags.recording import RecordedMessage, Recording, Topic, open_bag
 from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
@@ -7,7 +9,10 @@ from coframe.bags.trajectories import FORMATS, format_of, write_trajectory
 from coframe.errors import RecordingError
 
 __all__ = [
+    "CLOUD_FORMATS",
     "FORMATS",
+    "Cloud",
+    "Clouds",
     "EdgeSummary",
     "RecordedMessage",
     "Recording",
@@ -20,5 +25,6 @@ __all__ = [
     "open_bag",
     "parse_instant",
     "summarize",
+    "write_clouds",
     "write_trajectory",
 ]
