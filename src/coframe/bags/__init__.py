@@ -1,8 +1,10 @@
 """Recordings without ROS: rosbag2 (MCAP, SQLite) and bags of ROS 1."""
 
+from coframe.bags.batch import Answer, answer, answer_all
 from coframe.bags.cloud_files import CLOUD_FORMATS, write_clouds
 from coframe.bags.clouds import Cloud, Clouds
 from coframe.bags.instants import parse_instant
+from coframe.bags.questions import Question
 from coframe.bags.recording import RecordedMessage, Recording, Topic, open_bag
 from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
 from coframe.bags.trajectories import FORMATS, format_of, write_trajectory
@@ -11,9 +13,11 @@ from coframe.errors import RecordingError
 __all__ = [
     "CLOUD_FORMATS",
     "FORMATS",
+    "Answer",
     "Cloud",
     "Clouds",
     "EdgeSummary",
+    "Question",
     "RecordedMessage",
     "Recording",
     "RecordingError",
@@ -21,6 +25,8 @@ __all__ = [
     "Summary",
     "Topic",
     "TreeSummary",
+    "answer",
+    "answer_all",
     "format_of",
     "open_bag",
     "parse_instant",

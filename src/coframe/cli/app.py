@@ -8,6 +8,7 @@ import typer
 
 import coframe
 from coframe.cli.bag import bag
+from coframe.cli.batch import batch
 from coframe.cli.cloud import cloud
 from coframe.cli.demo import demo
 from coframe.cli.echo import echo
@@ -49,6 +50,7 @@ app.command()(view)
 app.command()(lookup)
 app.command()(trajectory)
 app.command()(cloud)
+app.command()(batch)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(robot)
 app.add_typer(bag, name="bag")
 # The numbers of a transform may be negative: this command reads its arguments itself.
