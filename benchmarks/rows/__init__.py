@@ -1,6 +1,17 @@
 """The rows of the table, a file for each of their subjects."""
 
-from benchmarks.rows import batch, history, insertion, listener, recordings, sensors, single, startup, viewer
+from benchmarks.rows import (
+    batch,
+    history,
+    insertion,
+    large_recordings,
+    listener,
+    recordings,
+    sensors,
+    single,
+    startup,
+    viewer,
+)
 
 ROWS = {
     "single": single.ROWS,
@@ -8,7 +19,7 @@ ROWS = {
     "batch": batch.ROWS,
     "sensors": sensors.ROWS,
     "listener": listener.ROWS,
-    "recordings": recordings.ROWS,
+    "recordings": recordings.ROWS + large_recordings.ROWS,
     "history": history.ROWS,
     "startup": startup.ROWS,
     "viewer": viewer.ROWS,

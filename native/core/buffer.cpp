@@ -30,8 +30,8 @@ void measure_intervals(const History::View& samples, EdgeSummary& edge) {
   edge.mean_interval = edge.interval_deviation = edge.longest_interval = 0.0;
   if (samples.is_static() || samples.size() < 2) return;
   const double count = static_cast<double>(samples.size() - 1);
-  const auto interval = [&](std::size_t i) { return static_cast<double>(samples.time(i) - samples.time(i - 1)); };
-  edge.mean_interval = static_cast<double>(samples.newest() - samples.oldest()) / count;
+  const auto interval = [&](std::size_t i) { return static_cast<double>(elapsed(samples.time(i - 1), samples.time(i))); };
+  edge.mean_interval = static_cast<double>(elapsed(samples.oldest(), samples.newest())) / count;
   double squares = 0.0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double difference = interval(i) - edge.mean_interval;

@@ -28,6 +28,11 @@ inline std::uint64_t distance(Stamp a, Stamp b) {
   return a < b ? second - first : first - second;
 }
 
+// From one to the other; wraps around where it is too far for a number.
+inline std::int64_t elapsed(Stamp from, Stamp to) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from));
+}
+
 // A pose and the frame it is told in.
 struct Sample {
   Pose pose;

@@ -33,6 +33,7 @@ bool read_names(ByteReader& reader, const ExpectedNames* expected, TransformView
   const auto* first = reinterpret_cast<const char*>(reader.next());
   const std::size_t start = reader.position();
   if (!reader.text(view.parent) || !reader.text(view.child)) return false;
+  if (view.parent.find('\0') != view.parent.npos || view.child.find('\0') != view.child.npos) return false;
   view.name_bytes = {first, reader.position() - start};
   return true;
 }
@@ -53,7 +54,7 @@ DecodeFailure decode_ros1_tf_message(const std::uint8_t* data, std::size_t size,
     TransformView& view = out[i];
     if (!read_head(reader, view)) return fail("the message ends inside a header");
     if (!read_names(reader, i < expected.size() ? &expected[i] : nullptr, view)) {
-      return fail("a text is longer than the message");
+      return fail("a text is longer than the message, or has a NUL inside");
     }
     if (!reader.number(view.values)) return fail("the message ends inside a transform");
   }

@@ -53,7 +53,7 @@ def test_processes_of_this_machine(bags, tmp_path):
     assert "its process died" in dead.error
     assert sorted(told) == sorted([*answers, dead])
     assert "cannot be read: No such file" in answers[4].error
-    assert "breaks off" in answers[2].problems[0]
+    assert answers[2].problems
 
 
 @pytest.fixture
