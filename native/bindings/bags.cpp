@@ -1,10 +1,7 @@
 // Recordings: many messages in one call.
 #include <nanobind/nanobind.h>
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
 
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "bags/mcap_records.hpp"
@@ -41,12 +38,12 @@ TransformStream::Encoding encoding_of(std::string_view name) {
 
 // How many of the slices were damaged, and what is wrong with the first of these.
 nb::tuple ingest_slices(nb::handle buffer, nb::handle data, nb::handle starts, nb::handle ends, bool is_static,
-                        std::string authority, std::string_view encoding) {
+                        nb::handle authority, std::string_view encoding) {
   BufferObject& self = buffer_of(buffer);
   const Memory bytes(data, PyBUF_SIMPLE), first(starts, PyBUF_SIMPLE), last(ends, PyBUF_SIMPLE);
   const std::size_t count = first.size() / sizeof(std::uint64_t);
   if (first.size() != last.size()) throw nb::value_error("as many ends as starts are wanted");
-  TransformStream& stream = self.stream(is_static, std::move(authority), encoding_of(encoding));
+  TransformStream& stream = self.stream(is_static, self.authority(authority.ptr()), encoding_of(encoding));
   std::size_t damaged = 0;
   const char* reason = "";
   for (std::size_t i = 0; i < count; ++i) {

@@ -6,7 +6,6 @@
 #include <array>
 #include <map>
 #include <memory>
-#include <string>
 #include <tuple>
 #include <utility>
 
@@ -66,16 +65,15 @@ struct BufferObject {
     return authorities.find(name, [this](std::string_view text) { return core->authority(text); });
   }
 
-  using StreamKey = std::tuple<bool, TransformStream::Encoding, std::string>;
+  using StreamKey = std::tuple<bool, TransformStream::Encoding, AuthorityId>;
   // The source of messages by this authority.
-  TransformStream& stream(bool is_static, std::string name,
+  TransformStream& stream(bool is_static, AuthorityId authority,
                           TransformStream::Encoding encoding = TransformStream::Encoding::cdr) {
-    StreamKey key(is_static, encoding, std::move(name));
-    const auto found = streams.find(key);
-    if (found != streams.end()) return found->second;
-    TransformStream stream = core->open_stream(is_static, std::get<2>(key));
+    TransformStream& stream = streams[{is_static, encoding, authority}];
+    stream.is_static = is_static;
     stream.encoding = encoding;
-    return streams.emplace(std::move(key), std::move(stream)).first->second;
+    stream.authority = authority;
+    return stream;
   }
 
   IdentityCache frames, authorities;

@@ -54,6 +54,17 @@ bool read_sample(ByteReader& reader, Sample& sample) {
   return whole && reader.number(sample.parent);
 }
 
+// In the table as well, so that opening a file need not look at its samples.
+void write_reach(Writer& writer, const History::Reach& reach) {
+  writer.number(reach.first);
+  writer.number(reach.last);
+  writer.number(reach.parent);
+}
+
+bool read_reach(ByteReader& reader, History::Reach& reach) {
+  return reader.number(reach.first) && reader.number(reach.last) && reader.number(reach.parent);
+}
+
 void write_frame(Writer& writer, const Frame& frame) {
   const History::View samples = frame.history.view();
   const HistoryKind kind = !samples.exists()      ? HistoryKind::none
@@ -67,6 +78,7 @@ void write_frame(Writer& writer, const Frame& frame) {
   writer.number(static_cast<std::uint64_t>(samples.size()));
   for (const auto count : kCounts) writer.number((frame.counts.*count).get());
   if (kind == HistoryKind::fixed && !samples.empty()) write_sample(writer, samples.sample(0));
+  if (kind == HistoryKind::dynamic) write_reach(writer, frame.history.reach());
 }
 
 // Takes chunks of a file, one frame after the other.
@@ -93,9 +105,11 @@ bool read_history(ByteReader& reader, std::uint8_t kind, bool one_parent, std::u
                   const HistoryContext& context, History& history) {
   if (kind == static_cast<std::uint8_t>(HistoryKind::none)) return samples == 0;
   if (kind == static_cast<std::uint8_t>(HistoryKind::dynamic)) {
+    History::Reach reach;
     const Chunk* first = chunks.take(samples);
-    if (first) history.map(first, samples, one_parent);
-    return first != nullptr;
+    if (!first || !read_reach(reader, reach)) return false;
+    history.map(first, samples, one_parent, reach);
+    return true;
   }
   Sample sample;
   if (kind != static_cast<std::uint8_t>(HistoryKind::fixed) || samples > 1) return false;

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 _logger = logging.getLogger("coframe.wire")
 
+_TF_TYPE = "tf2_msgs/msg/TFMessage"
 _ENCLAVE = "enclave=/;"  # what ROS participants say of themselves
 _CHECK_PERIOD_NS = 1_000_000_000
 
@@ -140,8 +141,9 @@ class Participant:
         Raises:
             WireError: DDS refuses.
         """
-        name, type_name, entity = self._topic_of(topic, message_type, kind)
-        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), ""), topic)
+        of_transforms = types.ros_type(message_type) == _TF_TYPE
+        name, type_name, entity = self._tf_topic(topic) if of_transforms else self._topic_of(topic, message_type, kind)
+        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), "", of_transforms), topic)
         return Publisher(native, node, name, type_name, qos)
 
     def subscription(
@@ -153,6 +155,7 @@ class Participant:
         *,
         on_data: _core.Event | None = None,
         kind: Kind = "topic",
+        adapts: bool = False,
     ) -> Subscription:
         """A subscription of `node`; the arguments are those of `publisher`.
 
@@ -163,13 +166,14 @@ class Participant:
             qos: what is asked for.
             on_data: is set whenever messages arrive.
             kind: "topic", "request" or "reply".
+            adapts: the caller follows what publishers offer, so that nobody is warned of those that offer less.
 
         Raises:
             WireError: DDS refuses.
         """
         name, type_name, entity = self._topic_of(topic, message_type, kind)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
-        return Subscription(native, node, name, type_name, qos)
+        return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
     def tf_reader(
         self,
@@ -195,8 +199,7 @@ class Participant:
             WireError: DDS refuses.
         """
         chosen = qos or (TF_STATIC_READER if static else TF)
-        name, type_name = names.dds_topic(topic), names.dds_type("tf2_msgs/msg/TFMessage")
-        entity = self._tf_topic(name, type_name)
+        name, type_name, entity = self._tf_topic(topic)
         source = initial_authority(authority)
         native = _create(
             lambda: _core.TfReader(self._native.entity, entity, _native_qos(chosen), "", buffer, static, source),
@@ -288,12 +291,13 @@ class Participant:
                 self._topics[key] = types.create_topic(self._native.entity, name, data_type)
             return self._topics[key]
 
-    def _tf_topic(self, name: str, type_name: str) -> int:
-        """For readers whose buffer checks the bytes, and counts what is malformed."""
+    def _tf_topic(self, topic: str) -> tuple[str, str, int]:
+        """As `_topic_of`, for transforms: the native endpoints check the bytes, and readers count what is malformed."""
+        name, type_name = names.dds_topic(topic), names.dds_type(_TF_TYPE)
         with self._lock:
             if name not in self._tf_topics:
                 self._tf_topics[name] = types.create_unchecked_topic(self._native.entity, name, type_name)
-            return self._tf_topics[name]
+            return name, type_name, self._tf_topics[name]
 
     def _describe(self, endpoints: dict[int, DdsEndpoint]) -> list[Endpoint]:
         return [self._graph.describe(endpoint) for endpoint in endpoints.values()]
