@@ -10,6 +10,7 @@
 #include "wire/endpoint_reader.hpp"
 #include "wire/participant.hpp"
 #include "wire/reader.hpp"
+#include "wire/tap.hpp"
 #include "wire/tf_reader.hpp"
 #include "wire/writer.hpp"
 
@@ -33,6 +34,7 @@ using PyParticipant = Closing<DomainParticipant>;
 using PyWriter = Closing<Writer>;
 using PyReader = Closing<Reader>;
 using PyEndpointReader = Closing<EndpointReader>;
+using PyTap = Closing<Tap>;
 using PyTfReader = Closing<TfReader>;
 
 nb::bytes to_bytes(const dds::Guid& guid) { return nb::bytes(guid.bytes, sizeof guid.bytes); }
@@ -68,6 +70,20 @@ nb::list take(PyReader& reader, std::uint32_t limit) {
     const auto bytes = sample.bytes();
     messages.append(nb::make_tuple(nb::bytes(bytes.data(), bytes.size()), sample.info().source_timestamp,
                                    sample.info().publication_handle));
+  }
+  return messages;
+}
+
+nb::list take_tapped(PyTap& tap) {
+  std::vector<Tap::Message> tapped;
+  {
+    WithoutGil release;
+    tapped = tap.take();
+  }
+  nb::list messages;
+  for (const Tap::Message& message : tapped) {
+    messages.append(nb::make_tuple(nb::bytes(message.bytes.data(), message.bytes.size()), message.arrived,
+                                   message.sent, message.writer));
   }
   return messages;
 }
@@ -141,6 +157,14 @@ void define_readers(nb::module_& wire) {
       .def("take", &take, nb::arg("limit"), "Up to `limit` tuples (bytes, source timestamp in ns, writer's handle).")
       .def_prop_ro("pending", &PyReader::pending, "Whether messages may be waiting.");
   define_reader_properties<PyReader>(reader);
+
+  auto tap = nb::class_<PyTap>(wire, "Tap", "Notes when messages come, on DDS's thread.");
+  tap.def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, std::size_t, std::size_t>(),
+          nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("head"),
+          nb::arg("capacity"), ReleaseGil())
+      .def("take", &take_tapped, "The messages since the last call: tuples (bytes, arrived, sent, writer's handle).")
+      .def_prop_ro("missed", &PyTap::missed, "How many messages came while it was full.");
+  define_reader_properties<PyTap>(tap);
 
   auto tf_reader = nb::class_<PyTfReader>(wire, "TfReader", "Stores the transforms of a topic in a buffer.");
   tf_reader

@@ -395,6 +395,17 @@ def mcap_records(data: Any) -> tuple[bytes, bytes, bytes, bytes, bytes, list[tup
 def ingest_slices(buffer: Buffer, data: Any, starts: Any, ends: Any, static: bool, authority: str) -> tuple[int, str]:
     """Buffer.ingest() of many parts of `data`, told by uint64 arrays: how many are damaged, and why the first is."""
 
+def transform_columns(
+    data: Any, starts: Any, ends: Any
+) -> tuple[bytes, bytes, bytes, bytes, bytes, list[str], int, str]:
+    """The transforms of many TFMessages as they were sent, whatever a buffer would make of them.
+
+    Returns:
+        Of each transform the number of its message (uint32), its stamp (int64), the numbers of its parent's and its
+        child's name (uint32), x, y, z, qx, qy, qz, qw (float64); the names; how many messages are damaged, and why the
+        first.
+    """
+
 def transform_fields(pose: Sequence[float], fields: Sequence[Sequence[Any]], threads: int) -> None:
     """Moves points by a pose (x, y, z, qx, qy, qz, qw), in place.
 
@@ -521,6 +532,38 @@ class Reader:
     @property
     def pending(self) -> bool:
         """Whether messages may be waiting."""
+
+    @property
+    def guid(self) -> bytes: ...
+    @property
+    def matched(self) -> int:
+        """How many writers the reader has found."""
+
+    def matched_handles(self) -> list[int]:
+        """The handles of those writers."""
+
+    @property
+    def refused_policy(self) -> int:
+        """DDS's number of the policy by which the last writer was refused; 0: none was."""
+
+    def close(self) -> None:
+        """Ends the reader; no callback runs afterwards."""
+
+class Tap:
+    """Notes when messages come, on DDS's thread and without the GIL; whoever looks now and then takes them."""
+
+    def __init__(
+        self, participant: int, topic: int, qos: QosProfile, user_data: str, head: int, capacity: int
+    ) -> None: ...
+    def take(self) -> list[tuple[bytes, int, int, int]]:
+        """The messages since the last call: tuples (first `head` bytes, arrived, sent, writer's handle).
+
+        The times are nanoseconds since 1970, by the clocks of this machine and of the writer's.
+        """
+
+    @property
+    def missed(self) -> int:
+        """How many messages came while `capacity` of them were waiting."""
 
     @property
     def guid(self) -> bytes: ...

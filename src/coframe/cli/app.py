@@ -9,6 +9,7 @@ import typer
 import coframe
 from coframe.cli.bag import bag
 from coframe.cli.demo import demo
+from coframe.cli.doctor import doctor
 from coframe.cli.echo import echo
 from coframe.cli.lookup import lookup
 from coframe.cli.robot import robot
@@ -43,6 +44,7 @@ def _main(
 
 
 app.command()(demo)
+app.command()(doctor)
 app.command()(echo)
 app.command()(view)
 app.command()(lookup)

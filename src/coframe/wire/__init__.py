@@ -8,7 +8,7 @@ Example:
 """
 
 from coframe.wire.connection import Connection, connect
-from coframe.wire.endpoints import GraphNode, Publisher, Sample, Subscription, TfReader
+from coframe.wire.endpoints import GraphNode, Publisher, Sample, Subscription, Tap, TappedMessage, TfReader
 from coframe.wire.graph import Endpoint
 from coframe.wire.participant import Participant
 from coframe.wire.qos import QoS
@@ -24,6 +24,8 @@ __all__ = [
     "Sample",
     "StaticWriter",
     "Subscription",
+    "Tap",
+    "TappedMessage",
     "TfReader",
     "connect",
 ]
