@@ -42,6 +42,8 @@ class _Tree:
                     f"{edge.parent} -> {edge.child} is both on {edge.authority} and on a topic of moving transforms: "
                     "the moving ones are kept"
                 )
+            elif edge.parent.startswith("/") or edge.child.startswith("/"):  # once one slash is left off
+                problems.add(f"{edge.parent} -> {edge.child} cannot be looked up: tf2 wants no slash in front")
             elif edge.parent:
                 transform = self.static.lookup(edge.parent, edge.child)
                 self.moving.set(edge.parent, edge.child, transform, 0, static=True, authority=edge.authority)

@@ -13,6 +13,7 @@ __all__ = ["CAUSES", "joined"]
 CAUSES: tuple[tuple[str, str, bool], ...] = (
     ("TF012", "TF011", False),  # after a jump back, all that is sent looks old
     ("TF012", "TF013", False),
+    ("TF012", "TF008", False),
     ("TF017", "TF001", False),  # without its static transforms a tree falls apart
     ("TF017", "TF014", False),
     ("TF016", "TF001", False),  # likewise if they are not delivered

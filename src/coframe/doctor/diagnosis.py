@@ -93,12 +93,14 @@ def diagnose(observation: Observation, *, ignore: Collection[str] = ()) -> Repor
         ignore: Codes, such as ``TF012``.
     """
     unwanted = {code.upper() for code in ignore}
-    findings = [
-        finding
-        for code, check in all_checks().items()
-        if code not in unwanted
-        for finding in check(observation)
-    ]
+    # What is on the wire may overflow; the checks compare with limits, and NaN is within none.
+    with np.errstate(all="ignore"):
+        findings = [
+            finding
+            for code, check in all_checks().items()
+            if code not in unwanted
+            for finding in check(observation)
+        ]
     sensors = [_facts(observation, sensor) for sensor in observation.sensors if len(sensor.stamp)]
     return Report(joined(findings), sensors, observation)
 

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe import quaternion
-
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["Edge"]
+__all__ = ["Edge", "angles_between"]
+
+_LATE = 1_000_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,9 +61,19 @@ class Edge:
         return np.diff(self.stamp)
 
     @cached_property
+    def current(self) -> Edge:
+        """Without the rows that were more than a second late: what a time that jumped back tells again is left out."""
+        kept = self.stamp >= np.maximum.accumulate(self.stamp) - _LATE
+        if kept.all():
+            return self
+        columns = (self.arrived[kept], self.stamp[kept], self.publisher[kept], self.values[kept])
+        return Edge(self.parent, self.child, self.static, *columns, self.publishers)
+
+    @cached_property
     def intervals(self) -> NDArray[np.int64]:
         """The times between neighbouring different stamps, in the order of time."""
-        return np.diff(np.unique(self.stamp))
+        steps = self.steps
+        return steps if (steps > 0).all() else np.diff(np.unique(self.stamp))
 
     @cached_property
     def period(self) -> float:
@@ -73,14 +83,13 @@ class Edge:
     @cached_property
     def rotations(self) -> NDArray[np.float64]:
         """(N, 4) of length 1."""
-        unit: NDArray[np.float64] = self.values[:, 3:] / np.linalg.norm(self.values[:, 3:], axis=1, keepdims=True)
-        return unit
+        turns = self.values[:, 3:]
+        return np.asarray(turns / _lengths(turns)[:, None])
 
     @cached_property
     def distances(self) -> NDArray[np.float64]:
         """(N - 1,) metres from each row to the next."""
-        moved: NDArray[np.float64] = np.linalg.norm(np.diff(self.values[:, :3], axis=0), axis=1)
-        return moved
+        return _lengths(np.diff(self.values[:, :3], axis=0))
 
     @cached_property
     def turns(self) -> NDArray[np.float64]:
@@ -95,7 +104,7 @@ class Edge:
     @cached_property
     def length(self) -> float:
         """Metres between the two frames by the last row."""
-        return float(np.linalg.norm(self.values[-1, :3]))
+        return float(_lengths(self.values[-1:, :3])[0])
 
     @cached_property
     def angle(self) -> float:
@@ -105,6 +114,9 @@ class Edge:
 
 def angles_between(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
     """Radians from rotation to rotation, (N, 4) each, of length 1."""
-    between = quaternion.multiply(quaternion.inverse(first), second)
-    angles: NDArray[np.float64] = 2.0 * np.arctan2(np.linalg.norm(between[:, :3], axis=1), np.abs(between[:, 3]))
-    return angles
+    cosines = np.minimum(np.abs(np.einsum("ij,ij->i", first, second)), 1.0)
+    return np.asarray(2.0 * np.arccos(cosines))
+
+
+def _lengths(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(np.sqrt(np.einsum("ij,ij->i", vectors, vectors)))

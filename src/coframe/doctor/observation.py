@@ -18,13 +18,14 @@ if TYPE_CHECKING:
 
     from coframe.wire.qos import QoS
 
-__all__ = ["Clock", "Endpoint", "JointStates", "LogLine", "Observation", "Sensor", "TopicFacts", "Transforms"]
+__all__ = ["NEVER", "Clock", "Endpoint", "JointStates", "LogLine", "Observation", "Sensor", "TopicFacts", "Transforms"]
 
 DEFAULT_CACHE = 10_000_000_000
 # tf2 refuses a quaternion whose squared length differs from 1 by so much.
 NORM_TOLERANCE = 0.01
 _HOUR = 3_600_000_000_000
 _MINUTE = 60_000_000_000
+_DENSE = 1_000_000  # keys up to here are counted rather than sorted
 NEVER = np.iinfo(np.int64).max
 
 
@@ -71,16 +72,51 @@ class Transforms:
     @cached_property
     def taken(self) -> NDArray[np.bool_]:
         """(N,) whether tf2 takes the row."""
-        bare = [name.lstrip("/") for name in self.names]
-        numbers = {name: number for number, name in reversed(list(enumerate(bare)))}
-        same = np.array([numbers[name] for name in bare], dtype=np.int64)
-        named = np.array([bool(name) for name in bare], dtype=bool)
-        if not len(self):
-            return np.zeros(0, dtype=bool)
-        with np.errstate(invalid="ignore"):
+        with np.errstate(invalid="ignore", over="ignore"):
             unit = np.abs(self.squared_norms - 1.0) < NORM_TOLERANCE
-        apart = same[self.parent] != same[self.child]
-        return self.finite & unit & apart & named[self.parent] & named[self.child]
+        named = np.array([_is_link(self.pair(link)) for link in range(len(self.links))], dtype=bool)
+        return self.finite & unit & (named[self.link] if len(self) else np.zeros(0, dtype=bool))
+
+    @cached_property
+    def _numbered(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+        keys = self.child * len(self.names) + self.parent
+        if not len(keys) or keys.max() > _DENSE:
+            links, link = np.unique(keys, return_inverse=True)
+            return links, link
+        links = np.flatnonzero(np.bincount(keys))  # a tenth of the time
+        place = np.zeros(int(links[-1]) + 1, dtype=np.int64)
+        place[links] = np.arange(len(links))
+        return links, place[keys]
+
+    @property
+    def links(self) -> NDArray[np.int64]:
+        """The pairs of names that occur; see :meth:`pair`."""
+        return self._numbered[0]
+
+    @property
+    def link(self) -> NDArray[np.int64]:
+        """(N,) which of the :attr:`links` each row tells of."""
+        return self._numbered[1]
+
+    def pair(self, link: int) -> tuple[str, str]:
+        """The names of parent and child, as they were sent."""
+        child, parent = divmod(int(self.links[link]), len(self.names))
+        return self.names[parent], self.names[child]
+
+    def senders(self, rows: NDArray[np.intp]) -> tuple[str, ...]:
+        """Who sent some of the rows, as far as that is known."""
+        numbers = np.unique(self.publisher[rows]).tolist()
+        return tuple(self.publishers[number] for number in numbers if self.publishers[number])
+
+
+def _bare(names: tuple[str, str]) -> tuple[str, str]:
+    parent, child = names
+    return parent.lstrip("/"), child.lstrip("/")
+
+
+def _is_link(names: tuple[str, str]) -> bool:
+    parent, child = _bare(names)
+    return bool(parent and child) and parent != child
 
 
 @dataclass(frozen=True)
@@ -208,30 +244,31 @@ class Observation:
         rows = np.flatnonzero(told.taken)
         if not len(rows):
             return ()
-        bare = [name.lstrip("/") for name in told.names]
-        numbers = {name: number for number, name in reversed(list(enumerate(bare)))}
-        same = np.array([numbers[name] for name in bare], dtype=np.int64)
-        keys = (same[told.child[rows]] * len(bare) + same[told.parent[rows]]) * 2 + told.static[rows]
-        _, groups = np.unique(keys, return_inverse=True)
-        order = np.argsort(groups.astype(np.min_scalar_type(int(groups.max()))), kind="stable")
+        # With and without a slash in front they are one.
+        numbers: dict[tuple[str, str], int] = {}
+        bare = [_bare(told.pair(link)) for link in range(len(told.links))]
+        same = np.array([numbers.setdefault(pair, len(numbers)) for pair in bare], dtype=np.int64)
+        groups = same[told.link[rows]] * 2 + told.static[rows]
+        order = np.argsort(groups.astype(np.min_scalar_type(2 * len(numbers))), kind="stable")
         ends = np.cumsum(np.bincount(groups))
-        found = [self._edge(rows[part], bare) for part in np.split(order, ends[:-1])]
+        parts = [rows[part] for part in np.split(order, ends[:-1]) if len(part)]
+        found = [self._edge(part, bare[int(told.link[part[0]])]) for part in parts]
         return tuple(sorted(found, key=lambda edge: int(edge.arrived[0])))
 
-    def _edge(self, rows: NDArray[np.intp], bare: list[str]) -> Edge:
+    def _edge(self, rows: NDArray[np.intp], names: tuple[str, str]) -> Edge:
         told = self.transforms
         publisher = told.publisher[rows]
         numbers, first = np.unique(publisher, return_index=True)
-        names = tuple(told.publishers[number] for number in numbers[np.argsort(first)].tolist())
+        senders = (told.publishers[number] for number in numbers[np.argsort(first)].tolist())
         return Edge(
-            parent=bare[int(told.parent[rows[0]])],
-            child=bare[int(told.child[rows[0]])],
+            parent=names[0],
+            child=names[1],
             static=bool(told.static[rows[0]]),
             arrived=told.arrived[rows],
             stamp=told.stamp[rows],
             publisher=publisher,
             values=told.values[rows],
-            publishers=tuple(name for name in names if name),
+            publishers=tuple(name for name in senders if name),
         )
 
     @cached_property

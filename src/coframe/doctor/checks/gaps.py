@@ -29,7 +29,11 @@ _LEAST = 5
 def find(observation: Observation) -> Iterator[Finding]:
     """Links that share a gap are told of together."""
     edges = [edge for edge in observation.dynamic if edge.count >= _LEAST and edge.period]
-    silent = [edge for edge in edges if _silence(observation, edge) > max(_SILENT, _UNUSUAL * edge.period)]
+    silent = [
+        edge
+        for edge in edges
+        if observation.last[edge.child] is edge and _silence(observation, edge) > max(_SILENT, _UNUSUAL * edge.period)
+    ]
     slow = [edge for edge in edges if edge.period > _SLOW]
     gaps = [edge for edge in edges if int(edge.intervals.max()) > max(_GAP, _UNUSUAL * edge.period)]
     for edge in slow:

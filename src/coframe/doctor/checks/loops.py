@@ -68,15 +68,15 @@ def _loops(observation: Observation) -> Iterator[Finding]:
 
 def _refused(observation: Observation) -> Iterator[Finding]:
     told = observation.transforms
-    for number in np.unique(told.child * len(told.names) + told.parent).tolist() if len(told) else []:
-        child, parent = told.names[number // len(told.names)], told.names[number % len(told.names)]
+    for link in range(len(told.links)):
+        parent, child = told.pair(link)
         if parent.lstrip("/") == child.lstrip("/"):
             wrong = "is its own parent" if child.lstrip("/") else "has neither a parent's nor a child's name"
         elif not parent.lstrip("/") or not child.lstrip("/"):
             wrong = "has no parent's name" if not parent.lstrip("/") else "has no name"
         else:
             continue
-        rows = np.flatnonzero((told.child == number // len(told.names)) & (told.parent == number % len(told.names)))
+        rows = np.flatnonzero(told.link == link)
         yield Finding(
             code=CODE,
             severity=Severity.ERROR,
@@ -84,11 +84,5 @@ def _refused(observation: Observation) -> Iterator[Finding]:
             fix="Set both names before sending: t.header.frame_id = 'PARENT', t.child_frame_id = 'CHILD'.",
             frames=frozenset({parent.lstrip("/"), child.lstrip("/")} - {""}),
             first_stamp=int(told.stamp[rows[0]]),
-            publishers=_publishers(observation, rows.tolist()),
+            publishers=told.senders(rows),
         )
-
-
-def _publishers(observation: Observation, rows: list[int]) -> tuple[str, ...]:
-    told = observation.transforms
-    names = dict.fromkeys(told.publishers[int(told.publisher[row])] for row in rows[:1000])
-    return tuple(name for name in names if name)

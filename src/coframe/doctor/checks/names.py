@@ -43,11 +43,7 @@ def _slashes(observation: Observation) -> Iterator[Finding]:
             "the setting frame_prefix is put in front as it is and needs its slash behind: 'robot1/'.",
             frames=frozenset(name.lstrip("/") for name in names),
             first_stamp=int(told.stamp[rows[0]]) if len(rows) else None,
-            publishers=tuple(
-                name
-                for name in dict.fromkeys(told.publishers[n] for n in np.unique(told.publisher[rows]).tolist())
-                if name
-            ),
+            publishers=told.senders(rows),
         )
 
 

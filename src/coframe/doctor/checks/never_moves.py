@@ -28,9 +28,9 @@ _CHANGES = 3
 def find(observation: Observation) -> Iterator[Finding]:
     """One finding a link."""
     moving = [edge.stamp for edge in observation.dynamic if not edge.constant]
-    stamps = np.unique(np.concatenate(moving)) if moving else np.zeros(0, dtype=np.int64)
-    for edge in observation.dynamic:
-        if _should_be_static(edge) and np.mean(np.isin(edge.stamp, stamps)) < _TOGETHER:
+    for edge in filter(_should_be_static, observation.dynamic):
+        stamps = np.concatenate(moving) if moving else edge.stamp[:0]
+        if np.mean(np.isin(edge.stamp, stamps)) < _TOGETHER:
             flags = ("--x", "--y", "--z", "--qx", "--qy", "--qz", "--qw")
             pose = " ".join(f"{flag} {value}" for flag, value in zip(flags, (edge.values[-1] + 0.0).tolist(), strict=True))
             yield Finding(

@@ -30,7 +30,7 @@ _LEAST = 10
 
 def find(observation: Observation) -> Iterator[Finding]:
     """One finding a link; flicker of a single known publisher is told here, that of several in TF003."""
-    for edge in observation.dynamic:
+    for edge in (edge.current for edge in observation.dynamic):
         if edge.count < _LEAST:
             continue
         found = flicker(edge)

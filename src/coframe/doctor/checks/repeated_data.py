@@ -24,7 +24,7 @@ _LEAST = 3
 def find(observation: Observation) -> Iterator[Finding]:
     """Per link, repetitions and old data; per topic of joint states, repetitions."""
     for edge in observation.dynamic:
-        yield from _repeated(edge)
+        yield from _repeated(edge.current)
         yield from _old(edge, observation.cache)
     for states in observation.joint_states:
         yield from _repeated_states(states)

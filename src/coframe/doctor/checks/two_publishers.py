@@ -24,7 +24,7 @@ _SWITCHES = 3
 
 def find(observation: Observation) -> Iterator[Finding]:
     """One finding a link; where nobody says who sends, by what the link does."""
-    for edge in observation.edges:
+    for edge in (edge.current for edge in observation.edges):
         if len(edge.publishers) > 1:
             yield from _of_publishers(edge)
         elif not edge.publishers and not edge.static:

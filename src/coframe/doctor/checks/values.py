@@ -80,18 +80,16 @@ def _kind(
     off: NDArray[np.float64],
 ) -> Iterator[Finding]:
     rows = np.flatnonzero(which)
-    keys = told.child * len(told.names) + told.parent
-    for key in np.unique(keys[rows]).tolist():
-        mine = rows[keys[rows] == key]
-        child, parent = told.names[key // len(told.names)], told.names[key % len(told.names)]
-        names = dict.fromkeys(told.publishers[number] for number in np.unique(told.publisher[mine]).tolist())
+    for link in np.unique(told.link[rows]).tolist():
+        mine = rows[told.link[rows] == link]
+        parent, child = told.pair(link)
         worst = float(off[mine].max()) if np.isfinite(off[mine]).all() else float("nan")
         yield Finding(
             code=CODE,
             severity=severity,
-            text=text.format(count=len(mine), all=int(np.count_nonzero(keys == key)), off=worst),
+            text=text.format(count=len(mine), all=int(np.count_nonzero(told.link == link)), off=worst),
             fix=fix,
             edge=(parent.lstrip("/"), child.lstrip("/")),
             first_stamp=int(told.stamp[mine[0]]),
-            publishers=tuple(name for name in names if name),
+            publishers=told.senders(mine),
         )
