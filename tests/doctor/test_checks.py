@@ -13,7 +13,8 @@ from coframe.messages import find
 
 URDF = """<robot name="r"><link name="base_link"/><link name="lidar"/><link name="wheel"/>
 <joint name="mount" type="fixed"><parent link="base_link"/><child link="lidar"/><origin xyz="0.1 0 0.3"/></joint>
-<joint name="turn" type="continuous"><parent link="base_link"/><child link="wheel"/><axis xyz="0 0 1"/></joint></robot>"""
+<joint name="turn" type="continuous"><parent link="base_link"/><child link="wheel"/><axis xyz="0 0 1"/></joint>
+</robot>"""
 
 
 def later(seconds):
@@ -137,7 +138,8 @@ def test_loop(only):
 
 
 @pytest.mark.parametrize(
-    ("parent", "child", "text"), [("a", "a", "is its own parent"), ("a", "", "has no name"), ("", "b", "no parent's name")]
+    ("parent", "child", "text"),
+    [("a", "a", "is its own parent"), ("a", "", "has no name"), ("", "b", "no parent's name")],
 )
 def test_names_that_tf2_refuses(only, parent, child, text):
     run = Run.healthy()

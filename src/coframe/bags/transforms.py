@@ -128,9 +128,7 @@ class Ingest:
             except _DAMAGE:
                 damaged += 1
         numbers: dict[str, int] = {}
-        pairs = [
-            [numbers.setdefault(name, len(numbers)) for name in (row.parent, row.child)] for _, row in rows
-        ]
+        pairs = [[numbers.setdefault(name, len(numbers)) for name in (row.parent, row.child)] for _, row in rows]
         parent, child = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
         return Columns(
             np.array([number for number, _ in rows], dtype=np.int64),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import time
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -22,6 +21,8 @@ from coframe.doctor.rendering.text import lines
 from coframe.time import duration_ns
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from coframe.doctor import Report
 
 __all__ = ["doctor"]
@@ -69,8 +70,10 @@ def doctor(
             _finish(reports, as_json, sarif, str(bag))
         from coframe.doctor.live import Listening  # noqa: PLC0415 - recordings need no DDS
 
-        topics = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
-        with Listening(domain, cache=buffers, window=window if watch else None, **topics) as listening:  # type: ignore[arg-type]
+        kept = window if watch else None
+        with Listening(
+            domain, cache=buffers, window=kept, tf_topic=tf_topic, tf_static_topic=tf_static_topic
+        ) as listening:
             if watch:
                 _watch(listening, unwanted, as_json)
                 return

@@ -8,7 +8,7 @@ How it is made, from bottom to top:
   links (`Edge`) with their statistics, which are calculated when they are first asked for.
 - A check is a module of `checks`: its CODE and ``find``, a pure function from an observation to findings. `diagnosis`
   finds the modules by itself: a new check is one file there, one page, and one test.
-- The catalogue has a page for every code, in `pages`: the one text that `--explain`, the documentation, SARIF and the
+- `coframe.catalogue` has a page for every code: the one text that `--explain`, the documentation, SARIF and the
   line "why" below a finding are made of.
 - `causes` says as data which finding explains which; consequences stand below their cause.
 - `rendering` has text, plain data for JSON, and SARIF.
@@ -21,7 +21,7 @@ Example:
     'Separate trees'
 """
 
-from coframe.doctor.catalogue import Page, codes, page
+from coframe.catalogue import Page, codes, page
 from coframe.doctor.diagnosis import Report, SensorFacts, diagnose
 from coframe.doctor.finding import Finding, Severity
 from coframe.doctor.observation import Observation

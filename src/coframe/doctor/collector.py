@@ -97,9 +97,8 @@ class Collector:
         if not self._batches:
             none = np.zeros(0, dtype=np.int64)
             return Transforms(none, none, none, none, none, none.astype(bool), np.zeros((0, 7)), (), ())
-        columns = [np.concatenate(column) for column in zip(*self._batches, strict=True)]
-        arrived = columns[0]
-        if (np.diff(arrived) < 0).any():
-            order = np.argsort(arrived, kind="stable")
-            columns = [column[order] for column in columns]
-        return Transforms(*columns, tuple(self._names), tuple(self._publishers))
+        every = _Batch(*(np.concatenate(column) for column in zip(*self._batches, strict=True)))
+        if (every.arrived[1:] < every.arrived[:-1]).any():
+            order = np.argsort(every.arrived, kind="stable")
+            every = _Batch(*(column[order] for column in every))
+        return Transforms(**every._asdict(), names=tuple(self._names), publishers=tuple(self._publishers))

@@ -96,10 +96,7 @@ def diagnose(observation: Observation, *, ignore: Collection[str] = ()) -> Repor
     # What is on the wire may overflow; the checks compare with limits, and NaN is within none.
     with np.errstate(all="ignore"):
         findings = [
-            finding
-            for code, check in all_checks().items()
-            if code not in unwanted
-            for finding in check(observation)
+            finding for code, check in all_checks().items() if code not in unwanted for finding in check(observation)
         ]
     sensors = [_facts(observation, sensor) for sensor in observation.sensors if len(sensor.stamp)]
     return Report(joined(findings), sensors, observation)

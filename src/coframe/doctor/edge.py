@@ -58,7 +58,7 @@ class Edge:
     @cached_property
     def steps(self) -> NDArray[np.int64]:
         """(N - 1,) from each stamp to the one that came next; negative where time went back."""
-        return np.diff(self.stamp)
+        return np.asarray(self.stamp[1:] - self.stamp[:-1])
 
     @cached_property
     def current(self) -> Edge:

@@ -26,7 +26,7 @@ _LONGEST_RUN = 12
 class Flicker(NamedTuple):
     """How often a link jumped there and back, how far (metres, radians; medians), and the row of the first jump."""
 
-    count: int
+    jumps: int
     distance: float
     angle: float
     first: int

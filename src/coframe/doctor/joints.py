@@ -17,7 +17,7 @@ __all__ = ["joint_states"]
 
 
 def joint_states(topic: str, stamps: Sequence[int], messages: Sequence[Any]) -> JointStates:
-    """What ``sensor_msgs/JointState`` messages say; a message with fewer positions than names tells of the first ones."""
+    """What ``sensor_msgs/JointState`` messages say; one with fewer positions than names tells of the first joints."""
     positions: dict[str, NDArray[np.float64]] = {}
     for row, message in enumerate(messages):
         for name, position in zip(message.name, message.position, strict=False):

@@ -61,7 +61,7 @@ class Transforms:
     @cached_property
     def finite(self) -> NDArray[np.bool_]:
         """(N,) whether all numbers are numbers."""
-        return np.isfinite(self.values).all(axis=1)
+        return np.asarray(np.isfinite(self.values).all(axis=1))
 
     @cached_property
     def squared_norms(self) -> NDArray[np.float64]:
@@ -75,7 +75,7 @@ class Transforms:
         with np.errstate(invalid="ignore", over="ignore"):
             unit = np.abs(self.squared_norms - 1.0) < NORM_TOLERANCE
         named = np.array([_is_link(self.pair(link)) for link in range(len(self.links))], dtype=bool)
-        return self.finite & unit & (named[self.link] if len(self) else np.zeros(0, dtype=bool))
+        return np.asarray(self.finite & unit & (named[self.link] if len(self) else np.zeros(0, dtype=bool)))
 
     @cached_property
     def _numbered(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from coframe.bags import open_bag
 from coframe.bags.transforms import ingest_for
 from coframe.doctor.collector import Collector
@@ -18,6 +16,7 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterator
 
+    import numpy as np
     from numpy.typing import NDArray
 
     from coframe.bags import Recording

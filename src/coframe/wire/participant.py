@@ -233,9 +233,7 @@ class Participant:
         """
         name, type_name = names.dds_topic(topic), names.dds_type(ros_type)
         entity = self._unchecked_topic(name, type_name)
-        native = _create(
-            lambda: _core.Tap(self._native.entity, entity, _native_qos(qos), "", head, capacity), topic
-        )
+        native = _create(lambda: _core.Tap(self._native.entity, entity, _native_qos(qos), "", head, capacity), topic)
         return Tap(native, node, name, type_name, qos)
 
     def tf_reader(

@@ -28,7 +28,8 @@ def find(observation: Observation) -> Iterator[Finding]:
                 severity=Severity.WARNING,
                 text=f"told {times(fixed.count)} on /tf_static and {times(edge.count)} on /tf: each change of kind "
                 "clears what a buffer knows of it",
-                fix=f"Send it one way. If it moves, remove it from the StaticTransformBroadcaster (or make its URDF joint "
+                fix="Send it one way. If it moves, remove it from the StaticTransformBroadcaster (or make its "
+                "URDF joint "
                 f"not fixed); if not, stop sending {edge.child!r} on /tf.",
                 edge=edge.key,
                 first_stamp=edge.first_stamp,

@@ -48,10 +48,10 @@ def find(observation: Observation) -> Iterator[Finding]:
 def _meshes(robot: Robot) -> Iterator[Finding]:
     packages = Packages()
     shapes = {
-        part.geometry.filename
+        shape.filename
         for link in robot.links.values()
-        for part in (*link.visuals, *link.collisions)
-        if isinstance(part.geometry, Mesh)
+        for shape in [*(part.geometry for part in link.visuals), *(part.geometry for part in link.collisions)]
+        if isinstance(shape, Mesh)
     }
     missing = []
     for url in sorted(shapes):
@@ -64,7 +64,8 @@ def _meshes(robot: Robot) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.NOTE,
             text=f"{len(missing)} of {len(shapes)} meshes are not found on this machine: {listed(missing)}",
-            fix="Source the workspace that has the packages, or name their folder in ROS_PACKAGE_PATH; only displays need "
+            fix="Source the workspace that has the packages, or name their folder in ROS_PACKAGE_PATH; only "
+            "displays need "
             "them.",
             topic=_TOPIC,
         )

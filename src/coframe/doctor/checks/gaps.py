@@ -59,7 +59,8 @@ def find(observation: Observation) -> Iterator[Finding]:
             f"a gap of {duration(int(worst.intervals.max()))} where {duration(worst.period)} is usual"
             + _on(gaps)
             + "; in between tf2 interpolates over it",
-            "Find out what kept the publisher: a callback that blocks (time.sleep, a service call), a full processor, a "
+            "Find out what kept the publisher: a callback that blocks (time.sleep, a service call), a full "
+            "processor, a "
             "lossy network; give its timer a thread of its own (MultiThreadedExecutor).",
             int(np.unique(worst.stamp)[row]),
         )
@@ -68,8 +69,8 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield _finding(
             silent,
             Severity.WARNING,
-            f"nothing for the last {duration(_silence(observation, worst))}, after every {duration(worst.period)} before"
-            + _on(silent),
+            f"nothing for the last {duration(_silence(observation, worst))}, after every {duration(worst.period)} "
+            "before" + _on(silent),
             "Start its publisher again"
             + (f" ({listed(worst.publishers)})" if worst.publishers else "")
             + "; look-ups at now() fail, those of the latest time give an old pose.",

@@ -42,9 +42,11 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"nobody tells of {len(untold)} of {len(moving)} movable joints: {listed(untold)}; their links have no "
+            text=f"nobody tells of {len(untold)} of {len(moving)} movable joints: {listed(untold)}; their links "
+            "have no "
             "transform",
-            fix="Publish their positions on /joint_states (joint_state_publisher fills in zeros), or make them fixed in the "
+            fix="Publish their positions on /joint_states (joint_state_publisher fills in zeros), or make them "
+            "fixed in the "
             "URDF.",
             topic="/joint_states",
             frames=frozenset(frame for name in untold for frame in (moving[name].child,)),
@@ -64,7 +66,8 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.NOTE,
-            text=f"{listed(both)}: told on /joint_states although the URDF says that they mimic others; what is told wins",
+            text=f"{listed(both)}: told on /joint_states although the URDF says that they mimic others; what is "
+            "told wins",
             fix="Leave them out of /joint_states, or take <mimic> out of the URDF.",
             topic="/joint_states",
         )

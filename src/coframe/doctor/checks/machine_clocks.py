@@ -25,7 +25,9 @@ _AHEAD = 1 * _MS
 _BEHIND = 100 * _MS
 # Stamps of one machine are off by the same time, nearly.
 _STEADY = 20 * _MS
-_FIX = "Set the clocks right on all machines: install chrony (or NTP) and let one of them be the server; `chronyc tracking`."
+_FIX = (
+    "Set the clocks of all machines right: install chrony and let one of them be the server; `chronyc tracking` tells."
+)
 
 
 def find(observation: Observation) -> Iterator[Finding]:

@@ -32,9 +32,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield from _statics(observation, usual)
 
 
-def _finding(
-    observation: Observation, usual: str, usual_names: list[str], clock: str, names: list[str]
-) -> Finding:
+def _finding(observation: Observation, usual: str, usual_names: list[str], clock: str, names: list[str]) -> Finding:
     edges = [edge for edge in observation.dynamic if f"{edge.parent} -> {edge.child}" in names]
     sensors = [sensor for sensor in observation.sensors if sensor.topic in names]
     frames = {name for edge in edges for name in edge.key} | {sensor.frame for sensor in sensors}
@@ -51,7 +49,7 @@ def _finding(
             "Start these with --ros-args -p use_sim_time:=true."
             if wrong_is_wall and observation.clock is not None
             else "In a simulation start every node with --ros-args -p use_sim_time:=true; on a robot, none; replay a "
-            "recording with its own clock (coframe play --clock, ros2 bag play --clock)."
+            "recording with its own clock (ros2 bag play --clock)."
         ),
         edge=first.key if first else None,
         topic="" if first else sensors[0].topic,
@@ -75,7 +73,8 @@ def _statics(observation: Observation, usual: str) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.NOTE,
             text=f"{len(odd)} of {len(observation.static)} static transforms are stamped by another clock than /tf "
-            f"({seconds(odd[0].first_stamp)}, {duration(abs(odd[0].first_stamp - high))} off), {zero} have the stamp 0; "
+            f"({seconds(odd[0].first_stamp)}, {duration(abs(odd[0].first_stamp - high))} off), {zero} have the "
+            "stamp 0; "
             "harmless to tf2",
             fix="Start their publishers with --ros-args -p use_sim_time:=true, like the rest.",
             edge=odd[0].key,
@@ -92,4 +91,6 @@ def _before(
 
 
 def _called(clock: str) -> str:
-    return {"wall": "the wall's clock", "simulated": "the simulation's clock"}.get(clock, "a clock hours off the wall's")
+    return {"wall": "the wall's clock", "simulated": "the simulation's clock"}.get(
+        clock, "a clock hours off the wall's"
+    )

@@ -50,7 +50,8 @@ def find(observation: Observation) -> Iterator[Finding]:
             severity=Severity.WARNING,
             text=f"differs from the joint {name!r} of the robot's description by {found.metres:.3g} m and "
             f"{degrees(found.radians):.3g} degrees, the median of {found.compared}",
-            fix="Publish the links of the description by robot_state_publisher alone: stop the other broadcaster of this "
+            fix="Publish the links of the description by robot_state_publisher alone: stop the other broadcaster "
+            "of this "
             "link; or correct <origin> in the URDF, and restart robot_state_publisher after changing it.",
             edge=edge.key,
             first_stamp=edge.first_stamp,

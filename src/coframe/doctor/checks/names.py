@@ -88,7 +88,8 @@ def _half_a_prefix(observation: Observation) -> Iterator[Finding]:
                     code=CODE,
                     severity=Severity.WARNING,
                     text=f"half a prefix: {prefixed!r} and {plain!r} are in two trees",
-                    fix=f"Give every publisher of this robot the prefix (robot_state_publisher: frame_prefix:={prefix}; "
+                    fix="Give every publisher of this robot the prefix (robot_state_publisher: "
+                    f"frame_prefix:={prefix}; "
                     f"odometry: base_frame_id:={prefixed}), or none.",
                     frames=frozenset({prefixed, plain, root}),
                 )

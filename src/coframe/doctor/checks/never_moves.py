@@ -32,7 +32,9 @@ def find(observation: Observation) -> Iterator[Finding]:
         stamps = np.concatenate(moving) if moving else edge.stamp[:0]
         if np.mean(np.isin(edge.stamp, stamps)) < _TOGETHER:
             flags = ("--x", "--y", "--z", "--qx", "--qy", "--qz", "--qw")
-            pose = " ".join(f"{flag} {value}" for flag, value in zip(flags, (edge.values[-1] + 0.0).tolist(), strict=True))
+            pose = " ".join(
+                f"{flag} {value}" for flag, value in zip(flags, (edge.values[-1] + 0.0).tolist(), strict=True)
+            )
             yield Finding(
                 code=CODE,
                 severity=Severity.NOTE,
@@ -50,7 +52,8 @@ def find(observation: Observation) -> Iterator[Finding]:
             yield Finding(
                 code=CODE,
                 severity=Severity.WARNING,
-                text=f"changed {changes} times on /tf_static: the past changes with it, nothing is interpolated, and the "
+                text=f"changed {changes} times on /tf_static: the past changes with it, nothing is interpolated, "
+                "and the "
                 "topic is made for what is sent once",
                 fix="Send it as a moving one: TransformBroadcaster(self) instead of StaticTransformBroadcaster(self), "
                 "stamped with the time of the measurement.",

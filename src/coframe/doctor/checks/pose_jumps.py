@@ -41,8 +41,9 @@ def find(observation: Observation) -> Iterator[Finding]:
                 code=CODE,
                 severity=Severity.WARNING,
                 text=f"swings between two poses, {found.distance:.3g} m and {degrees(found.angle):.3g} degrees apart, "
-                f"{found.count} times",
-                fix=f"In {edge.publishers[0]}: does one filter get two sources that disagree (odom0 and imu0 of robot_localization),"
+                f"{found.jumps} times",
+                fix=f"In {edge.publishers[0]}: does one filter get two sources that disagree (odom0 and imu0 of "
+                "robot_localization),"
                 " or do two timers send the same child_frame_id?",
                 edge=edge.key,
                 first_stamp=int(edge.stamp[found.first]),
@@ -66,7 +67,8 @@ def _jumps(edge: Edge) -> Iterator[Finding]:
         text=f"jumps {times(len(rows))}, at worst {edge.distances[worst]:.3g} m and {degrees(edge.turns[worst]):.3g} "
         f"degrees within {seconds[worst] * 1e3:.3g} ms",
         fix="Was the robot set somewhere else (initialpose, a reset)? Else limit what the estimator takes in "
-        "(robot_localization: odom0_pose_rejection_threshold), and keep jumps in map -> odom: odom -> base_link must be "
+        "(robot_localization: odom0_pose_rejection_threshold), and keep jumps in map -> odom: odom -> base_link "
+        "must be "
         "smooth (REP-105).",
         edge=edge.key,
         first_stamp=int(edge.stamp[worst + 1]),

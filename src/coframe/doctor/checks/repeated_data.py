@@ -40,7 +40,8 @@ def _repeated(edge: Edge) -> Iterator[Finding]:
         code=CODE,
         severity=Severity.WARNING,
         text=f"{len(again)} of {edge.count} transforms repeat a stamp, {differ} of them with another pose",
-        fix="Send each transform once: let the timer be no faster than what is measured, and stamp with the measurement's "
+        fix="Send each transform once: let the timer be no faster than what is measured, and stamp with the "
+        "measurement's "
         "time; `if stamp > self.last_stamp: self.broadcaster.sendTransform(t)`.",
         edge=edge.key,
         first_stamp=int(edge.stamp[order[again[0]]]),
@@ -77,7 +78,8 @@ def _repeated_states(states: JointStates) -> Iterator[Finding]:
     yield Finding(
         code=CODE,
         severity=Severity.NOTE,
-        text=f"{len(again)} of {len(states.stamp)} joint states repeat a stamp, {np.count_nonzero(differ)} of them with "
+        text=f"{len(again)} of {len(states.stamp)} joint states repeat a stamp, {np.count_nonzero(differ)} of "
+        "them with "
         "other positions",
         fix="Stamp each joint state when its joints are read; robot_state_publisher leaves repetitions out.",
         topic=states.topic,

@@ -43,7 +43,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 def _unknown(observation: Observation, frame: str, sensors: list[Sensor]) -> Finding:
     close = difflib.get_close_matches(frame, observation.frames, n=1)
-    some = [root for root in observation.trees if observation.trees][0]
+    some = next(iter(observation.trees))
     return Finding(
         code=CODE,
         severity=Severity.WARNING,

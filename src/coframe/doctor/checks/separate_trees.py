@@ -61,7 +61,9 @@ def find(observation: Observation) -> Iterator[Finding]:
 def _missing(observation: Observation, main: str, other: str) -> _Missing | None:
     """The most likely link between two trees: a misspelt name, or what is usual."""
     for root, frames in ((other, observation.trees[main]), (main, observation.trees[other])):
-        alike = [frame for frame in difflib.get_close_matches(root, frames, n=3, cutoff=_ALIKE) if _is_slip(root, frame)]
+        alike = [
+            frame for frame in difflib.get_close_matches(root, frames, n=3, cutoff=_ALIKE) if _is_slip(root, frame)
+        ]
         if alike:
             return _Missing(alike[0], root, misspelt=True)
     for parent, child in _USUAL:

@@ -62,9 +62,11 @@ def _ahead(edge: Edge, lags: np.ndarray[tuple[int, ...], np.dtype[np.int64]]) ->
         text=f"{np.count_nonzero(lags < 0)} of {edge.count} stamps are ahead of the clock when they arrive, by up to "
         f"{duration(most)}, median {duration(middle)}"
         + ("; that is usual for localization and for mounts that are sent again and again" if usual else ""),
-        fix="Nothing, if it is the localization's transform_tolerance or the period of an old static_transform_publisher."
+        fix="Nothing, if it is the localization's transform_tolerance or the period of an old "
+        "static_transform_publisher."
         if usual
-        else "Stamp with the time of the measurement: t.header.stamp = self.get_clock().now().to_msg(); on two machines, "
+        else "Stamp with the time of the measurement: t.header.stamp = self.get_clock().now().to_msg(); on two "
+        "machines, "
         "set their clocks right (chronyc tracking).",
         edge=edge.key,
         first_stamp=int(edge.stamp[row]),
@@ -76,7 +78,8 @@ def _behind(edge: Edge, lags: np.ndarray[tuple[int, ...], np.dtype[np.int64]]) -
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"arrives {duration(float(np.median(lags)))} after its stamp (median; at most {duration(int(lags.max()))})",
+        text=f"arrives {duration(float(np.median(lags)))} after its stamp (median; at most "
+        f"{duration(int(lags.max()))})",
         fix="Send the transform as soon as it is measured, with the measurement's stamp; on two machines, set their "
         "clocks right (chronyc tracking). Who needs it must wait as long: "
         f"lookup_transform(..., timeout=Duration(seconds={np.ceil(lags.max() / 1e8) / 10:g})).",

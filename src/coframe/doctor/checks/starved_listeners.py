@@ -26,18 +26,18 @@ _NEXT = (
 )
 # tf2's words, and the line to change.
 _FAILURES = (
-    (re.compile(r"extrapolation into the future|requires only|only one (?:sample|data)", re.I), _NEXT),
+    (re.compile(r"would require extrapolation (?:into the future|at time)", re.IGNORECASE), _NEXT),
     (
-        re.compile(r"extrapolation into the past", re.I),
+        re.compile(r"would require extrapolation into the past", re.IGNORECASE),
         "Ask for a newer time, or keep more: tf2_ros.Buffer(cache_time=Duration(seconds=30)).",
     ),
     (
-        re.compile(r"\"?'?([\w/ .-]+?)'?\"? passed to lookupTransform|frame does not exist|does not exist", re.I),
-        "Check the spelling in the look-up against `coframe frames`.",
+        re.compile(r"passed to lookupTransform argument \w+ does not exist", re.IGNORECASE),
+        "Check the spelling of the frame in lookup_transform(...); `coframe echo TARGET SOURCE` lists the frames there are.",
     ),
     (
-        re.compile(r"not part of the same tree|unconnected trees|could not find a connection", re.I),
-        "Start the publisher of the missing link; `coframe why TARGET SOURCE` names it.",
+        re.compile(r"not part of the same tree|unconnected trees|could not find a connection", re.IGNORECASE),
+        "Start the publisher of the missing link; TF001 and `coframe echo TARGET SOURCE` name it.",
     ),
 )
 

@@ -73,7 +73,9 @@ def _overwritten(observation: Observation) -> Iterator[Finding]:
         if not publisher or len(messages) < 2:
             continue
         kept = told.arrived[rows] == messages[-1]
-        lost = sorted({told.names[n] for n in told.child[rows[~kept]]} - {told.names[n] for n in told.child[rows[kept]]})
+        lost = sorted(
+            {told.names[n] for n in told.child[rows[~kept]]} - {told.names[n] for n in told.child[rows[kept]]}
+        )
         if lost:
             yield Finding(
                 code=CODE,
@@ -97,7 +99,8 @@ def _told_again(edge: Edge) -> Iterator[Finding]:
         text=f"told {times(edge.count)} with stamps up to {duration(int(stamps[-1] - stamps[0]))} apart"
         + (", always the same" if edge.constant else ", and not the same")
         + ": the older ones are of processes that were started before and still run",
-        fix="End them, `ps` finds them (static_transform_publisher, robot_state_publisher); the one that is heard last wins.",
+        fix="End them, `ps` finds them (static_transform_publisher, robot_state_publisher); the one that is "
+        "heard last wins.",
         edge=edge.key,
         first_stamp=int(stamps[0]),
         publishers=edge.publishers,

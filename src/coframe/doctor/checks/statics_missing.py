@@ -24,7 +24,8 @@ def find(observation: Observation) -> Iterator[Finding]:
         code=CODE,
         severity=Severity.WARNING,
         text=f"no static transform was recorded, and the moving ones make {len(observation.trees)} separate trees",
-        fix="Record /tf_static as well: ros2 bag record /tf /tf_static ... (or coframe record); of a split recording read "
+        fix="Record /tf_static as well: ros2 bag record /tf /tf_static ...; of a split "
+        "recording read "
         "the whole folder, not a later file alone. For this one, send the mounts beside it while it is played: "
         "coframe static ..., or start its robot_state_publisher.",
     )

@@ -47,7 +47,8 @@ def _degrees(edge: Edge) -> Iterator[Finding]:
             name = ("roll", "pitch", "yaw")[about]
             yield _finding(
                 edge,
-                f"is turned by {degrees(angle) % 360:.1f} degrees about {'xyz'[about]}, which is {name} = {number} taken "
+                f"is turned by {degrees(angle) % 360:.1f} degrees about {'xyz'[about]}, which is {name} = "
+                f"{number} taken "
                 "as radians: degrees were meant",
                 f"Give radians: --{name} {number * pi / 180:.6f}; in code math.radians({number}).",
             )

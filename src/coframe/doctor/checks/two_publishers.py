@@ -38,7 +38,7 @@ def _of_publishers(edge: Edge) -> Iterator[Finding]:
     found = flicker(edge)
     differ = found is not None or (edge.static and not edge.constant)
     first, second, *_ = edge.publishers
-    apart = f": it jumps by {_size(found.distance, found.angle)} {found.count} times" if found else ""
+    apart = f": it jumps by {_size(found.distance, found.angle)} {found.jumps} times" if found else ""
     yield Finding(
         code=CODE,
         severity=Severity.ERROR if differ else Severity.NOTE,
@@ -58,7 +58,7 @@ def _of_unknown(edge: Edge) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.ERROR,
-            text=f"jumps by {_size(found.distance, found.angle)} and back, {found.count} times: as two publishers that "
+            text=f"jumps by {_size(found.distance, found.angle)} and back, {found.jumps} times: as two publishers that "
             "disagree make it; the recording does not say who they were",
             fix=f"On the running robot, `coframe doctor` names the publishers of {edge.parent} -> {edge.child}: stop "
             "one of them.",

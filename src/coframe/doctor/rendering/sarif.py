@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import coframe
-from coframe.doctor.catalogue import codes, page
+from coframe.catalogue import codes, page
 from coframe.doctor.finding import Severity
 
 if TYPE_CHECKING:

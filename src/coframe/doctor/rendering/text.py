@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.doctor.catalogue import page
+from coframe.catalogue import page
 from coframe.doctor.wording import duration, listed, seconds
 
 if TYPE_CHECKING:

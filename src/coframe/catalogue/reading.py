@@ -1,4 +1,4 @@
-"""The catalogue: a page for every code, which `coframe doctor --explain` prints and the documentation links to.
+"""A page for every code, which `coframe doctor --explain` prints and the documentation links to.
 
 A page is Markdown: a title ``# TF001: ...``, then sections. "Why it matters" opens with the sentence that stands below
 every finding of that code.
@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import functools
 import re
-from importlib.resources import files
+from pathlib import Path
 from typing import NamedTuple
 
 __all__ = ["Page", "codes", "page"]
 
-_PAGES = files("coframe.doctor") / "pages"
+_PAGES = Path(__file__).with_name("pages")
 _CODE = re.compile(r"TF\d{3}")
 
 
