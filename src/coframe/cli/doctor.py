@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from pathlib import Path  # noqa: TC003 - typer reads the annotations
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -21,16 +22,15 @@ from coframe.doctor.rendering.text import lines
 from coframe.time import duration_ns
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from coframe.doctor import Report
+    from coframe.wire.observing import Listening
 
 __all__ = ["doctor"]
 
 SECOND = 1_000_000_000
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan", "good": "green", "dim": "dim", "plain": ""}
 # A running verdict takes at most this part of a processor.
-_SHARE = 0.02
+_SHARE = 0.01
 
 
 def doctor(
@@ -68,7 +68,7 @@ def doctor(
                 seen = observe_recording(bag, namespace=namespace, cache=buffers, progress=progress)
             reports = {name: diagnose(one, ignore=unwanted) for name, one in seen.items()}
             _finish(reports, as_json, sarif, str(bag))
-        from coframe.doctor.live import Listening  # noqa: PLC0415 - recordings need no DDS
+        from coframe.wire.observing import Listening  # noqa: PLC0415 - recordings need no DDS
 
         kept = window if watch else None
         with Listening(
@@ -137,7 +137,7 @@ def _texts(report: Report) -> list[Text]:
     return every
 
 
-def _watch(listening: Any, ignore: list[str], as_json: bool) -> None:
+def _watch(listening: Listening, ignore: list[str], as_json: bool) -> None:
     """A verdict a second, or less often where it takes long; until Ctrl-C."""
     console = Console(highlight=False)
     with Live(console=console, auto_refresh=False, screen=False, transient=False) as live:

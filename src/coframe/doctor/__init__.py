@@ -4,8 +4,8 @@ How it is made, from bottom to top:
 
 - An `Observation` is all that the checks know: every transform as it was sent (a table of columns), who is on which
   topic with which QoS, the stamps and arrivals of sensor messages, joint states, descriptions, the clock, the log.
-  `recorded` makes it of a recording, `live` of what arrives; from there on the path is the same for both. It gives the
-  links (`Edge`) with their statistics, which are calculated when they are first asked for.
+  `recorded` makes it of a recording, `coframe.wire.observing` of what arrives; from there on the path is the same for
+  both. It gives the links (`Edge`) with their statistics, which are calculated when they are first asked for.
 - A check is a module of `checks`: its CODE and ``find``, a pure function from an observation to findings. `diagnosis`
   finds the modules by itself: a new check is one file there, one page, and one test.
 - `coframe.catalogue` has a page for every code: the one text that `--explain`, the documentation, SARIF and the

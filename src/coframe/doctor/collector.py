@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -97,8 +97,10 @@ class Collector:
         if not self._batches:
             none = np.zeros(0, dtype=np.int64)
             return Transforms(none, none, none, none, none, none.astype(bool), np.zeros((0, 7)), (), ())
-        every = _Batch(*(np.concatenate(column) for column in zip(*self._batches, strict=True)))
-        if (every.arrived[1:] < every.arrived[:-1]).any():
-            order = np.argsort(every.arrived, kind="stable")
-            every = _Batch(*(column[order] for column in every))
-        return Transforms(**every._asdict(), names=tuple(self._names), publishers=tuple(self._publishers))
+        columns: list[Any] = [np.concatenate(column) for column in zip(*self._batches, strict=True)]
+        arrived = columns[0]
+        if (arrived[1:] < arrived[:-1]).any():
+            order = np.argsort(arrived, kind="stable")
+            columns = [column[order] for column in columns]
+        named = _Batch(*columns)._asdict()
+        return Transforms(**named, names=tuple(self._names), publishers=tuple(self._publishers))

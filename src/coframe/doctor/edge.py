@@ -73,7 +73,10 @@ class Edge:
     def intervals(self) -> NDArray[np.int64]:
         """The times between neighbouring different stamps, in the order of time."""
         steps = self.steps
-        return steps if (steps > 0).all() else np.diff(np.unique(self.stamp))
+        if (steps > 0).all():
+            return steps
+        stamps = np.unique(self.stamp)
+        return np.asarray(stamps[1:] - stamps[:-1])
 
     @cached_property
     def period(self) -> float:

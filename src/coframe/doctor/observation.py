@@ -16,8 +16,6 @@ from coframe.doctor.edge import Edge
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from coframe.wire.qos import QoS
-
 __all__ = ["NEVER", "Clock", "Endpoint", "JointStates", "LogLine", "Observation", "Sensor", "TopicFacts", "Transforms"]
 
 DEFAULT_CACHE = 10_000_000_000
@@ -121,10 +119,10 @@ def _is_link(names: tuple[str, str]) -> bool:
 
 @dataclass(frozen=True)
 class Endpoint:
-    """A publisher or a subscription: its node's full name ("" if nobody has claimed it), and its QoS."""
+    """A publisher or a subscription: its node's full name, and whether late joiners get what was sent before."""
 
     node: str
-    qos: QoS
+    transient_local: bool
 
 
 @dataclass(frozen=True)

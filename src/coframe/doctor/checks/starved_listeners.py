@@ -33,7 +33,7 @@ _FAILURES = (
     ),
     (
         re.compile(r"passed to lookupTransform argument \w+ does not exist", re.IGNORECASE),
-        "Check the spelling of the frame in lookup_transform(...); `coframe echo TARGET SOURCE` lists the frames there are.",
+        "Check the frame's spelling in lookup_transform(...); `coframe echo TARGET SOURCE` lists those that there are.",
     ),
     (
         re.compile(r"not part of the same tree|unconnected trees|could not find a connection", re.IGNORECASE),

@@ -27,10 +27,10 @@ def find(observation: Observation) -> Iterator[Finding]:
         if facts.name.rpartition("/")[2] != "tf_static":
             continue
         for endpoint in facts.publishers:
-            if not endpoint.qos.transient_local:
+            if not endpoint.transient_local:
                 yield _publisher(facts.name, endpoint.node)
         for endpoint in facts.subscribers:
-            if not endpoint.qos.transient_local:
+            if not endpoint.transient_local:
                 yield _subscriber(facts.name, endpoint.node)
     if observation.live:
         yield from _overwritten(observation)

@@ -26,17 +26,17 @@ from coframe.doctor.observation import (
 )
 from coframe.errors import DecodeError
 from coframe.messages import deserialize, find
-from coframe.wire import Participant, QoS
 from coframe.wire.names import full_name
-from coframe.wire.qos import TF, TF_STATIC_READER
+from coframe.wire.participant import Participant
+from coframe.wire.qos import TF, TF_STATIC_READER, QoS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from typing_extensions import Self
 
-    from coframe.wire import Endpoint as WireEndpoint
-    from coframe.wire import Tap, TappedMessage
+    from coframe.wire.endpoints import Tap, TappedMessage
+    from coframe.wire.graph import Endpoint as WireEndpoint
 
 __all__ = ["Listening"]
 
@@ -259,7 +259,7 @@ class Listening:
     def _endpoints(self, endpoints: Iterable[WireEndpoint]) -> tuple[Endpoint, ...]:
         """Named ones: one without a node is no ROS program, or has just come."""
         return tuple(
-            Endpoint(full_name(endpoint.namespace, endpoint.node), endpoint.qos)
+            Endpoint(full_name(endpoint.namespace, endpoint.node), endpoint.qos.transient_local)
             for endpoint in endpoints
             if not endpoint.node.startswith("_NODE_NAME_UNKNOWN")
         )
