@@ -7,7 +7,9 @@ import sys
 import pytest
 from recordings import START
 from runs import Run
+from typer.testing import CliRunner
 
+from coframe.cli.app import app
 from coframe.doctor import codes
 
 
@@ -89,7 +91,6 @@ def test_a_page_is_printed():
     ],
 )
 def test_wrong_usage_is_a_sentence(arguments, code, text):
-    result = command(*arguments)
-    assert result.returncode == code
-    assert text in result.stderr
-    assert result.stdout == ""
+    result = CliRunner().invoke(app, ["doctor", *arguments])
+    assert result.exit_code == code
+    assert text in result.output

@@ -2,12 +2,9 @@
 
 import json
 import subprocess
-import sys
 import time
 
 import pytest
-
-pytest.importorskip("cyclonedds", reason="the processes speak DDS")
 
 # A node in a few lines: NODE's body runs with `node` and `stamped(parent, child, x)`.
 NODE = """
@@ -47,53 +44,30 @@ every(0.02, move)
 """
 
 
-class Nodes:
-    def __init__(self):
-        self._running = []
-
-    def start(self, name, body):
-        source = NODE.replace("{body}", body)
-        self._running.append(
-            subprocess.Popen([sys.executable, "-c", source, name], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        )
-
-    def close(self):
-        for process in self._running:
-            process.kill()
-            process.wait()
+@pytest.fixture
+def start(inside):
+    """Starts a node with this name and body."""
+    return lambda name, body: inside.start("-c", NODE.replace("{body}", body), name)
 
 
 @pytest.fixture
-def nodes():
-    started = Nodes()
-    yield started
-    started.close()
-
-
-def verdict(*arguments):
-    """The finding of each code, as JSON."""
-    command = [sys.executable, "-m", "coframe.cli", "doctor", "--json", *arguments]
-    result = subprocess.run(command, capture_output=True, text=True, check=False, timeout=90)
-    assert "Traceback" not in result.stderr, result.stderr
-    data = json.loads(result.stdout)
-    assert result.returncode == (0 if data["healthy"] else 1)
-    return data
-
-
-def only(code):
+def only(inside):
     """The one finding there is, once the processes have come up."""
-    findings = []
-    for _ in range(5):
-        findings = verdict("--duration", "3s")["findings"]
-        if [finding["code"] for finding in findings] == [code]:
-            return findings[0]
-    pytest.fail(f"not {code} alone: {findings}")
+
+    def only(code):
+        findings = []
+        for _ in range(5):
+            findings = inside.doctor("--duration", "2s")["findings"]
+            if [finding["code"] for finding in findings] == [code]:
+                return findings[0]
+        pytest.fail(f"not {code} alone: {findings}")
+
+    return only
 
 
-@pytest.mark.usefixtures("domain_id")
-def test_two_publishers_of_one_link_are_named(nodes):
-    nodes.start("wheel_odometry", ROBOT)
-    nodes.start(
+def test_two_publishers_of_one_link_are_named(start, only):
+    start("wheel_odometry", ROBOT)
+    start(
         "filter",
         'b = TransformBroadcaster(node)\nevery(0.03, lambda: b.sendTransform(stamped("odom", "base_link", 5.0)))',
     )
@@ -104,18 +78,16 @@ def test_two_publishers_of_one_link_are_named(nodes):
     assert finding["severity"] == "error"
 
 
-@pytest.mark.usefixtures("domain_id")
-def test_a_misspelt_frame_is_answered_with_the_line_to_change(nodes):
-    nodes.start("robot", ROBOT)
-    nodes.start("mounts", 'StaticTransformBroadcaster(node).sendTransform(stamped("base_lnk", "camera_link"))')
+def test_a_misspelt_frame_is_answered_with_the_line_to_change(start, only):
+    start("robot", ROBOT)
+    start("mounts", 'StaticTransformBroadcaster(node).sendTransform(stamped("base_lnk", "camera_link"))')
     finding = only("TF001")
     assert finding["publishers"] == ["/mounts"]
     assert "t.header.frame_id = 'base_link'" in finding["fix"]
 
 
-@pytest.mark.usefixtures("domain_id")
-def test_a_look_up_at_now_without_waiting_is_answered_with_the_line_to_change(nodes):
-    nodes.start("robot", ROBOT)
+def test_a_look_up_at_now_without_waiting_is_answered_with_the_line_to_change(start, only):
+    start("robot", ROBOT)
     body = """
 buffer = Buffer()
 listener = TransformListener(buffer, node)
@@ -126,7 +98,7 @@ def query():
         node.get_logger().warn(f"Transform lookup failed: {error}")
 every(0.1, query)
 """
-    nodes.start("tf_listener", body)
+    start("tf_listener", body)
     finding = only("TF025")
     assert finding["publishers"] == ["/tf_listener"]
     assert "extrapolation into the future" in finding["text"]
@@ -134,22 +106,20 @@ every(0.1, query)
     assert "timeout=Duration(seconds=0.1)" in finding["fix"]
 
 
-@pytest.mark.usefixtures("domain_id")
-def test_volatile_statics_on_both_sides(nodes):
-    nodes.start("robot", ROBOT)
-    nodes.start("own_publisher", 'p = node.create_publisher(TFMessage, "/tf_static", 10)')
-    nodes.start("own_listener", 's = node.create_subscription(TFMessage, "/tf_static", lambda m: None, 10)')
+def test_volatile_statics_on_both_sides(start, inside):
+    start("robot", ROBOT)
+    start("own_publisher", 'p = node.create_publisher(TFMessage, "/tf_static", 10)')
+    start("own_listener", 's = node.create_subscription(TFMessage, "/tf_static", lambda m: None, 10)')
     expected = {("TF016", "error", "/own_publisher"), ("TF016", "warning", "/own_listener")}
     for _ in range(5):
-        findings = verdict("--duration", "2s")["findings"]
+        findings = inside.doctor("--duration", "2s")["findings"]
         if {(f["code"], f["severity"], *f["publishers"]) for f in findings} == expected:
             return
     pytest.fail(f"{findings}")
 
 
-@pytest.mark.usefixtures("domain_id")
-def test_statics_that_one_process_overwrites(nodes):
-    nodes.start("robot", ROBOT)
+def test_statics_that_one_process_overwrites(start, only):
+    start("robot", ROBOT)
     body = """
 p = node.create_publisher(TFMessage, "/tf_static", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
 state = {"sent": 0}
@@ -159,44 +129,44 @@ def send():
     p.publish(TFMessage(transforms=[stamped("base_link", name, 0.2)]))
 every(0.5, send)
 """
-    nodes.start("mounts", body)
+    start("mounts", body)
     finding = only("TF016")
     assert "/mounts has sent" in finding["text"]
     assert "sendTransform([t1, t2, ...])" in finding["fix"]
 
 
-@pytest.mark.usefixtures("domain_id")
-def test_nobody_there_is_not_healthy():
-    data = verdict("--duration", "1s")
+def test_nobody_there_is_not_healthy(inside):
+    data = inside.doctor("--duration", "1s")
     assert data["findings"] == []
     assert not data["healthy"]
 
 
-@pytest.mark.usefixtures("domain_id")
-def test_watch_tells_again_and_again_and_ends_by_a_signal(nodes):
-    nodes.start("robot", ROBOT)
-    command = [sys.executable, "-m", "coframe.cli", "doctor", "--watch", "--json", "--duration", "5s"]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
-        heard = [json.loads(process.stdout.readline()) for _ in range(4)]
+def test_watch_tells_again_and_again_and_ends_by_a_signal(start, inside):
+    start("robot", ROBOT)
+    options = ("--watch", "--json", "--duration", "5s")
+    with inside.start("-m", "coframe.cli", "doctor", *options, stdout=subprocess.PIPE, text=True) as process:
+        heard = [json.loads(process.stdout.readline())]
+        while not heard[-1]["healthy"]:
+            heard.append(json.loads(process.stdout.readline()))
         process.terminate()
         assert process.wait(20) == 0
-    assert heard[-1]["healthy"]
     assert set(heard[-1]["frames"]) == {"odom", "base_link", "lidar_link"}
 
 
 @pytest.mark.slow
+@pytest.mark.timeout(200)
 @pytest.mark.parametrize("_run", range(5))
-@pytest.mark.usefixtures("domain_id")
-def test_a_healthy_demo_has_no_finding_at_all(_run):
-    command = [sys.executable, "-m", "coframe.cli", "demo", "--no-browser", "--duration", "60"]
-    demo = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+def test_a_healthy_demo_has_no_finding_at_all(inside, _run, tmp_path):
+    log = (tmp_path / "demo.log").open("wb")
+    demo = inside.start("-m", "coframe.cli", "demo", "--no-browser", "--duration", "150", stdout=log, stderr=log)
     try:
-        deadline = time.monotonic() + 20
-        while verdict("--duration", "1s")["transforms"] < 50:
-            assert time.monotonic() < deadline
-        data = verdict("--duration", "30s")
+        deadline = time.monotonic() + 60
+        while inside.doctor("--duration", "2s")["transforms"] < 50:
+            assert time.monotonic() < deadline, (demo.poll(), (tmp_path / "demo.log").read_text())
+        data = inside.doctor("--duration", "30s")
     finally:
         demo.terminate()
         demo.wait(20)
+        log.close()
     assert data["findings"] == []
     assert data["healthy"]

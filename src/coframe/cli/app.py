@@ -12,6 +12,7 @@ from coframe.cli.demo import demo
 from coframe.cli.doctor import doctor
 from coframe.cli.echo import echo
 from coframe.cli.lookup import lookup
+from coframe.cli.monitor import monitor
 from coframe.cli.robot import robot
 from coframe.cli.static import static
 from coframe.cli.trajectory import trajectory
@@ -46,6 +47,7 @@ def _main(
 app.command()(demo)
 app.command()(doctor)
 app.command()(echo)
+app.command()(monitor)
 app.command()(view)
 app.command()(lookup)
 app.command()(trajectory)
