@@ -178,8 +178,12 @@ def measure(row: Row, effort: Effort) -> Result:
     place = one_processor() if row.processors == 1 else contextlib.nullcontext()
     with place, contextlib.closing(row.contenders()) as contenders:
         try:
-            ours = next(contenders)
-            ours.sample()  # it warms up: caches, imports, and how many runs make a sample
+            try:
+                ours = next(contenders)
+                ours.sample()  # it warms up: caches, imports, and how many runs make a sample
+            except MissingPeerError as missing:  # what both work on is the peer's
+                result.missing = str(missing)
+                return result
             theirs: Contender | None = None
             try:
                 theirs = next(contenders)

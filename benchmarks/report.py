@@ -20,7 +20,7 @@ def cells(result: Result) -> tuple[str, ...]:
     bar = row.bar.text(row) if row.bar else ""
     if result.error:
         return row.name, "", row.beside, "", "", "", bar, f"{result.verdict}: {result.error}"
-    mine = row.unit(Spread.of(result.ours).median)
+    mine = row.unit(Spread.of(result.ours).median) if result.ours else ""
     if not result.theirs:
         return row.name, mine, row.beside, "", "", "", bar, f"{result.verdict}: {result.missing}".removeprefix(": ")
     ratio = result.ratio

@@ -1,12 +1,13 @@
 """The rows of the table, a file for each of their subjects."""
 
-from benchmarks.rows import batch, history, insertion, listener, recordings, sensors, single, startup, viewer
+from benchmarks.rows import batch, history, insertion, listener, recordings, robots, sensors, single, startup, viewer
 
 ROWS = {
     "single": single.ROWS,
     "insertion": insertion.ROWS,
     "batch": batch.ROWS,
     "sensors": sensors.ROWS,
+    "robots": robots.ROWS,
     "listener": listener.ROWS,
     "recordings": recordings.ROWS,
     "history": history.ROWS,

@@ -1,4 +1,4 @@
-"""The viewer's server with one tab: frames that move, 30 times a second."""
+"""The viewer's server: what a tab costs 30 times a second, and how soon there is something to draw."""
 
 from collections.abc import Generator
 
@@ -8,6 +8,12 @@ from benchmarks.process import Program
 SECONDS = "4"
 LIMITS = {10: 3.0, 100: 3.0, 1000: 5.0}
 """Percent of one core, beyond the look-ups, by the number of frames."""
+IMPORTS = """
+import time
+begin = time.monotonic_ns()
+import numpy, typer, cyclonedds.internal
+print(time.monotonic_ns() - begin)
+"""
 
 
 class LookUps:
@@ -29,4 +35,13 @@ def row(frames: int, limit: float) -> Row:
     return Row(name, "the look-ups themselves", contenders, AtMost(limit), percent, least=3, processors=2)
 
 
-ROWS = [row(frames, limit) for frames, limit in LIMITS.items()]
+def start() -> Row:
+    def contenders() -> Generator[Contender]:
+        yield Program("-m", "benchmarks.viewer_start")
+        yield Program("-c", IMPORTS)
+
+    name = "coframe view, until a tab has its first tick of the graph"
+    return Row(name, "floor: importing numpy, typer and DDS", contenders, processors=2)
+
+
+ROWS = [*(row(frames, limit) for frames, limit in LIMITS.items()), start()]

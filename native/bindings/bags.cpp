@@ -1,11 +1,8 @@
 // Recordings: many messages in one call.
 #include <nanobind/nanobind.h>
-#include <nanobind/stl/string.h>
 
-#include <cstring>
 #include <string>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "bags/mcap_records.hpp"
@@ -37,12 +34,12 @@ nb::tuple mcap_records(nb::handle data) {
 
 // How many of the slices were damaged, and what is wrong with the first of these.
 nb::tuple ingest_slices(nb::handle buffer, nb::handle data, nb::handle starts, nb::handle ends, bool is_static,
-                        std::string authority) {
+                        nb::handle authority) {
   BufferObject& self = buffer_of(buffer);
   const Memory bytes(data, PyBUF_SIMPLE), first(starts, PyBUF_SIMPLE), last(ends, PyBUF_SIMPLE);
   const std::size_t count = first.size() / sizeof(std::uint64_t);
   if (first.size() != last.size()) throw nb::value_error("as many ends as starts are wanted");
-  TransformStream& stream = self.stream(is_static, std::move(authority));
+  TransformStream& stream = self.stream(is_static, self.authority(authority.ptr()));
   std::size_t damaged = 0;
   const char* reason = "";
   for (std::size_t i = 0; i < count; ++i) {

@@ -21,6 +21,7 @@ void define_messages(nb::module_& module);
 void define_poses(nb::module_& module);
 void define_failure(nb::module_& module);
 void define_event(nb::module_& module);
+void define_robots(nb::module_& module);
 void define_sensors(nb::module_& module);
 void define_bags(nb::module_& module);
 void define_wire(nb::module_& module);

@@ -400,13 +400,19 @@ nb::list py_insert_texts(unsigned refusals, std::string_view parent, std::string
   return lines;
 }
 
-std::size_t ingest(BufferObject& self, nb::handle message, bool is_static, std::string authority) {
-  const Memory bytes(message, PyBUF_SIMPLE);
-  TransformStream& stream = self.stream(is_static, std::move(authority));
-  std::size_t stored;
-  const DecodeFailure failure = self.core->ingest(stream, bytes.data<const std::uint8_t>(), bytes.size(), stored);
-  if (failure.reason) raise_decode_error(failure);
-  return stored;
+PyObject* py_ingest(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+  static const Signature<3> signature("ingest", {"cdr", "static", "authority"}, 1, 1);
+  PyObject* values[3];
+  if (!signature.parse(arguments, count, keywords, values)) return nullptr;
+  return guarded([&] {
+    BufferObject& self = buffer_of(object);
+    TransformStream& stream = self.stream(is_true(values[1]), values[2] ? self.authority(values[2]) : 0);
+    const Memory bytes(values[0], PyBUF_SIMPLE);
+    std::size_t stored;
+    const DecodeFailure failure = self.core->ingest(stream, bytes.data<const std::uint8_t>(), bytes.size(), stored);
+    if (failure.reason) raise_decode_error(failure);
+    return PyLong_FromSize_t(stored);
+  });
 }
 
 nb::list frame_tuples(const BufferObject& self) {
@@ -429,6 +435,24 @@ nb::dict statistics(const BufferObject& self) {
 nb::bytes encode(const BufferObject& self, bool is_static) {
   const std::string message = self.core->encode(is_static);
   return nb::bytes(message.data(), message.size());
+}
+
+void add_frequent_methods(nb::handle cls) {
+  add_method(cls, "lookup", &py_lookup,
+             "lookup($self, /, target, source, stamp=None, *, timeout=None, extrapolate=None, hold=False)\n--\n\n"
+             "The transform that takes coordinates in `source` to coordinates in `target` at `stamp`.");
+  add_method(cls, "can_transform", &py_can_transform,
+             "can_transform($self, /, target, source, stamp=None, *, timeout=None)\n--\n\n"
+             "Whether lookup() would succeed, or does within `timeout`.");
+  add_method(cls, "set_values", &py_set_values,
+             "set_values($self, /, parent, child, stamp, x, y, z, qx, qy, qz, qw, static, authority)\n--\n\n"
+             "Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts).");
+  add_method(cls, "set_plain", &py_set_plain,
+             "set_plain($self, /, parent, child, transform, stamp, static)\n--\n\n"
+             "set_values() of a dynamic Transform between known frames; None where it is not just that.");
+  add_method(cls, "ingest", &py_ingest,
+             "ingest($self, /, cdr, *, static=False, authority='no recorded authority')\n--\n\n"
+             "Takes in a TFMessage's bytes; returns how many of its transforms were stored.");
 }
 
 }  // namespace
@@ -457,8 +481,6 @@ void define_buffer(nb::module_& module) {
       .def("latest_common_time", &py_latest_common_time, any("target"), any("source"))
       .def("chain", &py_chain, any("target"), any("target_stamp"), any("source"), any("source_stamp"),
            any("fixed"))
-      .def("ingest", &ingest, arg("cdr"), nb::kw_only(), arg("static") = false,
-           arg("authority") = "no recorded authority")
       .def("encode", &encode, nb::kw_only(), arg("static"))
       .def("clear", [](BufferObject& self) { self.core->clear(); })
       .def("remove_frame", [](BufferObject& self, std::string_view name) { return self.core->remove_frame(name); },
@@ -485,18 +507,10 @@ void define_buffer(nb::module_& module) {
           arg("now") = 0)
       .def_prop_ro("statistics", &statistics)
       .def_prop_ro("changes", [](const BufferObject& self) { return self.core->changes(); });
-  add_method(cls, "lookup", &py_lookup,
-             "lookup($self, /, target, source, stamp=None, *, timeout=None, extrapolate=None, hold=False)\n--\n\n"
-             "The transform that takes coordinates in `source` to coordinates in `target` at `stamp`.");
-  add_method(cls, "can_transform", &py_can_transform,
-             "can_transform($self, /, target, source, stamp=None, *, timeout=None)\n--\n\n"
-             "Whether lookup() would succeed, or does within `timeout`.");
-  add_method(cls, "set_values", &py_set_values,
-             "set_values($self, /, parent, child, stamp, x, y, z, qx, qy, qz, qw, static, authority)\n--\n\n"
-             "Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts).");
-  add_method(cls, "set_plain", &py_set_plain,
-             "set_plain($self, /, parent, child, transform, stamp, static)\n--\n\n"
-             "set_values() of a dynamic Transform between known frames; None where it is not just that.");
+  add_frequent_methods(cls);
+  module.def("register_buffer_class", [](nb::type_object_t<BufferObject> cls) { add_frequent_methods(cls); }, arg("cls"),
+             "Gives a class on top of Buffer the most frequent methods as its own: CPython has a shorter way to call "
+             "those of an object's very class.");
   module.def("insert_texts", &py_insert_texts, arg("refusals"), arg("parent"), arg("child"), arg("stamp"), arg("x"),
              arg("y"), arg("z"), arg("qx"), arg("qy"), arg("qz"), arg("qw"), arg("authority"),
              "tf2's log lines for a transform that set_values refused: (level, text).");

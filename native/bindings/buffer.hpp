@@ -6,7 +6,6 @@
 #include <array>
 #include <map>
 #include <memory>
-#include <string>
 #include <utility>
 
 #include "core/buffer.hpp"
@@ -66,16 +65,16 @@ struct BufferObject {
   }
 
   // The source of messages by this authority.
-  TransformStream& stream(bool is_static, std::string name) {
-    const std::pair<bool, std::string> key(is_static, std::move(name));
-    const auto found = streams.find(key);
-    return found != streams.end() ? found->second
-                                  : streams.emplace(key, core->open_stream(is_static, key.second)).first->second;
+  TransformStream& stream(bool is_static, AuthorityId authority) {
+    TransformStream& stream = streams[{is_static, authority}];
+    stream.is_static = is_static;
+    stream.authority = authority;
+    return stream;
   }
 
   IdentityCache frames, authorities;
   PathCache paths;  // guarded by the GIL, unlike the core's own
-  std::map<std::pair<bool, std::string>, TransformStream> streams;
+  std::map<std::pair<bool, AuthorityId>, TransformStream> streams;
 };
 
 }  // namespace coframe::bindings

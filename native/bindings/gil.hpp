@@ -19,6 +19,17 @@ class WithoutGil {
   PyThreadState* thread_;
 };
 
+// For work that is long only sometimes.
+template <class Work>
+void without_gil_if(bool release, Work&& work) {
+  if (release) {
+    const WithoutGil scope;
+    work();
+  } else {
+    work();
+  }
+}
+
 // A scope in which C++ calls Python code, where the GIL may change hands at any time.
 class CallingPython {
  public:

@@ -2,7 +2,9 @@
 #include <nanobind/nanobind.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "bindings/arguments.hpp"
 #include "bindings/bindings.hpp"
@@ -19,61 +21,115 @@ enum class Told : std::uint8_t {
   in_own_tree,  // not connected with the fixed frame: seen from the root of the frame's own tree
 };
 
-bool look_up(BufferObject& self, nb::handle target, nb::handle source, Stamp stamp, Stamp hold, Pose& pose,
-             Stamp& beyond) {
-  beyond = 0;
-  const FrameId target_id = self.frame(target.ptr()), source_id = self.frame(source.ptr());
-  Stamp when = stamp;
-  if (target_id != 0 && source_id != 0 && target_id != source_id &&
-      self.core->quick_lookup(self.paths, target_id, source_id, when, pose)) {
-    return true;
+// Frames that are looked up together again and again, so that their names are found once.
+class PoseTable {
+ public:
+  PoseTable(nb::handle_t<BufferObject> buffer, nb::str fixed, nb::list frames, nb::list roots)
+      : buffer_(nb::borrow(buffer)), self_(nb::cast<BufferObject&>(buffer)) {
+    if (frames.size() != roots.size()) throw nb::value_error("roots must be as many as there are frames");
+    rows_.reserve(frames.size());
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const bool is_apart = !roots[i].is_none();
+      rows_.push_back({{nb::cast<nb::str>(is_apart ? nb::object(roots[i]) : fixed), 0},
+                       {nb::cast<nb::str>(nb::object(frames[i])), 0},
+                       is_apart});
+    }
   }
-  Question question = question_of(self, target, source, nb::none());
-  question.stamp = stamp;
-  Extrapolation extrapolation{Extrapolation::Method::hold, hold, 0};
-  Answer answer;
-  Failure failure;
-  if (!self.core->answer(question, answer, failure, &extrapolation)) return false;
-  pose = answer.pose;
-  beyond = extrapolation.furthest;
-  return true;
-}
 
-Told look_up_somehow(BufferObject& self, nb::handle fixed, nb::handle root, nb::handle frame, Stamp stamp, Stamp hold,
-                     Pose& pose) {
-  Stamp beyond;
-  if (root.is_none()) {
-    if (!look_up(self, fixed, frame, stamp, hold, pose, beyond)) return Told::not_at_all;
+  void look_up(Stamp stamp, Stamp hold, nb::handle poses, nb::handle told) {
+    constexpr int kFlags = PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS;
+    const Memory memory(poses, kFlags), states(told, kFlags);
+    if (memory.size() != rows_.size() * 7 * sizeof(double) || states.size() != rows_.size()) {
+      throw nb::value_error("poses must be (N, 7) float64 and told (N,) uint8 for N frames");
+    }
+    double* out = memory.data<double>();
+    std::uint8_t* how = states.data<std::uint8_t>();
+    for (Row& row : rows_) {
+      Pose pose;
+      const Told told_now = look_up(row, stamp, hold, pose);
+      *how++ = static_cast<std::uint8_t>(told_now);
+      if (told_now == Told::not_at_all) {
+        out = std::fill_n(out, 7, std::numeric_limits<double>::quiet_NaN());
+      } else {
+        out = std::copy_n(pose.q, 4, std::copy_n(pose.p, 3, out));
+      }
+    }
+  }
+
+ private:
+  struct Frame {
+    nb::str name;
+    FrameId number;  // 0: not known yet
+  };
+  struct Row {
+    Frame target, source;
+    bool is_apart;  // the target is the root of the frame's own tree
+  };
+
+  FrameId number_of(Frame& frame) {
+    if (frame.number == 0) frame.number = self_.frame(frame.name.ptr());
+    return frame.number;
+  }
+
+  Told look_up(Row& row, Stamp stamp, Stamp hold, Pose& pose) {
+    const FrameId target = number_of(row.target), source = number_of(row.source);
+    Stamp when = stamp, beyond = 0;
+    if (target == 0 || source == 0 || target == source ||
+        !self_.core->quick_lookup(self_.paths, target, source, when, pose)) {
+      Question question = question_of(self_, row.target.name, row.source.name, nb::none());
+      question.stamp = stamp;
+      Extrapolation extrapolation{Extrapolation::Method::hold, hold, 0};
+      Answer answer;
+      Failure failure;
+      if (!self_.core->answer(question, answer, failure, &extrapolation)) return Told::not_at_all;
+      pose = answer.pose;
+      beyond = extrapolation.furthest;
+    }
+    if (row.is_apart) return Told::in_own_tree;
     return beyond == 0 ? Told::exactly : Told::held;
   }
-  return look_up(self, root, frame, stamp, hold, pose, beyond) ? Told::in_own_tree : Told::not_at_all;
-}
 
-void poses_into(BufferObject& self, nb::handle fixed, nb::list frames, nb::list roots, Stamp stamp, Stamp hold,
-                nb::handle poses, nb::handle told) {
-  constexpr int kFlags = PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS;
-  const Memory rows(poses, kFlags), states(told, kFlags);
-  const std::size_t count = frames.size();
-  if (roots.size() != count || rows.size() != count * 7 * sizeof(double) || states.size() != count) {
-    throw nb::value_error("roots, poses (N, 7) float64 and told (N,) uint8 must be as many as there are frames");
+  nb::object buffer_;
+  BufferObject& self_;
+  std::vector<Row> rows_;
+};
+
+std::size_t poses_near(nb::handle poses, nb::handle told, nb::handle origin, Py_ssize_t fixed, double reach,
+                       nb::handle near) {
+  const Memory rows(poses, PyBUF_C_CONTIGUOUS), states(told, PyBUF_C_CONTIGUOUS), local(origin, PyBUF_C_CONTIGUOUS),
+      out(near, PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS);
+  const std::size_t count = states.size();
+  if (rows.size() != count * 7 * sizeof(double) || out.size() != count * 7 * sizeof(float) ||
+      local.size() != 3 * sizeof(double)) {
+    throw nb::value_error("poses (N, 7) float64, told (N,) uint8, origin (3,) float64, near (N, 7) float32");
   }
+  std::size_t far = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    Pose pose;
-    const Told how = look_up_somehow(self, fixed, roots[i], frames[i], stamp, hold, pose);
-    double* row = rows.data<double>() + 7 * i;
-    std::copy_n(pose.p, 3, row);
-    std::copy_n(pose.q, 4, row + 3);
-    if (how == Told::not_at_all) std::fill_n(row, 7, std::numeric_limits<double>::quiet_NaN());
-    states.data<std::uint8_t>()[i] = static_cast<std::uint8_t>(how);
+    const double* pose = rows.data<double>() + 7 * i;
+    float* small = out.data<float>() + 7 * i;
+    double distance = 0;
+    for (std::size_t axis = 0; axis < 7; ++axis) {
+      const double value = axis < 3 ? pose[axis] - local.data<double>()[axis] : pose[axis];
+      small[axis] = static_cast<float>(value);
+      if (axis < 3 && std::isfinite(value)) distance = std::max(distance, std::abs(value));
+    }
+    const bool is_shown = states.data<std::uint8_t>()[i] <= static_cast<std::uint8_t>(Told::held);
+    if (is_shown && distance > reach && static_cast<Py_ssize_t>(i) != fixed) ++far;
   }
+  return far;
 }
 
 }  // namespace
 
 void define_poses(nb::module_& module) {
   using nb::arg;
-  module.def("poses_into", &poses_into, arg("buffer"), arg("fixed"), arg("frames"), arg("roots"), arg("stamp"),
-             arg("hold"), arg("poses"), arg("told"), "Many frames at one time, seen from one of them.");
+  nb::class_<PoseTable>(module, "PoseTable", "Many frames, looked up together again and again.")
+      .def(nb::init<nb::handle_t<BufferObject>, nb::str, nb::list, nb::list>(), arg("buffer"), arg("fixed"),
+           arg("frames"), arg("roots"))
+      .def("look_up", nb::overload_cast<Stamp, Stamp, nb::handle, nb::handle>(&PoseTable::look_up), arg("stamp"),
+           arg("hold"), arg("poses"), arg("told"), "Where all of them are at one time.");
+  module.def("poses_near", &poses_near, arg("poses"), arg("told"), arg("origin"), arg("fixed"), arg("reach"),
+             arg("near"), "Poses as float32, relative to an origin; how many are far from it.");
 }
 
 }  // namespace coframe::bindings

@@ -101,16 +101,6 @@ Pose pose_of(const std::vector<double>& values) {
   return {{values[3], values[4], values[5], values[6]}, {values[0], values[1], values[2]}};
 }
 
-template <class Work>
-void without_gil_if(bool release, Work&& work) {
-  if (release) {
-    const WithoutGil scope;
-    work();
-  } else {
-    work();
-  }
-}
-
 void py_transform(const std::vector<double>& pose, nb::sequence triples, unsigned threads) {
   const Fields fields(triples);
   const Pose values = pose_of(pose);

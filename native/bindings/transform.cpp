@@ -112,6 +112,12 @@ nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::
   return nb::steal(object);
 }
 
+nb::object make_transform(const Pose& pose, nb::handle target, nb::handle source) {
+  nb::object transform = make_transform(pose, 0, target, source);
+  self_of(transform.ptr())->has_stamp = false;
+  return transform;
+}
+
 bool read_transform(PyObject* object, GivenTransform& given) {
   if (Py_TYPE(object) != transform_class) return false;
   const TransformObject* self = self_of(object);

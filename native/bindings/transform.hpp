@@ -14,6 +14,9 @@ namespace nb = nanobind;
 // An instance of the registered Python class. `beyond`: nanoseconds that it was extrapolated.
 nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::handle source, Stamp beyond = 0);
 
+// One without a stamp.
+nb::object make_transform(const Pose& pose, nb::handle target, nb::handle source);
+
 // What a transform that was given holds; the frames are borrowed, None where it names none.
 struct GivenTransform {
   Pose pose;

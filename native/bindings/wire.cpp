@@ -2,6 +2,7 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -59,6 +60,19 @@ nb::tuple to_tuple(const QosProfile& qos) {
   return nb::make_tuple(qos.depth, qos.reliable, qos.transient_local, qos.keep_all);
 }
 
+// Other threads go on while much is copied: a cloud of a million points takes milliseconds.
+nb::bytes to_bytes(const dds::Sample& sample) {
+  constexpr std::size_t kMuch = 1 << 16;
+  const auto bytes = sample.bytes();
+  if (bytes.size() < kMuch) return nb::bytes(bytes.data(), bytes.size());
+  const auto copy = nb::steal<nb::bytes>(PyBytes_FromStringAndSize(nullptr, static_cast<Py_ssize_t>(bytes.size())));
+  if (!copy.is_valid()) throw nb::python_error();
+  char* memory = PyBytes_AS_STRING(copy.ptr());
+  WithoutGil release;
+  std::memcpy(memory, bytes.data(), bytes.size());
+  return copy;
+}
+
 nb::list take(PyReader& reader, std::uint32_t limit) {
   std::vector<dds::Sample> samples;
   {
@@ -67,9 +81,8 @@ nb::list take(PyReader& reader, std::uint32_t limit) {
   }
   nb::list messages;
   for (const dds::Sample& sample : samples) {
-    const auto bytes = sample.bytes();
-    messages.append(nb::make_tuple(nb::bytes(bytes.data(), bytes.size()), sample.info().source_timestamp,
-                                   sample.info().publication_handle));
+    messages.append(
+        nb::make_tuple(to_bytes(sample), sample.info().source_timestamp, sample.info().publication_handle));
   }
   return messages;
 }
@@ -118,8 +131,8 @@ void define_participant(nb::module_& wire) {
 
 void define_writer(nb::module_& wire) {
   nb::class_<PyWriter>(wire, "Writer", "A DDS writer of serialised messages.")
-      .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&>(), nb::arg("participant"),
-           nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), ReleaseGil())
+      .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, bool>(), nb::arg("participant"),
+           nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("unchecked") = false, ReleaseGil())
       .def("write", &write_bytes<&Writer::write>, nb::arg("message"), "Sends one serialised message, without the GIL.")
       .def("forward", &write_bytes<&Writer::forward>, nb::arg("message"),
            "The same on an unchecked topic, whose bytes nobody here understands.")
@@ -202,7 +215,7 @@ void define_wire(nb::module_& wire) {
   wire.def("load_dds", &dds::load, nb::arg("path"), "Loads the DDS library; RuntimeError where it does not fit.");
   wire.def("create_unchecked_topic", &dds::create_unchecked_topic, nb::arg("participant"), nb::arg("name"),
            nb::arg("type_name"), ReleaseGil(),
-           "A topic whose readers are given, and whose writers forward, any bytes under the type's name: its number.");
+           "A topic for who checks the bytes himself: its number.");
   nb::class_<QosProfile>(wire, "QosProfile", "The four policies ROS programs set.")
       .def(
           "__init__",

@@ -186,6 +186,13 @@ void Buffer::rename(TransformStream& stream, std::string_view authority) {
 
 DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size,
                              std::size_t& stored) {
+  const DecodeFailure failure = take_in(stream, data, size, stored);
+  tell_of_last(stream);
+  return failure;
+}
+
+DecodeFailure Buffer::take_in(TransformStream& stream, const std::uint8_t* data, std::size_t size,
+                              std::size_t& stored) {
   stored = 0;
   const DecodeFailure failure = decode_tf_message(data, size, stream.decoded, stream.expected);
   const std::size_t transforms = stream.decoded.size();
@@ -201,12 +208,15 @@ DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, 
     }
     if (transforms > 0) count_change();
   }
-  tell(stream.inserted.data(), transforms);
+  return failure;
+}
+
+void Buffer::tell_of_last(TransformStream& stream) {
+  tell(stream.inserted.data(), stream.inserted.size());
   if (stream.decoded.capacity() > TransformStream::kMaxRemembered) {
     stream.decoded = {};
     stream.inserted = {};
   }
-  return failure;
 }
 
 void Buffer::store(TransformStream& stream, std::size_t index, const TransformView& view, Inserted& inserted) {
@@ -307,11 +317,6 @@ bool Buffer::quick_lookup(PathCache& paths, FrameId target, FrameId source, Stam
   if (!follow_path(tree_, paths, target, source, when, pose) || !tree_.revision().unchanged(revision)) return false;
   stamp = when;
   return true;
-}
-
-bool Buffer::quick_check(PathCache& paths, FrameId target, FrameId source, Stamp stamp) const {
-  const std::uint64_t revision = tree_.revision().start_reading();
-  return check_path(tree_, paths, target, source, stamp) && tree_.revision().unchanged(revision);
 }
 
 bool Buffer::lookup_full(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed,

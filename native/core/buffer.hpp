@@ -73,6 +73,9 @@ class Buffer {
   // The source has another name: notes it for the frames that its last messages told of, and for all to come.
   void rename(TransformStream& stream, std::string_view authority);
   DecodeFailure ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
+  // The same in two steps: first the transforms are there, then those who wait for them are woken.
+  DecodeFailure take_in(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
+  void tell_of_last(TransformStream& stream);
   void clear();
   // Forgets a frame with its link to its parent and those of its children to it; false if nobody knows it.
   bool remove_frame(std::string_view name);
@@ -98,7 +101,10 @@ class Buffer {
   // false may also mean that lookup() has to decide.
   bool quick_lookup(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const;
   // Whether lookup() would answer; false may also mean that it has to decide.
-  bool quick_check(PathCache& paths, FrameId target, FrameId source, Stamp stamp) const;
+  bool quick_check(PathCache& paths, FrameId target, FrameId source, Stamp stamp) const {
+    const std::uint64_t revision = tree_.revision().start_reading();
+    return check_path(tree_, paths, target, source, stamp) && tree_.revision().unchanged(revision);
+  }
   // By name; notes the numbers of the frames in the question. With `extrapolation` also beyond the data, as far as it
   // allows; it learns how far that was.
   bool answer(Question& question, Answer& answer, Failure& failure, Extrapolation* extrapolation = nullptr) const;

@@ -26,14 +26,19 @@ class Reader {
 
   template <class T>
   bool number(T& value) {
-    if (!align(sizeof(T)) || left() < sizeof(T)) return fail("the message ends inside a number");
-    std::uint8_t bytes[sizeof(T)];
-    std::memcpy(bytes, body_ + position_, sizeof(T));
+    return numbers(&value, 1);
+  }
+
+  template <class T>
+  bool numbers(T* values, std::size_t count) {
+    const std::size_t size = count * sizeof(T);
+    if (!align(sizeof(T)) || left() < size) return fail("the message ends inside a number");
+    std::memcpy(values, body_ + position_, size);
     if (swap_) {
-      for (std::size_t i = 0; i < sizeof(T) / 2; ++i) std::swap(bytes[i], bytes[sizeof(T) - 1 - i]);
+      auto* bytes = reinterpret_cast<std::uint8_t*>(values);
+      for (std::size_t i = 0; i < size; i += sizeof(T)) std::reverse(bytes + i, bytes + i + sizeof(T));
     }
-    std::memcpy(&value, bytes, sizeof(T));
-    position_ += sizeof(T);
+    position_ += size;
     return true;
   }
 
@@ -109,13 +114,22 @@ bool read_transform(Reader& reader, TransformView& view) {
   if (!reader.text(view.parent) || !reader.text(view.child)) return false;
   view.name_bytes = reader.bytes_since(names);
   view.as_expected = false;
-  for (double& value : view.values.translation) {
-    if (!reader.number(value)) return false;
+  return reader.numbers(view.values.translation, 3) && reader.numbers(view.values.rotation, 4);
+}
+
+// `read` reads a transform by its number, or tells that it cannot.
+template <class Read>
+DecodeFailure read_message(const std::uint8_t* data, std::size_t size, std::uint32_t& count, Read&& read) {
+  if (size < kHeader) return {size, "the message is shorter than its 4-byte header"};
+  if (data[0] != 0 || data[1] > 1) return {0, "the header does not say plain CDR (00 01 or 00 00)"};
+  Reader reader(data + kHeader, size - kHeader, data[1] == 0);
+  bool complete = reader.number(count);
+  for (std::uint32_t i = 0; complete && i < count; ++i) complete = read(reader, i);
+  if (!complete) return {kHeader + reader.position(), reader.reason()};
+  if (reader.left() > kLargestPadding) {
+    return {kHeader + reader.position(), "bytes are left over after the last transform"};
   }
-  for (double& value : view.values.rotation) {
-    if (!reader.number(value)) return false;
-  }
-  return true;
+  return {};
 }
 
 class Writer {
@@ -147,25 +161,19 @@ class Writer {
 
 DecodeFailure decode_tf_message(const std::uint8_t* data, std::size_t size, std::vector<TransformView>& out,
                                 std::span<const ExpectedNames> expected) {
-  const auto fail = [&](std::size_t offset, const char* reason) {
-    out.clear();
-    return DecodeFailure{offset, reason};
-  };
-  if (size < kHeader) return fail(size, "the message is shorter than its 4-byte header");
-  if (data[0] != 0 || data[1] > 1) return fail(0, "the header does not say plain CDR (00 01 or 00 00)");
-  Reader reader(data + kHeader, size - kHeader, data[1] == 0);
-  std::uint32_t count;
-  bool complete = reader.number(count);
-  for (std::uint32_t i = 0; complete && i < count; ++i) {
+  std::uint32_t count = 0;
+  const DecodeFailure failure = read_message(data, size, count, [&](Reader& reader, std::uint32_t i) {
     if (i == out.size()) out.emplace_back();  // else that of an earlier message is written over
-    complete = (i < expected.size() && reader.transform(expected[i], out[i])) || read_transform(reader, out[i]);
-  }
-  if (!complete) return fail(kHeader + reader.position(), reader.reason());
-  if (reader.left() > kLargestPadding) {
-    return fail(kHeader + reader.position(), "bytes are left over after the last transform");
-  }
-  out.resize(count);
-  return {};
+    return (i < expected.size() && reader.transform(expected[i], out[i])) || read_transform(reader, out[i]);
+  });
+  out.resize(failure.reason ? 0 : count);
+  return failure;
+}
+
+DecodeFailure check_tf_message(const std::uint8_t* data, std::size_t size) {
+  std::uint32_t count;
+  TransformView view;
+  return read_message(data, size, count, [&](Reader& reader, std::uint32_t) { return read_transform(reader, view); });
 }
 
 std::string encode_tf_message(const std::vector<TransformView>& transforms) {

@@ -38,6 +38,9 @@ struct DecodeFailure {
 DecodeFailure decode_tf_message(const std::uint8_t* data, std::size_t size, std::vector<TransformView>& out,
                                 std::span<const ExpectedNames> expected = {});
 
+// Whether decode_tf_message() would decode it.
+DecodeFailure check_tf_message(const std::uint8_t* data, std::size_t size);
+
 // Little endian, as ROS 2 writes it.
 std::string encode_tf_message(const std::vector<TransformView>& transforms);
 

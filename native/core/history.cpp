@@ -116,20 +116,9 @@ History::History() { grow(); }
 
 History::~History() = default;
 
-bool History::place(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const {
-  const View samples = view();
-  Pair pair;
-  if (!samples.surrounded(stamp, hint, pair)) {
-    if (samples.surrounded(stamp, hint + 1, pair)) {
-      ++hint;
-    } else if (samples.find(stamp, pair, hint) != Found::ok) {
-      return false;
-    }
-  }
-  if (pair.older->parent() != parent || pair.newer->parent() != parent) return false;
-  link.older = pair.older->numbers();
-  link.newer = pair.newer->numbers();
-  link.share = pair.part / pair.whole;
+bool History::find_elsewhere(const View& samples, Stamp stamp, std::uint64_t& hint, Pair& pair) {
+  if (!samples.surrounded(stamp, hint + 1, pair)) return samples.find(stamp, pair, hint) == Found::ok;
+  ++hint;
   return true;
 }
 
@@ -173,6 +162,9 @@ Insertion History::insert_fixed(const HistoryContext& context, const Sample& sam
   const Revision::Change change(context.revision);
   fixed_.store(sample);
   end_.store(begin_ + 1, std::memory_order_release);
+  parent_ = sample.parent;
+  first_.store(kFirstStamp, std::memory_order_release);
+  last_.store(kLastStamp, std::memory_order_release);
   return Insertion::appended;
 }
 
@@ -195,6 +187,9 @@ void History::share(const History& other) {
   fixed_.store(other.fixed_.load());
   begin_ = samples.begin_;
   end_ = samples.end_;
+  first_ = other.first_.load();
+  last_ = other.last_.load();
+  parent_ = other.parent_.get();
   if (samples.empty() || samples.is_static()) return;
   auto copy = std::make_unique<Directory>(samples.directory_->mask + 1);
   for (std::uint64_t n = samples.begin_ / Chunk::kSize; n <= (samples.end_ - 1) / Chunk::kSize; ++n) {
@@ -212,13 +207,16 @@ void History::append(const HistoryContext& context, Stamp stamp, const Sample& s
   const std::uint64_t index = end_;
   if (index % Chunk::kSize == 0) add_chunk(context);
   put(index, stamp, sample);
+  parent_ = sample.parent;
+  if (index == begin_) first_.store(stamp, std::memory_order_release);
   end_.store(index + 1, std::memory_order_release);
+  last_.store(stamp, std::memory_order_release);
 }
 
 // Chunk by chunk.
 std::size_t History::append_run(const HistoryContext& context, const Stamp* stamps, const double* rows,
                                 std::size_t count, FrameId parent) {
-  Stamp newest = view().newest();
+  Stamp newest = last_;
   std::size_t stored = 0;
   while (stored < count && stamps[stored] > newest) {
     const std::uint64_t start = end_;
@@ -236,6 +234,7 @@ std::size_t History::append_run(const HistoryContext& context, const Stamp* stam
     kernels().store_samples(rows + 7 * stored, run, parent, chunk.samples[first].numbers());
     stored += run;
     end_.store(start + run, std::memory_order_release);
+    last_.store(newest, std::memory_order_release);
     prune(context, before);
   }
   return stored;
@@ -254,6 +253,7 @@ void History::put_at(const HistoryContext& context, std::size_t position, Stamp 
     put(last, from.stamps[i], from.samples[i].load());
   }
   put(first, stamp, sample);
+  if (position == 0) first_.store(stamp, std::memory_order_release);
   end_.store(end_ + 1, std::memory_order_release);
 }
 
@@ -284,8 +284,9 @@ void History::own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end
 void History::drop_older_than(ChunkPool& pool, Stamp stamp) {
   const std::uint64_t first = begin_.load(std::memory_order_relaxed), end = end_.load(std::memory_order_relaxed);
   std::uint64_t begin = first;
-  while (begin < end && chunk_at(begin)->stamps[begin % Chunk::kSize] < stamp) ++begin;
+  while (begin + 1 < end && chunk_at(begin)->stamps[begin % Chunk::kSize] < stamp) ++begin;
   if (begin == first) return;
+  first_.store(chunk_at(begin)->stamps[begin % Chunk::kSize], std::memory_order_release);
   begin_.store(begin, std::memory_order_release);
   for (std::uint64_t n = first / Chunk::kSize; n < begin / Chunk::kSize; ++n) pool.release(chunk_at(n * Chunk::kSize));
 }
@@ -301,6 +302,8 @@ void History::drop_all(ChunkPool& pool) {
   const std::uint64_t next = (end + Chunk::kSize - 1) / Chunk::kSize * Chunk::kSize;
   begin_.store(next, std::memory_order_release);
   end_.store(next, std::memory_order_release);
+  first_.store(kLastStamp, std::memory_order_release);
+  last_.store(kFirstStamp, std::memory_order_release);
   one_parent_ = true;
 }
 

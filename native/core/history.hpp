@@ -19,6 +19,7 @@
 namespace coframe {
 
 inline constexpr Stamp kKeepAll = -1;  // a cache length without end
+inline constexpr Stamp kFirstStamp = std::numeric_limits<Stamp>::min(), kLastStamp = std::numeric_limits<Stamp>::max();
 
 // What a sample's search came to.
 enum class Found { ok, empty, only_other, too_new, too_old };
@@ -100,16 +101,6 @@ class History {
       if (start >= stamp || stamp >= end || whole < 0) return false;
       pair = {&chunk.samples[i - 1], &chunk.samples[i], static_cast<double>(stamp - start), static_cast<double>(whole)};
       return true;
-    }
-    // Whether there are samples, the newest of them told in `parent`; `first` and `last` get the stamps of both ends.
-    // Not for a static history.
-    bool reach(FrameId parent, Stamp& first, Stamp& last) const {
-      if (empty()) return false;
-      const Chunk& chunk = chunk_of(end_ - 1);
-      const std::size_t back = (end_ - 1) % Chunk::kSize;
-      first = stamp_of(begin_);
-      last = chunk.stamps[back];
-      return chunk.samples[back].parent() == parent;
     }
     // Index of the first sample newer than `stamp`; size() if there is none.
     std::size_t first_after(Stamp stamp) const;
@@ -217,12 +208,36 @@ class History {
     view.directory_ = directory_.load(std::memory_order_acquire);
     return view;
   }
+  // From which stamp to which there are samples, and the frame that the newest is told in: without a look at the samples
+  // themselves. A static history reaches from the first of all stamps to the last, an empty one from the last to the
+  // first.
+  struct Reach {
+    Stamp first, last;
+    FrameId parent;
+  };
+  // The last stamp before the parent: who sees a newer sample sees the frame that it is told in.
+  Reach reach() const {
+    Reach reach;
+    reach.last = last_.load(std::memory_order_acquire);
+    reach.first = first_.load(std::memory_order_acquire);
+    reach.parent = parent_;
+    return reach;
+  }
   // True while every sample has the same parent: paths through this history may then be remembered.
   bool one_parent() const { return one_parent_; }
 
   // Where on its way the pose at `stamp` lies, if it is told in `parent`; false where View::at() has to say why not.
   // `hint` is of the caller's last question: the next one is mostly about a time close by.
-  bool place(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const;
+  bool place(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const {
+    const View samples = view();
+    Pair pair;
+    if (!samples.surrounded(stamp, hint, pair) && !find_elsewhere(samples, stamp, hint, pair)) return false;
+    if (pair.older->parent() != parent || pair.newer->parent() != parent) return false;
+    link.older = pair.older->numbers();
+    link.newer = pair.newer->numbers();
+    link.share = pair.part / pair.whole;
+    return true;
+  }
   // Whether a sample is told in that frame.
   bool mentions(FrameId parent) const;
 
@@ -235,16 +250,16 @@ class History {
   // case. False: nothing was done.
   bool append_newer(const HistoryContext& context, Stamp stamp, const Sample& sample) {
     const std::uint64_t end = end_.load(std::memory_order_relaxed);
-    if (kind_ != HistoryKind::dynamic || !one_parent_ || end % Chunk::kSize == 0) return false;
-    if (begin_.load(std::memory_order_relaxed) >= end) return false;
-    Chunk& chunk = *chunk_at(end);
-    const std::size_t i = end % Chunk::kSize;
-    const Stamp newest = chunk.stamps[i - 1];
-    if (stamp <= newest || chunk.samples[i - 1].parent() != sample.parent) return false;
+    const std::size_t i = end % Chunk::kSize;  // 0 also where there are no samples yet
+    if (kind_ != HistoryKind::dynamic || !one_parent_ || i == 0) return false;
+    const Stamp newest = last_.load(std::memory_order_relaxed);
+    if (stamp <= newest || parent_ != sample.parent) return false;
     prune(context, newest);
+    Chunk& chunk = *chunk_at(end);
     chunk.stamps[i] = stamp;
     chunk.samples[i].store(sample);
     end_.store(end + 1, std::memory_order_release);
+    last_.store(stamp, std::memory_order_release);
     return true;
   }
   // Stores rows of 7, x, y, z, qx, qy, qz, qw, that can be normalised, as long as each is newer than the one before and
@@ -260,28 +275,23 @@ class History {
   void release(ChunkPool& pool);
 
  private:
+  static bool find_elsewhere(const View& samples, Stamp stamp, std::uint64_t& hint, Pair& pair);
   Insertion insert_behind(const HistoryContext& context, Stamp stamp, const Sample& sample);
   Insertion insert_fixed(const HistoryContext& context, const Sample& sample);
   void append(const HistoryContext& context, Stamp stamp, const Sample& sample);
   void put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample);
   void add_chunk(const HistoryContext& context);
   void own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end);
-  // Of a dynamic history with samples.
-  Stamp oldest() const {
-    const std::uint64_t first = begin_.load(std::memory_order_relaxed);
-    return chunk_at(first)->stamps[first % Chunk::kSize];
-  }
   // By the newest stamp there was before the last insertion; returns the earliest stamp that is kept.
   Stamp prune(const HistoryContext& context, Stamp newest) {
-    if (context.cache_length == kKeepAll) return std::numeric_limits<Stamp>::min();
+    if (context.cache_length == kKeepAll) return kFirstStamp;
     const Stamp start = minus(newest, context.cache_length);
-    if (oldest() < start) drop_older_than(context.pool, start);
+    if (first_.load(std::memory_order_relaxed) < start) drop_older_than(context.pool, start);
     return start;
   }
   // Saturating: stamps may come from anywhere.
   static Stamp minus(Stamp stamp, Stamp length) {
-    constexpr Stamp least = std::numeric_limits<Stamp>::min();
-    return stamp < least + length ? least : stamp - length;
+    return stamp < kFirstStamp + length ? kFirstStamp : stamp - length;
   }
   void drop_older_than(ChunkPool& pool, Stamp stamp);
   void drop_all(ChunkPool& pool);
@@ -295,6 +305,9 @@ class History {
   std::atomic<const Directory*> directory_{nullptr};
   std::atomic<std::uint64_t> begin_{0};  // samples are numbered through the history's life
   std::atomic<std::uint64_t> end_{0};
+  // What reach() tells: of the samples from begin_ to end_, or of fewer while they change.
+  std::atomic<Stamp> first_{kLastStamp}, last_{kFirstStamp};
+  Relaxed<FrameId> parent_{0};
   Relaxed<HistoryKind> kind_{HistoryKind::none};
   Relaxed<bool> one_parent_{true};
   SharedSample fixed_;  // the one sample of a static history

@@ -8,7 +8,7 @@ namespace coframe {
 
 namespace {
 
-constexpr Stamp kNoTime = std::numeric_limits<Stamp>::max();
+constexpr Stamp kNoTime = kLastStamp;
 
 // `source_end` is 0 where it is the walk up from the source that does not end.
 bool fail_loop(FrameId target, FrameId source, Stamp stamp, FrameId source_end, Failure& failure) {
@@ -144,7 +144,7 @@ void keep_earlier(Stamp stamp, Stamp& common) {
 
 Stamp path_common_time(const std::vector<PathCache::Step>& steps) {
   Stamp common = kNoTime;
-  for (const PathCache::Step& link : steps) keep_earlier(link.history->view().newest(), common);
+  for (const PathCache::Step& link : steps) keep_earlier(link.history->reach().last, common);
   return common == kNoTime ? 0 : common;
 }
 
@@ -165,27 +165,6 @@ bool follow_path(const Tree& tree, PathCache& paths, FrameId target, FrameId sou
   stamp = when;
   canonicalise(pose.q);
   return true;
-}
-
-// All links have samples at a time that lies in what all of them reach.
-bool check_path(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp stamp) {
-  const PathCache::Path* path = paths.find(tree, target, source);
-  if (!path) return false;
-  Stamp begin = std::numeric_limits<Stamp>::min(), end = kNoTime, common = kNoTime;
-  for (const PathCache::Step& link : path->steps) {
-    const History::View samples = link.history->view();
-    if (samples.is_static()) {
-      if (samples.parent() != link.parent) return false;
-      continue;
-    }
-    Stamp first, last;
-    if (!samples.reach(link.parent, first, last)) return false;
-    begin = std::max(begin, first);
-    end = std::min(end, last);
-    keep_earlier(last, common);
-  }
-  const Stamp when = stamp != 0 ? stamp : common;
-  return when == kNoTime || when == 0 || (begin <= when && when <= end);
 }
 
 bool lookup(const Tree& tree, PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,

@@ -1,8 +1,8 @@
 // From frame to frame through the tree at one time: tf2's lookupTransform over a Tree.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "core/error.hpp"
@@ -20,8 +20,20 @@ bool lookup(const Tree& tree, PathCache* paths, FrameId target, FrameId source, 
 
 // The same along a remembered path, for two different frames; false where lookup() has to decide.
 bool follow_path(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose);
-// Whether follow_path() would answer.
-bool check_path(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp stamp);
+// Whether follow_path() would answer: all links have samples at a time that lies in what all of them reach.
+inline bool check_path(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp stamp) {
+  const PathCache::Path* path = paths.find(tree, target, source);
+  if (!path) return false;
+  Stamp begin = kFirstStamp, end = kLastStamp;
+  for (const PathCache::Step& link : path->steps) {
+    const History::Reach reach = link.history->reach();
+    if (reach.parent != link.parent) return false;
+    begin = std::max(begin, reach.first);
+    end = std::min(end, reach.last);
+  }
+  if (stamp != 0) return begin <= stamp && stamp <= end;
+  return begin <= end && end != 0;  // a newest stamp of zero does not hold the common time back
+}
 
 // The same beyond the data of a link, as far as `extrapolation` allows, which then knows how far it went.
 bool lookup(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,

@@ -11,6 +11,8 @@ void PathCache::update(const Tree& tree, FrameId target, FrameId source, Path& p
   path.version = tree.revision().unchanged(revision) ? version : 0;
 }
 
+void PathCache::make_room() { paths_.resize(kEntries); }
+
 void PathCache::walk(const Tree& tree, FrameId target, FrameId source, Path& path) {
   const auto climb = [&tree](FrameId frame, std::vector<Link>& links) {
     for (;;) {

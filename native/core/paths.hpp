@@ -39,6 +39,7 @@ class PathCache {
 
  private:
   friend class PathLease;
+  void make_room();
   // A new path takes the place of another: a program may ask for every pair of a thousand frames.
   static constexpr std::size_t kEntries = 2048;
 
@@ -52,7 +53,7 @@ class PathCache {
     return (static_cast<std::uint64_t>(target) << 32) | source;
   }
   Path& place(FrameId target, FrameId source) {
-    if (paths_.empty()) paths_.resize(kEntries);
+    if (paths_.empty()) make_room();
     return paths_[(key_of(target, source) * 0x9e3779b97f4a7c15u) >> 53];
   }
 

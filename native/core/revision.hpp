@@ -13,11 +13,8 @@ class Revision {
  public:
   // Waits while a change is under way; what is read from now on is good if unchanged() says so afterwards.
   std::uint64_t start_reading() const {
-    for (int turn = 0;; ++turn) {
-      const std::uint64_t now = number_.load(std::memory_order_acquire);
-      if (now % 2 == 0) return now;
-      step_back(turn);
-    }
+    const std::uint64_t now = number_.load(std::memory_order_acquire);
+    return now % 2 == 0 ? now : wait_for_writer();
   }
   bool unchanged(std::uint64_t since) const {
     std::atomic_thread_fence(std::memory_order_acquire);
@@ -41,6 +38,14 @@ class Revision {
 
  private:
   void raise(std::memory_order order) { number_.store(number_.load(std::memory_order_relaxed) + 1, order); }
+
+  std::uint64_t wait_for_writer() const {
+    for (int turn = 0;; ++turn) {
+      const std::uint64_t now = number_.load(std::memory_order_acquire);
+      if (now % 2 == 0) return now;
+      step_back(turn);
+    }
+  }
 
   // A writer that was put to sleep in the middle needs the processor to go on.
   static void step_back(int turn) {

@@ -63,7 +63,8 @@ void store_column(const Column& to, std::size_t begin, std::size_t end, const do
 }
 
 // Of packed points all but the last few.
-std::size_t load_packed(const Columns& from, std::size_t n, const Points& out) {
+std::size_t load_packed([[maybe_unused]] const Columns& from, [[maybe_unused]] std::size_t n,
+                        [[maybe_unused]] const Points& out) {
   std::size_t i = 0;
 #if COFRAME_LANES > 1
   if (!are_packed(from)) return 0;
@@ -77,7 +78,8 @@ std::size_t load_packed(const Columns& from, std::size_t n, const Points& out) {
   return i;
 }
 
-std::size_t store_packed(const Columns& to, std::size_t n, const Points& in) {
+std::size_t store_packed([[maybe_unused]] const Columns& to, [[maybe_unused]] std::size_t n,
+                         [[maybe_unused]] const Points& in) {
   std::size_t i = 0;
 #if COFRAME_LANES > 1
   if (!are_packed(to)) return 0;
@@ -93,7 +95,8 @@ std::size_t store_packed(const Columns& to, std::size_t n, const Points& in) {
 }
 
 // Packed points without a stop on the way.
-std::size_t transform_packed(const Affine& affine, std::size_t n, const Columns& columns) {
+std::size_t transform_packed([[maybe_unused]] const Affine& affine, [[maybe_unused]] std::size_t n,
+                             [[maybe_unused]] const Columns& columns) {
   std::size_t i = 0;
 #if COFRAME_LANES > 1
   if (!are_packed(columns)) return 0;

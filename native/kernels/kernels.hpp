@@ -74,6 +74,17 @@ struct Link {
   bool down;  // from parent to child
 };
 
+// What a joint does with the link behind it.
+enum class JointKind : std::uint8_t { still, turning, sliding, planar, floating };
+
+// Where the link behind a joint is, told in the link before it: at position 0 at `origin`.
+struct JointMotion {
+  JointKind kind = JointKind::still;
+  Pose origin;
+  double turn[4];      // the origin's quaternion times the axis, of what turns
+  double slide[2][3];  // where a metre takes it, of what slides: in a plane there are two ways
+};
+
 struct Span {
   std::int64_t first, last;
 };

@@ -154,6 +154,24 @@ COFRAME_INLINE void store_shared_columns(Lanes first, Lanes second, double* cons
 }
 #endif
 
+// Four numbers of kLanes rows, which lie `step` numbers apart.
+COFRAME_INLINE void store_fours(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d, double* row,
+                                std::size_t step) {
+#if COFRAME_LANES == 4
+  const __m256d low_ab = _mm256_unpacklo_pd((__m256d)a, (__m256d)b), high_ab = _mm256_unpackhi_pd((__m256d)a, (__m256d)b);
+  const __m256d low_cd = _mm256_unpacklo_pd((__m256d)c, (__m256d)d), high_cd = _mm256_unpackhi_pd((__m256d)c, (__m256d)d);
+  _mm256_storeu_pd(row, _mm256_permute2f128_pd(low_ab, low_cd, 0x20));
+  _mm256_storeu_pd(row + step, _mm256_permute2f128_pd(high_ab, high_cd, 0x20));
+  _mm256_storeu_pd(row + 2 * step, _mm256_permute2f128_pd(low_ab, low_cd, 0x31));
+  _mm256_storeu_pd(row + 3 * step, _mm256_permute2f128_pd(high_ab, high_cd, 0x31));
+#else
+  double* rows[kLanes];
+  for (std::size_t k = 0; k < kLanes; ++k) rows[k] = row + k * step;
+  store_columns(a, b, rows, 0);
+  store_columns(c, d, rows, 2);
+#endif
+}
+
 COFRAME_INLINE Lanes load_lanes(const double* numbers) {
   Lanes lanes;
   std::memcpy(&lanes, numbers, sizeof(lanes));

@@ -2,13 +2,12 @@
 #include "kernels/arc.hpp"
 #include "kernels/lanes.hpp"
 #include "kernels/level.hpp"
+#include "kernels/pose_rows.hpp"
 #include "kernels/rotation.hpp"
 
 namespace coframe::COFRAME_LEVEL {
 
 namespace {
-
-using PoseLanes = Step<Lanes>;
 
 struct TwistLanes {
   Vector<Lanes> linear, angular;
@@ -27,26 +26,6 @@ COFRAME_INLINE Vector<Lanes> load_translations(const double* const* samples) {
   load_columns(samples, 4, p.x, p.y);
   load_columns(samples, 6, p.z, other);
   return p;
-}
-
-COFRAME_INLINE PoseLanes splat(const Pose& pose) {
-  return {{splat(pose.q[0]), splat(pose.q[1]), splat(pose.q[2]), splat(pose.q[3])},
-          {splat(pose.p[0]), splat(pose.p[1]), splat(pose.p[2])}};
-}
-
-COFRAME_INLINE PoseLanes load(const PoseRows& rows, std::size_t i) {
-  return {{load_lanes(rows.q[0] + i), load_lanes(rows.q[1] + i), load_lanes(rows.q[2] + i), load_lanes(rows.q[3] + i)},
-          {load_lanes(rows.p[0] + i), load_lanes(rows.p[1] + i), load_lanes(rows.p[2] + i)}};
-}
-
-COFRAME_INLINE void store(const PoseLanes& pose, PoseRows& rows, std::size_t i) {
-  store_lanes(pose.q.x, rows.q[0] + i);
-  store_lanes(pose.q.y, rows.q[1] + i);
-  store_lanes(pose.q.z, rows.q[2] + i);
-  store_lanes(pose.q.w, rows.q[3] + i);
-  store_lanes(pose.p.x, rows.p[0] + i);
-  store_lanes(pose.p.y, rows.p[1] + i);
-  store_lanes(pose.p.z, rows.p[2] + i);
 }
 
 COFRAME_INLINE TwistLanes load(const TwistRows& rows, std::size_t i) {

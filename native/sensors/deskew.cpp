@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "core/parts.hpp"
 #include "sensors/trajectory.hpp"
 
 namespace coframe {
@@ -246,7 +247,7 @@ Missing deskew(const Buffer& buffer, const Deskewing& how, const Grid& grid,
   plain = plain && span.first >= trajectory.earliest() && span.last <= trajectory.latest();
   const Missing missing = plain ? Missing{} : count_missing(trajectory, how, count, latest);
   if (!goes_on(missing, how, count)) return missing;
-  in_parts(count, how.threads, [&](std::size_t begin, std::size_t end) {
+  in_parts(count, kPointBlock, how.threads, [&](std::size_t begin, std::size_t end) {
     Worker(trajectory, how, latest, plain).run(grid, coordinates, begin, end);
   });
   return missing;

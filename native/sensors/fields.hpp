@@ -1,11 +1,7 @@
 // Where the coordinates of points lie, and a block of them at work.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
-#include <system_error>
-#include <thread>
-#include <vector>
 
 #include "kernels/kernels.hpp"
 
@@ -75,24 +71,6 @@ inline Affine affine_of(const Pose& pose, bool is_direction) {
   return {{{1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y), moved * pose.p[0]},
            {2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x), moved * pose.p[1]},
            {2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y), moved * pose.p[2]}}};
-}
-
-// Calls body(first, last) for parts of [0, count), each in a thread of its own; the last may not be more than asked for.
-template <class Body>
-void in_parts(std::size_t count, unsigned threads, Body&& body) {
-  const std::size_t blocks = (count + kPointBlock - 1) / kPointBlock;
-  const std::size_t parts = std::clamp<std::size_t>(threads, 1, std::max<std::size_t>(blocks, 1));
-  const auto border = [&](std::size_t part) { return std::min(count, blocks * part / parts * kPointBlock); };
-  std::vector<std::thread> others;
-  for (std::size_t part = 1; part < parts; ++part) {
-    try {
-      others.emplace_back([&, part] { body(border(part), border(part + 1)); });
-    } catch (const std::system_error&) {  // no more threads to be had
-      body(border(part), border(part + 1));
-    }
-  }
-  body(border(0), border(1));
-  for (std::thread& other : others) other.join();
 }
 
 }  // namespace coframe

@@ -62,10 +62,12 @@ TfReader::Source& TfReader::source_of(dds::Handle writer) {
 
 void TfReader::store(const dds::Sample& sample) {
   const auto bytes = sample.bytes();
+  TransformStream& stream = source_of(sample.info().publication_handle).stream;
   std::size_t stored = 0;
   // What is malformed the buffer counts.
-  buffer_->ingest(source_of(sample.info().publication_handle).stream, bytes.data(), bytes.size(), stored);
+  buffer_->take_in(stream, bytes.data(), bytes.size(), stored);
   if (stored > 0) stored_at_.store(now(), std::memory_order_release);
+  buffer_->tell_of_last(stream);
 }
 
 }  // namespace coframe

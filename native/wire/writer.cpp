@@ -2,9 +2,13 @@
 
 #include <stdexcept>
 
+#include "core/cdr.hpp"
+
 namespace coframe {
 
-Writer::Writer(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data) {
+Writer::Writer(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
+               bool unchecked)
+    : unchecked_(unchecked) {
   const QosPointer qos = make_qos(profile, user_data);
   entity_ = dds::check(dds::functions().dds_create_writer(participant, topic, qos.get(), nullptr), "create a writer");
 }
@@ -20,25 +24,36 @@ void check_encapsulation(std::size_t size) {
 void Writer::write(const void* data, std::size_t size) const {
   check_encapsulation(size);
   const dds::SampleContainer sample{data, size};
-  dds::check(dds::functions().dds_write(entity_, &sample), "write");
+  dds::check(unchecked_ ? write_unchecked(data, size) : dds::functions().dds_write(entity_, &sample), "write");
 }
 
 void Writer::forward(const void* data, std::size_t size) const {
   check_encapsulation(size);
+  dds::check(pass_on(data, size), "write");
+}
+
+dds::Code Writer::write_unchecked(const void* data, std::size_t size) const {
+  const bool is_damaged = check_tf_message(static_cast<const std::uint8_t*>(data), size).reason != nullptr;
+  return is_damaged ? dds::kBadParameter : pass_on(data, size);
+}
+
+dds::Code Writer::pass_on(const void* data, std::size_t size) const {
   const dds::Functions& f = dds::functions();
-  const dds::Sertype* type = nullptr;
-  dds::check(f.dds_get_entity_sertype(entity_, &type), "read the writer's type");
-  dds::IoVector bytes{};
-  bytes.data = const_cast<void*>(data);
-  bytes.size = static_cast<decltype(bytes.size)>(size);
-  dds::Serdata* sample = f.ddsi_serdata_from_ser_iov(type, dds::kWholeSample, 1, &bytes, size);
-  if (sample == nullptr) throw std::invalid_argument("the encapsulation is none that DDS knows");
-  dds::check(f.dds_writecdr(entity_, sample), "write");  // which takes the sample
+  const std::lock_guard lock(closing_);
+  const dds::Sertype* type;
+  if (const dds::Code code = f.dds_get_entity_sertype(entity_, &type); code < 0) return code;
+  dds::IoVector whole{};
+  whole.data = const_cast<void*>(data);
+  whole.size = static_cast<decltype(whole.size)>(size);
+  dds::Serdata* sample = f.ddsi_serdata_from_ser_iov(type, dds::kData, 1, &whole, size);  // copies the bytes
+  return sample ? f.dds_writecdr(entity_, sample) : dds::kBadParameter;                   // takes the sample
 }
 
 void Writer::close() noexcept {
+  if (dds::forked()) return;
+  const std::lock_guard lock(closing_);
   const dds::Entity entity = entity_.exchange(0);
-  if (entity > 0 && !dds::forked()) dds::functions().dds_delete(entity);
+  if (entity > 0) dds::functions().dds_delete(entity);
 }
 
 dds::Guid Writer::guid() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,9 @@ namespace coframe {
 
 class Writer {
  public:
-  Writer(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data);
+  // `unchecked`: the topic is a dds::create_unchecked_topic() of transforms, and this checks what is written.
+  Writer(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
+         bool unchecked);
   ~Writer() { close(); }
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
@@ -29,6 +32,11 @@ class Writer {
   dds::IncompatibleQosStatus incompatible() const;
 
  private:
+  dds::Code write_unchecked(const void* data, std::size_t size) const;
+  dds::Code pass_on(const void* data, std::size_t size) const;
+
+  const bool unchecked_;
+  mutable std::mutex closing_;  // held while the topic's type, which ends with the entity, is used
   std::atomic<dds::Entity> entity_ = 0;
 };
 

@@ -361,6 +361,12 @@ def insert_texts(
 ) -> list[tuple[str, str]]:
     """tf2's log lines for a transform that set_values refused: (level, text)."""
 
+def register_buffer_class(cls: type[Buffer]) -> None:
+    """Gives a class on top of Buffer the most frequent methods as its own.
+
+    CPython has a shorter way to call those of an object's very class.
+    """
+
 def register_transform_class(cls: type[Transform]) -> None:
     """Look-ups return instances of `cls`, a subclass of Transform."""
 
@@ -406,6 +412,46 @@ def transform_columns(
         first.
     """
 
+class JointTree:
+    """A tree of joints, and where all its links are.
+
+    Args:
+        root: The link that no joint moves.
+        joints: Parents before children: name, type, parent link, child link, origin (x, y, z, qx, qy, qz, qw), axis,
+            and whom it follows, (joint, multiplier, offset), or None.
+
+    Raises:
+        ValueError: A parent stands behind its child, or joints follow each other in a circle.
+    """
+
+    def __init__(self, root: str, joints: list[tuple[object, ...]]) -> None: ...
+    def transforms(self, positions: dict[str, Any], in_root: bool) -> dict[str, PublicTransform] | None:
+        """Of one configuration, by link in the root link, or by joint in the link before it.
+
+        Args:
+            positions: By joint: a number, or a list or tuple of them for a joint that has several.
+            in_root: Which of the two.
+
+        Returns:
+            None where a position is not finite, not of the joint's size, or of no joint that moves.
+        """
+
+    def poses_into(
+        self, positions: list[tuple[str, Any]], count: int, in_root: bool, out: Any, threads: int
+    ) -> str | None:
+        """Of many configurations.
+
+        Args:
+            positions: (joint, float64 array): (N,), of a joint with several numbers (N, size), of any strides.
+            count: N.
+            in_root: As of transforms().
+            out: Is filled: (J, N, 7) float64, in the order of the joints.
+            threads: So many share the work.
+
+        Returns:
+            The first joint found with a position that is not finite, or a quaternion of zero; None if there is none.
+        """
+
 def transform_fields(pose: Sequence[float], fields: Sequence[Sequence[Any]], threads: int) -> None:
     """Moves points by a pose (x, y, z, qx, qy, qz, qw), in place.
 
@@ -442,27 +488,38 @@ def deskew_fields(
         How many points have no transform, and the first of them. If all of them, none is touched.
     """
 
-def poses_into(
-    buffer: Buffer,
-    fixed: str,
-    frames: list[str],
-    roots: list[str | None],
-    stamp: int,
-    hold: int,
-    poses: Any,
-    told: Any,
-) -> None:
-    """Many frames at one time, seen from one of them.
+class PoseTable:
+    """Many frames, looked up together again and again; for one thread.
 
     Args:
         buffer: Where they are looked up.
         fixed: The frame that the poses are told in.
         frames: N frames.
         roots: None, or the frame that a frame is seen from instead of `fixed`.
-        stamp: Nanoseconds; 0 is the latest, for each frame its own.
-        hold: How many nanoseconds beyond its samples a link is taken to stand still.
-        poses: (N, 7) float64, gets x, y, z, qx, qy, qz, qw, or NaN.
-        told: (N,) uint8, gets 0: exactly; 1: held beyond the samples of a link; 2: not at all; 3: seen from its root.
+    """
+
+    def __init__(self, buffer: Buffer, fixed: str, frames: list[str], roots: list[str | None]) -> None: ...
+    def look_up(self, stamp: int, hold: int, poses: Any, told: Any) -> None:
+        """Where all of them are at one time.
+
+        Args:
+            stamp: Nanoseconds; 0 is the latest, for each frame its own.
+            hold: How many nanoseconds beyond its samples a link is taken to stand still.
+            poses: (N, 7) float64, gets x, y, z, qx, qy, qz, qw, or NaN.
+            told: (N,) uint8, gets 0: exactly; 1: held beyond the samples of a link; 2: not at all; 3: seen from its
+                root.
+        """
+
+def poses_near(poses: Any, told: Any, origin: Any, fixed: int, reach: float, near: Any) -> int:
+    """Poses as float32, relative to an origin; how many are far from it.
+
+    Args:
+        poses: (N, 7) float64: x, y, z, qx, qy, qz, qw.
+        told: (N,) uint8: how they were come by, as of `PoseTable.look_up`.
+        origin: (3,) float64.
+        fixed: The index of a frame that is never far; -1: none.
+        reach: How far from the origin is far, along an axis; frames are counted whose `told` is 0 or 1.
+        near: (N, 7) float32, gets the poses.
     """
 
 PUBLICATIONS: int
@@ -475,7 +532,7 @@ def load_dds(path: str) -> None:
     """Loads the DDS library; RuntimeError where it does not fit."""
 
 def create_unchecked_topic(participant: int, name: str, type_name: str) -> int:
-    """A topic whose readers are given, and whose writers forward, any bytes under the type's name: its number."""
+    """A topic for who checks the bytes himself: its number."""
 
 class QosProfile:
     """The four policies ROS programs set."""
@@ -498,7 +555,9 @@ class DomainParticipant:
 class Writer:
     """A DDS writer of serialised messages."""
 
-    def __init__(self, participant: int, topic: int, qos: QosProfile, user_data: str) -> None: ...
+    def __init__(
+        self, participant: int, topic: int, qos: QosProfile, user_data: str, unchecked: bool = False
+    ) -> None: ...
     def write(self, message: bytes) -> None:
         """Sends one serialised message, without the GIL."""
 

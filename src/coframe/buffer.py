@@ -529,6 +529,9 @@ class Buffer(_core.Buffer):
         return f"Buffer(cache={cache}, frames={len(self.frame_names())})"
 
 
+_core.register_buffer_class(Buffer)
+
+
 _REFUSED_HINT = "Names must differ and not be empty, values must be numbers, and a quaternion must not be zero."
 
 

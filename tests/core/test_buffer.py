@@ -1,5 +1,6 @@
 """The buffer's answers, refusals and texts, as spec'd by tf2."""
 
+import random
 import threading
 import time
 
@@ -243,6 +244,44 @@ def test_clear_keeps_statics_and_names(buffer):
     assert buffer.why_not("odom", "base", 11 * SECOND) == (
         ", when looking up transform from frame [base] to frame [odom]"
     )
+
+
+def test_can_transform_agrees_with_lookup_whatever_happened_before():
+    generator = random.Random(3)
+    for _ in range(30):
+        buffer = coframe.Buffer(cache=20 * SECOND)
+        for _ in range(60):
+            change(buffer, generator)
+            for asked in (buffer, buffer.snapshot()):
+                for stamp in (0, 1, *(generator.randrange(90) * SECOND for _ in range(6))):
+                    assert asked.can_transform("a", "c", stamp) == answers(asked, stamp)
+
+
+def change(buffer, generator):
+    """One of all things that may happen to a chain a <- b <- c; some of them seldom."""
+    child = generator.choice("bc")
+    parent = "a" if child == "b" else generator.choice("bbbbba")
+    stamp = generator.randrange(90) * SECOND
+    match generator.randrange(20):
+        case 0:
+            buffer.set(parent, child, coframe.Transform(), static=True)
+        case 1:
+            buffer.clear()
+        case 2 if child in buffer:
+            buffer.remove_frame(child)
+        case 3 | 4:
+            stamps = np.arange(stamp, stamp + 5 * SECOND, SECOND)
+            buffer.set_many(parent, child, stamps, np.tile([0.0, 0, 0, 0, 0, 0, 1], (5, 1)))
+        case _:
+            buffer.set(parent, child, coframe.Transform([stamp, 0, 0]), stamp)
+
+
+def answers(buffer, stamp):
+    try:
+        buffer.lookup("a", "c", stamp)
+    except coframe.TransformException:
+        return False
+    return True
 
 
 def test_time_travel(buffer):

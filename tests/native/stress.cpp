@@ -332,7 +332,10 @@ class Reader {
     const FrameId target_id = buffer_.find(target), source_id = buffer_.find(source);
     if (target_id == 0 || source_id == 0) return false;
     Failure failure;
+    const bool was_possible = target_id != source_id && buffer_.quick_check(paths_, target_id, source_id, stamp);
     const bool ok = buffer_.lookup(target_id, source_id, stamp, pose, failure);
+    const bool is_dropped = failure.code == ErrorCode::too_old || failure.code == ErrorCode::only_other;
+    expect(ok || !was_possible || !world_.always_there || is_dropped, "what was possible is not");
     return count(ok, failure, kind);
   }
 
@@ -549,6 +552,7 @@ class Reader {
   World& world_;
   Buffer& buffer_;
   Tally& tally_;
+  PathCache paths_;
   const int number_;
   int promises_ = 0;
   std::mt19937 rng_;

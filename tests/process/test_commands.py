@@ -122,6 +122,20 @@ def test_demo_shows_the_whole_tree_and_ends_its_nodes(processes):
     assert re.search(r"/scan_base_frame: \d+\.\d Hz, \d+ points in base_link", text)
 
 
+def test_demo_from_a_description_shows_the_same_tree(processes):
+    pytest.importorskip("xacro", reason="the lab's robot is described in xacro")
+    processes.start("demo", "python", "-m", "coframe.cli", "demo", "--urdf", "--duration", "6", "--no-browser")
+    heard = processes.observe(1.0, "/robot_description:std_msgs/msg/String:transient_local")
+    assert "two_link_arm" in heard["/robot_description"][0][1]["data"]
+    eventually(lambda: not processes.running("demo"), lambda: processes.text("demo"))
+    code, text = processes.end("demo")
+    assert code == 0, text
+    for frame, parent in (("link2", "link1"), ("end_effector", "link2"), ("camera_link", "end_effector")):
+        assert re.search(rf"^ *{frame} +{parent}\b", text, re.MULTILINE), text
+    assert re.search(r"^ *gripper_link +end_effector +static", text, re.MULTILINE), text
+    assert "not connected" not in text
+
+
 @pytest.mark.parametrize(("how", "code"), [(signal.SIGHUP, 0), (signal.SIGKILL, -signal.SIGKILL)])
 def test_no_node_outlives_the_demo(processes, how, code, tmp_path, monkeypatch):
     """A closed terminal or a kill must not leave a second arm behind for the next demo."""

@@ -1,6 +1,7 @@
 """Where links are: by hand, by scipy, by finite differences, and on a real robot's recording."""
 
 import itertools
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -104,6 +105,49 @@ def test_many_configurations_at_once_equal_one_after_another():
     np.testing.assert_allclose((together["c"] @ links["spin"]).matrix, together["d"].matrix, atol=1e-14)
 
 
+def test_angles_of_any_size_turn_as_numpy_says():
+    robot = parse_urdf(described(joint("spin", "continuous", "base", "a", "<axis xyz='0 0.6 0.8'/>")))
+    quarters = np.arange(-2000, 2000) * (np.pi / 4)
+    angles = np.concatenate((quarters, np.nextafter(quarters, 9e9), [1e5, 2e5, -2e5 - 1e-3, 1e9, -1e15, 1e-300, -0.0]))
+    sine, cosine = np.sin(angles / 2), np.cos(angles / 2)
+    turns = Rotation.from_quat(np.stack([0 * angles, 0.6 * sine, 0.8 * sine, cosine], axis=-1))
+    expected = [ORIGIN @ matrix(rotation=turn) for turn in turns]
+    np.testing.assert_allclose(robot.frames({"spin": angles})["a"].matrix, expected, rtol=0, atol=1e-14)
+    np.testing.assert_allclose(np.linalg.norm(robot.frames({"spin": angles})["a"].quaternion, axis=-1), 1, atol=1e-15)
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_many_configurations_into_an_array(threads):
+    robot = parse_urdf(ALL_TYPES)
+    rng = np.random.default_rng(3)
+    table = rng.uniform(-3, 3, (1000, 6))  # columns of a table are not contiguous
+    at = {"turn": table[:, 0], "slide": table[:, 1], "spin": table[:, 2], "push": table[:, 3:]}
+    out = np.full((len(LINKS), 1000, 7), np.nan)
+    assert robot.frames(at, out=out, threads=threads) is out
+    for (link, frame), rows in zip(robot.frames(at).items(), out, strict=True):
+        np.testing.assert_array_equal(rows, np.hstack((frame.translation, frame.quaternion)), err_msg=link)
+    for wrong in (np.empty((6, 999, 7)), np.empty((6, 1000, 7), np.float32), np.empty((6, 1000, 14))[..., ::2]):
+        with pytest.raises(ValueError, match="out must be a contiguous float64 array"):
+            robot.frames(at, out=wrong)
+    assert robot.frames({"turn": np.empty(0)})["tip"].shape == (0,)
+
+
+def test_kinematics_in_many_threads_at_once():
+    """The native tree is shared and holds nothing that a call changes."""
+    robot = parse_urdf(ALL_TYPES)
+    angles = np.linspace(-3, 3, 200_000)
+    expected = robot.frames({"turn": angles})["tip"].translation
+    with ThreadPoolExecutor(4) as pool:
+        for found in pool.map(lambda _: robot.frames({"turn": angles})["tip"].translation, range(8)):
+            np.testing.assert_array_equal(found, expected)
+
+
+def test_a_robot_of_links_alone():
+    lone = parse_urdf("<robot name='r'><link name='base'/></robot>")
+    assert list(lone.frames()) == ["base"]
+    assert lone.joint_transforms() == {}
+
+
 @pytest.mark.parametrize("order", list(itertools.permutations(range(3))))
 def test_a_chain_of_mimics_in_any_order(order):
     axis = "<axis xyz='0 0 1'/>"
@@ -117,6 +161,12 @@ def test_a_chain_of_mimics_in_any_order(order):
     assert {name: float(value) for name, value in followed.items()} == pytest.approx({"z": 0.5, "m": 1.1, "a": -3.1})
     told, _ = robot.positions({"z": 0.5, "m": 7.0})  # what is told of a joint beats what it mimics
     assert {name: float(value) for name, value in told.items()} == pytest.approx({"z": 0.5, "m": 7.0, "a": -20.8})
+    for given, followed in (({"z": 0.5}, {"z": 0.5, "m": 1.1, "a": -3.1}), ({"m": 7}, {"z": 0, "m": 7, "a": -20.8})):
+        explicit = robot.frames(followed)
+        batch = robot.frames({name: np.full(3, value) for name, value in given.items()})
+        for link, frame in robot.frames(given).items():
+            np.testing.assert_allclose(frame.matrix, explicit[link].matrix, atol=1e-14)
+            np.testing.assert_allclose(batch[link][1].matrix, explicit[link].matrix, atol=1e-14)
     assert robot.free_joints == ("z",)
 
 
@@ -156,7 +206,10 @@ def test_the_jacobian_is_the_derivative():
     [
         ({"trun": 1.0}, "no joint 'trun': did you mean 'turn'?"),
         ({"stay": 1.0}, "'stay' is fixed"),
-        ({"turn": float("nan")}, "not finite"),
+        ({"turn": float("nan")}, "position of joint 'turn' is not finite"),
+        ({"turn": [0.0] * 100 + [float("inf")]}, "position of joint 'turn' is not finite"),
+        ({"turn": 10**400}, "'turn': int too large"),
+        ({"turn": "fast"}, "could not convert"),
         ({"push": [1.0, 2.0]}, "'push' is planar"),
         ({"turn": np.zeros((2, 2))}, "one batch axis"),
         ({"turn": np.zeros(2), "spin": np.zeros(3)}, "shape mismatch"),

@@ -143,6 +143,11 @@ def test_a_locked_joint_that_mimics_is_a_warning():
         (robot_of(TREE[0], joint("bc", "b", "c", "<mimic joint='no'/>", "continuous")), 6, "mimics 'no', which is not"),
         (robot_of(TREE[0], joint("bc", "b", "c", "<mimic joint='bc'/>", "continuous")), 6, "in a circle: bc"),
         (robot_of(TREE[0], joint("bc", "b", "c", "<mimic joint='ab'/>", "floating")), 6, "but 'bc' is floating"),
+        (
+            robot_of(joint("ab", "a", "b", "", "floating"), joint("bc", "b", "c", "<mimic joint='ab'/>", "continuous")),
+            6,
+            "joint 'bc' mimics 'ab', but 'ab' is floating",
+        ),
         (robot_of("<link name='d'><visual/></link>", *TREE), 5, "<visual> has no <geometry>"),
         (robot_of("<link name='d'><visual><geometry><cone/></geometry></visual></link>"), 5, "<cone> is no shape"),
         (robot_of("<link name='d'><inertial><mass value='1'/></inertial></link>"), 5, "<inertial> has no <inertia>"),

@@ -77,6 +77,29 @@ for each in (one_by_one, batch):
 )
 
 
+MOVING = """
+import sys
+import numpy as np
+from coframe.robots import parse_urdf
+
+types = ["continuous", "prismatic", "fixed", "planar", "floating", "continuous", "continuous"]
+links = "".join(f"<link name='l{i}'/>" for i in range(len(types) + 1))
+joints = "".join(
+    f"<joint name='j{i}' type='{kind}'><parent link='l{i}'/><child link='l{i + 1}'/><axis xyz='1 {i} 2'/>"
+    f"<origin xyz='0.1 {i} 0.3' rpy='{i} 2 3'/><limit lower='-9' upper='9'/></joint>"
+    for i, kind in enumerate(types)
+)
+robot = parse_urdf(f"<robot name='r'>{links}{joints}</robot>")
+rng = np.random.default_rng(5)
+for count in (1, 3, 64, 1001):
+    for largest in (1.0, 3e4, 1e7):
+        at = {f"j{i}": rng.uniform(-largest, largest, count) for i in (0, 5, 6)}
+        at |= {"j1": rng.normal(size=count), "j3": rng.normal(size=(count, 3)), "j4": rng.normal(size=(count, 7))}
+        out = np.empty((len(robot.links), count, 7))
+        sys.stdout.buffer.write(robot.frames(at, out=out).tobytes())
+"""
+
+
 def answers_of_all_levels(program):
     """The numbers that a program writes, for each level of the processor."""
     answers = {}
@@ -107,6 +130,14 @@ def test_all_levels_find_the_same_poses():
     assert plain.size > 50_000
     for level, found in answers.items():
         np.testing.assert_allclose(found, plain, rtol=0, atol=1e-14, err_msg=level)
+
+
+def test_all_levels_move_robots_to_the_same_places():
+    answers = answers_of_all_levels(MOVING)
+    plain = answers.pop("plain")
+    assert plain.size == 3 * 8 * 7 * (1 + 3 + 64 + 1001)
+    for level, found in answers.items():
+        np.testing.assert_allclose(found, plain, rtol=0, atol=1e-13, err_msg=level)
 
 
 def test_all_levels_store_the_same_samples_to_the_last_bit():

@@ -110,6 +110,11 @@ def decode(data):
         width, height, told.resolution, *told.corner = struct.unpack_from("<II8f", data, 12)
         told.cells = np.frombuffer(data, np.int8, width * height, 52).reshape(height, width)
         return "grid", told
+    if kind == 5:
+        told.width, told.height, flags, told.stamp = struct.unpack_from("<IIId", data, 12)
+        told.format, told.step = flags & 255, flags >> 8
+        told.data = np.frombuffer(data, np.uint8, offset=32)
+        return "image", told
     assert kind == 4
     (length,) = struct.unpack_from("<I", data, 12)
     told.head = json.loads(data[16 : 16 + length])

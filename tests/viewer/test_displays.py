@@ -13,6 +13,7 @@ import coframe
 from coframe.messages import find
 from coframe.viewer.displays import CannotDrawError, Options
 from coframe.viewer.displays.grids import draw_grid
+from coframe.viewer.displays.images import MOST_PIXELS, draw_compressed_image, draw_image
 from coframe.viewer.displays.points import draw_cloud, draw_scan
 from coframe.viewer.messages import header_stamp
 from coframe.wire.qos import QoS
@@ -145,6 +146,49 @@ def test_a_message_waits_for_its_transform(ros, robot, view, open_tab):
     ros.buffer.set("map", "base", coframe.Transform([20.0, 0.0, 0.0]), later)
     tick = tab.tick(lambda tick: tick.displays)
     np.testing.assert_allclose(next(iter(tick.displays.values()))[:3] + tick.origin, [20.0, 0.0, 0.0], atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        (QoS(), QoS(reliable=False)),
+        (QoS(transient_local=True), QoS()),
+        (QoS(transient_local=True), QoS(reliable=False, transient_local=True)),
+        (QoS(), QoS(transient_local=True)),
+    ],
+)
+def test_publishers_that_come_later_are_heard_whatever_they_offer(ros, robot, view, open_tab, caplog, first, second):
+    tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/pose")
+    made = message("geometry_msgs/msg/PoseStamped", "map", robot - 4 * SECOND)
+    made.pose.position.x = 1.0
+    assert Talker(ros, tab, "/pose", made, first).until("shapes").payload[0] == 1.0
+    made.header.stamp.sec += 1
+    made.pose.position.x = 2.0
+    later = Talker(ros, tab, "/pose", made, second)
+    if second.transient_local and second.reliable:
+        later.publisher.publish(made)  # once, before anybody could hear it
+        assert tab.wait("shapes", lambda shown: shown.payload[0] == 2.0)
+    else:
+        assert later.until("shapes", lambda shown: shown.payload[0] == 2.0)
+    assert "this subscription asks for" not in caplog.text
+
+
+def test_what_was_published_before_is_heard_beside_publishers_that_keep_nothing(ros, view, open_tab):
+    marker = find("visualization_msgs/msg/Marker")
+
+    def one(number):
+        made = marker(ns="test", id=number, type=marker.CUBE)
+        made.header.frame_id = "map"
+        return made
+
+    talker = Talker(ros, None, "/markers", one(1), QoS(reliable=False))
+    kept = ros.publisher("/markers", marker, QoS(transient_local=True))
+    kept.publish(one(2))
+    tab = talker.tab = open_tab(view(ros, fixed="map"))
+    subscribe(tab, "/markers")
+    shown = talker.until("shapes", lambda shown: len(shown.head["items"]) == 2)
+    assert {item["id"] for item in shown.head["items"]} == {1, 2}
 
 
 def test_time_travel_brings_back_the_messages_of_that_time(ros, robot, view, open_tab):
@@ -322,3 +366,59 @@ def test_a_large_cloud_is_thinned_to_what_the_page_can_draw(decoded):
     np.testing.assert_array_equal(shown.scalars, np.arange(0, 1000, 4))
     assert shown.step == 4
     assert len(decoded(draw_cloud(made, Options.of({})).data).points) == 1000
+
+
+def image(encoding, height, width, step, data):
+    made = message("sensor_msgs/msg/Image", "camera", SECOND, height=height, width=width, step=step)
+    made.encoding, made.data = encoding, array("B", data)
+    return made
+
+
+def test_an_image_is_as_many_pixels_as_a_page_needs(decoded):
+    told = decoded(draw_image(image("mono8", 2, 3, 4, [1, 2, 3, 0, 4, 5, 6, 0]), Options()).data)
+    assert (told.width, told.height, told.format, told.step) == (3, 2, 0, 1)
+    assert told.data.tolist() == [1, 2, 3, 4, 5, 6]
+    told = decoded(draw_image(image("bgra8", 1, 2, 8, range(8)), Options(origin=SECOND)).data)
+    assert (told.format, told.stamp, told.data.tolist()) == (1, 0.0, [2, 1, 0, 6, 5, 4])
+    large = np.arange(1000 * 2000, dtype=np.uint32).astype(np.uint8).reshape(1000, 2000)
+    told = decoded(draw_image(image("mono8", 1000, 2000, 2000, large.tobytes()), Options()).data)
+    assert told.width * told.height <= MOST_PIXELS
+    np.testing.assert_array_equal(told.data.reshape(told.height, told.width), large[:: told.step, :: told.step])
+
+
+def jpeg(width, height, before=b""):
+    size = b"\xff\xc2\x00\x11\x08" + height.to_bytes(2, "big") + width.to_bytes(2, "big") + bytes(10)
+    return b"\xff\xd8" + before + size
+
+
+def compressed(data, told="jpeg"):
+    made = message("sensor_msgs/msg/CompressedImage", "camera", SECOND, format=told)
+    made.data = array("B", data)
+    return made
+
+
+def test_a_compressed_image_goes_as_it_came(decoded):
+    data = jpeg(640, 480, before=b"\xff\xe0\x00\x06abcd\xff\xff")
+    told = decoded(draw_compressed_image(compressed(data), Options()).data)
+    assert (told.width, told.height, told.format) == (640, 480, 2)
+    assert told.data.tobytes() == data
+
+
+@pytest.mark.parametrize(
+    ("draw", "made", "says"),
+    [
+        (draw_image, image("32FC1", 1, 1, 4, bytes(4)), "the encoding '32FC1'"),
+        (draw_image, image("rgb8", 2, 2, 6, bytes(11)), "comes with 11 bytes"),
+        (draw_image, image("rgb8", 2, 2, 5, bytes(12)), "5 a row"),
+        (draw_image, image("mono8", 4_000_000_000, 4_000_000_000, 4_000_000_000, bytes(4)), "comes with 4 bytes"),
+        (draw_image, image("mono8", 0, 0, 0, b""), "without pixels"),
+        (draw_compressed_image, compressed(b"GIF89a", "gif"), "the format 'gif'"),
+        (draw_compressed_image, compressed(b""), "the format 'jpeg'"),
+        (draw_compressed_image, compressed(jpeg(60_000, 60_000)), "too large to draw"),
+        (draw_compressed_image, compressed(b"\x89PNG\r\n\x1a\n"), "ends too early"),
+        (draw_compressed_image, compressed(b"\xff\xd8\xff\xe0\x00\x00" * 9), "does not tell its size"),
+    ],
+)
+def test_images_that_cannot_be_drawn_say_why(draw, made, says):
+    with pytest.raises(CannotDrawError, match=says):
+        draw(made, Options())

@@ -46,6 +46,14 @@ def test_a_recording_is_travelled_through(shared, view, open_tab):
     bag.close()
 
 
+def test_a_topic_that_no_display_is_for_is_told_and_ends_nothing(shared, view, open_tab):
+    tab = open_tab(view(shared / "recordings" / "tb3_gazebo_walker"))
+    tab.send("subscribe", id=1, topic="/robot_description", display="any", options={})
+    told = tab.wait("display", lambda told: told["state"] == "error")
+    assert "there is no display for std_msgs/msg/String" in told["text"]
+    tab.tick()
+
+
 def test_a_bag_of_ros_1_with_slashes_before_its_names(shared, view, open_tab):
     tab = open_tab(view(shared / "recordings" / "tilt_laser.bag"))
     hello = tab.wait("hello")

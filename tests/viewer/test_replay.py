@@ -6,12 +6,17 @@ import json
 import urllib.error
 import urllib.parse
 import urllib.request
+from array import array
 
 import numpy as np
 import pytest
 
 import coframe
+from coframe.messages import find
+from coframe.viewer.displays import Options
 from coframe.viewer.http import STATIC
+from coframe.viewer.messages import Sighting
+from coframe.viewer.replay_displays import Pictures, ReplayDisplay, display_blocks
 
 SECOND = 1_000_000_000
 BEGIN = 1_700_000_000 * SECOND
@@ -119,3 +124,148 @@ def test_too_much_for_one_file_is_a_sentence(view):
         fetch(view(buffer), rate=30)
     with refused.value:
         assert "Choose a shorter span or a lower rate." in refused.value.read().decode()
+
+
+class Replayed:
+    """A display of a replay, read by the documentation of what is in the file."""
+
+    def __init__(self, block, decoded):
+        def numbers(name, kind):
+            return np.frombuffer(base64.b64decode(block[name]), kind)
+
+        self.block = block
+        self.pictures, counts = numbers("pictures", "<u4"), numbers("counts", "<u4")
+        self.drawings = {int(key): decoded(base64.b64decode(text)) for key, text in block["drawings"].items()}
+        self.bytes = sum(len(base64.b64decode(text)) for text in block["drawings"].values())
+        poses = numbers("poses", "<f4").reshape(-1, 7)
+        rows = list(zip(numbers("sequences", "<u4").tolist(), poses, numbers("stamps", "<f8"), strict=True))
+        ends = np.cumsum(counts)
+        self.listings = [rows[end - count : end] for count, end in zip(counts, ends, strict=True)]
+
+    def at(self, picture):
+        """(drawing, pose, stamp) of all that is to be seen."""
+        index = np.searchsorted(self.pictures, picture, side="right") - 1
+        return [(self.drawings[sequence], pose, stamp) for sequence, pose, stamp in self.listings[index]]
+
+
+@pytest.fixture
+def walker(shared):
+    """The path of a recording of a TurtleBot 3."""
+    pytest.importorskip("rosbags", reason="recordings need rosbags")
+    return shared / "recordings" / "tb3_gazebo_walker"
+
+
+def replay_of(viewer, open_tab, *displays, seconds=4, rate=5):
+    """A replay from the middle of a recording, with the looks that a tab has told of."""
+    tab = open_tab(viewer)
+    first, last = tab.wait("hello")["span"]
+    rviz = {"displays": [{"class": "LaserScan", "name": HOSTILE}], "global": {}, "view": None}
+    looks = tab.ask("replay", "replay", displays=list(displays), rviz=rviz)["looks"]
+    begin = (first + last) // 2
+    span = {"from": begin, "to": begin + seconds * SECOND}
+    _, page = fetch(viewer, **span, rate=rate, fixed="odom", looks=looks)
+    (block,) = [text for told, text in Scripts(page).scripts if told.get("id") == "replay"]
+    assert json.loads(block)["rviz"] == rviz
+    return json.loads(block)
+
+
+def test_displays_go_with_a_replay_as_a_tab_would_see_them(walker, view, open_tab, decoded):
+    replay = replay_of(
+        view(walker),
+        open_tab,
+        {"topic": "/scan", "options": {"color_by": "distance"}},
+        {"topic": "/nowhere"},
+        {"topic": "/robot_description"},
+    )
+    (block,) = replay["displays"]
+    assert (block["topic"], block["display"], block["every"]) == ("/scan", "LaserScan", 1)
+    assert block["statuses"][0][1:] == ["ok", ""]
+    scans = Replayed(block, decoded)
+    times = np.frombuffer(base64.b64decode(replay["times"]), "<f8")
+    origin = int(replay["origin"])
+    seen = set()
+    with coframe.open_bag(walker) as bag:
+        for picture, moment in enumerate(times):
+            ((drawing, pose, stamp),) = scans.at(picture)
+            expected = bag.message_at("/scan", int(moment) + origin).message.header
+            assert int(stamp) + origin == expected.stamp.sec * SECOND + expected.stamp.nanosec
+            where = bag.buffer.lookup("odom", expected.frame_id, int(stamp) + origin)
+            np.testing.assert_allclose(pose[:3] + replay["origin_xyz"], where.translation, atol=1e-5)
+            np.testing.assert_allclose(drawing.scalars, np.linalg.norm(drawing.points, axis=1), rtol=1e-5)
+            seen.add(stamp)
+    assert len(seen) > 10
+    names = [frame["name"] for frame in replay["frames"]]
+    assert replay["stats"][names.index("base_footprint")]["rate"] > 1
+    (edge,) = [edge for edge in replay["edges"] if names[edge["frame"]] == "base_footprint"]
+    assert np.frombuffer(base64.b64decode(edge["counts"]), "<u2").sum() > 10
+
+
+def test_a_display_that_is_too_much_for_the_file_is_thinned_or_left_out(walker, view, open_tab, decoded, monkeypatch):
+    scan = {"topic": "/scan", "options": {}}
+    viewer = view(walker)
+    for most, left in ((30_000, 2), (2000, 0)):
+        monkeypatch.setattr("coframe.viewer.replay_displays.MOST_BYTES", most)
+        (block,) = replay_of(viewer, open_tab, scan)["displays"]
+        scans = Replayed(block, decoded)
+        assert scans.bytes <= most
+        assert len(scans.drawings) >= left
+        if left:
+            assert block["every"] > 1
+            assert all(picture % block["every"] == 0 for picture in scans.pictures)
+        else:
+            assert block["statuses"][0][1] == "error"
+            assert "left out of this replay" in block["statuses"][0][2]
+
+
+class AtHand:
+    """A topic of one message."""
+
+    def __init__(self, message):
+        self.type = message.ROS_TYPE
+        self._sighting = Sighting(1, BEGIN, lambda: message)
+
+    def at(self, time):
+        return self._sighting if time == 0 or time >= BEGIN else None
+
+    def before(self, time, _count):
+        return [self._sighting] if self.at(time) else []
+
+
+def test_large_clouds_are_thinned_and_say_by_how_much(decoded):
+    count = 25_000
+    field = find("sensor_msgs/msg/PointField")
+    cloud = find("sensor_msgs/msg/PointCloud2")(height=1, width=count, point_step=12, row_step=12 * count)
+    cloud.fields = [field(name=name, offset=4 * i, datatype=7, count=1) for i, name in enumerate("xyz")]
+    cloud.data = array("B", np.arange(3 * count, dtype="<f4").tobytes())
+    cloud.header.frame_id, cloud.header.stamp.sec = "map", BEGIN // SECOND
+    buffer = coframe.Buffer(None)
+    buffer.set("map", "base", coframe.Transform(), BEGIN)
+    times = np.arange(3) * SECOND + BEGIN - SECOND
+    pictures = Pictures(buffer, "map", times, np.zeros(3))
+    (block,) = display_blocks([ReplayDisplay("/cloud", Options())], {"/cloud": AtHand(cloud)}, pictures)
+    replayed = Replayed(block, decoded)
+    assert replayed.at(0) == []
+    ((drawing, _, _),) = replayed.at(2)
+    assert drawing.step == 3
+    np.testing.assert_array_equal(drawing.points, np.arange(3 * count).reshape(-1, 3)[::3])
+    assert [status[1] for status in block["statuses"]] == ["waiting", "ok"]
+
+
+@pytest.mark.parametrize(
+    ("fields", "says"),
+    [
+        ({"displays": [7]}, "is an object with a topic"),
+        ({"displays": [{"topic": "/scan"}] * 101}, "at most"),
+        ({"displays": {}}, "must be an array"),
+        ({"displays": [], "rviz": {"x": float("nan")}}, "is no JSON"),
+    ],
+)
+def test_looks_that_are_none_are_a_sentence(buffer, view, open_tab, fields, says):
+    assert says in open_tab(view(buffer)).ask("problem", "replay", **fields)["text"]
+
+
+def test_looks_that_nobody_told_of_are_a_sentence(buffer, view):
+    with pytest.raises(urllib.error.HTTPError, match="400") as refused:
+        fetch(view(buffer), looks="guessed")
+    with refused.value:
+        assert "Save the replay again." in refused.value.read().decode()

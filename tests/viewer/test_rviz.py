@@ -1,10 +1,16 @@
 """RViz's files: what is known is applied, what is not is listed, and all of it is kept."""
 
+import itertools
+import statistics
+import time
+
 import pytest
 import yaml
 
 import coframe
 from coframe.viewer.rviz import RvizConfig
+
+SECOND = 1_000_000_000
 
 RVIZ_2 = """
 Panels:
@@ -170,7 +176,14 @@ def test_saving_what_was_never_loaded_makes_a_file_that_rviz_reads():
         ("Visualization Manager: 3", "no configuration of RViz"),
         ("a: [b", "no YAML"),
         ("a: !!python/object/apply:os.system ['true']", "no YAML"),
-        ("a: &a [x, x]\nb: &b [*a, *a]\nc: [*b, *b]", "aliases"),
+        ("a0: &a0 [x]\n" + "".join(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]\n" for i in range(1, 40)), "aliases"),
+        ("a0: &a0 {k: v}\n" + "".join(f"a{i}: &a{i} {{x: *a{i - 1}}}\n" for i in range(1, 150)), "nested too deeply"),
+        (
+            "a0: &a0 {k: v}\n" + "".join(f"a{i}: &a{i} {{<<: [*a{i - 1}, *a{i - 1}]}}\n" for i in range(1, 40)),
+            "aliases",
+        ),
+        ("a: &a [*a]", "stands for what it is in"),
+        ("a: *b", "no YAML"),
         ("[" * 500_000, "nested too deeply"),
         ("- " * 250_000, "nested too deeply"),
         ("? " * 250_000, "nested too deeply"),
@@ -182,6 +195,46 @@ def test_saving_what_was_never_loaded_makes_a_file_that_rviz_reads():
 def test_what_is_no_file_of_rviz_is_a_sentence(text, says):
     with pytest.raises(coframe.ViewerError, match=says):
         RvizConfig.parse(text)
+
+
+def test_aliases_are_written_out():
+    config = RvizConfig.parse("""
+Common: &common {Class: rviz_default_plugins/Axes, Enabled: true, Length: 1}
+Visualization Manager:
+  Displays:
+    - {<<: *common, Name: first}
+    - {<<: *common, Name: second, Length: 2}
+    - &third {<<: *common, Name: third}
+    - *third
+""")
+    told = config.description()["displays"]
+    assert [(one["name"], one["options"]["Length"]) for one in told] == [
+        ("first", 1),
+        ("second", 2),
+        ("third", 1),
+        ("third", 1),
+    ]
+    told[2]["enabled"] = False
+    again = RvizConfig.parse(config.merged(told, {}, {}).text()).description()["displays"]
+    assert [one["enabled"] for one in again] == [True, True, False, True], "a change of one is none of the other"
+
+
+@pytest.mark.parametrize(("rate", "least", "most"), [(5, 3, 7), (1000, 35, 70)])
+def test_the_frame_rate_of_a_file_is_that_of_the_ticks(view, open_tab, tmp_path, rate, least, most):
+    file = tmp_path / "rate.rviz"
+    file.write_text(f"Visualization Manager: {{Global Options: {{Fixed Frame: map, Frame Rate: {rate}}}}}")
+    buffer = coframe.Buffer(None)
+    buffer.set("map", "base", coframe.Transform(), 0)
+    buffer.set("map", "base", coframe.Transform([1.0, 0.0, 0.0]), 100 * SECOND)
+    tab = open_tab(view(buffer, rviz=file))
+    tab.tick()
+    tab.send("time", mode="at", at=1 - int(tab.last["hello"]["origin"]), playing=True)
+    tab.tick(lambda tick: tick.time < 0)
+    moments = [tab.tick() and time.monotonic() for _ in range(12)]
+    typical = statistics.median(later - earlier for earlier, later in itertools.pairwise(moments))
+    assert least <= 1 / typical <= most
+    tab.send("save_rviz", displays=[], view={}, **{"global": {"frame_rate": 30}})
+    assert f"Frame Rate: {rate}" in tab.wait("saved")["text"], "what the file said stays"
 
 
 def test_odd_values_hurt_nobody():

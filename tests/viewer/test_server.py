@@ -176,6 +176,44 @@ def test_garbage_is_answered_and_survived(view, open_tab):
     assert open_tab(viewer).tick().revision == 1
 
 
+def test_long_messages_are_whole_however_they_travel(view, open_tab):
+    """In parts both ways, and with a ping in between."""
+    buffer = coframe.Buffer(None)
+    names = [f"{'long' * 40}_{frame}" for frame in range(3000)]
+    for name in names:
+        buffer.set("map", name, coframe.Transform(), static=True)
+    tab = open_tab(view(buffer))
+    assert {frame["name"] for frame in tab.wait("tree")["frames"]} == {"map", *names}
+    tab.socket.ping()
+    question = json.dumps({"type": "relate", "id": 7, "target": "map", "source": names[0]})
+    tab.socket.send([question[:10], "", question[10:30], question[30:]])
+    assert tab.wait("relation")["id"] == 7
+
+
+def test_text_that_is_none_ends_the_connection_and_no_other(view, open_tab):
+    viewer = view(small_buffer())
+    tab = open_tab(viewer)
+    tab.socket.send(b"\xff\xfe", text=True)
+    with pytest.raises(ConnectionClosed) as ended:
+        read_forever(tab)
+    assert ended.value.rcvd.code == 1007
+    assert open_tab(viewer).tick().revision == 1
+
+
+def test_parts_of_a_message_count_together(view, open_tab):
+    viewer = view(small_buffer())
+    tab = open_tab(viewer)
+
+    def ask():
+        tab.socket.send("x" * 1000 for _ in range(5000))
+        read_forever(tab)
+
+    with pytest.raises(ConnectionClosed) as ended:
+        ask()
+    assert ended.value.rcvd is None or ended.value.rcvd.code == 1009
+    assert open_tab(viewer).tick().revision == 1
+
+
 def test_raw_bytes_on_the_port_are_survived(view, open_tab):
     viewer = view(small_buffer())
     address = urlsplit(viewer.url)

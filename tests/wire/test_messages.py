@@ -1,4 +1,5 @@
 import struct
+import threading
 
 import pytest
 
@@ -8,6 +9,7 @@ from coframe.messages import codec, definition, find
 from coframe.wire import QoS, types
 
 STRING = find("std_msgs/msg/String")
+TF_MESSAGE = find("tf2_msgs/msg/TFMessage")
 
 ECHO = """
     import coframe
@@ -95,6 +97,63 @@ def test_bytes_of_another_type_are_refused(participant, node):
     assert "must be the CDR of a std_msgs/msg/String" in caught.value.hint
     with pytest.raises(ValueError, match="4 bytes of encapsulation"):
         publisher.write(b"\0\1")
+
+
+def test_bytes_that_are_no_transforms_are_refused(participant, node):
+    publisher = participant.publisher(node, "/tf", TF_MESSAGE, QoS())
+    good = codec.serialize(TF_MESSAGE(transforms=[find("geometry_msgs/msg/TransformStamped")()]))
+    publisher.write(good)
+    for bad in (good[:-1], good + b"four", good[:4], b"\0\1\0\0\xff\xff\xff\xff", b"\1" + good[1:]):
+        with pytest.raises(WireError, match="Publishing on /tf failed") as caught:
+            publisher.write(bad)
+        assert "must be the CDR of a tf2_msgs/msg/TFMessage" in caught.value.hint
+
+
+def test_transforms_reach_programs_that_know_their_type(participant, node, child, eventually):
+    arrived = Event()
+    there = participant.publisher(node, "/there", TF_MESSAGE, QoS())
+    here = participant.subscription(node, "/there", TF_MESSAGE, QoS())
+    back = participant.subscription(node, "/back", STRING, QoS(), on_data=arrived)
+    other = child("""
+        import coframe
+        from coframe.messages import find
+        with coframe.connect("reader") as ros:
+            publisher = ros.publisher("/back", find("std_msgs/msg/String"))
+            message = next(iter(ros.subscribe("/there", find("tf2_msgs/msg/TFMessage"))))
+            publisher.publish(find("std_msgs/msg/String")(data=message.transforms[0].child_frame_id))
+            input()
+    """)
+    eventually(lambda: there.matched == 2 and back.matched == 1)
+    stamped = find("geometry_msgs/msg/TransformStamped")(child_frame_id="lidar")
+    data = codec.serialize(TF_MESSAGE(transforms=[stamped]))
+    arrived.clear()
+    there.write(data)
+    assert [sample.data for sample in here.take()] == [data], "in this process"
+    assert arrived.wait(10_000_000_000)
+    assert [codec.deserialize(sample.data, STRING).data for sample in back.take()] == ["lidar"], "in another one"
+    assert other.finish() == (0, "")
+
+
+def test_a_publisher_of_transforms_may_be_closed_while_another_thread_writes(participant, node):
+    data = codec.serialize(TF_MESSAGE(transforms=[find("geometry_msgs/msg/TransformStamped")()]))
+    for _ in range(20):
+        publisher = participant.publisher(node, "/tf", TF_MESSAGE, QoS())
+        begun, errors = threading.Event(), []
+
+        def write(publisher=publisher, begun=begun, errors=errors):
+            try:
+                while True:
+                    publisher.write(data)
+                    begun.set()
+            except WireError as error:
+                errors.append(str(error))
+
+        writer = threading.Thread(target=write)
+        writer.start()
+        assert begun.wait(10)
+        publisher.close()
+        writer.join(10)
+        assert errors == ["The publisher on /tf is closed."]
 
 
 def test_an_independent_program_publishes_receives_and_lists(beside_rosless):

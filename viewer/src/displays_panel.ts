@@ -2,6 +2,7 @@
 
 import type { Display } from "./displays/display";
 import type { Displays } from "./displays/manager";
+import { MarkersDisplay } from "./displays/markers";
 import { FIXED_FRAME, rvizColour, type OptionSpec } from "./displays/options";
 import { KINDS, kindName } from "./displays/registry";
 import { fillSelect, h, iconButton, setText, shorten } from "./dom";
@@ -123,7 +124,7 @@ export class DisplaysPanel {
       const kind = kindName(display.config.class);
       const what = display.config.topic ?? (kind === display.config.name ? "" : kind);
       const short = state === "error" ? "Error" : state === "waiting" ? "Waiting" : "";
-      setText(detail, [short, what, display.note].filter(Boolean).join(" · ") || kind);
+      setText(detail, [short, what, display.note, display.leftOut].filter(Boolean).join(" · ") || kind);
       status.hidden = state === "ok" || !text;
       setText(status, text.slice(0, 1000));
     }
@@ -133,9 +134,39 @@ export class DisplaysPanel {
     const body = h("div", { class: "card-body" });
     const kind = KINDS[kindName(display.config.class)];
     if (kind?.topic) body.append(this.topicField(display));
-    for (const spec of display.specs) body.append(this.field(display, spec));
+    const fields = display.specs.map((spec) => ({ spec, element: this.field(display, spec) }));
+    const hide = (): void => {
+      for (const { spec, element } of fields) element.hidden = spec.needs !== undefined && !display.options.flag(spec.needs);
+    };
+    hide();
+    body.append(...fields.map(({ element }) => element));
+    body.addEventListener("change", hide);
+    if (display instanceof MarkersDisplay) body.append(this.namespaces(display));
     if (!body.childElementCount) body.append(h("span", { class: "muted" }, "Nothing to set."));
     return body;
+  }
+
+  /** A box each, as they become known. */
+  private namespaces(display: MarkersDisplay): HTMLElement {
+    const list = h("fieldset", { class: "namespaces" }, h("legend", {}, "Namespaces"));
+    const known = new Set<string>();
+    const render = (): void => {
+      for (const name of [...display.namespaces].sort()) {
+        if (known.has(name)) continue;
+        known.add(name);
+        const box = h("input", { type: "checkbox" });
+        box.checked = display.isShown(name);
+        box.addEventListener("change", () => {
+          display.show(name, box.checked);
+          this.displays.optionChanged(display);
+        });
+        list.append(h("label", {}, box, h("span", {}, shorten(name, 60) || "(no name)")));
+      }
+      list.hidden = known.size === 0;
+    };
+    render();
+    display.onNamespace = render;
+    return list;
   }
 
   private topicField(display: Display): HTMLElement {
@@ -160,7 +191,7 @@ export class DisplaysPanel {
   private field(display: Display, spec: OptionSpec): HTMLElement {
     const label = spec.label ?? spec.key;
     const change = (value: string | number | boolean): void => {
-      display.config.options[spec.key] = value;
+      display.options.set(spec.key, value);
       this.displays.optionChanged(display);
     };
     const { options } = display;

@@ -5,7 +5,7 @@ import { Bar } from "./bar";
 import { Displays } from "./displays/manager";
 import { DisplaysPanel } from "./displays_panel";
 import { byId } from "./dom";
-import { askReplay, savePicture } from "./export";
+import { ReplayExport, savePicture } from "./export";
 import { fatal } from "./fatal";
 import { Inspector } from "./inspector";
 import { JointsPanel } from "./joints";
@@ -42,11 +42,13 @@ const model = new Model((message) => source.send(message));
 const view = new View(model, theme, byId("canvas") as HTMLCanvasElement, byId("labels"));
 const displays = new Displays(model, view, theme);
 const tree = new TreePanel(model);
+const rviz = new RvizPanel(model, displays, view, theme, source.live);
+const replays = new ReplayExport(model, displays, rviz, view);
 const panel = new Panel(byId("panel"), [
   { id: "frames", title: "Frames", body: tree.element },
   { id: "displays", title: "Displays", body: new DisplaysPanel(model, displays).element },
   { id: "joints", title: "Joints", body: new JointsPanel(model, displays).element },
-  { id: "rviz", title: "RViz file", body: new RvizPanel(model, displays, view, theme, source.live).element },
+  { id: "rviz", title: "RViz file", body: rviz.element },
 ]);
 const timeline = new Timeline(byId("timeline"), model);
 const overlay = new Overlay(byId("overlay"), byId("notice"), model, view);
@@ -83,7 +85,7 @@ new Bar(
     help: () => shortcuts.show(),
     togglePanel: () => panel.toggle(),
     savePicture: () => void savePicture(view, model),
-    saveReplay: () => askReplay(model),
+    saveReplay: () => replays.ask(),
   },
   source.live,
 );
@@ -134,6 +136,7 @@ function receive(message: ServerMessage): void {
     case "rviz":
     case "relation":
     case "timeline":
+    case "replay":
     case "saved":
       model.emit(message.type, message as never);
       break;
@@ -148,8 +151,7 @@ function receiveBinary(message: BinaryMessage): void {
     model.emit("message", message);
     return;
   }
-  model.tick = message;
-  model.emit("tick", message);
+  model.take(message);
   // A hidden tab draws nothing; it still tells that it is there, and asks for the next tick once a second.
   if (document.hidden) setTimeout(() => document.hidden && ready(message.time), HIDDEN_PING_MS);
 }

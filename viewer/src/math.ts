@@ -9,6 +9,8 @@ export interface Pose {
   quaternion: Quaternion;
 }
 
+const SWEEPS = 12;
+
 export const IDENTITY: Pose = { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
 
 export function multiply(a: Quaternion, b: Quaternion): Quaternion {
@@ -54,6 +56,19 @@ export function inverse(a: Pose): Pose {
   return { position: [-back[0], -back[1], -back[2]], quaternion };
 }
 
+/** The pose a part of the way from one to another, on the straight line and the shorter turn. */
+export function between(a: Pose, b: Pose, part: number): Pose {
+  const mix = (x: number, y: number): number => x + (y - x) * part;
+  const [p, q] = [a.position, b.position];
+  const same = a.quaternion.reduce((sum, value, k) => sum + value * (b.quaternion[k] as number), 0) < 0 ? -1 : 1;
+  // Between two pictures the turn is so small that a straight line through the ball is as good as the arc.
+  const turned = a.quaternion.map((value, k) => mix(value, same * (b.quaternion[k] as number)));
+  return {
+    position: [mix(p[0], q[0]), mix(p[1], q[1]), mix(p[2], q[2])],
+    quaternion: normalize(turned as Quaternion),
+  };
+}
+
 /** The pose of `source` seen from `target`, both given in one frame. */
 export function relative(target: Pose, source: Pose): Pose {
   return compose(inverse(target), source);
@@ -74,6 +89,36 @@ export function rpyDegrees(q: Quaternion): Vector {
     Math.asin(sinPitch) * degrees,
     Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)) * degrees,
   ];
+}
+
+/**
+ * The axes of an ellipsoid, as a rotation, and the variance along each, from a symmetric 3x3 matrix, row after row: by
+ * Jacobi's method. An axis that nothing connects with the others stays as it is.
+ */
+export function principalAxes(matrix: readonly number[]): { variances: Vector; quaternion: Quaternion } {
+  const m = [...matrix];
+  const at = (i: number, j: number): number => m[i * 3 + j] as number;
+  let axes: Quaternion = [0, 0, 0, 1];
+  for (let sweep = 0; sweep < SWEEPS; sweep++)
+    for (const [p, q, r] of [[0, 1, 2], [1, 2, 0], [2, 0, 1]] as const) {
+      if (Math.abs(at(p, q)) < 1e-300) continue;
+      const angle = 0.5 * Math.atan2(2 * at(p, q), at(p, p) - at(q, q));
+      const [c, s] = [Math.cos(angle), Math.sin(angle)];
+      for (let k = 0; k < 3; k++) {
+        const [kp, kq] = [at(k, p), at(k, q)];
+        m[k * 3 + p] = c * kp + s * kq;
+        m[k * 3 + q] = c * kq - s * kp;
+      }
+      for (let k = 0; k < 3; k++) {
+        const [pk, qk] = [at(p, k), at(q, k)];
+        m[p * 3 + k] = c * pk + s * qk;
+        m[q * 3 + k] = c * qk - s * pk;
+      }
+      const turn: Quaternion = [0, 0, 0, Math.cos(angle / 2)];
+      turn[r] = Math.sin(angle / 2);
+      axes = multiply(axes, turn);
+    }
+  return { variances: [at(0, 0), at(1, 1), at(2, 2)], quaternion: normalize(axes) };
 }
 
 /** The 4x4 matrix, row after row. */

@@ -3,6 +3,7 @@
 import * as THREE from "three";
 import { ColladaLoader } from "three/examples/jsm/loaders/ColladaLoader.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { MTLLoader } from "three/examples/jsm/loaders/MTLLoader.js";
 import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
 import { STLLoader } from "three/examples/jsm/loaders/STLLoader.js";
 
@@ -10,7 +11,8 @@ const MOST_BYTES = 200e6;
 /** Text is parsed in one go, during which the page stands still. */
 const MOST_TEXT_BYTES = 60e6;
 const MOST_VERTICES = 6e6;
-const BLANK = "data:image/gif;base64,R0lGODlhAQABAAAAACH5BAEKAAEALAAAAAABAAEAAAICTAEAOw==";
+/** For what must not be asked for: it fails at once. */
+export const NOTHING = "data:,";
 
 export interface LoadedMesh {
   object: THREE.Object3D;
@@ -82,28 +84,65 @@ async function fetchBytes(url: string, name: string): Promise<ArrayBuffer> {
 }
 
 async function parse(bytes: ArrayBuffer, url: string, name: string): Promise<LoadedMesh> {
-  const ending = /\.([a-z0-9]+)$/i.exec(name.split(/[?#]/)[0] ?? "")?.[1]?.toLowerCase() ?? "";
   const manager = new THREE.LoadingManager();
-  manager.setURLModifier((wanted) => (isOurs(wanted) ? wanted : BLANK));
+  manager.setURLModifier((wanted) => (isOurs(wanted) ? wanted : NOTHING));
+  const textures = ending(manager);
+  const loaded = await parsed(bytes, url, name, manager);
+  await textures();
+  dropEmptyTextures(loaded.object);
+  return loaded;
+}
+
+/** Waits until all that was asked for has come, or has failed to. */
+function ending(manager: THREE.LoadingManager): () => Promise<void> {
+  let busy = false;
+  let end = (): void => {};
+  manager.onStart = (): void => void (busy = true);
+  manager.onLoad = (): void => {
+    busy = false;
+    end();
+  };
+  return () => (busy ? new Promise((resolve) => (end = resolve)) : Promise.resolve());
+}
+
+async function parsed(bytes: ArrayBuffer, url: string, name: string, manager: THREE.LoadingManager): Promise<LoadedMesh> {
+  const kind = /\.([a-z0-9]+)$/i.exec(name.split(/[?#]/)[0] ?? "")?.[1]?.toLowerCase() ?? "";
   // What stands beside the file is served below its own address.
   const folder = url.startsWith("data:") ? "" : `${url}/`;
-  switch (ending) {
+  switch (kind) {
     case "stl":
       return { object: new THREE.Mesh(parseStl(bytes, name)), coloured: false };
     case "dae": {
       const scene = new ColladaLoader(manager).parse(text(bytes, name), folder)?.scene;
       if (!scene) throw new MeshError(`${short(name)} is no COLLADA file`);
-      mendTextures(scene, manager);
       return { object: scene, coloured: true };
     }
     case "obj":
-      return { object: new OBJLoader(manager).parse(text(bytes, name)), coloured: false };
+      return parseObj(text(bytes, name), folder, manager);
     case "glb":
     case "gltf":
       return { object: (await new GLTFLoader(manager).parseAsync(bytes, folder)).scene, coloured: true };
     default:
       throw new MeshError(`${short(name)}: only STL, DAE, OBJ and GLB meshes can be drawn`);
   }
+}
+
+/** With the materials that stand beside it, if it names any and they are there. */
+async function parseObj(source: string, folder: string, manager: THREE.LoadingManager): Promise<LoadedMesh> {
+  const loader = new OBJLoader(manager);
+  const library = /^mtllib[ \t]+(.+?)\s*$/m.exec(source)?.[1];
+  let coloured = false;
+  if (library && folder)
+    try {
+      const url = folder + library.replaceAll("\\", "/").split("/").map(encodeURIComponent).join("/");
+      const materials = new MTLLoader(manager).parse(text(await fetchBytes(url, library), library), folder);
+      materials.preload();
+      loader.setMaterials(materials);
+      coloured = true;
+    } catch (error) {
+      if (!(error instanceof MeshError)) throw error;
+    }
+  return { object: loader.parse(source), coloured };
 }
 
 function parseStl(bytes: ArrayBuffer, name: string): THREE.BufferGeometry {
@@ -122,22 +161,21 @@ function text(bytes: ArrayBuffer, name: string): string {
   return new TextDecoder().decode(bytes);
 }
 
-/** A texture that cannot be had would be drawn black. */
-function mendTextures(object: THREE.Object3D, manager: THREE.LoadingManager): void {
-  const mend = (): void =>
-    object.traverse((part) => {
-      for (const material of materialsOf(part)) {
-        const textured = material as THREE.MeshPhongMaterial;
-        const image = textured.map?.image as { width?: number } | undefined;
-        if (textured.map && !image?.width) {
-          textured.map = null;
-          textured.color.set("#b8bcc0");
-          textured.needsUpdate = true;
-        }
-      }
-    });
-  manager.onLoad = mend;
-  manager.onError = mend;
+/** A texture that could not be had would be drawn black. */
+export function dropEmptyTextures(object: THREE.Object3D): void {
+  object.traverse((part) => {
+    for (const material of materialsOf(part)) {
+      const textured = material as THREE.MeshPhongMaterial;
+      if (!textured.map || hasPicture(textured.map)) continue;
+      textured.map = null;
+      textured.color.set("#b8bcc0");
+      textured.needsUpdate = true;
+    }
+  });
+}
+
+export function hasPicture(texture: THREE.Texture): boolean {
+  return Boolean((texture.image as { width?: number } | undefined)?.width);
 }
 
 export function materialsOf(object: THREE.Object3D): THREE.Material[] {

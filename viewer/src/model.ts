@@ -30,6 +30,7 @@ export interface ModelEvents {
   relation: Relation;
   timeline: Timeline;
   problem: Problem;
+  replay: { looks: string };
   saved: { path?: string; text?: string };
   connected: boolean;
   fixed: string;
@@ -50,6 +51,11 @@ export interface Clock {
   speed: number;
   loop: [number, number] | null;
 }
+
+/** While the time runs, ticks tell where it is again so long after it was moved. */
+const ANSWER_MS = 1000;
+/** The origin of ticks is a float64's: times come back as they were sent, but for that. */
+const EXACT_NS = 1000;
 
 /** The trees, with what is asked of them often looked up beforehand. */
 export class Forest {
@@ -120,6 +126,8 @@ export class Model extends Emitter<ModelEvents> {
   solo: string | null = null;
   clock: Clock = { live: true, playing: false, speed: 1, loop: null };
   broken = 0;
+  /** The time that was asked for last, and when. */
+  private asked: { at: number; since: number } | null = null;
   private soloShown = new Set<string>();
 
   constructor(readonly send: (message: ClientMessage) => void) {
@@ -179,9 +187,42 @@ export class Model extends Emitter<ModelEvents> {
     this.emit("clock", this.clock);
   }
 
-  sendClock(at = this.tick?.time ?? 0): void {
+  sendClock(at = this.playhead): void {
     const { live, playing, speed, loop } = this.clock;
+    this.asked = null;
     if (live) this.send({ type: "time", mode: "live" });
-    else if (Number.isFinite(at)) this.send({ type: "time", mode: "at", at: Math.round(at), playing, speed, loop });
+    else if (Number.isFinite(at)) {
+      this.asked = { at: Math.round(at), since: performance.now() };
+      this.send({ type: "time", mode: "at", at: Math.round(at), playing, speed, loop });
+    }
+  }
+
+  /** The source finds the next message by itself: what was asked for before is over. */
+  step(direction: 1 | -1): void {
+    this.asked = null;
+    this.send({ type: "step", direction });
+  }
+
+  /** What came is shown from now on. */
+  take(tick: Tick): void {
+    this.tick = tick;
+    const { asked } = this;
+    const answered = this.clock.playing
+      ? asked !== null && performance.now() - asked.since > ANSWER_MS
+      : Math.abs(tick.time - (asked?.at ?? NaN)) < EXACT_NS;
+    if (answered) this.asked = null;
+    this.emit("tick", tick);
+  }
+
+  /** Whether a tick that shows what was asked for is still to come. */
+  get waiting(): boolean {
+    return this.asked !== null;
+  }
+
+  /** The time that is looked at: what was asked for last, also while its tick is on the way. */
+  get playhead(): number {
+    if (!this.asked) return this.tick?.time ?? NaN;
+    const { at, since } = this.asked;
+    return this.clock.playing ? at + (performance.now() - since) * 1e6 * this.clock.speed : at;
   }
 }

@@ -1,5 +1,6 @@
 /** What tests, and the curious, can read of the page: `window.coframe`, told anew with each picture. */
 
+import * as THREE from "three";
 import type { Displays } from "./displays/manager";
 import type { Model } from "./model";
 import type { Vector } from "./protocol";
@@ -48,6 +49,24 @@ export function exposeProbe(model: Model, view: View, displays: Displays): void 
     },
     get fps() {
       return view.stage.fps;
+    },
+    /** Whether what is drawn is what was asked for, and stands still. */
+    get settled() {
+      const { live, playing } = model.clock;
+      return !live && !playing && !model.waiting && view.shown === model.tick;
+    },
+    /** How one looks, in the fixed frame's metres. */
+    get camera() {
+      const { camera } = view.stage;
+      const { origin } = view.placement;
+      const told = (place: THREE.Vector3): number[] => place.toArray().map((value, k) => value + (origin[k] as number));
+      return { mode: camera.mode, position: told(camera.current.position), target: told(camera.target) };
+    },
+    /** Where a point of the fixed frame is on the canvas, in pixels. */
+    pixel(point: Vector): [number, number] {
+      const { width, height, camera } = view.stage;
+      const place = new THREE.Vector3(...point).sub(new THREE.Vector3(...view.placement.origin)).project(camera.current);
+      return [((place.x + 1) / 2) * width, ((1 - place.y) / 2) * height];
     },
     get connected() {
       return model.connected;

@@ -103,6 +103,8 @@ export interface DisplayStatus {
   id: number;
   state: "ok" | "waiting" | "error";
   text: string;
+  /** In replays: what was left out. */
+  note?: string;
 }
 
 export interface Relation {
@@ -155,6 +157,7 @@ export type ServerMessage =
   | Relation
   | Timeline
   | Problem
+  | { type: "replay"; looks: string }
   | { type: "saved"; path?: string; text?: string };
 
 export interface SubscribeOptions {
@@ -178,6 +181,11 @@ export type ClientMessage =
   | { type: "joints"; robot: string | number; positions: Record<string, number>; publish: boolean }
   | { type: "load_rviz"; text: string }
   | { type: "save_rviz"; displays: RvizDisplay[]; global: JsonObject; view: JsonObject }
+  | {
+      type: "replay";
+      displays: { topic: string; options: SubscribeOptions }[];
+      rviz: { displays: RvizDisplay[]; global: JsonObject; view: JsonObject | null };
+    }
   | { type: "frame_timeout"; seconds: number }
   | { type: "ready"; drawn: number | null };
 
@@ -231,6 +239,21 @@ export interface Grid {
   cells: Int8Array;
 }
 
+export const ImageFormat = { grey: 0, rgb: 1, jpeg: 2, png: 3 } as const;
+
+export interface Image {
+  kind: "image";
+  id: number;
+  sequence: number;
+  width: number;
+  height: number;
+  format: number;
+  /** Every so-manieth of the message's rows and columns. */
+  step: number;
+  stamp: number;
+  data: Uint8Array<ArrayBuffer>;
+}
+
 export interface MarkerItem {
   ns: string;
   id: number;
@@ -250,9 +273,9 @@ export interface MarkerItem {
 
 /** Pairs are [offset in floats, number of rows] in the payload: a pose is a row of 7 floats, a point of 3, a colour of 4. */
 export type ShapesHead =
-  | { kind: "poses"; frame: string; stamp: number; poses: [number, number] }
+  | { kind: "poses"; frame: string; stamp: number; poses: [number, number]; covariance?: (number | null)[] }
   | { kind: "path"; frame: string; stamp: number; poses: [number, number] }
-  | { kind: "odometry"; frame: string; stamp: number; poses: [number, number] }
+  | { kind: "odometry"; frame: string; stamp: number; poses: [number, number]; covariance?: (number | null)[] }
   | { kind: "markers"; frame: string; stamp: number; items: MarkerItem[] }
   | {
       kind: "range";
@@ -274,8 +297,8 @@ export interface Shapes {
   payload: Float32Array;
 }
 
-export type BinaryMessage = Tick | Cloud | Grid | Shapes;
-export type DisplayMessage = Cloud | Grid | Shapes;
+export type BinaryMessage = Tick | DisplayMessage;
+export type DisplayMessage = Cloud | Grid | Shapes | Image;
 
 export class ProtocolError extends Error {}
 
@@ -318,7 +341,7 @@ class Reader {
     return new Float32Array(this.buffer.slice(start, start + count * 4));
   }
 
-  bytes(count: number): Uint8Array {
+  bytes(count: number): Uint8Array<ArrayBuffer> {
     return new Uint8Array(this.buffer, this.take(count), count);
   }
 
@@ -338,6 +361,7 @@ export function decode(buffer: ArrayBuffer): BinaryMessage {
   if (kind === 2) return decodeCloud(new Reader(buffer, "cloud"));
   if (kind === 3) return decodeGrid(new Reader(buffer, "grid"));
   if (kind === 4) return decodeShapes(new Reader(buffer, "shapes"));
+  if (kind === 5) return decodeImage(new Reader(buffer, "image"));
   throw new ProtocolError(`a binary message of unknown kind ${kind}`);
 }
 
@@ -401,6 +425,20 @@ function decodeShapes(reader: Reader): Shapes {
     throw new ProtocolError("shapes: the description is not JSON");
   }
   return { kind: "shapes", id, sequence, head, payload: reader.floats(Math.floor(reader.rest() / 4)) };
+}
+
+function decodeImage(reader: Reader): Image {
+  reader.u32();
+  const id = reader.u32();
+  const sequence = reader.u32();
+  const width = reader.u32();
+  const height = reader.u32();
+  const flags = reader.u32();
+  const stamp = reader.f64();
+  const format = flags & 255;
+  const raw = format === ImageFormat.grey ? width * height : format === ImageFormat.rgb ? 3 * width * height : null;
+  const data = reader.bytes(raw ?? reader.rest());
+  return { kind: "image", id, sequence, width, height, format, step: Math.max(1, flags >>> 8), stamp, data };
 }
 
 /** Rows of a payload, or none where the pair points outside of it. */

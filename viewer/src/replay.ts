@@ -1,8 +1,22 @@
-/** A recording inside the page: answers what the server would, as far as poses alone can tell. */
+/** A recording inside the page: answers what the server would, as far as the pictures in it can tell. */
 
-import { compose, inverse, matrix, relative, rpyDegrees, type Pose, type Quaternion } from "./math";
+import { between, compose, IDENTITY, inverse, matrix, relative, rpyDegrees, type Pose, type Quaternion } from "./math";
 import { Forest } from "./model";
-import { FrameState, type ClientMessage, type Hello, type Relation, type Robot, type TreeFrame, type Vector } from "./protocol";
+import {
+  FrameState,
+  type ClientMessage,
+  type DisplayPose,
+  type FrameStats,
+  type Hello,
+  type Relation,
+  type Robot,
+  type RvizConfig,
+  type SubscribeOptions,
+  type TimelineEdge,
+  type TreeFrame,
+  type Vector,
+} from "./protocol";
+import { bytes, DAMAGED, lastUpTo, ReplayDisplay, type ReplayDisplayBlock, type Seen } from "./replay_displays";
 import type { Source, SourceEvents } from "./source";
 
 export interface ReplayBlock {
@@ -20,12 +34,27 @@ export interface ReplayBlock {
   poses: string;
   states: string;
   robots?: Partial<Robot>[];
+  /** How it looked where it was saved. */
+  rviz?: Pick<RvizConfig, "displays" | "view"> | null;
+  displays?: ReplayDisplayBlock[];
+  stats?: FrameStats[];
+  edges?: TimelineEdge[];
+  bins?: number;
+}
+
+/** A display of the page that shows what was recorded of a topic. */
+interface Subscribed {
+  recorded: ReplayDisplay;
+  /** The drawings that the page has. */
+  shown: Set<number>;
+  told: string;
+  /** Whether it asks for colours that the file does not hold. */
+  otherColours: boolean;
 }
 
 type Listener = <K extends keyof SourceEvents>(event: K, value: SourceEvents[K]) => void;
 
 const PICTURE_MS = 33;
-const DAMAGED = "the recording in this file is damaged";
 
 /** The recording that the server wrote into this page; null in a live one. */
 export function replayBlock(): ReplayBlock | null {
@@ -42,12 +71,15 @@ export class ReplaySource implements Source {
   private readonly states: Uint8Array;
   private readonly forest: Forest;
   private readonly count: number;
+  private readonly displays: ReplayDisplay[];
+  private readonly subscribed = new Map<number, Subscribed>();
   private fixed: number;
   private at: number;
   private playing = false;
   private speed = 1;
   private loop: [number, number] | null = null;
   private last = 0;
+  private started = false;
   private listener: Listener = () => {};
 
   constructor(private readonly block: ReplayBlock) {
@@ -58,6 +90,7 @@ export class ReplaySource implements Source {
     const samples = this.times.length;
     if (this.poses.length !== samples * this.count * 7 || this.states.length !== samples * this.count)
       throw new Error(DAMAGED);
+    this.displays = (block.displays ?? []).map((display) => new ReplayDisplay(display));
     const components: { root: string; size: number }[] = [];
     for (const frame of block.frames) {
       const component = (components[frame.component] ??= { root: frame.name, size: 0 });
@@ -82,8 +115,8 @@ export class ReplaySource implements Source {
       origin: block.origin,
       span,
       fixed: block.fixed,
-      rviz: null,
-      topics: [],
+      rviz: block.rviz ? { displays: block.rviz.displays ?? [], view: block.rviz.view ?? null, global: {}, unknown: [] } : null,
+      topics: this.displays.map(({ block: { topic, type, display } }) => ({ topic, type, display })),
       can_publish: false,
     };
     listener("text", hello);
@@ -96,12 +129,14 @@ export class ReplaySource implements Source {
         source: "replay",
         urdf: robot.urdf ?? "",
         meshes: robot.meshes ?? {},
-        problems: [],
-        warnings: [],
+        problems: robot.problems ?? [],
+        warnings: robot.warnings ?? [],
         joints: robot.joints ?? [],
-        description_topic: null,
+        description_topic: robot.description_topic ?? null,
       }),
     );
+    if (block.stats?.length === this.count) listener("text", { type: "stats", revision: 1, span, frames: block.stats });
+    this.started = true;
     this.tick();
     setInterval(() => this.advance(), PICTURE_MS);
   }
@@ -131,9 +166,35 @@ export class ReplaySource implements Source {
       case "relate":
         this.listener("text", this.relate(message.id, message.target, message.source));
         break;
+      case "subscribe":
+        this.subscribe(message.id, message.topic, message.options);
+        break;
+      case "unsubscribe":
+        this.subscribed.delete(message.id);
+        this.tick();
+        break;
+      case "timeline": {
+        const { from, to, edges = [], bins = 0 } = this.block;
+        this.listener("text", { type: "timeline", revision: 1, bins, from, to, edges });
+        break;
+      }
       default:
         break;
     }
+  }
+
+  private subscribe(id: number, topic: string, options: SubscribeOptions): void {
+    const fitting = this.displays.filter(({ block }) => block.topic === topic);
+    const recorded = fitting.find(({ block }) => block.color_by === (options.color_by ?? null)) ?? fitting[0];
+    if (!recorded) {
+      this.subscribed.delete(id);
+      this.listener("text", { type: "display", id, state: "error", text: `This replay holds nothing of ${topic}.` });
+      return;
+    }
+    const computed = options.color_by === undefined || ["axis", "flat"].includes(options.color_by);
+    const otherColours = !computed && recorded.block.color_by !== options.color_by;
+    this.subscribed.set(id, { recorded, shown: new Set(), told: "", otherColours });
+    this.tick();
   }
 
   private advance(): void {
@@ -148,14 +209,7 @@ export class ReplaySource implements Source {
 
   /** The last sample that is not later than the playhead. */
   private sample(): number {
-    let low = 0;
-    let high = this.times.length - 1;
-    while (low < high) {
-      const middle = (low + high + 1) >> 1;
-      if ((this.times[middle] as number) <= this.at) low = middle;
-      else high = middle - 1;
-    }
-    return low;
+    return Math.max(0, lastUpTo(this.times, this.at));
   }
 
   private pose(sample: number, frame: number): Pose {
@@ -165,7 +219,7 @@ export class ReplaySource implements Source {
   }
 
   private tick(): void {
-    if (this.times.length === 0) return;
+    if (this.times.length === 0 || !this.started) return;
     const sample = this.sample();
     const { frames } = this.forest;
     const poses = new Float32Array(this.count * 7);
@@ -195,8 +249,54 @@ export class ReplaySource implements Source {
       count: this.count,
       poses,
       states,
-      displays: [],
+      displays: this.showDisplays(sample, asRecorded),
     });
+  }
+
+  /** What is to be seen of the displays; drawings that the page has not got go before it. */
+  private showDisplays(sample: number, asRecorded: boolean): DisplayPose[] {
+    const seen: Seen = asRecorded ? () => IDENTITY : (stamp) => this.recordedFrame(sample, stamp);
+    const all: DisplayPose[] = [];
+    for (const [id, subscribed] of this.subscribed) {
+      const entries = subscribed.recorded.at(sample, id, seen);
+      for (const { sequence } of entries) if (!subscribed.shown.has(sequence)) this.sendDrawing(id, sequence, subscribed);
+      subscribed.shown = new Set(entries.map(({ sequence }) => sequence));
+      this.tellStatus(id, sample, subscribed);
+      all.push(...entries);
+    }
+    return all;
+  }
+
+  private sendDrawing(id: number, sequence: number, { recorded }: Subscribed): void {
+    try {
+      const drawing = recorded.drawing(sequence, id);
+      if (drawing) this.listener("binary", drawing);
+    } catch (error) {
+      this.listener("broken", error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  private tellStatus(id: number, sample: number, subscribed: Subscribed): void {
+    const { recorded, otherColours } = subscribed;
+    const [was, said] = recorded.status(sample);
+    const poor = otherColours && was === "ok";
+    const state = poor ? "error" : was;
+    const text = poor ? "This replay holds no other colours than those that it was saved with." : said;
+    if (subscribed.told === `${state} ${text}`) return;
+    subscribed.told = `${state} ${text}`;
+    this.listener("text", { type: "display", id, state, text, note: recorded.note });
+  }
+
+  /** From the chosen fixed frame, where that of the recording was at a time; null where nobody knows. */
+  private recordedFrame(sample: number, stamp: number): Pose | null {
+    const recorded = this.forest.index.get(this.block.fixed) ?? -1;
+    if (this.forest.frames[recorded]?.component !== this.forest.frames[this.fixed]?.component) return null;
+    const low = Number.isFinite(stamp) ? Math.max(0, lastUpTo(this.times, stamp)) : sample;
+    const high = Math.min(low + (Number.isFinite(stamp) ? 1 : 0), this.times.length - 1);
+    const [from, to] = [this.times[low] as number, this.times[high] as number];
+    const part = to > from ? Math.max(0, Math.min(1, (stamp - from) / (to - from))) : 0;
+    const base = between(this.pose(low, this.fixed), this.pose(high, this.fixed), part);
+    return base.position.every(Number.isFinite) ? inverse(base) : null;
   }
 
   private rootOf(i: number): number {
@@ -258,12 +358,4 @@ export class ReplaySource implements Source {
 /** For a shell: plain names as they are, others in quotes. */
 function quoted(name: string): string {
   return /^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", `'\\''`)}'`;
-}
-
-function bytes(base64: string, unit: number): ArrayBuffer {
-  const text = atob(base64);
-  if (text.length % unit !== 0) throw new Error(DAMAGED);
-  const out = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; i++) out[i] = text.charCodeAt(i);
-  return out.buffer;
 }

@@ -66,15 +66,19 @@ export class RvizPanel {
   }
 
   save(): void {
-    const camera = this.view.stage.camera.describe(this.view.followed);
     const background = this.theme.palette().background;
     const global: JsonObject = {
       fixed_frame: this.model.fixed,
       background: [1, 3, 5].map((at) => Number.parseInt(background.slice(at, at + 2), 16)),
       frame_rate: 30,
     };
-    const view: JsonObject = { class: camera.class.replace(/^.*\//, ""), options: camera.options };
-    this.model.send({ type: "save_rviz", displays: this.displays.save(), global, view });
+    this.model.send({ type: "save_rviz", displays: this.displays.save(), global, view: this.camera() });
+  }
+
+  /** The view, as an .rviz file has it. */
+  camera(): JsonObject {
+    const camera = this.view.stage.camera.describe(this.view.followed);
+    return { class: camera.class.replace(/^.*\//, ""), options: camera.options };
   }
 
   private async load(): Promise<void> {

@@ -39,11 +39,12 @@ export class Shortcuts {
 
   private press(event: KeyboardEvent): void {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+    // What is open over the page closes by itself.
+    if (document.querySelector("dialog[open]") && !(this.dialog.open && event.key === "?")) return;
     const target = event.target as HTMLElement;
     const typing = target.matches("input:not([type=checkbox]):not([type=range]), select, textarea");
     if (typing && event.key !== "Escape") return;
     if (event.key === " " && target.matches("button, input, summary")) return;
-    if (this.dialog.open && event.key !== "?") return;
     const found = this.shortcuts.find((shortcut) => shortcut.key === event.key);
     if (!found) return;
     if (typing) target.blur();

@@ -74,9 +74,9 @@ export class Timeline {
   toggle(): void {
     const { live, playing } = this.model.clock;
     const span = this.model.span;
-    const at = this.model.tick?.time;
+    const at = this.model.playhead;
     if (live) this.model.setClock({ live: false, playing: false });
-    else if (!playing && span && at !== undefined && at >= span[1] - 1e6) this.model.setClock({ playing: true }, span[0]);
+    else if (!playing && span && at >= span[1] - 1e6) this.model.setClock({ playing: true }, span[0]);
     else this.model.setClock({ playing: !playing });
   }
 
@@ -86,13 +86,13 @@ export class Timeline {
 
   step(direction: 1 | -1): void {
     if (this.model.clock.live || this.model.clock.playing) this.model.setClock({ live: false, playing: false });
-    this.model.send({ type: "step", direction });
+    this.model.step(direction);
   }
 
   /** Moves the playhead by seconds. */
   jump(seconds: number): void {
-    const at = this.model.tick?.time;
-    if (at !== undefined && Number.isFinite(at)) this.seek(at + seconds * 1e9);
+    const at = this.model.playhead;
+    if (Number.isFinite(at)) this.seek(at + seconds * 1e9);
   }
 
   toggleLoop(): void {

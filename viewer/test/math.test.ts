@@ -1,6 +1,20 @@
 import * as THREE from "three";
 import { describe, expect, it } from "vitest";
-import { compose, inverse, matrix, normalize, relative, rpyDegrees, type Pose, type Quaternion } from "../src/math";
+import {
+  between,
+  compose,
+  IDENTITY,
+  inverse,
+  matrix,
+  multiply,
+  normalize,
+  principalAxes,
+  relative,
+  rotate,
+  rpyDegrees,
+  type Pose,
+  type Quaternion,
+} from "../src/math";
 
 /** The same numbers at every run. */
 function* numbers(): Generator<number> {
@@ -58,5 +72,29 @@ describe("poses agree with three.js", () => {
         const again = new THREE.Quaternion().setFromEuler(new THREE.Euler(...back, "ZYX"));
         expect(Math.abs(again.dot(new THREE.Quaternion(...q)))).toBeCloseTo(1, 9);
       }
+  });
+
+  it("have principal axes", () => {
+    // 0.09, 0.04 and 0.01 along axes that are turned by a third of a turn about (1, 1, 1) and then by 30 degrees about z.
+    const turn = multiply([0, 0, Math.sin(Math.PI / 12), Math.cos(Math.PI / 12)], [0.5, 0.5, 0.5, 0.5]);
+    const wanted = [0.09, 0.04, 0.01];
+    const columns = ([[1, 0, 0], [0, 1, 0], [0, 0, 1]] as const).map((axis) => rotate(turn, [...axis]));
+    const entry = (i: number, j: number): number =>
+      wanted.reduce((sum, value, k) => sum + value * (columns[k]?.[i] as number) * (columns[k]?.[j] as number), 0);
+    const matrix = [0, 1, 2].flatMap((i) => [0, 1, 2].map((j) => entry(i, j)));
+    const { variances, quaternion } = principalAxes(matrix);
+    expect([...variances].sort().reverse().map((value) => Math.round(value * 1e9) / 1e9)).toEqual(wanted);
+    variances.forEach((variance, k) => {
+      const axis = rotate(quaternion, [Number(k === 0), Number(k === 1), Number(k === 2)]);
+      const image = [0, 1, 2].map((i) => [0, 1, 2].reduce((sum, j) => sum + entry(i, j) * (axis[j] as number), 0));
+      image.forEach((value, i) => expect(value).toBeCloseTo(variance * (axis[i] as number), 9));
+    });
+  });
+
+  it("are mixed on the shorter turn", () => {
+    const there: Pose = { position: [2, 4, 6], quaternion: [0, 0, -Math.SQRT1_2, -Math.SQRT1_2] };
+    const { position, quaternion } = between(IDENTITY, there, 0.5);
+    expect(position).toEqual([1, 2, 3]);
+    expect(rpyDegrees(quaternion)[2]).toBeCloseTo(45, 6);
   });
 });

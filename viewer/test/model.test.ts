@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { Forest } from "../src/model";
+import { Forest, Model } from "../src/model";
+import type { ClientMessage, Tick } from "../src/protocol";
 import { decodeCounts } from "../src/sparklines";
 import { cssColour, Options, rvizColour } from "../src/displays/options";
 import * as format from "../src/format";
@@ -42,6 +43,34 @@ describe("the forest", () => {
     const loop = new Forest(1, [frame("a", 1), frame("b", 0), frame("self", 2), frame("far", 99)], []);
     expect(loop.ancestors(0).length).toBeLessThanOrEqual(4);
     expect(loop.subtree(0).length).toBeLessThanOrEqual(6);
+  });
+});
+
+describe("the playhead", () => {
+  const tick = (time: number) =>
+    ({ kind: "tick", revision: 1, time, origin: [0, 0, 0], count: 0, displays: [] }) as unknown as Tick;
+
+  it("counts from the time that was asked for, not from the last picture", () => {
+    const sent: ClientMessage[] = [];
+    const model = new Model((message) => void sent.push(message));
+    model.take(tick(10e9));
+    for (let press = 0; press < 3; press++) {
+      model.setClock({ live: false, playing: false }, model.playhead + 1e9);
+      model.take(tick(10e9)); // one that was on its way
+    }
+    expect(sent.map((message) => message.type === "time" && message.mode === "at" && message.at)).toEqual([11e9, 12e9, 13e9]);
+    expect([model.playhead, model.waiting]).toEqual([13e9, true]);
+    model.take(tick(13e9));
+    model.take(tick(14e9));
+    expect([model.playhead, model.waiting]).toEqual([14e9, false]);
+  });
+
+  it("is where the source found the next message after a step", () => {
+    const model = new Model(() => {});
+    model.setClock({ live: false, playing: false }, 5e9);
+    model.step(1);
+    model.take(tick(5.1e9));
+    expect(model.playhead).toBe(5.1e9);
   });
 });
 

@@ -17,7 +17,7 @@ import coframe
 from coframe.cli.live import tree_table
 from coframe.cli.session import DomainOption, fail, session
 from coframe.cli.view import PortOption, announce
-from coframe.lab.launcher import Launcher
+from coframe.lab.launcher import COMPLETE_LAB, DESCRIBED_LAB, Launcher
 from coframe.messages.generated.sensor_msgs.msg import PointCloud2
 
 if TYPE_CHECKING:
@@ -53,6 +53,9 @@ class Clouds:
 
 
 def demo(
+    urdf: Annotated[
+        bool, typer.Option("--urdf", help="Arm, sensors and gripper come from a xacro file, as the very same frames.")
+    ] = False,
     duration: Annotated[float | None, typer.Option(min=0.0, help="Leave after so many seconds.")] = None,
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Stay in the terminal.")] = False,
     port: PortOption = None,
@@ -69,7 +72,7 @@ def demo(
     with (
         session(),
         coframe.connect("coframe_demo", domain=domain) as ros,
-        Launcher(domain=domain) as nodes,
+        Launcher(DESCRIBED_LAB if urdf else COMPLETE_LAB, domain=domain) as nodes,
         _viewer(ros, port, browser=not no_browser),
     ):
         clouds = Clouds()

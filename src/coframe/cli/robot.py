@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from coframe.cli.session import DomainOption, session
+from coframe.cli.session import DomainOption, node_errors, session
 from coframe.robots import load
 
 __all__ = ["robot"]
@@ -43,4 +43,5 @@ def robot(
         from robot_state_publisher import run  # noqa: PLC0415
 
         overrides = [Parameter(name, value=value) for name, value in parameters.items()]
-        run(["coframe", *context.args], domain_id=domain, parameter_overrides=overrides)
+        with node_errors():
+            run(["coframe", *context.args], domain_id=domain, parameter_overrides=overrides)

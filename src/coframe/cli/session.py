@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import FrameType
 
-__all__ = ["DomainOption", "TfStaticTopicOption", "TfTopicOption", "fail", "log", "printable", "session"]
+__all__ = ["DomainOption", "TfStaticTopicOption", "TfTopicOption", "fail", "log", "node_errors", "printable", "session"]
 
 DomainOption = Annotated[
     int | None, typer.Option(min=0, max=232, help="The ROS domain; by default ROS_DOMAIN_ID, or 0.", show_default=False)
@@ -72,6 +72,17 @@ def session() -> Iterator[None]:
     finally:
         for number, handler in previous.items():
             signal.signal(number, handler)
+
+
+@contextlib.contextmanager
+def node_errors() -> Iterator[None]:
+    """What is wrong with the part of the command line that is a node's becomes a sentence and exit code 2."""
+    from rclpy.exceptions import NameValidationException, ParameterException, RCLError  # noqa: PLC0415 - few need it
+
+    try:
+        yield
+    except (NameValidationException, ParameterException, RCLError) as error:
+        fail(str(error), code=2)
 
 
 # Windows has no SIGHUP.

@@ -14,9 +14,12 @@ import typer
 
 import coframe
 from coframe.cli.session import DomainOption, TfStaticTopicOption, TfTopicOption, session
+from coframe.viewer import expect
+from coframe.wire import dds
 
 if TYPE_CHECKING:
     from coframe.viewer import Viewer
+    from coframe.viewer.recorded import RecordedSource
 
 __all__ = ["announce", "view"]
 
@@ -49,20 +52,66 @@ def view(
 
     Example: coframe view run.mcap -d lab.rviz
     """
-    with session(), contextlib.ExitStack() as stack:
-        source = (
-            stack.enter_context(
-                coframe.connect("coframe_view", domain=domain, tf_topic=tf_topic, tf_static_topic=tf_static_topic)
-            )
-            if bag == "live"
-            else Path(bag)
+    live = bag == "live"
+    with session():
+        if live:
+            dds.check()
+        viewer = expect(
+            "coframe: joining the ROS graph" if live else Path(bag).name,
+            "live" if live else "buffer",
+            fixed=fixed,
+            host=host,
+            port=port,
+            rviz=rviz,
+            robot=robot,
+            mesh_roots=mesh_root or [],
         )
-        viewer = stack.enter_context(
-            coframe.show(source, fixed=fixed, host=host, port=port, rviz=rviz, robot=robot, mesh_roots=mesh_root or [])
-        )
-        announce(viewer, browser=not no_browser)
-        while True:  # until Ctrl-C, which an endless wait would not hear everywhere
-            time.sleep(60.0)
+        with viewer:
+            # The browser starts meanwhile.
+            if live:
+                announce(viewer, browser=not no_browser)
+                node = coframe.connect(
+                    "coframe_view", domain=domain, tf_topic=tf_topic, tf_static_topic=tf_static_topic
+                )
+                from coframe.viewer.live import LiveSource  # noqa: PLC0415 - who reads a recording needs no graph
+
+                viewer.show(LiveSource(node, own=True))
+            else:
+                viewer.show(_read(Path(bag), _Reading(viewer, browser=not no_browser)))
+            while True:  # until Ctrl-C, which an endless wait would not hear everywhere
+                time.sleep(60.0)
+
+
+class _Reading:
+    """How far a recording is read: told as the title of the page, which is announced when the first bit is read."""
+
+    _PERIOD = 0.25  # seconds
+
+    def __init__(self, viewer: Viewer, *, browser: bool) -> None:
+        self._viewer = viewer
+        self._browser = browser
+        self._due = 0.0
+        self._announced = False
+
+    def announce(self) -> None:
+        if not self._announced:
+            self._announced = True
+            announce(self._viewer, browser=self._browser)
+
+    def tell(self, done: int, total: int, name: str) -> None:
+        self.announce()
+        now = time.monotonic()
+        if now >= self._due:
+            self._due = now + self._PERIOD
+            self._viewer.entitle(f"{name}: {100 * done // max(total, 1)} % read")
+
+
+def _read(bag: Path, reading: _Reading) -> RecordedSource:
+    from coframe.viewer.recorded import RecordedSource  # noqa: PLC0415 - who looks at the graph needs no recordings
+
+    recording = coframe.open_bag(bag, progress=lambda done, total: reading.tell(done, total, bag.name))
+    reading.announce()
+    return RecordedSource(recording, own=True)
 
 
 def announce(viewer: Viewer, *, browser: bool) -> None:

@@ -9,6 +9,7 @@ Parameters:
     publish_base: whether map, odom and base_link move from here (false: a real or simulated robot tells)
     publish_arm: whether the arm moves from here (false: dynamic_tf_broadcaster or a robot tells)
     publish_mounts: whether the sensor mounts come from here (false: static_tf_broadcaster tells)
+    publish_gripper: whether the gripper's mount comes from here (false: a robot's description tells)
     link_lengths, base_height: of the arm, metres
     world_frame, map_frame, odom_frame, base_frame, link1_frame, link2_frame, end_effector_frame: names of the frames
     imu_frame, lidar_frame, camera_frame, gripper_frame: names of the mounts
@@ -62,6 +63,7 @@ class CompleteTFTree(Node):
         self.publish_base = self.declare_parameter("publish_base", True).value
         self.publish_arm = self.declare_parameter("publish_arm", True).value
         self.publish_mounts = self.declare_parameter("publish_mounts", True).value
+        self.publish_gripper = self.declare_parameter("publish_gripper", True).value
         self.link_lengths = self.lengths("link_lengths", [0.4, 0.3])
         self.base_height = self.declare_parameter("base_height", 0.2).value
 
@@ -96,7 +98,8 @@ class CompleteTFTree(Node):
                 self.make_transform("base", "lidar", lidar, NO_ROTATION),
                 self.make_transform("end_effector", "camera", camera, LOOK_FORWARD),
             ]
-        static_tfs.append(self.make_transform("end_effector", "gripper", gripper, NO_ROTATION))
+        if self.publish_gripper:
+            static_tfs.append(self.make_transform("end_effector", "gripper", gripper, NO_ROTATION))
 
         self.static_broadcaster.sendTransform(static_tfs)
         self.get_logger().info(f"Published {len(static_tfs)} static transforms")

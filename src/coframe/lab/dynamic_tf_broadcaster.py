@@ -6,6 +6,7 @@ Try it:
 
 Parameters:
     rate: broadcasts of the simulated arm per second
+    publish_joint_states: the simulated arm tells joint states, of which robot_state_publisher makes the transforms
     joint_timeout: seconds without joint states after which the simulation goes on
     joint_names: the arm's joints in the joint states
     joint_states_topic: where joint states come from
@@ -50,7 +51,11 @@ class DynamicFramePublisher(Node):
 
         self.tf_broadcaster = TransformBroadcaster(self)
         topic = self.declare_parameter("joint_states_topic", "/joint_states").value
-        self.joint_sub = self.create_subscription(JointState, topic, self.joint_callback, 10)
+        self.joint_pub = None
+        if self.declare_parameter("publish_joint_states", False).value:
+            self.joint_pub = self.create_publisher(JointState, topic, 10)
+        else:
+            self.joint_sub = self.create_subscription(JointState, topic, self.joint_callback, 10)
         self.timer = self.create_timer(self.period, self.simulate_and_broadcast)
 
         self.sim_time = 0.0
@@ -69,7 +74,12 @@ class DynamicFramePublisher(Node):
         self.sim_time += self.period if elapsed is None or elapsed < 0.0 else elapsed
         q1 = 0.5 * math.sin(2 * math.pi * 0.2 * self.sim_time)
         q2 = 0.3 * math.sin(2 * math.pi * 0.3 * self.sim_time + math.pi / 4)
-        self.broadcast_arm_transforms(q1, q2, now)
+        if self.joint_pub is None:
+            self.broadcast_arm_transforms(q1, q2, now)
+            return
+        state = JointState(name=self.joint_names, position=[q1, q2])
+        state.header.stamp = now.to_msg()
+        self.joint_pub.publish(state)
 
     def robot_is_there(self, now: Time) -> bool:
         """Whether joint states arrived lately; two sources at once would make the arm flicker."""

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-__all__ = ["COMPLETE_LAB", "FailedNode", "Launcher", "NodeCommand"]
+__all__ = ["COMPLETE_LAB", "DESCRIBED_LAB", "FailedNode", "Launcher", "NodeCommand"]
 
 # How long a node may take to end after it was asked to.
 END_TIMEOUT = 5.0
@@ -40,6 +40,18 @@ class FailedNode(NamedTuple):
 COMPLETE_LAB = (
     NodeCommand("complete_tf_tree", ("-p", "publish_arm:=false")),
     NodeCommand("dynamic_tf_broadcaster"),
+    NodeCommand("simulated_lidar"),
+    NodeCommand("sensor_transform"),
+)
+
+# The same, with arm, sensors and gripper from two_link_arm.urdf.xacro.
+DESCRIBED_LAB = (
+    NodeCommand(
+        "complete_tf_tree",
+        ("-p", "publish_arm:=false", "-p", "publish_mounts:=false", "-p", "publish_gripper:=false"),
+    ),
+    NodeCommand("dynamic_tf_broadcaster", ("-p", "publish_joint_states:=true")),
+    NodeCommand("robot_state_publisher", ("-p", "ignore_timestamp:=true")),
     NodeCommand("simulated_lidar"),
     NodeCommand("sensor_transform"),
 )

@@ -141,12 +141,17 @@ class Link:
 
 @dataclass(frozen=True)
 class Limits:
-    """How far and how hard a joint goes: rad, rad/s and Nm, or m, m/s and N; None where it is not said."""
+    """How far and how hard a joint goes: rad, rad/s and Nm, or m, m/s and N; None where it is not said.
+
+    The soft ones are a safety controller's, which keeps the joint from where it would be stopped hard.
+    """
 
     lower: float | None = None
     upper: float | None = None
     effort: float | None = None
     velocity: float | None = None
+    soft_lower: float | None = None
+    soft_upper: float | None = None
 
 
 @dataclass(frozen=True)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import difflib
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, overload
 
 import numpy as np
 
 from coframe import quaternion
 from coframe.robots.kinematics import Chain
-from coframe.transform import Transform, batch_of
+from coframe.transform import batch_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -21,11 +21,13 @@ if TYPE_CHECKING:
 
     from coframe.quaternion import Array
     from coframe.robots.parts import Joint, Limits, Link, Material, Mimic
+    from coframe.transform import Transform
 
 __all__ = ["Robot"]
 
 # By the size of a joint's position.
 _AT_REST: dict[int, float | list[float]] = {1: 0.0, 3: [0.0] * 3, 7: [0.0] * 6 + [1.0]}
+_UNMOVED = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,26 +72,46 @@ class Robot:
         """Where each of the :attr:`free_joints` rests: at 0, or amid its limits if these leave 0 out."""
         return {name: _rest(self.joints[name]) for name in self.free_joints}
 
-    def frames(self, positions: Mapping[str, ArrayLike] | None = None) -> dict[str, Transform]:
+    @overload
+    def frames(
+        self, positions: Mapping[str, ArrayLike] | None = None, *, out: None = None, threads: int = 1
+    ) -> dict[str, Transform]: ...
+    @overload
+    def frames(self, positions: Mapping[str, ArrayLike], *, out: Array, threads: int = 1) -> Array: ...
+
+    def frames(
+        self, positions: Mapping[str, ArrayLike] | None = None, *, out: Array | None = None, threads: int = 1
+    ) -> dict[str, Transform] | Array:
         """Where every link is, told in the root link.
 
         Args:
             positions: By joint, in radians or metres: a number or an array (N,). A planar joint takes x, y, angle,
                 (3,) or (N, 3); a floating one x, y, z, qx, qy, qz, qw, (7,) or (N, 7). A joint that mimics another
                 follows it unless it is given itself; others that are left out are at 0. Limits are not enforced.
+            out: With arrays: filled and returned instead of new transforms, which is faster. (L, N, 7) float64 gets
+                x, y, z, qx, qy, qz, qw of the L links, the root link first and then as the joints move them.
+            threads: So many share the work.
 
         Returns:
-            By link, the root link included. With arrays all are batches of shape (N,).
+            By link, the root link first. With arrays all are batches of shape (N,).
 
         Raises:
-            ValueError: There is no such joint, it does not move, or a position is not finite or of the wrong shape.
+            ValueError: There is no such joint, it does not move, a position is not finite or of the wrong shape, or
+                ``out`` is of another shape.
         """
-        full, shape = self.positions(positions)
-        t, q = self._chain.world(full, shape)
-        found = {self.root: _transform(*_unmoved(shape), self.root, self.root)}
-        for i, joint in enumerate(self._chain.joints):
-            found[joint.child] = _transform(t[i], q[i], self.root, joint.child)
-        return found
+        found = None if out is not None else self._chain.transforms(positions or {}, in_root=True)
+        if found is not None:
+            return found
+        known, shape = self._known(positions)
+        if out is None and not shape:
+            return self._of_one(known, in_root=True)
+        poses = np.empty((len(self.links), *shape, 7)) if out is None else _checked_rows(out, (len(self.links), *shape))
+        poses[0] = _UNMOVED
+        self._fill(poses[1:], known, shape, in_root=True, threads=threads)
+        if out is not None:
+            return out
+        links = [self.root, *(joint.child for joint in self.joints.values())]
+        return {link: _batch(rows, self.root, link) for link, rows in zip(links, poses, strict=True)}
 
     def joint_transforms(self, positions: Mapping[str, ArrayLike] | None = None) -> dict[str, Transform]:
         """Where every joint's child link is, told in its parent link: what is published as tf.
@@ -103,11 +125,16 @@ class Robot:
         Raises:
             ValueError: As of :meth:`frames`.
         """
-        full, shape = self.positions(positions)
-        t, q = self._chain.local(full, shape)
-        return {
-            joint.name: _transform(t[i], q[i], joint.parent, joint.child) for i, joint in enumerate(self._chain.joints)
-        }
+        found = self._chain.transforms(positions or {}, in_root=False)
+        if found is not None:
+            return found
+        known, shape = self._known(positions)
+        if not shape:
+            return self._of_one(known, in_root=False)
+        poses = np.empty((len(self.joints), *shape, 7))
+        self._fill(poses, known, shape, in_root=False)
+        joints = self.joints.values()
+        return {j.name: _batch(rows, j.parent, j.child) for j, rows in zip(joints, poses, strict=True)}
 
     def jacobian(self, frame: str, positions: Mapping[str, ArrayLike] | None = None) -> Array:
         """How fast a link moves when joints do.
@@ -126,8 +153,10 @@ class Robot:
         """
         if frame not in self.links:
             raise ValueError(_unknown("link", frame, list(self.links)))
-        full, shape = self.positions(positions)
-        t, q = self._chain.world(full, shape)
+        known, shape = self._known(positions)
+        poses = np.empty((len(self.joints), *shape, 7))
+        self._fill(poses, known, shape, in_root=True)
+        t, q = poses[..., :3], poses[..., 3:]
         column = {name: i for i, name in enumerate(self.free_joints)}
         result = np.zeros((*shape, 6, len(column)))
         path = self._chain.path(frame)
@@ -154,14 +183,22 @@ class Robot:
         Raises:
             ValueError: As of :meth:`frames`.
         """
-        known = {name: self._checked(name, value) for name, value in (given or {}).items()}
-        shape = np.broadcast_shapes(*(self._batch_axes(name, value) for name, value in known.items()))
-        if len(shape) > 1:
-            raise ValueError(f"positions have one batch axis at most, (N,), not {shape}")
+        known, shape = self._known(given)
+        for name, value in known.items():
+            if not np.isfinite(value).all() or (self.joints[name].size == 7 and not value[..., 3:].any(axis=-1).all()):
+                raise ValueError(_no_position(name))
         moving = (joint for joint in self.joints.values() if joint.size)
         return {
             joint.name: np.broadcast_to(self._position(joint, known), (*shape, *_axes(joint))) for joint in moving
         }, shape
+
+    def _known(self, given: Mapping[str, ArrayLike] | None) -> tuple[dict[str, Array], tuple[int, ...]]:
+        """What was given as arrays of the right shape, and the batch axes."""
+        known = {name: self._checked(name, value) for name, value in (given or {}).items()}
+        shape = np.broadcast_shapes(*(self._batch_axes(name, value) for name, value in known.items()))
+        if len(shape) > 1:
+            raise ValueError(f"positions have one batch axis at most, (N,), not {shape}")
+        return known, shape
 
     def _checked(self, name: str, value: ArrayLike) -> Array:
         if name not in self.joints:
@@ -169,12 +206,30 @@ class Robot:
         size = self.joints[name].size
         if not size:
             raise ValueError(f"joint {name!r} is fixed: it has no position")
-        array = np.asarray(value, dtype=np.float64)
+        try:
+            array = np.asarray(value, dtype=np.float64)
+        except (OverflowError, TypeError) as error:
+            raise ValueError(f"the position of joint {name!r}: {error}") from None
         if size > 1 and array.shape[-1:] != (size,):
             raise ValueError(f"joint {name!r} is {self.joints[name].type}: it takes (..., {size}), not {array.shape}")
-        if not np.isfinite(array).all() or (size == 7 and not array[..., 3:].any(axis=-1).all()):
-            raise ValueError(f"the position of joint {name!r} is not finite, or its quaternion is zero")
         return array
+
+    def _of_one(self, known: dict[str, Array], *, in_root: bool) -> dict[str, Transform]:
+        found = self._chain.transforms({name: value.tolist() for name, value in known.items()}, in_root=in_root)
+        if found is None:  # their shapes are right
+            self.positions(known)
+            raise ValueError("the position of a joint that follows another is not finite")
+        return found
+
+    def _fill(
+        self, poses: Array, known: dict[str, Array], shape: tuple[int, ...], *, in_root: bool, threads: int = 1
+    ) -> None:
+        """Poses (J, ..., 7) of the links behind the joints."""
+        rows = shape or (1,)
+        columns = {name: np.broadcast_to(value, (*rows, *_axes(self.joints[name]))) for name, value in known.items()}
+        bad = self._chain.poses(columns, rows[0], poses, in_root=in_root, threads=threads)
+        if bad is not None:
+            raise ValueError(_no_position(bad))
 
     def _batch_axes(self, name: str, value: Array) -> tuple[int, ...]:
         return value.shape[: value.ndim - len(_axes(self.joints[name]))]
@@ -218,14 +273,21 @@ def _rest(joint: Joint) -> float:
     return 0.0 if limits.lower <= 0.0 <= limits.upper else 0.5 * (limits.lower + limits.upper)
 
 
-def _unmoved(shape: tuple[int, ...]) -> tuple[Array, Array]:
-    return np.zeros((*shape, 3)), np.broadcast_to(np.array([0.0, 0.0, 0.0, 1.0]), (*shape, 4))
+def _batch(rows: Array, target: str, source: str) -> Transform:
+    return batch_of(rows[:, :3], rows[:, 3:], target, source, None)
 
 
-def _transform(t: Array, q: Array, target: str, source: str) -> Transform:
-    if t.ndim > 1:
-        return batch_of(t, q, target, source, None)
-    return Transform(t, q, target=target, source=source)
+def _checked_rows(out: Array, shape: tuple[int, ...]) -> Array:
+    wanted = (*shape, 7)
+    if len(wanted) != 3 or out.shape != wanted or out.dtype != np.float64 or not out.flags.carray:
+        raise ValueError(
+            f"out must be a contiguous float64 array (L, N, 7), here {wanted}, not {out.dtype} {out.shape}"
+        )
+    return out
+
+
+def _no_position(joint: str) -> str:
+    return f"the position of joint {joint!r} is not finite, or its quaternion is zero"
 
 
 def _unknown(what: str, name: str, known: list[str]) -> str:

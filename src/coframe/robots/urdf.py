@@ -126,22 +126,26 @@ def _axis(joint: Element, name: str, kind: JointType) -> Vector:
 
 
 def _limits(joint: Element, name: str, kind: JointType) -> Limits | None:
-    element = joint.one("limit")
-    if element is None:
-        if kind in _NEEDS_LIMITS:
-            joint.refuse(
-                f"joint {name!r} is {kind} and has no <limit>",
-                hint='Give it <limit lower="..." upper="..." effort="..." velocity="..."/>'
-                + (", or make it continuous." if kind == "revolute" else "."),
-            )
+    element, safety = joint.one("limit"), joint.one("safety_controller")
+    if element is None and kind in _NEEDS_LIMITS:
+        joint.refuse(
+            f"joint {name!r} is {kind} and has no <limit>",
+            hint='Give it <limit lower="..." upper="..." effort="..." velocity="..."/>'
+            + (", or make it continuous." if kind == "revolute" else "."),
+        )
+    if element is None and safety is None:
         return None
-    values = [element.number(part) if part in element.attributes else None for part in _LIMITS]
-    lower, upper, effort, velocity = values
-    if kind in _NEEDS_LIMITS:
+    lower, upper, effort, velocity = (_given(element, part) for part in _LIMITS)
+    if element is not None and kind in _NEEDS_LIMITS:
         lower, upper = lower or 0.0, upper or 0.0
         if lower > upper:
             element.refuse(f"joint {name!r} has the lower limit {lower:g} above the upper one {upper:g}")
-    return Limits(lower, upper, effort, velocity)
+    soft_lower, soft_upper = (_given(safety, part) for part in ("soft_lower_limit", "soft_upper_limit"))
+    return Limits(lower, upper, effort, velocity, soft_lower, soft_upper)
+
+
+def _given(element: Element | None, attribute: str) -> float | None:
+    return element.number(attribute) if element is not None and attribute in element.attributes else None
 
 
 def _mimic(joint: Element, name: str, kind: JointType, warnings: list[str]) -> Mimic | None:

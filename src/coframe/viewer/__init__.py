@@ -4,6 +4,6 @@
 the page draws. `coframe.viewer.protocol` says what travels between both.
 """
 
-from coframe.viewer.show import Viewer, show
+from coframe.viewer.show import Viewer, expect, show
 
-__all__ = ["Viewer", "show"]
+__all__ = ["Viewer", "expect", "show"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import deque
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
-from coframe.viewer.displays import DRAWN_BY, Drawing, Options
+from coframe.viewer.displays import DRAWN_BY, CannotDrawError, Drawing, Options
 from coframe.viewer.displays.drawing import pose_row
 from coframe.viewer.displays.markers import MarkerSet
 from coframe.viewer.displays.shapes import Row, draw_odometry
@@ -40,13 +40,16 @@ class PlainArtist:
     """Draws each message alone."""
 
     def __init__(self, messages: Messages, options: Options) -> None:
-        self._draw = DRAWN_BY[messages.type]
+        self._type = messages.type
         self._options = options
 
     def draw(self, sighting: Sighting, time: int) -> list[Drawing]:
         """As of Artist."""
         del time
-        return [self._draw(sighting.message(), self._options)]
+        draw = DRAWN_BY.get(self._type)
+        if draw is None:
+            raise CannotDrawError(f"there is no display for {self._type}")
+        return [draw(sighting.message(), self._options)]
 
     def fades(self, time: int) -> bool:
         """Never."""

@@ -2,23 +2,25 @@
 
 The newest wins: a tick is made only when the tab has drawn the last one and the connection has taken it, so a tab that
 is slow or stuck skips ticks. What it asks is answered in order; who asks without reading is not listened to any more.
+Ticks are made by plain calls, without tasks and locks, which would cost more than the rest of most of them.
 """
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
+import dataclasses
+import logging
 import math
 import time
+from collections import deque
 from typing import TYPE_CHECKING, Any, TypeVar
-
-from websockets.exceptions import ConnectionClosed
 
 from coframe.errors import WireError
 from coframe.viewer import protocol
 from coframe.viewer.display import Display, Status
 from coframe.viewer.playhead import Playhead
-from coframe.viewer.requests import BadRequestError, parse
+from coframe.viewer.requests import READY, BadRequestError, Request, parse
 from coframe.viewer.scene import LocalOrigin
 from coframe.viewer.stage import FRAME_TIMEOUT
 from coframe.viewer.statistics import frame_rows
@@ -26,26 +28,27 @@ from coframe.viewer.statistics import frame_rows
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from websockets.asyncio.server import ServerConnection
-
     from coframe.viewer.descriptions import Description
     from coframe.viewer.displays import Options
     from coframe.viewer.joints import JointPublisher
     from coframe.viewer.stage import Stage
+    from coframe.viewer.websocket import WebSocket
 
 __all__ = ["Client"]
 
+_logger = logging.getLogger("coframe.viewer")
 T = TypeVar("T")
 
-# Who asks more than this without reading the answers waits.
-MOST_ANSWERS = 64
+# Who asks so much without reading the answers is not listened to until they are read.
+MOST_REQUESTS = 64
 # How often, in seconds; of large trees as often as that share of the time allows.
 STATISTICS_PERIOD, STATISTICS_SHARE = 1.0, 0.003
 # How often a topic that nobody publishes yet is looked for.
 LATE_PERIOD = 0.25
 # Where nothing changes, a tick comes all the same once in a while.
 IDLE_PERIOD = 1.0
-_RATE = 30.0
+# Ticks a second: RViz's usual rate, and the highest that can be asked for.
+FRAME_RATE, FASTEST_RATE = 30.0, 60.0
 _MOST_DISPLAYS = 100
 
 
@@ -67,28 +70,36 @@ class Client:
         stage: What all tabs see.
     """
 
-    def __init__(self, socket: ServerConnection, stage: Stage) -> None:
+    def __init__(self, socket: WebSocket, stage: Stage) -> None:
         self._socket = socket
         self._stage = stage
         self.playhead = Playhead()
         self.frame_timeout = FRAME_TIMEOUT
         self.rviz = stage.rviz
+        self.wanted_rate: float | None = None if stage.rviz is None else stage.rviz.frame_rate
         self.wanted_fixed = stage.fixed
-        self.bad_requests = 0
+        self.due = 0.0
         self._displays: dict[int, _Wanted] = {}
         self._joints: dict[int, JointPublisher] = {}
         self._told_robots: dict[int, Description] = {}
         self._told_problems: dict[str, tuple[str, str]] = {}
         self._origin = LocalOrigin()
-        self._answers: asyncio.Queue[str] = asyncio.Queue(MOST_ANSWERS)
+        self._requests: deque[Request | BadRequestError] = deque()
+        self._answering: asyncio.Task[None] | None = None
         self._ready = True
         self._told_origin: int | None = None
+        self._told_edition = 0
         self._told_tree: tuple[int, str] | None = None
         self._told_topics: object = None
         self._statistics_due = 0.0
         self._late_due = 0.0
         self._last_tick: tuple[Any, ...] | None = None
         self._ticked = -math.inf
+
+    @property
+    def frame_rate(self) -> float:
+        """Ticks a second, at most."""
+        return min(self.wanted_rate or FRAME_RATE, FASTEST_RATE)
 
     @property
     def fixed(self) -> str:
@@ -100,45 +111,57 @@ class Client:
         """What the times of this tab are relative to."""
         return self._stage.origin if self._told_origin is None else self._told_origin
 
-    async def run(self) -> None:
-        """Until the connection ends."""
-        both = [asyncio.create_task(self._send_all()), asyncio.create_task(self._take_all())]
+    def hear(self, message: str | bytes) -> None:
+        """Takes a message. That the last tick is drawn is noted at once; all else is done in order."""
         try:
-            ended, _ = await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
-            for task in ended:
-                task.result()
-        except ConnectionClosed:
-            pass
-        finally:
-            for task in both:
-                task.cancel()
-            await asyncio.gather(*both, return_exceptions=True)
-            self._leave()
+            request: Request | BadRequestError = parse(message)
+        except BadRequestError as error:
+            request = error
+        if isinstance(request, Request) and request.kind == READY:
+            self._ready = True
+            return
+        self._requests.append(request)
+        if len(self._requests) >= MOST_REQUESTS:
+            self._socket.pause()
+        if self._answering is None:
+            self._answering = asyncio.get_running_loop().create_task(self._do_all())
 
-    def _leave(self) -> None:
+    def leave(self) -> None:
+        """The connection has ended."""
+        if self._answering is not None:
+            self._answering.cancel()
         for number in list(self._displays):
             self.unsubscribe(number)
         for number in list(self._joints):
             self.stop_joints(number)
 
-    async def _take_all(self) -> None:
-        async for message in self._socket:
-            await self._take(message)
-
     async def answer(self, kind: str, **fields: Any) -> None:
         """Sends something that was asked for; waits where the tab does not read."""
-        await self._answers.put(protocol.text(kind, **fields))
+        await self._socket.cleared()
+        self._socket.send(protocol.text(kind, **fields))
 
     async def work(self, deed: Callable[..., T], *args: Any) -> T:
         """Does what takes long where it keeps nobody waiting."""
         return await asyncio.get_running_loop().run_in_executor(self._stage.executor, deed, *args)
 
-    async def _take(self, message: str | bytes) -> None:
+    async def _do_all(self) -> None:
         try:
-            request = parse(message)
+            while self._requests:
+                request = self._requests.popleft()
+                if len(self._requests) < MOST_REQUESTS // 2:
+                    self._socket.resume()
+                await self._do(request)
+            self._answering = None
+        except Exception:
+            _logger.exception("a tab's request failed; the others go on")
+            self._socket.abort()
+
+    async def _do(self, request: Request | BadRequestError) -> None:
+        try:
+            if isinstance(request, BadRequestError):
+                raise request
             await request.run(self)
         except BadRequestError as error:
-            self.bad_requests += 1
             await self.answer("problem", text=str(error), hint=error.hint)
 
     @property
@@ -170,9 +193,8 @@ class Client:
     def unsubscribe(self, number: int) -> None:
         """Displays it no longer; whether it was there or not."""
         wanted = self._displays.pop(number, None)
-        if wanted is not None and wanted.display is not None:
-            wanted.display.close()
-            self._stage.release(wanted.topic)
+        if wanted is not None:
+            self._close_display(wanted)
 
     def publish_joints(self, number: int, positions: dict[str, Any]) -> None:
         """Sends the positions of a robot's joints from now on.
@@ -202,63 +224,69 @@ class Client:
                 number, messages, wanted.options, self._stage.meshes.url_or_problem, self._stage.executor
             )
 
-    def is_ready(self) -> None:
-        """The tab has drawn the last tick."""
-        self._ready = True
+    def _close_display(self, wanted: _Wanted) -> None:
+        wanted.told = None
+        if wanted.display is not None:
+            wanted.display.close()
+            wanted.display = None
+            self._stage.release(wanted.topic)
 
-    async def _send_all(self) -> None:
-        due = time.monotonic()
-        while True:
-            while not self._answers.empty():
-                await self._socket.send(self._answers.get_nowait())
-            self._send_joints()
-            if self._ready:
-                await self._send_news()
-            due = max(due + 1.0 / _RATE, time.monotonic())
-            await asyncio.sleep(due - time.monotonic())
+    def tick(self, now: float) -> None:
+        """Sends what is new, where the tab can take it; to be called when it is ``due``, by the monotonic clock."""
+        # All tabs of a rate are due at the same moments.
+        rate = self.frame_rate
+        self.due = (math.floor(now * rate) + 1) / rate
+        self._send_joints()
+        if self._ready and self._socket.is_clear:
+            self._send_news(now)
 
-    async def _send_news(self) -> None:
-        self._stage.refresh()
-        if self._told_origin != self._stage.origin:
-            await self._send_hello()
-        if self._told_tree != (self._stage.scene.revision, self.fixed):
-            await self._send_tree()
-        now = time.monotonic()
+    def _send_news(self, now: float) -> None:
+        stage, fixed = self._stage, self.fixed
+        stage.refresh()
+        if self._told_origin != stage.origin or self._told_edition != stage.edition:
+            self._send_hello()
+        if self._told_tree != (stage.scene.revision, fixed):
+            self._send_tree(fixed)
         if now >= self._statistics_due:
             begin = time.thread_time()
-            await self._send_statistics()
+            self._send_statistics()
             spent = time.thread_time() - begin
             self._statistics_due = now + max(STATISTICS_PERIOD, spent / STATISTICS_SHARE)
         if now >= self._late_due:
             self._late_due = now + LATE_PERIOD
             self._open_late_displays()
-        await self._send_robots()
-        await self._send_displays()
-        await self._send_tick()
+            self._send_robots()
+        at = self.at
+        entries = self._send_displays(fixed, at) if self._displays else []
+        self._send_tick(now, fixed, at, entries)
 
     def _send_joints(self) -> None:
         for publisher in self._joints.values():
             with contextlib.suppress(WireError):  # somebody who listens to them hangs
                 publisher.send_if_due()
 
-    async def _send_robots(self) -> None:
+    def _send_robots(self) -> None:
         descriptions = self._stage.descriptions
         for number, known in list(descriptions.known.items()):
             if self._told_robots.get(number) is not known:
                 self._told_robots[number] = known
-                await self._socket.send(protocol.text("robot", **known.told))
+                self._socket.send(protocol.text("robot", **known.told))
         for topic, problem in list(descriptions.problems.items()):
             if self._told_problems.get(topic) != problem:
                 self._told_problems[topic] = problem
-                await self._socket.send(protocol.text("problem", text=problem[0], hint=problem[1]))
+                self._socket.send(protocol.text("problem", text=problem[0], hint=problem[1]))
 
-    async def _send_hello(self) -> None:
+    def _send_hello(self) -> None:
         stage = self._stage
-        self._told_origin, self._told_tree, self._last_tick = stage.origin, None, None
+        # All begins anew for the page.
+        self._told_origin, self._told_edition, self._told_tree = stage.origin, stage.edition, None
+        self._last_tick, self._late_due = None, 0.0
+        self._told_robots.clear()
         for wanted in self._displays.values():
-            wanted.told = None
+            self._close_display(wanted)
+            wanted.options = dataclasses.replace(wanted.options, origin=stage.origin)
         self._told_topics = topics = stage.topics
-        await self._socket.send(
+        self._socket.send(
             protocol.text(
                 "hello",
                 version=protocol.VERSION,
@@ -273,19 +301,19 @@ class Client:
             )
         )
 
-    async def _send_tree(self) -> None:
+    def _send_tree(self, fixed: str) -> None:
         scene = self._stage.scene
         structure = scene.structure
-        self._told_tree = (scene.revision, self.fixed)
+        self._told_tree = (scene.revision, fixed)
         sizes = [0] * len(structure.roots)
         for component in structure.components:
             sizes[component] += 1
         frames = zip(structure.names, structure.parents, structure.static, structure.components, strict=True)
-        await self._socket.send(
+        self._socket.send(
             protocol.text(
                 "tree",
                 revision=scene.revision,
-                fixed=self.fixed,
+                fixed=fixed,
                 frames=[
                     {"name": name, "parent": parent, "static": static, "component": component}
                     for name, parent, static, component in frames
@@ -294,53 +322,52 @@ class Client:
             )
         )
 
-    async def _send_statistics(self) -> None:
+    def _send_statistics(self) -> None:
         stage = self._stage
         if self._told_topics != stage.topics:
             self._told_topics = stage.topics
-            await self._socket.send(protocol.text("topics", topics=[topic._asdict() for topic in stage.topics]))
+            self._socket.send(protocol.text("topics", topics=[topic._asdict() for topic in stage.topics]))
         rows = frame_rows(stage.scene, stage.origin, self.frame_timeout)
         revision = stage.scene.revision
-        await self._socket.send(protocol.text("stats", revision=revision, span=stage.relative_span(), frames=rows))
+        self._socket.send(protocol.text("stats", revision=revision, span=stage.relative_span(), frames=rows))
 
     def _open_late_displays(self) -> None:
         for number, wanted in self._displays.items():
             if wanted.display is None:
                 self._open_display(number, wanted)
 
-    async def _send_displays(self) -> None:
-        """What is new of the displays, one message each, and what became of them."""
-        scene, at = self._stage.scene, self.at
+    def _send_displays(self, fixed: str, at: int) -> list[protocol.EntryPose]:
+        """What is new of the displays, one message each, and what became of them; where it is all to be seen."""
+        buffer = self._stage.scene.buffer
         now = self._stage.span[1] if self._stage.span is not None else 0
-        for number, wanted in list(self._displays.items()):
+        entries: list[protocol.EntryPose] = []
+        for number, wanted in self._displays.items():
             display = wanted.display
             if display is None:
                 status = Status("waiting", f"nobody publishes {wanted.topic}")
             else:
-                display.advance(scene.buffer, self.fixed, at, now)
-                for drawing in display.take_unsent():
-                    await self._socket.send(drawing)
-                    drawing.clear()
+                display.advance(buffer, fixed, at, now)
+                for _, drawing in display.take_unsent():
+                    self._socket.send(drawing)
+                entries += display.poses()
                 status = display.status
             if status != wanted.told:
                 wanted.told = status
-                await self._socket.send(protocol.text("display", id=number, **status._asdict()))
+                self._socket.send(protocol.text("display", id=number, **status._asdict()))
+        return entries
 
-    async def _send_tick(self) -> None:
-        scene, fixed, at = self._stage.scene, self.fixed, self.at
-        entries = [pose for display in self.displays() for pose in display.poses()]
+    def _send_tick(self, now: float, fixed: str, at: int, entries: list[protocol.EntryPose]) -> None:
+        scene = self._stage.scene
         listed = [(entry.display, entry.sequence) for entry in entries]
-        now = time.monotonic()
         state = (scene.revision, fixed, at, scene.buffer.changes, listed)
         if state == self._last_tick and now - self._ticked < IDLE_PERIOD:
             return
         self._last_tick, self._ticked = state, now
         placed = scene.place(fixed, at, self.frame_timeout)
-        names = scene.structure.names
-        origin = self._origin.follow(placed, names.index(fixed) if fixed in names else None)
+        near = self._origin.bring_near(placed, scene.structure.places.get(fixed))
         self._ready = False
-        await self._socket.send(
-            protocol.tick(scene.revision, self._moment(at), origin, placed.poses, placed.states, entries)
+        self._socket.send(
+            protocol.tick(scene.revision, self._moment(at), self._origin.xyz, near, placed.states, entries)
         )
 
     def _moment(self, at: int) -> float:

@@ -38,6 +38,7 @@ _HOLD = "15s"
 _MOST_ENTRIES = 1000
 _MOST_LAYERS = 200
 _NS = 1_000_000_000
+_ANYWHERE = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 
 
 class Status(NamedTuple):
@@ -45,6 +46,13 @@ class Status(NamedTuple):
 
     state: Literal["ok", "waiting", "error"]
     text: str = ""
+
+
+class _Drawn(NamedTuple):
+    """A message with its drawings, or why there are none."""
+
+    sighting: Sighting
+    drawings: list[Drawing] | str
 
 
 class _Entry:
@@ -64,6 +72,9 @@ class _Entry:
         if self._fixed == fixed and self.pose is not None and not drawing.locked:
             return True
         self.pose, self._fixed = None, fixed
+        if not drawing.placed:
+            self.pose = _ANYWHERE
+            return True
         frame = drawing.frame.removeprefix("/")  # as in ROS 1; buffers take it off, too
         try:
             if drawing.locked:
@@ -122,9 +133,8 @@ class Display:
         self._executor = executor
         self._artist: Artist = artist_for(messages, options, mesh_url)
         self._sequences = itertools.count(1)
-        self._asked: int | None = None  # the key of the last message that was drawn, or is being drawn
-        self._work: Future[list[Drawing] | str] | None = None
-        self._work_time = 0
+        self._asked: int | None = None  # the key of the last message that was drawn
+        self._work: Future[_Drawn | None] | None = None
         self._incoming: _Layer | None = None
         self._incoming_since = 0.0
         self._layers: deque[_Layer] = deque(maxlen=_MOST_LAYERS)
@@ -139,24 +149,25 @@ class Display:
         elif self._layers:
             self._place_again(buffer, fixed, at)
 
-    def take_unsent(self) -> list[bytearray]:
-        """The drawings that the page has not got yet; to be cleared when they are sent."""
+    def take_unsent(self) -> list[tuple[int, bytearray]]:
+        """The drawings that the page has not got yet, with their numbers, which are given away."""
         drawings = []
         for entry in self._entries():
             if not entry.sent:
                 entry.sent = True
-                protocol.stamp_drawing(entry.drawing.data, self.number, entry.sequence)
-                drawings.append(entry.drawing.data)
+                data = entry.drawing.take_data()
+                protocol.stamp_drawing(data, self.number, entry.sequence)
+                drawings.append((entry.sequence, data))
         return drawings
 
     def poses(self) -> list[protocol.EntryPose]:
         """Where everything is that is to be seen."""
         return [protocol.EntryPose(self.number, entry.sequence, entry.pose) for entry in self._entries()]
 
-    def forget_sent(self) -> None:
-        """The page has begun anew: it is to be sent everything again."""
-        self._layers.clear()
-        self._asked = self._incoming = None
+    def stamps(self) -> list[int | None]:
+        """When each of those was where it is, in nanoseconds; None for what moves on, or was told without a stamp."""
+        drawings = [entry.drawing for entry in self._entries()]
+        return [None if drawing.locked or drawing.stamp == 0 else drawing.stamp for drawing in drawings]
 
     def close(self) -> None:
         """Ends it; a drawing that is being made is thrown away."""
@@ -167,30 +178,45 @@ class Display:
         return [entry for layer in self._layers for entry in layer.entries]
 
     def _start_drawing(self, at: int, now: int) -> None:
+        if self.messages.pending():
+            self._work = self._executor.submit(self._look_and_draw, at, now)
+            return
         sighting = self.messages.at(at)
         if sighting is None:
-            self._layers.clear()
-            self._asked = None
-            self.status = Status("waiting", "no message yet" if at == 0 else "no message so early")
-            return
-        if self._asked == sighting.key and not self._artist.fades(now):
-            return
-        self._asked, self._work_time = sighting.key, sighting.time
-        self._work = self._executor.submit(_draw, self._artist, sighting, now)
+            self._show_nothing(at)
+        elif self._is_news(sighting, now):
+            self._work = self._executor.submit(_draw, self._artist, sighting, now)
+
+    def _look_and_draw(self, at: int, now: int) -> _Drawn | None:
+        """Where looking for the message takes a while, too; None where there is nothing new."""
+        sighting = self.messages.at(at)
+        return _draw(self._artist, sighting, now) if sighting is not None and self._is_news(sighting, now) else None
+
+    def _is_news(self, sighting: Sighting, now: int) -> bool:
+        return self._asked != sighting.key or self._artist.fades(now)
+
+    def _show_nothing(self, at: int) -> None:
+        self._layers.clear()
+        self._asked = None
+        self.status = Status("waiting", "no message yet" if at == 0 else "no message so early")
 
     def _collect(self) -> None:
         if self._work is None or not self._work.done():
             return
-        result, self._work = self._work.result(), None
-        if isinstance(result, str):
-            self.status = Status("error", result)
+        drawn, self._work = self._work.result(), None
+        if drawn is None:
+            return
+        self._asked = drawn.sighting.key
+        if isinstance(drawn.drawings, str):
+            self.status = Status("error", drawn.drawings)
             return
         # Groups of markers that have not changed are there already.
         known = {id(entry.drawing): entry for entry in self._entries()}
         entries = [
-            known.get(id(drawing)) or _Entry(drawing, next(self._sequences)) for drawing in result[:_MOST_ENTRIES]
+            known.get(id(drawing)) or _Entry(drawing, next(self._sequences))
+            for drawing in drawn.drawings[:_MOST_ENTRIES]
         ]
-        self._incoming = _Layer(self._work_time, entries)
+        self._incoming = _Layer(drawn.sighting.time, entries)
         self._incoming_since = time.monotonic()
 
     def _place_incoming(self, layer: _Layer, buffer: Buffer, fixed: str, at: int) -> None:
@@ -220,15 +246,15 @@ class Display:
         self._layers.append(layer)
 
 
-def _draw(artist: Artist, sighting: Sighting, now: int) -> list[Drawing] | str:
+def _draw(artist: Artist, sighting: Sighting, now: int) -> _Drawn:
     """The drawings, or why there are none: a message may hold anything."""
     try:
-        return artist.draw(sighting, now)
+        return _Drawn(sighting, artist.draw(sighting, now))
     except ValueError as error:
-        return f"the message cannot be drawn: {error}"
+        return _Drawn(sighting, f"the message cannot be drawn: {error}")
     except Exception as error:  # whatever a message makes of us, the display tells
         _logger.exception("a message could not be drawn")
-        return f"the message cannot be drawn: {type(error).__name__}: {error}"
+        return _Drawn(sighting, f"the message cannot be drawn: {type(error).__name__}: {error}")
 
 
 def _sentence(error: TransformException) -> str:

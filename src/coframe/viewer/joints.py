@@ -24,13 +24,14 @@ class JointPublisher:
     Args:
         connection: Where to.
         robot: Whose joints they are.
+        topic: Where they are told.
     """
 
-    def __init__(self, connection: Connection, robot: Robot) -> None:
+    def __init__(self, connection: Connection, robot: Robot, topic: str = JOINT_STATES) -> None:
         from coframe.messages import find  # noqa: PLC0415 - only who publishes needs them
 
         self._class = find("sensor_msgs/msg/JointState")
-        self._publisher = connection.publisher(JOINT_STATES, self._class)
+        self._publisher = connection.publisher(topic, self._class)
         self._robot = robot
         self._names: list[str] = []
         self._positions: list[float] = []

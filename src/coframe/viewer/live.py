@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+import weakref
 from typing import TYPE_CHECKING
 
+from coframe.viewer.adaptive_subscription import AdaptiveSubscription
 from coframe.viewer.displays import DISPLAYS
 from coframe.viewer.messages import LiveMessages
 from coframe.viewer.sources import Mode, Topic
-from coframe.wire.qos import QoS
 
 if TYPE_CHECKING:
     from coframe.wire.connection import Connection
+    from coframe.wire.endpoints import Subscription
+    from coframe.wire.qos import QoS
 
 __all__ = ["LiveSource"]
 
 # What the viewer listens to besides what it displays.
 OTHER_TYPES = ("std_msgs/msg/String",)
+_TYPES = frozenset({*DISPLAYS, *OTHER_TYPES})
 _KEEP_EVERYTHING = 60_000_000_000  # where the buffer has no end, messages have
 
 
@@ -36,6 +40,7 @@ class LiveSource:
         self.buffer = connection.buffer
         self.title = f"coframe: ROS domain {connection.participant.domain_id}"
         self._own = own
+        self._subscriptions: weakref.WeakSet[AdaptiveSubscription] = weakref.WeakSet()
 
     def topics(self) -> list[Topic]:
         """What somebody publishes or wants, and a display can show."""
@@ -48,22 +53,29 @@ class LiveSource:
         ]
 
     def open(self, topic: str) -> LiveMessages | None:
-        """Subscribes to a topic, such that every publisher of it that is there fits."""
+        """Subscribes to a topic, such that every publisher of it is heard."""
         from coframe.messages import find  # noqa: PLC0415 - only who looks at messages needs them
 
         participant = self._connection.participant
-        publishers = [one for one in participant.publishers(topic) if one.ros_type in {*DISPLAYS, *OTHER_TYPES}]
-        if not publishers:
+        ros_type = next((one.ros_type for one in participant.publishers(topic) if one.ros_type in _TYPES), None)
+        if ros_type is None:
             return None
-        ros_type = publishers[0].ros_type
-        qos = QoS(
-            depth=10,
-            reliable=all(publisher.qos.reliable for publisher in publishers),
-            transient_local=all(publisher.qos.transient_local for publisher in publishers),
-        )
-        subscription = participant.subscription(self._connection.node, topic, find(ros_type), qos)
+
+        def offers() -> list[QoS]:
+            return [one.qos for one in participant.publishers(topic) if one.ros_type == ros_type]
+
+        def subscribe(qos: QoS) -> Subscription:
+            return participant.subscription(self._connection.node, topic, find(ros_type), qos, adapts=True)
+
+        subscription = AdaptiveSubscription(offers, subscribe)
+        self._subscriptions.add(subscription)
         keep = self.buffer.cache_ns
         return LiveMessages(subscription, ros_type, keep if keep >= 0 else _KEEP_EVERYTHING)
+
+    def refresh(self) -> None:
+        """Listens to publishers that have come since, too."""
+        for subscription in list(self._subscriptions):
+            subscription.follow()
 
     def close(self) -> None:
         """Leaves the graph, where that is the source's to do."""

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from coframe.wire.endpoints import Subscription
+    from coframe.viewer.adaptive_subscription import AdaptiveSubscription
 
 __all__ = ["LiveMessages", "Messages", "Sighting", "header_stamp"]
 
@@ -42,6 +42,9 @@ class Messages(Protocol):
     """The messages of one topic; may be asked by any thread."""
 
     type: str
+
+    def pending(self) -> bool:
+        """Whether messages have come that are yet to be taken: what is asked next may take a while."""
 
     def at(self, time: int) -> Sighting | None:
         """The last message at or before a time in nanoseconds; 0 is the newest of all."""
@@ -74,7 +77,7 @@ class LiveMessages:
     MOST_BYTES = 64 << 20
     MOST = 4000
 
-    def __init__(self, subscription: Subscription, ros_type: str, keep: int) -> None:
+    def __init__(self, subscription: AdaptiveSubscription, ros_type: str, keep: int) -> None:
         from coframe.messages import deserialize, find  # noqa: PLC0415 - only who looks at messages needs them
 
         self.type = ros_type
@@ -85,12 +88,17 @@ class LiveMessages:
         self._stored: deque[_Stored] = deque()
         self._bytes = 0
         self._keys = itertools.count(1)
+        self._taking = threading.Lock()  # may last, as messages may be large
         self._lock = threading.Lock()
+
+    def pending(self) -> bool:
+        """Whether messages have come that are yet to be taken: what is asked next may take a while."""
+        return self._subscription.pending()
 
     def at(self, time: int) -> Sighting | None:
         """The last message at or before a time in nanoseconds; 0 is the newest of all."""
+        self._take()
         with self._lock:
-            self._take()
             if not self._stored:
                 return None
             index = self._index_behind(time) - 1
@@ -98,15 +106,15 @@ class LiveMessages:
 
     def before(self, time: int, count: int) -> list[Sighting]:
         """The last messages at or before a time, 0 is the newest, the oldest first, at most so many."""
+        self._take()
         with self._lock:
-            self._take()
             end = self._index_behind(time)
             return [self._sighting(one) for one in itertools.islice(self._stored, max(0, end - count), end)]
 
     def times(self) -> NDArray[np.int64]:
         """Where all messages lie on the timeline, in order."""
+        self._take()
         with self._lock:
-            self._take()
             return np.array([stored.time for stored in self._stored], np.int64)
 
     def close(self) -> None:
@@ -116,17 +124,23 @@ class LiveMessages:
     def _take(self) -> None:
         if not self._subscription.pending():
             return
-        for sample in self._subscription.take():
-            stamp = header_stamp(self.type, sample.data) or time.time_ns()
-            # The timeline goes forward: what comes late lies where it came.
-            newest = self._stored[-1].time if self._stored else stamp
-            if stamp < newest - self._keep:  # a simulation that began anew
-                self._stored.clear()
-                self._bytes = 0
-                newest = stamp
-            self._stored.append(_Stored(next(self._keys), max(stamp, newest), sample.data))
-            self._bytes += len(sample.data)
-            self._forget()
+        with self._taking:
+            samples = self._subscription.take()
+            with self._lock:
+                for sample in samples:
+                    self._store(sample.data)
+
+    def _store(self, data: bytes) -> None:
+        stamp = header_stamp(self.type, data) or time.time_ns()
+        # The timeline goes forward: what comes late lies where it came.
+        newest = self._stored[-1].time if self._stored else stamp
+        if stamp < newest - self._keep:  # a simulation that began anew
+            self._stored.clear()
+            self._bytes = 0
+            newest = stamp
+        self._stored.append(_Stored(next(self._keys), max(stamp, newest), data))
+        self._bytes += len(data)
+        self._forget()
 
     def _forget(self) -> None:
         newest = self._stored[-1].time

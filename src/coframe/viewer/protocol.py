@@ -24,7 +24,8 @@ Server to page, text:
 * ``relation`` {id, ok, target, source, stamp, translation, quaternion, rpy_deg, matrix, static_command, chain, error,
   hint, broken_at}: the answer to ``relate``.
 * ``timeline`` {revision, bins, from, to, edges: [{frame, counts: base64 of uint16[bins], gaps: [[from, to]]}]}.
-* ``saved`` {text}, ``problem`` {text, hint}.
+* ``saved`` {text}, ``problem`` {text, hint}, ``replay`` {looks}: what to fetch the announced replay by, as
+  ``/replay?from=&to=&rate=&fixed=&looks=``.
 
 Server to page, binary:
 
@@ -42,12 +43,15 @@ Server to page, binary:
 * 4, shapes: uint32 kind, display, sequence, length of the JSON; the JSON, padded by spaces to four bytes; float32
   payload. The JSON has kind: "poses" | "path" | "odometry" | "markers" | "range" | "camera", frame, stamp and, where
   numbers are many, [offset, count] in the payload, both in floats.
+* 5, image: uint32 kind, display, sequence, width, height, format (0 grey, 1 red, green and blue, 2 JPEG, 3 PNG; 256 k:
+  every k-th row and column); float64 stamp; the bytes. It is shown beside the scene: its pose means nothing.
 
 Page to server, text: ``fixed`` {frame}; ``time`` {mode: "live"} or {mode: "at", at, playing, speed, loop: [from, to]
 | null}; ``step`` {direction}; ``subscribe`` {id, topic, display, options}; ``unsubscribe`` {id}; ``relate`` {id,
 target, source}; ``timeline`` {from, to, bins}; ``joints`` {robot, positions, publish}; ``load_rviz`` {text};
-``save_rviz`` {displays, global, view}; ``frame_timeout`` {seconds}; ``ready`` {drawn}: the last tick is drawn, the
-next may come.
+``save_rviz`` {displays, global, view}; ``replay`` {displays: [{topic, options}], rviz: {displays, global, view}}:
+how a replay is to look; ``frame_timeout`` {seconds}; ``frame_rate`` {hertz}: ticks a second, 1 to 60, as a .rviz file's
+Frame Rate; ``ready`` {drawn}: the last tick is drawn, the next may come.
 
 What is unknown or malformed is answered by a ``problem``; a message of more than 1 MiB ends the connection.
 """
@@ -65,11 +69,12 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["VERSION", "EntryPose", "cloud", "grid", "shapes", "stamp_drawing", "text", "tick"]
+__all__ = ["VERSION", "EntryPose", "cloud", "grid", "image", "shapes", "stamp_drawing", "text", "tick"]
 
 VERSION = 1
-TICK, CLOUD, GRID, SHAPES = 1, 2, 3, 4
+TICK, CLOUD, GRID, SHAPES, IMAGE = 1, 2, 3, 4, 5
 SCALARS, COLOURS = 1, 2
+GREY, RGB, JPEG, PNG = 0, 1, 2, 3
 
 
 class EntryPose(NamedTuple):
@@ -89,13 +94,13 @@ def tick(
     revision: int,
     time: float,
     origin: NDArray[np.float64],
-    poses: NDArray[np.float64],
+    poses: NDArray[np.float32],
     states: NDArray[np.uint8],
     entries: Sequence[EntryPose],
 ) -> bytes:
-    """All frames, (N, 7) float64 with their states (N,), and the displayed messages, at one time."""
+    """All frames, (N, 7) relative to the origin with their states (N,), and the displayed messages, at one time."""
     head = struct.pack("<II4dII", TICK, revision, time, *origin.tolist(), len(poses), len(entries))
-    parts = [head, near(poses, origin).tobytes(), states.tobytes(), bytes(-len(states) % 4)]
+    parts: list[Any] = [head, poses.data, states.data, bytes(-len(states) % 4)]
     for entry in entries:
         pose = np.full(7, np.nan) if entry.pose is None else near(entry.pose, origin)
         parts.append(struct.pack("<II7fI", entry.display, entry.sequence, *pose.tolist(), int(entry.pose is None)))
@@ -144,8 +149,14 @@ def shapes(description: dict[str, Any], payload: NDArray[np.float32]) -> bytearr
     return _joined([struct.pack("<IIII", SHAPES, 0, 0, len(words)), words, payload.astype("<f4")])
 
 
+def image(kind: int, width: int, height: int, data: NDArray[np.uint8], stamp: float, step: int = 1) -> bytearray:
+    """A picture: pixels (height, width, 1 or 3), or the bytes of a file; every so-manieth row and column of it."""
+    head = struct.pack("<IIIIIId", IMAGE, 0, 0, width, height, kind | step << 8, stamp)
+    return _joined([head, np.ascontiguousarray(data)])
+
+
 def stamp_drawing(drawing: bytearray, display: int, sequence: int) -> None:
-    """Notes in a cloud, grid or shapes message whose it is."""
+    """Notes in a drawing whose it is."""
     struct.pack_into("<II", drawing, 4, display, sequence)
 
 

@@ -51,6 +51,9 @@ class RecordedSource:
             return None
         return RecordedMessages(self._recording, topic)
 
+    def refresh(self) -> None:
+        """Nothing changes."""
+
     def close(self) -> None:
         """Lets go of the files, where that is the source's to do."""
         if self._own:
@@ -71,6 +74,10 @@ class RecordedMessages:
         self._topic = topic
         self._times = np.sort(recording.stamps(topic))
         self._reading = threading.Lock()
+
+    def pending(self) -> bool:
+        """Never: where all messages lie is known."""
+        return False
 
     def at(self, time: int) -> Sighting | None:
         """The last message at or before a time in nanoseconds; 0 is the newest of all."""

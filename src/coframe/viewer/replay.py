@@ -11,10 +11,13 @@ import numpy as np
 from coframe.errors import ViewerError
 from coframe.viewer.meshes import MESH_TYPES, MeshError
 from coframe.viewer.protocol import near
+from coframe.viewer.replay_displays import Pictures, display_blocks, packed
 from coframe.viewer.scene import LocalOrigin, Scene
+from coframe.viewer.statistics import frame_rows
+from coframe.viewer.timeline import edge_rows
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Mapping, Sequence
     from pathlib import Path
 
     from numpy.typing import NDArray
@@ -22,14 +25,34 @@ if TYPE_CHECKING:
     from coframe import Buffer
     from coframe.viewer.descriptions import Description
     from coframe.viewer.meshes import MeshTable
+    from coframe.viewer.messages import Messages
+    from coframe.viewer.replay_displays import ReplayDisplay
 
-__all__ = ["FASTEST", "ReplayRequest", "replay_page"]
+__all__ = ["FASTEST", "MOST_DISPLAYS", "NO_LOOKS", "ReplayLooks", "ReplayRequest", "Sights", "replay_page"]
 
 FASTEST = 100.0  # pictures a second
 MOST_POSES = 3_000_000  # 84 MB, a third more as text
+MOST_DISPLAYS = 100
 LARGEST_MESHES = 20 << 20
+TIMELINE_BINS = 240
 _OPENING, _EMPTY = '<script type="application/json" id="replay">', "null"
 _NS = 1_000_000_000
+
+
+class ReplayLooks(NamedTuple):
+    """How a replay is to look.
+
+    Attributes:
+        displays: What is shown of topics.
+        rviz: All displays with their options, and the view, as in a message ``save_rviz``.
+    """
+
+    displays: tuple[ReplayDisplay, ...]
+    rviz: Mapping[str, Any]
+
+
+NO_LOOKS = ReplayLooks((), {})
+"""Frames and robots alone."""
 
 
 class ReplayRequest(NamedTuple):
@@ -42,19 +65,32 @@ class ReplayRequest(NamedTuple):
     frame_timeout: float
     title: str
     origin: int
+    looks: ReplayLooks = NO_LOOKS
 
 
-def replay_page(
-    template: Path, buffer: Buffer, wanted: ReplayRequest, robots: Iterable[Description], meshes: MeshTable
-) -> bytes:
+class Sights(NamedTuple):
+    """What there is to be replayed.
+
+    Attributes:
+        buffer: Transforms.
+        messages: By topic, of the displays.
+        robots: They go with it, with their meshes as far as these are small.
+        meshes: Where these are.
+    """
+
+    buffer: Buffer
+    messages: Mapping[str, Messages]
+    robots: Sequence[Description]
+    meshes: MeshTable
+
+
+def replay_page(template: Path, sights: Sights, wanted: ReplayRequest) -> bytes:
     """The HTML of a replay.
 
     Args:
         template: The page that plays it, with a place for it.
-        buffer: What is shown.
+        sights: What there is.
         wanted: Which part of it.
-        robots: Robots to go with it, with their meshes as far as these are small.
-        meshes: Where these are.
 
     Raises:
         ViewerError: The span is empty or too large, or there is no page.
@@ -66,21 +102,22 @@ def replay_page(
     before, place, after = page.partition(_OPENING + _EMPTY)
     if not place:
         raise ViewerError("the page for replays has no place for one: build it in viewer/ again")
-    scene = Scene(buffer.snapshot(), ages=False)
-    scene.refresh()
-    block = json.dumps(_block(scene, wanted, robots, meshes), separators=(",", ":"), allow_nan=False)
+    block = json.dumps(_block(sights, wanted), separators=(",", ":"), allow_nan=False)
     # In a script element nothing but its end has a meaning to HTML.
     safe = block.replace("<", "\\u003c")
     return f"{before}{_OPENING}{safe}{after}".encode()
 
 
-def _block(scene: Scene, wanted: ReplayRequest, robots: Iterable[Description], meshes: MeshTable) -> dict[str, Any]:
+def _block(sights: Sights, wanted: ReplayRequest) -> dict[str, Any]:
+    scene = Scene(sights.buffer.snapshot(), ages=False)
+    scene.refresh()
     structure = scene.structure
     times = _times(wanted, len(structure.names))
     placed = [scene.place(wanted.fixed, int(time), wanted.frame_timeout) for time in times]
     index = structure.names.index(wanted.fixed) if wanted.fixed in structure.names else None
     local = LocalOrigin()
     origin = local.follow(placed[len(placed) // 2], index)
+    pictures = Pictures(scene.buffer, wanted.fixed, times, origin)
     frames = zip(structure.names, structure.parents, structure.static, structure.components, strict=True)
     return {
         "format": "coframe-replay",
@@ -96,10 +133,15 @@ def _block(scene: Scene, wanted: ReplayRequest, robots: Iterable[Description], m
             {"name": name, "parent": parent, "static": static, "component": component}
             for name, parent, static, component in frames
         ],
-        "times": _packed((times - wanted.origin).astype("<f8")),
-        "poses": _packed(np.stack([near(one.poses, origin) for one in placed])),
-        "states": _packed(np.stack([one.states for one in placed])),
-        "robots": _robots(robots, meshes),
+        "times": packed((times - wanted.origin).astype("<f8")),
+        "poses": packed(np.stack([near(one.poses, origin) for one in placed])),
+        "states": packed(np.stack([one.states for one in placed])),
+        "robots": _robots(sights),
+        "rviz": dict(wanted.looks.rviz) or None,
+        "displays": display_blocks(wanted.looks.displays, sights.messages, pictures),
+        "stats": frame_rows(scene, wanted.origin, wanted.frame_timeout),
+        "edges": edge_rows(scene.buffer, scene.infos, int(times[0]), int(times[-1]), TIMELINE_BINS, wanted.origin),
+        "bins": TIMELINE_BINS,
     }
 
 
@@ -120,25 +162,25 @@ def _times(wanted: ReplayRequest, frames: int) -> NDArray[np.int64]:
     return wanted.first + offsets
 
 
-def _robots(robots: Iterable[Description], meshes: MeshTable) -> list[dict[str, Any]]:
+def _robots(sights: Sights) -> list[dict[str, Any]]:
     """Those whose meshes are small enough, all together; others come without."""
     left = LARGEST_MESHES
     told = []
-    for robot in robots:
+    for robot in sights.robots:
         files: dict[str, str] = {}
+        missing = 0
         for reference, url in robot.told["meshes"].items():
             try:
-                file = meshes.file(url.removeprefix("/mesh/"))
+                file = sights.meshes.file(url.removeprefix("/mesh/"))
                 size = file.stat().st_size
                 if size <= left:
                     kind = MESH_TYPES[file.suffix.lower()]
                     files[reference] = f"data:{kind};base64,{base64.b64encode(file.read_bytes()).decode()}"
                     left -= size
+                else:
+                    missing += 1
             except (MeshError, OSError):
-                continue
-        told.append({**robot.told, "meshes": files})
+                missing += 1
+        problems = [f"{missing} of its meshes did not fit into this replay"] if missing else []
+        told.append({**robot.told, "meshes": files, "problems": [*problems, *robot.told["problems"]]})
     return told
-
-
-def _packed(array: NDArray[Any]) -> str:
-    return base64.b64encode(np.ascontiguousarray(array).tobytes()).decode()

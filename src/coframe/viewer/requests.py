@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 from coframe.errors import ViewerError, WireError
 from coframe.viewer.displays import Options
 from coframe.viewer.relations import relate
+from coframe.viewer.replay import MOST_DISPLAYS, ReplayLooks
+from coframe.viewer.replay_displays import ReplayDisplay
 from coframe.viewer.rviz import RvizConfig
 from coframe.viewer.timeline import MOST_BINS, edge_rows, next_stamp
 
@@ -17,7 +19,10 @@ if TYPE_CHECKING:
 
     from coframe.viewer.client import Client
 
-__all__ = ["BadRequestError", "Request", "parse"]
+__all__ = ["READY", "BadRequestError", "Request", "parse"]
+
+# That the last tick is drawn: the one message that is no question.
+READY = "ready"
 
 _FARTHEST = 2.0**62  # nanoseconds from the origin
 _LARGEST_ID = 2**32 - 1
@@ -170,12 +175,12 @@ async def _time(client: Client, request: Request) -> None:
         raise BadRequestError(f"the mode of a message 'time' is 'live' or 'at', not {_shown(mode)}")
 
 
-async def _ready(client: Client, _request: Request) -> None:
-    client.is_ready()
-
-
 async def _frame_timeout(client: Client, request: Request) -> None:
     client.frame_timeout = min(max(request.number("seconds"), 0.0), 1e6)
+
+
+async def _frame_rate(client: Client, request: Request) -> None:
+    client.wanted_rate = max(request.number("hertz"), 1.0)
 
 
 async def _subscribe(client: Client, request: Request) -> None:
@@ -234,15 +239,36 @@ async def _load_rviz(client: Client, request: Request) -> None:
         config = await client.work(RvizConfig.parse, request.text("text"))
     except ViewerError as error:
         raise BadRequestError(str(error), error.hint) from None
-    client.rviz = config
+    client.rviz, client.wanted_rate = config, config.frame_rate
     if config.fixed_frame:
         client.wanted_fixed = config.fixed_frame
     await client.answer("rviz", **config.description())
 
 
+async def _replay(client: Client, request: Request) -> None:
+    displays = []
+    for told in request.sequence("displays"):
+        if not isinstance(told, dict) or not isinstance(told.get("topic"), str):
+            raise BadRequestError("each display of a message 'replay' is an object with a topic")
+        options = told.get("options")
+        drawn = Options.of(options if isinstance(options, dict) else {}, client.origin)
+        displays.append(ReplayDisplay(told["topic"], drawn))
+    if len(displays) > MOST_DISPLAYS:
+        raise BadRequestError(f"a replay has {MOST_DISPLAYS} displays at most", "Hide some.")
+    rviz = request.mapping("rviz")
+    try:
+        json.dumps(rviz, allow_nan=False)
+    except (ValueError, RecursionError) as error:
+        raise BadRequestError(f"rviz of a message 'replay' is no JSON: {error}") from None
+    looks = ReplayLooks(tuple(displays), rviz)
+    await client.answer("replay", looks=client.stage.announce_replay(looks))
+
+
 async def _save_rviz(client: Client, request: Request) -> None:
     config = client.rviz or RvizConfig()
     displays, options, view = request.sequence("displays"), request.mapping("global"), request.mapping("view")
+    if client.wanted_rate is not None:
+        options = {**options, "frame_rate": client.wanted_rate}
     try:
         merged = config.merged(displays, options, view)
         text = await client.work(merged.text)
@@ -255,11 +281,12 @@ async def _save_rviz(client: Client, request: Request) -> None:
 
 _DEEDS: dict[str, Callable[[Client, Request], Awaitable[None]]] = {
     "fixed": _fixed,
+    "frame_rate": _frame_rate,
     "frame_timeout": _frame_timeout,
     "joints": _joints,
     "load_rviz": _load_rviz,
-    "ready": _ready,
     "relate": _relate,
+    "replay": _replay,
     "save_rviz": _save_rviz,
     "step": _step,
     "subscribe": _subscribe,

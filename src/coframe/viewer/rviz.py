@@ -17,6 +17,7 @@ __all__ = ["DISPLAY_CLASSES", "RvizConfig"]
 
 LARGEST_FILE = 1 << 20
 DEEPEST = 100
+MOST_VALUES = 1 << 18
 
 DISPLAY_CLASSES = frozenset(
     {
@@ -24,6 +25,7 @@ DISPLAY_CLASSES = frozenset(
         "Camera",
         "CameraInfo",
         "Grid",
+        "Image",
         "LaserScan",
         "Map",
         "Marker",
@@ -342,10 +344,6 @@ def _load(text: str, source: str) -> Any:
     yaml = _yaml()
 
     class Loader(yaml.SafeLoader):  # type: ignore[misc,name-defined]
-        def fetch_alias(self) -> None:
-            """RViz writes none, and a few of them make a small file endless."""
-            raise yaml.YAMLError("aliases (*) are not taken")
-
         def fetch_flow_collection_start(self, token: Any) -> None:
             """The more brackets are open, the longer each takes."""
             check_depth(self.flow_level)
@@ -360,8 +358,53 @@ def _load(text: str, source: str) -> Any:
         if depth > DEEPEST:
             raise yaml.YAMLError("it is nested too deeply")
 
+    def check_measure(size: int, depth: int) -> None:
+        check_depth(depth)
+        if size > MOST_VALUES:
+            raise yaml.YAMLError(f"with its aliases (*) written out it has more than {MOST_VALUES} values")
+
+    loader = None
     try:
-        return yaml.load(text, Loader)
+        loader = Loader(text)
+        root = loader.get_single_node()
+        check_measure(*_measure(root, {}))
+        # What an alias stands for is its own from here on: a change of one display is none of another.
+        return None if root is None else _written_out(loader.construct_document(root))
     except (yaml.YAMLError, ValueError, OverflowError) as error:
         reason = " ".join(str(error).split())
         raise ViewerError(f"{source} is no YAML: {reason}", hint="Is it a .rviz file?") from None
+    finally:
+        if loader is not None:
+            loader.dispose()
+
+
+def _measure(node: Any, known: dict[int, tuple[int, int]]) -> tuple[int, int]:
+    """How many values a YAML node has with its aliases written out, and how deeply they are nested.
+
+    A few aliases of aliases make a small file endless, so that each node is looked at once only.
+
+    Raises:
+        ValueError: A node holds itself.
+    """
+    value = getattr(node, "value", None)
+    if not isinstance(value, list):
+        return 1, 1
+    if id(node) in known:
+        size, depth = known[id(node)]
+        if not size:
+            raise ValueError("an alias (*) stands for what it is in")
+        return size, depth
+    known[id(node)] = (0, 0)  # being measured
+    parts = [part for child in value for part in (child if isinstance(child, tuple) else (child,))]
+    measured = [_measure(part, known) for part in parts]
+    known[id(node)] = 1 + sum(size for size, _ in measured), 1 + max((depth for _, depth in measured), default=0)
+    return known[id(node)]
+
+
+def _written_out(value: Any) -> Any:
+    """A copy in which nothing is there twice."""
+    if isinstance(value, dict):
+        return {key: _written_out(part) for key, part in value.items()}
+    if isinstance(value, list):
+        return [_written_out(part) for part in value]
+    return value

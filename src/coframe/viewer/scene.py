@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -29,6 +30,7 @@ class Structure(NamedTuple):
 
     Attributes:
         names: N frames, in the order of all else.
+        places: Where each one is in it.
         parents: The index of each one's parent; -1 for roots.
         static: Whether each is valid for all time; also True for roots.
         components: The index of each one's tree.
@@ -38,6 +40,7 @@ class Structure(NamedTuple):
     """
 
     names: list[str]
+    places: dict[str, int]
     parents: list[int]
     static: list[bool]
     components: list[int]
@@ -47,7 +50,7 @@ class Structure(NamedTuple):
 
     def component_of(self, frame: str) -> int | None:
         """Which tree a frame is in; None if nobody knows it."""
-        return self.components[self.names.index(frame)] if frame in self.names else None
+        return self.components[self.places[frame]] if frame in self.places else None
 
 
 class Placed(NamedTuple):
@@ -69,15 +72,16 @@ class Scene:
         self.buffer = buffer
         self.ages = ages
         self.revision = 0
-        self.structure = Structure([], [], [], [], [], [], "")
+        self.structure = Structure([], {}, [], [], [], [], [], "")
         self.span: tuple[int, int] | None = None
         self.infos: list[FrameInfo] = []
         self._changes: int | None = None
         self._links: list[tuple[str, str, bool]] = []
         self._newest: NDArray[np.int64] = np.zeros(0, np.int64)
         self._heard: NDArray[np.float64] = np.zeros(0)  # of the monotonic clock
-        self._periods: NDArray[np.float64] = np.zeros(0)
-        self._roots: dict[str, list[str | None]] = {}
+        self._stale_from: NDArray[np.float64] = np.zeros(0)  # of the monotonic clock
+        self._first_stale = math.inf
+        self._tables: dict[str, _core.PoseTable] = {}
 
     def refresh(self) -> None:
         """Takes in what has changed; costs a look at each frame."""
@@ -90,12 +94,16 @@ class Scene:
         dynamic = [info for info in self.infos if info.samples and not info.static]
         self.span = (min(info.oldest for info in dynamic), max(info.newest for info in dynamic)) if dynamic else None
         newest = np.array([info.newest for info in self.infos], np.int64)
-        periods = np.array([1.0 / info.rate if info.rate > 0.0 else 0.0 for info in self.infos])
         heard = np.full(len(newest), time.monotonic())
         known = min(len(newest), len(self._newest))
         unchanged = newest[:known] == self._newest[:known]
         heard[:known][unchanged] = self._heard[:known][unchanged]
-        self._newest, self._periods, self._heard = newest, periods, heard
+        self._newest, self._heard = newest, heard
+        if self.ages and len(heard):
+            periods = np.array([1.0 / info.rate if info.rate > 0.0 else 0.0 for info in self.infos])
+            self._stale_from = heard + np.maximum(STALE_AFTER, STALE_PERIODS * periods)
+            self._stale_from[np.array(self.structure.static, bool)] = math.inf
+            self._first_stale = float(self._stale_from.min())
 
     def ages_now(self) -> NDArray[np.float64]:
         """For how many seconds each frame was not heard of, (N,); 0 for those that need not be."""
@@ -106,12 +114,11 @@ class Scene:
     def states_now(self, timeout: float) -> NDArray[np.uint8]:
         """Whether each frame is fresh, stale or gone, (N,): as old as the oldest link up to its root."""
         states = np.zeros(len(self.structure.names), np.uint8)
-        if not self.ages:
-            return states
-        ages = self.ages_now()
-        states[ages > np.maximum(STALE_AFTER, STALE_PERIODS * self._periods)] = STALE
-        states[ages > timeout] = GONE
-        if states.any():
+        now = time.monotonic()
+        # Most of the time all are fresh, which costs a look at one number.
+        if now > self._first_stale:
+            states[now > self._stale_from] = STALE
+            states[self.ages_now() > timeout] = GONE
             self._pass_on(states)
         return states
 
@@ -123,11 +130,11 @@ class Scene:
             stamp: Nanoseconds; 0 is now: the latest of each.
             timeout: So many seconds a frame is shown where it was last, as a stale one.
         """
-        names = self.structure.names
-        poses = np.empty((len(names), 7))
-        told = np.empty(len(names), np.uint8)
-        _core.poses_into(self.buffer, fixed, names, self._roots_beside(fixed), stamp, round(timeout * _NS), poses, told)
-        if stamp == 0:
+        count = len(self.structure.names)
+        poses = np.empty((count, 7))
+        told = np.empty(count, np.uint8)
+        self._table_of(fixed).look_up(stamp, round(timeout * _NS), poses, told)
+        if stamp == 0 and time.monotonic() > self._first_stale:
             connected = told == FRESH
             told[connected] = self.states_now(timeout)[connected]
         return Placed(poses, told)
@@ -141,17 +148,17 @@ class Scene:
                 worst[frame] = worst[parent]
         states[:] = worst
 
-    def _roots_beside(self, fixed: str) -> list[str | None]:
-        """For each frame None, or the root that it is seen from as it is not connected with the fixed frame."""
-        roots = self._roots.get(fixed)
-        if roots is None:
+    def _table_of(self, fixed: str) -> _core.PoseTable:
+        """All frames, seen from the fixed one; from the root of their tree where that is not connected with it."""
+        table = self._tables.get(fixed)
+        if table is None:
             structure = self.structure
             own = structure.component_of(fixed)
             roots = [None if tree == own else structure.roots[tree] for tree in structure.components]
-            if len(self._roots) > 16:
-                self._roots.clear()
-            self._roots[fixed] = roots
-        return roots
+            if len(self._tables) > 16:
+                self._tables.clear()
+            table = self._tables[fixed] = _core.PoseTable(self.buffer, fixed, structure.names, roots)
+        return table
 
     def _note_structure(self) -> None:
         links = [(info.name, info.parent, info.static) for info in self.infos]
@@ -159,7 +166,7 @@ class Scene:
             self._links = links
             self.structure = _structure_of(self.infos)
             self.revision += 1
-            self._roots.clear()
+            self._tables.clear()
 
 
 def _structure_of(infos: list[FrameInfo]) -> Structure:
@@ -188,7 +195,7 @@ def _structure_of(infos: list[FrameInfo]) -> Structure:
                     waiting.append(child)
         roots.append(infos[start].name)
     largest = roots[int(np.bincount(components).argmax())] if roots else ""
-    return Structure([info.name for info in infos], parents, static, components, roots, order, largest)
+    return Structure([info.name for info in infos], index, parents, static, components, roots, order, largest)
 
 
 class LocalOrigin:
@@ -197,9 +204,24 @@ class LocalOrigin:
     # Multiples of it are exact in float32 as far as any map reaches: what lies at zero stays exact, too.
     STEP = 64.0
     NEAR = 96.0
+    # How often, in seconds, a better one is looked for where some frames are far from each that there may be.
+    PERIOD = 1.0
 
     def __init__(self) -> None:
         self.xyz: NDArray[np.float64] = np.zeros(3)
+        self._far = 0
+        self._due = 0.0
+
+    def bring_near(self, placed: Placed, fixed: int | None) -> NDArray[np.float32]:
+        """The poses as float32, (N, 7), relative to the origin: the same as before while most of them are near it."""
+        near = np.empty((len(placed.states), 7), np.float32)
+        far = self._near_into(placed, fixed, near)
+        if far > self._far or (far and time.monotonic() >= self._due):
+            self._due = time.monotonic() + self.PERIOD
+            self.follow(placed, fixed)
+            far = self._near_into(placed, fixed, near)
+        self._far = far
+        return near
 
     def follow(self, placed: Placed, fixed: int | None) -> NDArray[np.float64]:
         """The origin for these poses: the same as before while most of them are near it."""
@@ -210,6 +232,11 @@ class LocalOrigin:
         if len(positions) and not (np.abs(positions - self.xyz) <= self.NEAR).all():
             self._move_to(positions[np.isfinite(positions).all(axis=1)])
         return self.xyz
+
+    def _near_into(self, placed: Placed, fixed: int | None, near: NDArray[np.float32]) -> int:
+        """How many are far from the origin."""
+        index = -1 if fixed is None else fixed
+        return _core.poses_near(placed.poses, placed.states, self.xyz, index, self.NEAR, near)
 
     def _move_to(self, positions: NDArray[np.float64]) -> None:
         """Stays, or goes to the fixed frame or to the middle: where it is near to the most."""

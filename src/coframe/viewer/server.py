@@ -13,13 +13,12 @@ from http import HTTPStatus
 from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qsl, unquote, urlsplit
 
-from websockets.asyncio.server import Server, ServerConnection, serve
-
 from coframe.errors import ViewerError
-from coframe.viewer.client import Client
 from coframe.viewer.http import STATIC, Visitors, file_response, page_file, response, sentence
 from coframe.viewer.meshes import MESH_TYPES, MeshError
-from coframe.viewer.replay import replay_page
+from coframe.viewer.replay import Sights, replay_page
+from coframe.viewer.ticker import Ticker
+from coframe.viewer.websocket import WebSocket
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -36,9 +35,9 @@ _logger = logging.getLogger("coframe.viewer")
 
 # A page that is opened again remembers its layout by the address: so the port stays the same where it can.
 DEFAULT_PORT = 7676
-LARGEST_REQUEST = 1 << 20
 _END_TIMEOUT = 5.0
-_ANSWER_TIMEOUT = 60.0  # also of a replay, which takes a while to make
+# How often it is looked whether all tabs have said goodbye, in seconds.
+_END_STEP = 0.01
 
 
 class ViewerServer:
@@ -61,8 +60,10 @@ class ViewerServer:
         self._host = host
         self._static = static
         self._visitors = Visitors(host, 0)
+        self._sockets: set[WebSocket] = set()
         self.port = 0
         self._loop = asyncio.new_event_loop()
+        self._ticker = Ticker(self._loop, stage)
         self._end = asyncio.Event()
         self._started = threading.Event()
         self._failure: OSError | None = None
@@ -79,10 +80,14 @@ class ViewerServer:
         host = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(self._host, self._host)  # noqa: S104 - to be shown
         return f"http://{f'[{host}]' if ':' in host and '[' not in host else host}:{self.port}/"
 
+    def call(self, deed: Callable[..., object], *args: Any) -> None:
+        """Has the server's thread do something soon; nothing happens once it has ended."""
+        with contextlib.suppress(RuntimeError):  # the loop has ended already
+            self._loop.call_soon_threadsafe(deed, *args)
+
     def close(self) -> None:
         """Ends all connections and the thread; doing so twice does no harm."""
-        with contextlib.suppress(RuntimeError):  # the loop has ended already
-            self._loop.call_soon_threadsafe(self._end.set)
+        self.call(self._end.set)
         if self._thread is not threading.current_thread():
             self._thread.join(_END_TIMEOUT)
 
@@ -114,9 +119,12 @@ class ViewerServer:
             await self._end.wait()
         finally:
             server.close()
-            await server.wait_closed()
+            while self._sockets:
+                for connection in list(self._sockets):
+                    connection.close()
+                await asyncio.sleep(_END_STEP)
 
-    async def _listen(self, port: int | None) -> Server:
+    async def _listen(self, port: int | None) -> asyncio.Server:
         if port is not None:
             return await self._listen_on(port)
         try:
@@ -124,29 +132,13 @@ class ViewerServer:
         except OSError:
             return await self._listen_on(0)
 
-    async def _listen_on(self, port: int) -> Server:
-        server: Server = await serve(
-            self._welcome,
-            self._host,
-            port,
-            process_request=self._answer,
-            compression=None,  # numbers of sensors do not get smaller, and this machine is near
-            max_size=LARGEST_REQUEST,
-            max_queue=16,
-            server_header=None,
-            open_timeout=_ANSWER_TIMEOUT,
-            logger=_quiet_logger(),
-        )
-        return server
+    async def _listen_on(self, port: int) -> asyncio.Server:
+        return await self._loop.create_server(self._connect, self._host, port)
 
-    async def _welcome(self, socket: ServerConnection) -> None:
-        try:
-            await Client(socket, self._stage).run()
-        except Exception:
-            _logger.exception("a tab's connection failed; the others go on")
-            raise
+    def _connect(self) -> WebSocket:
+        return WebSocket(self._answer, self._ticker.welcome, self._sockets)
 
-    async def _answer(self, _connection: ServerConnection, request: Request) -> Response | None:
+    async def _answer(self, request: Request) -> Response | None:
         """An answer to a request; None lets a WebSocket be opened."""
         policy = self._visitors.policy
         if not self._visitors.host_is_ours(request.headers.get("Host")):
@@ -194,9 +186,9 @@ class ViewerServer:
         try:
             wanted = stage.replay_request(dict(parse_qsl(query)))
             template, robots = self._static / "replay.html", list(stage.descriptions.known.values())
-            page = await self._loop.run_in_executor(
-                stage.executor, replay_page, template, stage.source.buffer, wanted, robots, stage.meshes
-            )
+            with stage.opened(display.topic for display in wanted.looks.displays) as messages:
+                sights = Sights(stage.source.buffer, messages, robots, stage.meshes)
+                page = await self._loop.run_in_executor(stage.executor, replay_page, template, sights, wanted)
         except ViewerError as error:
             return sentence(HTTPStatus.BAD_REQUEST, f"{error} {error.hint}".strip(), policy)
         attachment = {"Content-Disposition": 'attachment; filename="coframe-replay.html"'}
@@ -223,10 +215,3 @@ def _cannot_listen(host: str, port: int, reason: OSError) -> ViewerError:
     return ViewerError(
         f"cannot listen on {host}:{port}: {words}", hint="Choose another --port, or 0 for any that is free."
     )
-
-
-def _quiet_logger() -> logging.Logger:
-    """The library tells of every stranger that breaks off a handshake."""
-    logger = logging.getLogger("coframe.viewer.websockets")
-    logger.setLevel(logging.CRITICAL)
-    return logger

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from coframe.buffer import Buffer
 from coframe.errors import ViewerError
 from coframe.robots import load
+from coframe.viewer.joints import JOINT_STATES
 from coframe.viewer.robots import mesh_table
 from coframe.viewer.rviz import RvizConfig
 from coframe.viewer.sources import BufferSource
@@ -17,17 +18,19 @@ from coframe.viewer.stage import Stage
 from coframe.wire.connection import Connection
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from typing_extensions import Self
 
-    from coframe.viewer.sources import Source
+    from coframe.viewer.sources import Mode, Source
 
-__all__ = ["Viewer", "show"]
+__all__ = ["Viewer", "expect", "show"]
 
 
 class Viewer:
     """A running viewer; made by :func:`show`. In a Jupyter notebook it shows itself below the cell.
+
+    Beside the server's thread, one other thread may use it.
 
     Args:
         stage: What is shown.
@@ -42,7 +45,8 @@ class Viewer:
             if error.name != "websockets":
                 raise
             raise ViewerError("the viewer needs the package websockets: pip install 'coframe[viewer]'") from None
-        self._source = stage.source
+        self._stage = stage
+        self._sources = [stage.source]
         self._server = ViewerServer(stage, host=host, port=port)
 
     @property
@@ -50,10 +54,20 @@ class Viewer:
         """The page's address, such as ``http://127.0.0.1:7676/``."""
         return self._server.url
 
+    def show(self, source: Source) -> None:
+        """Shows a source from now on, in place of the one that was `expected`; the viewer closes it."""
+        self._sources.append(source)
+        self._server.call(self._stage.show, source)
+
+    def entitle(self, title: str) -> None:
+        """Calls what is shown otherwise."""
+        self._server.call(self._stage.entitle, title)
+
     def close(self) -> None:
         """Ends the server; closing twice does no harm."""
         self._server.close()
-        self._source.close()
+        for source in self._sources:
+            source.close()
 
     def __enter__(self) -> Self:
         return self
@@ -78,6 +92,7 @@ def show(
     mesh_roots: Iterable[str | os.PathLike[str]] = (),
     host: str = "127.0.0.1",
     port: int | None = None,
+    joint_states: str = JOINT_STATES,
 ) -> Viewer:
     """Shows transforms in a browser tab: open the ``url`` of what is returned, or leave it to Jupyter.
 
@@ -91,6 +106,7 @@ def show(
         mesh_roots: Folders below which meshes may be fetched, besides those of ROS packages that are named.
         host: The address to listen on. Others than this machine's own let everybody in who reaches it.
         port: The port; None takes 7676, or any other where that is taken; 0 takes any.
+        joint_states: The topic that the sliders of a robot's joints publish on.
 
     Raises:
         ViewerError: A package is missing, a file cannot be read, or the address cannot be listened on.
@@ -105,11 +121,55 @@ def show(
         ...     viewer.url.startswith("http://127.0.0.1:")
         True
     """
+    return _viewer(lambda: _source_of(source), fixed, rviz, robot, mesh_roots, host, port)
+
+
+def expect(
+    title: str,
+    mode: Mode,
+    *,
+    fixed: str = "",
+    rviz: str | os.PathLike[str] | None = None,
+    robot: str | os.PathLike[str] | None = None,
+    mesh_roots: Iterable[str | os.PathLike[str]] = (),
+    host: str = "127.0.0.1",
+    port: int | None = None,
+) -> Viewer:
+    """A viewer that is there before what it shows: browsers take a while to start, and so do other things.
+
+    Args:
+        title: What is to come.
+        mode: What kind it is while it is not there.
+        fixed: This and all others are those of :func:`show`.
+        rviz: As above.
+        robot: As above.
+        mesh_roots: As above.
+        host: As above.
+        port: As above.
+
+    Raises:
+        ViewerError: As of :func:`show`.
+        RobotDescriptionError: Likewise.
+    """
+    return _viewer(lambda: BufferSource(Buffer(), title, mode), fixed, rviz, robot, mesh_roots, host, port)
+
+
+def _viewer(
+    make_source: Callable[[], Source],
+    fixed: str,
+    rviz: str | os.PathLike[str] | None,
+    robot: str | os.PathLike[str] | None,
+    mesh_roots: Iterable[str | os.PathLike[str]],
+    host: str,
+    port: int | None,
+) -> Viewer:
     config = None if rviz is None else _read_config(Path(rviz))
     roots = [Path(root) for root in mesh_roots]
     description = None if robot is None else load(robot, packages=roots)
     meshes = mesh_table(None if robot is None else Path(robot), roots)
-    stage = Stage(_source_of(source), fixed=fixed, rviz=config, robot=description, meshes=meshes)
+    stage = Stage(
+        make_source(), fixed=fixed, rviz=config, robot=description, meshes=meshes, joint_states=joint_states
+    )
     return Viewer(stage, host=host, port=port)
 
 

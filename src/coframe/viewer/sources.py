@@ -45,6 +45,9 @@ class Source(Protocol):
     def open(self, topic: str) -> Messages | None:
         """The messages of a topic, to be closed again; None where there is none of that name."""
 
+    def refresh(self) -> None:
+        """Takes in what has changed around it; to be called now and then."""
+
     def close(self) -> None:
         """Gives back what the source itself has opened."""
 
@@ -52,13 +55,13 @@ class Source(Protocol):
 class BufferSource:
     """A buffer alone: frames, and no messages."""
 
-    mode: Mode = "buffer"
     connection: Connection | None = None
     span: tuple[int, int] | None = None
 
-    def __init__(self, buffer: Buffer, title: str = "coframe") -> None:
+    def __init__(self, buffer: Buffer, title: str = "coframe", mode: Mode = "buffer") -> None:
         self.buffer = buffer
         self.title = title
+        self.mode = mode
 
     def topics(self) -> list[Topic]:
         """None."""
@@ -67,6 +70,9 @@ class BufferSource:
     def open(self, _topic: str) -> Messages | None:
         """None."""
         return None
+
+    def refresh(self) -> None:
+        """Nothing: the buffer is looked at anyway."""
 
     def close(self) -> None:
         """The buffer is the caller's."""

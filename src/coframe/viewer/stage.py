@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import secrets
 import time
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from coframe.errors import ViewerError
 from coframe.viewer.descriptions import ROBOT_DESCRIPTION, Descriptions
-from coframe.viewer.joints import JointPublisher
+from coframe.viewer.joints import JOINT_STATES, JointPublisher
 from coframe.viewer.meshes import MeshTable
-from coframe.viewer.replay import ReplayRequest
+from coframe.viewer.replay import NO_LOOKS, ReplayLooks, ReplayRequest
 from coframe.viewer.scene import Scene
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from coframe.robots import Robot
     from coframe.viewer.messages import Messages
@@ -30,6 +32,8 @@ STRUCTURE_SHARE = 0.005
 _FARTHEST = 2**52
 # For how many seconds a frame is shown that is not heard of any more, as in RViz.
 FRAME_TIMEOUT = 15.0
+# How many replays may be announced and not fetched.
+_MOST_LOOKS = 8
 
 
 class Stage:
@@ -41,6 +45,7 @@ class Stage:
         rviz: What a tab shows at first.
         robot: One that is shown besides those that topics tell of.
         meshes: Where meshes may come from; None: from nowhere.
+        joint_states: Where the positions of a robot's joints are sent.
     """
 
     def __init__(
@@ -51,20 +56,38 @@ class Stage:
         rviz: RvizConfig | None = None,
         robot: Robot | None = None,
         meshes: MeshTable | None = None,
+        joint_states: str = JOINT_STATES,
     ) -> None:
+        self.edition = 0
         self.source = source
         self.meshes = MeshTable(lambda _name: None) if meshes is None else meshes
         self.descriptions = Descriptions(robot, _description_topics(rviz), self.meshes)
         self.scene = Scene(source.buffer, ages=source.mode == "live")
         self.rviz = rviz
+        self._joint_states = joint_states
         self.fixed = fixed or (rviz.fixed_frame if rviz is not None else "")
         self.saved_rviz: str | None = None
         self.topics: list[Topic] = []
         self.origin = time.time_ns()
         self.executor = ThreadPoolExecutor(2, "coframe-viewer-work")
         self._open: dict[str, _Shared] = {}
+        self._looks: dict[str, ReplayLooks] = {}
         self._structure_due = self._topics_due = 0.0
         self.refresh()
+
+    def show(self, source: Source) -> None:
+        """Shows something else from now on: all tabs begin anew."""
+        self.source = source
+        self.scene = Scene(source.buffer, ages=source.mode == "live")
+        self.origin = time.time_ns()
+        self._structure_due = self._topics_due = 0.0
+        self.refresh()
+        self.edition += 1
+
+    def entitle(self, title: str) -> None:
+        """Calls what is shown otherwise."""
+        self.source.title = title
+        self.edition += 1
 
     @property
     def can_publish(self) -> bool:
@@ -82,6 +105,7 @@ class Stage:
             self.descriptions.refresh(self.source, self.executor)
         if now >= self._topics_due:
             self._topics_due = now + TOPICS_PERIOD
+            self.source.refresh()
             self.topics = self.source.topics()
 
     @property
@@ -112,6 +136,16 @@ class Stage:
             del self._open[topic]
             shared.messages.close()
 
+    @contextmanager
+    def opened(self, topics: Iterable[str]) -> Iterator[dict[str, Messages]]:
+        """The messages of those of the topics that are there, while one needs them."""
+        found = {topic: messages for topic in dict.fromkeys(topics) if (messages := self.open(topic)) is not None}
+        try:
+            yield found
+        finally:
+            for topic in found:
+                self.release(topic)
+
     def close(self) -> None:
         """Ends what is still at work for tabs that have gone."""
         for topic in list(self._open):
@@ -128,7 +162,15 @@ class Stage:
         """
         if self.source.connection is None:
             raise ViewerError("only a live viewer sends joint states", hint="Start it by `coframe view live`.")
-        return JointPublisher(self.source.connection, robot)
+        return JointPublisher(self.source.connection, robot, self._joint_states)
+
+    def announce_replay(self, looks: ReplayLooks) -> str:
+        """Notes how a replay is to look; the name under which it is asked for then."""
+        name = secrets.token_urlsafe(12)
+        self._looks[name] = looks
+        while len(self._looks) > _MOST_LOOKS:
+            del self._looks[next(iter(self._looks))]
+        return name
 
     def replay_request(self, told: Mapping[str, str]) -> ReplayRequest:
         """What is to be replayed, from a query; by default all that there is.
@@ -145,9 +187,12 @@ class Stage:
             rate = float(told.get("rate", 30.0))
         except (ValueError, OverflowError):
             raise ViewerError("a replay's from, to and rate are numbers") from None
+        looks = self._looks.get(told["looks"]) if "looks" in told else NO_LOOKS
+        if looks is None:
+            raise ViewerError("it is forgotten by now what was to be replayed", hint="Save the replay again.")
         fixed = told.get("fixed") or self.fixed or self.scene.structure.largest
         first, last = max(first, span[0]), min(last, span[1])
-        return ReplayRequest(first, last, rate, fixed, FRAME_TIMEOUT, self.source.title, self.origin)
+        return ReplayRequest(first, last, rate, fixed, FRAME_TIMEOUT, self.source.title, self.origin, looks)
 
     def _choose_origin(self) -> None:
         span = self.span

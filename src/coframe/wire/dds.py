@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.util
 import socket
 
 from coframe import _core
@@ -18,11 +19,7 @@ def load() -> None:
     try:
         from cyclonedds.internal import DDS  # noqa: PLC0415 - optional, and 100 ms
     except ImportError as error:
-        raise WireError(
-            "Joining the ROS graph needs the package cyclonedds, which is not installed: pip install 'coframe[dds]'.",
-            hint="There are wheels for Python 3.10 to 3.13 on Linux x86-64, macOS and Windows; "
-            "everything else of coframe works without.",
-        ) from error
+        raise _not_installed() from error
     try:
         _core.load_dds(DDS._dll_handle._name)  # noqa: SLF001 - the only place that knows the library's path
     except RuntimeError as error:
@@ -30,6 +27,24 @@ def load() -> None:
             f"This cyclonedds does not fit: {error}.",
             hint="Install the version coframe asks for: pip install 'coframe[dds]'.",
         ) from error
+
+
+def check() -> None:
+    """Whether the wheel is there, without loading it.
+
+    Raises:
+        WireError: cyclonedds is not installed.
+    """
+    if importlib.util.find_spec("cyclonedds") is None:
+        raise _not_installed()
+
+
+def _not_installed() -> WireError:
+    return WireError(
+        "Joining the ROS graph needs the package cyclonedds, which is not installed: pip install 'coframe[dds]'.",
+        hint="There are wheels for Python 3.10 to 3.13 on Linux x86-64, macOS and Windows; "
+        "everything else of coframe works without.",
+    )
 
 
 def join(domain: int, xml: str, user_data: str) -> _core.DomainParticipant:

@@ -85,7 +85,12 @@ class WireEndpoint:
 
     The constructor announces it, and from then on the housekeeping thread uses it: it must be the last thing that a
     child's constructor calls.
+
+    Attributes:
+        adapts: Whether somebody follows what the other side offers, so that nobody need be warned of it.
     """
+
+    adapts = False
 
     def __init__(self, native: NativeEndpoint, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
         self.guid = native.guid
@@ -189,8 +194,11 @@ class RawPublisher(Publisher):
 class Subscription(WireEndpoint):
     """Holds serialised messages until they are taken."""
 
-    def __init__(self, native: _core.Reader, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
+    def __init__(
+        self, native: _core.Reader, node: GraphNode, topic: str, dds_type: str, qos: QoS, *, adapts: bool = False
+    ) -> None:
         self._reader = native
+        self.adapts = adapts
         super().__init__(native, node, topic, dds_type, qos)
 
     def take(self, limit: int = 100) -> list[Sample]:

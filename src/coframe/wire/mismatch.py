@@ -122,4 +122,5 @@ class MismatchWatch:
                     continue
                 pair = (own.description, peer) if own.is_writer else (peer, own.description)
                 for reason in reasons(*pair) or ["refused"]:
-                    yield own, peer, reason
+                    if reason not in _QOS or not own.adapts:
+                        yield own, peer, reason

@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 
 _logger = logging.getLogger("coframe.wire")
 
+_TF_TYPE = "tf2_msgs/msg/TFMessage"
 _ENCLAVE = "enclave=/;"  # what ROS participants say of themselves
 _CHECK_PERIOD_NS = 1_000_000_000
 
@@ -149,8 +150,9 @@ class Participant:
         Raises:
             WireError: DDS refuses.
         """
-        name, type_name, entity = self._topic_of(topic, message_type, kind)
-        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), ""), topic)
+        of_transforms = types.ros_type(message_type) == _TF_TYPE
+        name, type_name, entity = self._tf_topic(topic) if of_transforms else self._topic_of(topic, message_type, kind)
+        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), "", of_transforms), topic)
         return Publisher(native, node, name, type_name, qos)
 
     def subscription(
@@ -162,6 +164,7 @@ class Participant:
         *,
         on_data: _core.Event | None = None,
         kind: Kind = "topic",
+        adapts: bool = False,
     ) -> Subscription:
         """A subscription of `node`; the arguments are those of `publisher`.
 
@@ -172,13 +175,14 @@ class Participant:
             qos: what is asked for.
             on_data: is set whenever messages arrive.
             kind: "topic", "request" or "reply".
+            adapts: the caller follows what publishers offer, so that nobody is warned of those that offer less.
 
         Raises:
             WireError: DDS refuses.
         """
         name, type_name, entity = self._topic_of(topic, message_type, kind)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
-        return Subscription(native, node, name, type_name, qos)
+        return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
     def raw_publisher(self, node: GraphNode, topic: str, ros_type: str, qos: QoS) -> RawPublisher:
         """A publisher of `node` for messages of any type, whose bytes it passes on as they are.
@@ -260,8 +264,7 @@ class Participant:
             WireError: DDS refuses.
         """
         chosen = qos or (TF_STATIC_READER if static else TF)
-        name, type_name = names.dds_topic(topic), names.dds_type("tf2_msgs/msg/TFMessage")
-        entity = self._unchecked_topic(name, type_name)
+        name, type_name, entity = self._tf_topic(topic)
         source = initial_authority(authority)
         native = _create(
             lambda: _core.TfReader(self._native.entity, entity, _native_qos(chosen), "", buffer, static, source),
@@ -361,6 +364,11 @@ class Participant:
             if key not in self._topics:
                 self._topics[key] = types.create_topic(self._native.entity, name, data_type)
             return self._topics[key]
+
+    def _tf_topic(self, topic: str) -> tuple[str, str, int]:
+        """As `_topic_of`, for transforms: the native endpoints check the bytes, and readers count what is malformed."""
+        name, type_name = names.dds_topic(topic), names.dds_type(_TF_TYPE)
+        return name, type_name, self._unchecked_topic(name, type_name)
 
     def _unchecked_topic(self, name: str, type_name: str) -> int:
         """For those who check the bytes themselves, or only pass them on."""

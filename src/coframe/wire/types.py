@@ -84,7 +84,7 @@ def create_topic(participant: int, name: str, data_type: Any) -> int:
 
 
 def create_unchecked_topic(participant: int, name: str, type_name: str) -> int:
-    """A DDS topic whose readers are given any bytes that come under the type's name, and check them: its number.
+    """A DDS topic for endpoints that check the bytes by themselves: its number.
 
     Raises:
         WireError: DDS refuses.

@@ -10,7 +10,7 @@ from coframe.robots.publishing import StatePublisher
 from coframe.transform import Transform
 from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
-from rclpy.exceptions import ParameterException
+from rclpy.exceptions import NameValidationException, ParameterException, RCLError
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -43,7 +43,7 @@ class RobotStatePublisher(Node):
         description = self.declare_parameter("robot_description", "").value
         hertz = ParameterDescriptor(floating_point_range=[FloatingPointRange(from_value=0.0, to_value=1000.0)])
         frequency = self.declare_parameter("publish_frequency", 20.0, hertz).value
-        self.declare_parameter("frame_prefix", "")
+        self._prefix = self.declare_parameter("frame_prefix", "").value
         ignore_stamps = self.declare_parameter("ignore_timestamp", False).value
         robot = self._first_robot(description, file)
         self._states = StatePublisher(robot, frequency, ignore_stamps=ignore_stamps)
@@ -95,9 +95,8 @@ class RobotStatePublisher(Node):
             self._broadcaster.sendTransform([self._message(transform, stamp) for transform in moving])
 
     def _message(self, transform: Transform, stamp: int) -> TransformStamped:
-        prefix = self.get_parameter("frame_prefix").value
-        message = TransformStamped(child_frame_id=f"{prefix}{transform.source}")
-        message.header.frame_id = f"{prefix}{transform.target}"
+        message = TransformStamped(child_frame_id=f"{self._prefix}{transform.source}")
+        message.header.frame_id = f"{self._prefix}{transform.target}"
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, _SECOND)
         at, turn = message.transform.translation, message.transform.rotation
         at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w = transform.values
@@ -110,6 +109,7 @@ class RobotStatePublisher(Node):
             robot = self._new_robot(given["robot_description"]) if "robot_description" in given else None
         except RobotDescriptionError as error:
             return SetParametersResult(successful=False, reason=str(error))
+        self._prefix = given.get("frame_prefix", self._prefix)
         self._states.frequency = given.get("publish_frequency", self._states.frequency)
         self._states.ignore_stamps = given.get("ignore_timestamp", self._states.ignore_stamps)
         if robot is not None:
@@ -148,6 +148,6 @@ def main(args: list[str] | None = None) -> None:
     files = remove_ros_args(words)[1:]
     try:
         run(words, files[0] if files else None)
-    except (RobotDescriptionError, ParameterException) as error:
+    except (RobotDescriptionError, NameValidationException, ParameterException, RCLError) as error:
         hint = getattr(error, "hint", "")
         sys.exit(f"robot_state_publisher: {error}" + (f"\n  {hint}" if hint else ""))

@@ -23,6 +23,7 @@ websockets = pytest.importorskip("websockets.sync.client", reason="the viewer ne
 
 SETTLING = 5.0  # seconds
 PATIENCE = 20.0  # seconds; two cores that others use too
+START_PATIENCE = 60.0  # of a process that starts beside a browser that starts
 SECOND = 1_000_000_000
 LAB_FRAMES = 11
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
@@ -161,10 +162,23 @@ class Page:
         return self
 
     def settle(self):
-        """Waits until the playhead stands still."""
-        before = None
-        while before != (before := self.ask("coframe.time")):
-            self.raw.wait_for_timeout(250)
+        """Waits until what was asked for is drawn, and the playhead stands still."""
+        self.until("coframe.settled")
+
+    def scrub(self, part):
+        """Presses the mouse on the timeline, a part of the way from its start."""
+        box = self.raw.locator("#timeline .scrub canvas").bounding_box()
+        self.raw.mouse.click(box["x"] + part * box["width"], box["y"] + box["height"] / 2)
+
+    def save_replay(self, file, seconds):
+        """Saves the last seconds as a file."""
+        self.click("#bar button[title=Export]")
+        self.click("text=Replay (HTML)")
+        self.raw.fill("dialog input[aria-label='Seconds']", str(seconds))
+        with self.raw.expect_download() as download:
+            self.click("dialog button:text('Save')")
+        download.value.save_as(file)
+        return file.as_uri()
 
     def step(self, key, seconds):
         """Presses a key that moves the playhead by so much."""
@@ -238,7 +252,7 @@ def demo(tmp_path_factory) -> Iterator[Demo]:
 
 def _address(process, output):
     """The line of its own with the address."""
-    deadline = time.monotonic() + PATIENCE
+    deadline = time.monotonic() + START_PATIENCE
     while time.monotonic() < deadline and process.poll() is None:
         lines = output.read_text(errors="replace").splitlines()
         if found := [line for line in lines if line.startswith("http://127.0.0.1:")]:

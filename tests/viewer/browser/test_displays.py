@@ -87,6 +87,11 @@ def test_a_scan_of_the_demo_lies_on_its_walls(lab):
             return coframe.frames.odom?.position.every((x) => x === 0) && display?.messages?.[0];
         }"""
     )
+    assert_on_the_walls(scan)
+
+
+def assert_on_the_walls(scan):
+    """In odom, a scan lies on the walls and pillars of the demo's hall."""
     points = np.array(scan["first"]).reshape(-1, 3)
     assert 100 < len(points) == scan["points"]
     x, y, _ = (rotation(scan["quaternion"]) @ points.T) + np.array(scan["position"])[:, None]
@@ -99,6 +104,32 @@ def test_a_scan_of_the_demo_lies_on_its_walls(lab):
     assert np.quantile(off, 0.95) < 0.05
     assert (pillars < 0.05).sum() > 3
     assert (walls < 0.05).sum() > 50
+
+
+def test_a_replay_of_the_demo_has_its_scans_where_they_were(lab, open_page, tmp_path):
+    lab.raw.select_option("#fixed", "odom")
+    lab.until("coframe.frames.odom.position.every((x) => x === 0)")
+    shown = "Object.values(coframe.displays).find((one) => one.topic === '/scan')?.messages?.[0]"
+    first = lab.until(f"{shown}?.sequence")
+    lab.until(f"first => {shown}?.sequence > first + 20", first)
+    replay = open_page(lab.save_replay(tmp_path / "replay.html", 2), offline=True).drawn()
+    assert replay.ask("coframe.fixed") == "odom"
+    assert set(replay.ask("coframe.displays")) == set(lab.ask("coframe.displays"))
+    seen = set()
+    for part in (0.98, 0.6, 0.9):
+        replay.scrub(part)
+        replay.settle()
+        scan = replay.until(shown)
+        assert_on_the_walls(scan)
+        seen.add(scan["sequence"])
+    assert len(seen) == 3
+    replay.raw.select_option("#fixed", "lidar_link")
+    replay.until("coframe.frames.lidar_link.position.every((x) => x === 0)")
+    # A scan is at most a tenth of a second old, in which the robot goes a few centimetres.
+    assert np.abs(replay.until(shown)["position"]).max() < 0.2
+    replay.key("t")
+    rows = "document.querySelector('#timeline .sparks canvas').height"
+    replay.until(f"{rows} > 18 * 3")  # a row a frame that moves
 
 
 def rotation(quaternion):
@@ -116,7 +147,7 @@ def write_stl(path):
 
 def write_obj(path):
     lines = [f"v {x} {y} {z}" for x, y, z in TETRAHEDRON] + [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in FACES]
-    path.write_text("\n".join(lines))
+    path.write_text("\n".join(["mtllib boom.mtl", "usemtl skin", *lines]))
 
 
 def write_dae(path):
@@ -161,7 +192,8 @@ URDF = """<robot name="crane">
   <link name="post"><visual><geometry><mesh filename="package://crane/meshes/post.stl"/></geometry></visual></link>
   <link name="boom"><visual><geometry><mesh filename="meshes/boom.obj"/></geometry></visual></link>
   <link name="hook"><visual><geometry><mesh filename="package://crane/meshes/hook.dae"/></geometry></visual></link>
-  <link name="load"><visual><geometry><box size="0.1 0.1 0.1"/></geometry></visual></link>
+  <link name="load"><visual><geometry><box size="0.1 0.1 0.1"/></geometry>
+    <material name="wood"><texture filename="package://crane/meshes/skin.png"/></material></visual></link>
   <joint name="turn" type="revolute"><parent link="post"/><child link="boom"/>
     <origin xyz="0 0 1" rpy="0 0 0.3"/><axis xyz="0 0 1"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
   <joint name="lift" type="prismatic"><parent link="boom"/><child link="hook"/>
@@ -174,12 +206,13 @@ URDF = """<robot name="crane">
 
 @pytest.fixture
 def crane(tmp_path):
-    """A robot in a ROS package of its own: an STL, an OBJ and a DAE with a texture."""
+    """A robot in a ROS package of its own: an STL, an OBJ and a DAE with textures, and a box with one."""
     package = tmp_path / "crane"
     (package / "meshes").mkdir(parents=True)
     (package / "package.xml").write_text("<package><name>crane</name></package>")
     write_stl(package / "meshes" / "post.stl")
     write_obj(package / "meshes" / "boom.obj")
+    (package / "meshes" / "boom.mtl").write_text("newmtl skin\nmap_Kd skin.png\n")
     write_dae(package / "meshes" / "hook.dae")
     (package / "meshes" / "skin.png").write_bytes(PIXEL)
     file = package / "crane.urdf"
@@ -220,6 +253,7 @@ def test_a_robot_of_a_file_is_drawn_with_its_meshes_and_moved_by_sliders(crane, 
     buffer.set("map", "post", coframe.Transform(), static=True)
     page = open_page(view(buffer, robot=crane, fixed="map").url).drawn()
     page.until(f"{ROBOT}?.visible && {ROBOT}.loading === 0 && {ROBOT}.state === 'ok'")
+    page.until(f"{ROBOT}.textures === 3")
     assert page.ask(f"{ROBOT}.meshes") == 4
     robot = coframe.robots.load(crane)
     assert_stands_like(page, robot, {})

@@ -23,14 +23,7 @@ def counted_buffer():
 
 def test_a_replay_plays_from_disk_without_a_network(view, open_page, tmp_path):
     page = open_page(view(counted_buffer(), fixed="map").url).drawn()
-    page.click("#bar button[title=Export]")
-    page.click("text=Replay (HTML)")
-    page.raw.fill("dialog input[aria-label='Seconds']", "8")
-    with page.raw.expect_download() as download:
-        page.click("dialog button:text('Save')")
-    file = tmp_path / "replay.html"
-    download.value.save_as(file)
-    replay = open_page(file.as_uri(), offline=True).drawn()
+    replay = open_page(page.save_replay(tmp_path / "replay.html", 8), offline=True).drawn()
     assert replay.text("#bar .pill") == "Replay"
     assert set(replay.rows()) == {"map", "base", "lidar"}
     x = "coframe.frames.base.position[0]"
@@ -38,9 +31,8 @@ def test_a_replay_plays_from_disk_without_a_network(view, open_page, tmp_path):
     replay.key("Space")
     replay.until(f"{x} > 21")
     replay.key("Space")
-    box = replay.raw.locator("#timeline .scrub canvas").bounding_box()
     for part, expected in ((0.5, 60.0), (0.01, 20.8), (0.99, 99.2)):
-        replay.raw.mouse.click(box["x"] + part * box["width"], box["y"] + 5)
+        replay.scrub(part)
         replay.until(f"x => Math.abs({x} - x) < 1.5", expected)
     assert replay.ask("coframe.frames.lidar.position[2]") == pytest.approx(1.0)
     replay.row("lidar").locator(".name").click()
@@ -125,6 +117,10 @@ def test_the_sheet_lists_the_keys_and_they_work(view, open_page):
     assert {"Space", "l", ",", ".", "v", "f", "m", "/", "d", "s", "?", "Esc"} <= listed
     page.key("Escape")
     page.wait(lambda: not page.raw.locator("dialog[open]").is_visible(), "its end")
+    page.click("#bar button[title=Export]")
+    page.click("text=Replay (HTML)")
+    page.key("Escape")
+    page.wait(lambda: not page.raw.locator("dialog[open]").is_visible(), "the end of another")
     page.key("m")
     page.wait(lambda: "click the first frame" in page.text("#measured"), "the ruler")
     page.key("v")

@@ -22,6 +22,7 @@ export function cloudSpecs(size: number, colourBy: (typeof TRANSFORMERS)[number]
   return [
     { key: "Color Transformer", label: "Colour by", kind: "choice", value: colourBy, choices: TRANSFORMERS },
     { key: "Axis", kind: "choice", value: "Z", choices: ["X", "Y", "Z"] },
+    { key: "Use Fixed Frame", label: "Axis of the fixed frame", kind: "flag", value: true },
     { key: "Color", label: "Flat colour", kind: "colour", value: "#ff5a36" },
     { key: "Style", kind: "choice", value: "Points", choices: ["Points", "Flat Squares", "Spheres", "Boxes", "Squares"] },
     { key: "Size (Pixels)", kind: "number", value: 3, min: 1, max: 40, step: 1 },
@@ -42,7 +43,8 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
   }
 
   protected build(message: Cloud): THREE.Object3D {
-    this.note = message.step > 1 ? `1 of ${message.step} points, for want of a graphics card` : "";
+    const why = this.context.replayed() ? "thinned for the replay" : "for want of a graphics card";
+    this.note = message.step > 1 ? `1 of ${message.step} points, ${why}` : "";
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(message.points, 3));
     const mode = this.mode(message);
@@ -55,8 +57,10 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
     return points;
   }
 
-  protected override describe(message: Cloud): Record<string, unknown> {
-    return { points: message.count, step: message.step, first: Array.from(message.points.subarray(0, 3 * 1024)) };
+  protected override describe(message: Cloud, object: THREE.Object3D): Record<string, unknown> {
+    const { range } = ((object as THREE.Points).material as THREE.ShaderMaterial).uniforms;
+    const colours = (range as THREE.IUniform<THREE.Vector2>).value.toArray();
+    return { points: message.count, step: message.step, colours, first: Array.from(message.points.subarray(0, 3 * 1024)) };
   }
 
   private mode(message: Cloud): "rgb" | "scalar" | "axis" | "flat" {
@@ -75,6 +79,7 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
       depthWrite: alpha >= 0.5,
       defines: {
         [`BY_${mode.toUpperCase()}`]: 1,
+        ...(this.options.flag("Use Fixed Frame") ? {} : { OWN_AXIS: 1 }),
         ...(style === "Points" ? {} : { IN_METRES: 1 }),
         ...(style === "Spheres" ? { ROUND: 1 } : {}),
         ...(this.context.distinct() ? { DISTINCT: 1 } : {}),
@@ -102,14 +107,15 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
     if (this.mode(message) !== "axis" || object.userData.ranged === this.context.model.fixed) return;
     object.userData.ranged = this.context.model.fixed;
     object.updateMatrixWorld();
+    const seenFrom = this.options.flag("Use Fixed Frame") ? object.matrixWorld : new THREE.Matrix4();
     const axis = "XYZ".indexOf(this.options.choice("Axis"));
     const material = (object as THREE.Points).material as THREE.ShaderMaterial;
     const range = material.uniforms.range as THREE.IUniform<THREE.Vector2>;
-    range.value.set(...axisRange(message, object.matrixWorld, axis));
+    range.value.set(...axisRange(message, seenFrom, axis));
   }
 }
 
-/** The lowest and highest along an axis of the scene, from a sample of the points. */
+/** The lowest and highest along an axis that a pose leads to, from a sample of the points. */
 function axisRange(message: Cloud, pose: THREE.Matrix4, axis: number): [number, number] {
   const step = Math.max(1, Math.floor(message.count / SAMPLES));
   const e = pose.elements;
@@ -166,6 +172,8 @@ const VERTEX = `
       shown = rgba.rgb;
     #elif defined(BY_SCALAR)
       shown = scale((scalar - range.x) / spread);
+    #elif defined(BY_AXIS) && defined(OWN_AXIS)
+      shown = scale((position[axis] - range.x) / spread);
     #elif defined(BY_AXIS)
       shown = scale((world[axis] - range.x) / spread);
     #else

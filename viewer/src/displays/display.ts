@@ -23,6 +23,8 @@ export interface Context {
   height(): number;
   /** Whether there is no graphics card to draw with. */
   software(): boolean;
+  /** Whether it comes out of a file of its own. */
+  replayed(): boolean;
   redraw(): void;
 }
 
@@ -37,6 +39,8 @@ export abstract class Display {
   status: Status = { state: "ok", text: "" };
   /** What else is worth a word beside its name. */
   note = "";
+  /** What a replay was thinned by. */
+  leftOut = "";
 
   constructor(
     readonly id: number,
@@ -153,15 +157,20 @@ export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> 
       topic: this.config.topic,
       messages: shown.map(({ object, message }) => ({
         sequence: message.sequence,
-        position: object.position.toArray().map((value, k) => value + (this.origin[k] as number)),
+        position: this.inFixed(object.position),
         quaternion: object.quaternion.toArray(),
-        ...this.describe(message),
+        ...this.describe(message, object),
       })),
     };
   }
 
-  protected describe(_message: M): Record<string, unknown> {
+  protected describe(_message: M, _object: THREE.Object3D): Record<string, unknown> {
     return {};
+  }
+
+  /** A place in the scene, as the fixed frame has it. */
+  protected inFixed(place: THREE.Vector3): number[] {
+    return place.toArray().map((value, k) => value + (this.origin[k] as number));
   }
 
   override dispose(): void {

@@ -2,7 +2,7 @@
 
 import * as THREE from "three";
 import { Meshes } from "../meshes";
-import type { DisplayMessage, Robot, RvizConfig, RvizDisplay, Topic } from "../protocol";
+import type { DisplayMessage, DisplayStatus, Robot, RvizConfig, RvizDisplay, SubscribeOptions, Topic } from "../protocol";
 import { remember, remembered } from "../storage";
 import type { Theme } from "../theme";
 import type { View } from "../view";
@@ -36,13 +36,14 @@ export class Displays {
       distinct: () => theme.distinct,
       height: () => view.stage.height,
       software: () => view.stage.software,
+      replayed: () => model.hello?.mode === "replay",
       redraw: () => view.refresh(),
     };
     model.on("hello", (hello) => this.start(hello.rviz));
     model.on("topics", (topics) => this.offer(topics));
     model.on("robot", (robot) => this.setRobot(robot));
     model.on("message", (message) => this.receive(message));
-    model.on("display", ({ id, state, text }) => this.tell(id, state, text));
+    model.on("display", (told) => this.tell(told));
     model.on("connected", (connected) => {
       if (!connected) return;
       for (const display of this.list) this.subscribe(display);
@@ -118,6 +119,14 @@ export class Displays {
     return this.list.map(({ config }) => ({ ...config }));
   }
 
+  /** What is asked for of topics that are shown. */
+  get shownTopics(): { topic: string; options: SubscribeOptions }[] {
+    return this.list.flatMap((display) => {
+      const { topic, enabled } = display.config;
+      return display instanceof MessageDisplay && topic && enabled ? [{ topic, options: display.subscription() }] : [];
+    });
+  }
+
   private start(rviz: RvizConfig | null): void {
     if (this.started) return;
     this.started = true;
@@ -139,7 +148,7 @@ export class Displays {
     if (!this.automatic || !this.started) return;
     for (const { topic, display } of topics) {
       const shown = this.list.filter((other) => other instanceof MessageDisplay).length;
-      if (this.offered.has(topic) || !KINDS[display]?.topic || shown >= MOST_AT_FIRST) continue;
+      if (this.offered.has(topic) || !KINDS[display]?.topic || KINDS[display].heavy || shown >= MOST_AT_FIRST) continue;
       this.offered.add(topic);
       this.create({ class: display, name: this.freeName(display), enabled: true, topic, options: {} });
     }
@@ -207,10 +216,11 @@ export class Displays {
     if (display instanceof MessageDisplay) display.receive(message);
   }
 
-  private tell(id: number, state: Display["status"]["state"], text: string): void {
+  private tell({ id, state, text, note }: DisplayStatus): void {
     const display = this.list.find((other) => other.id === id);
     if (!display) return;
     display.status = { state, text };
+    display.leftOut = note ?? "";
     this.tellListeners();
   }
 

@@ -5,13 +5,14 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import { materialsOf, type Meshes } from "../meshes";
-import { slice, type MarkerItem, type Shapes } from "../protocol";
+import { slice, type DisplayMessage, type MarkerItem, type Shapes } from "../protocol";
 import { arrowGeometry } from "./arrows";
 import { MessageDisplay, type Context, type DisplayConfig } from "./display";
 import type { OptionSpec } from "./options";
 
 export const MARKER_SPECS: readonly OptionSpec[] = [];
 
+const MOST_NAMESPACES = 200;
 const MOST_TEXT = 200;
 const TEXT_PX = 48;
 
@@ -26,23 +27,54 @@ export class MarkersDisplay extends MessageDisplay<Shapes> {
     super(id, config, specs, context);
   }
 
+  /** Those that were heard of. */
+  readonly namespaces = new Set<string>();
+  /** Called when there is another one. */
+  onNamespace = (): void => {};
+
+  /** Whether the markers of a namespace are to be seen. */
+  isShown(name: string): boolean {
+    const all = this.config.options["Namespaces"];
+    return !(all && typeof all === "object" && !Array.isArray(all) && Object.hasOwn(all, name) && all[name] === false);
+  }
+
+  show(name: string, shown: boolean): void {
+    const all = this.config.options["Namespaces"];
+    const others = all && typeof all === "object" && !Array.isArray(all) ? all : {};
+    this.config.options["Namespaces"] = { ...others, [name]: shown };
+  }
+
+  override receive(message: DisplayMessage): void {
+    super.receive(message);
+    if (message.kind !== "shapes" || message.head.kind !== "markers") return;
+    const before = this.namespaces.size;
+    for (const { ns } of message.head.items) if (this.namespaces.size < MOST_NAMESPACES) this.namespaces.add(ns);
+    if (this.namespaces.size > before) this.onNamespace();
+  }
+
+  /** Where each marker is drawn, and how large. */
+  protected override describe(_message: Shapes, object: THREE.Object3D): Record<string, unknown> {
+    const markers = object.children.map((part) => {
+      const box = new THREE.Box3().setFromObject(part);
+      const [centre, size] = [box.getCenter(new THREE.Vector3()), box.getSize(new THREE.Vector3())];
+      return { ...part.userData.marker, centre: this.inFixed(centre), size: size.toArray() };
+    });
+    return { markers };
+  }
+
   protected build({ head, payload }: Shapes): THREE.Object3D {
     const group = new THREE.Group();
     if (head.kind !== "markers") return group;
     for (const item of head.items) {
-      if (!this.namespaceShown(item.ns) || !finite(item)) continue;
+      if (!this.isShown(item.ns) || !finite(item)) continue;
       const object = this.marker(item, payload);
       if (!object) continue;
       object.position.fromArray(item.pose);
       object.quaternion.fromArray(item.pose, 3).normalize();
+      object.userData.marker = { ns: item.ns, id: item.id, type: item.type };
       group.add(object);
     }
     return group;
-  }
-
-  private namespaceShown(name: string): boolean {
-    const all = this.config.options["Namespaces"];
-    return !(all && typeof all === "object" && !Array.isArray(all) && all[name] === false);
   }
 
   private marker(item: MarkerItem, payload: Float32Array): THREE.Object3D | null {

@@ -3,6 +3,7 @@
 import * as THREE from "three";
 import { slice, type Shapes, type SubscribeOptions } from "../protocol";
 import { arrowGeometry, instances, poseAxes } from "./arrows";
+import { COVARIANCE_SPECS, covarianceShapes } from "./covariance";
 import { MessageDisplay } from "./display";
 import type { OptionSpec } from "./options";
 
@@ -18,9 +19,12 @@ export const POSE_SPECS: readonly OptionSpec[] = [
   { key: "Axes Radius", kind: "number", value: 0.02, min: 0.0005, max: 10, step: 0.005, unit: "m" },
 ];
 
+export const COVARIANT_POSE_SPECS: readonly OptionSpec[] = [...POSE_SPECS, ...COVARIANCE_SPECS];
+
 export const ODOMETRY_SPECS: readonly OptionSpec[] = [
   ...POSE_SPECS,
   { key: "Keep", kind: "number", value: 100, min: 1, max: 1000, step: 10 },
+  ...COVARIANCE_SPECS,
 ];
 
 export class PosesDisplay extends MessageDisplay<Shapes> {
@@ -34,13 +38,21 @@ export class PosesDisplay extends MessageDisplay<Shapes> {
     const poses = slice(payload, head.poses, 7);
     const count = Math.floor(poses.length / 7);
     if (count === 0) return group;
+    const newest = poses.subarray((count - 1) * 7);
+    if (head.covariance && this.specs !== POSE_SPECS) group.add(covarianceShapes(newest, head.covariance, this.options));
     if (head.kind === "poses") {
       group.add(this.shape(poses, 1));
       return group;
     }
-    group.add(this.shape(poses.subarray((count - 1) * 7), 1));
+    group.add(this.shape(newest, 1));
     if (count > 1) group.add(trail(poses, this.options.colour("Color")));
     return group;
+  }
+
+  /** How large it is, all in all. */
+  protected override describe(_message: Shapes, object: THREE.Object3D): Record<string, unknown> {
+    const box = new THREE.Box3().setFromObject(object);
+    return { least: this.inFixed(box.min), most: this.inFixed(box.max) };
   }
 
   private shape(poses: Float32Array, scale: number): THREE.Object3D {

@@ -6,17 +6,20 @@ import { CameraDisplay, CAMERA_SPECS } from "./camera_info";
 import { CloudDisplay, cloudSpecs } from "./cloud";
 import type { Context, Display, DisplayConfig } from "./display";
 import { Ground, GROUND_SPECS } from "./ground";
+import { IMAGE_SPECS, ImageDisplay } from "./image";
 import { MapDisplay, MAP_SPECS } from "./map";
 import { MarkersDisplay, MARKER_SPECS } from "./markers";
 import type { OptionSpec } from "./options";
 import { PathDisplay, PATH_SPECS } from "./path";
-import { ODOMETRY_SPECS, POSE_SPECS, PosesDisplay } from "./poses";
+import { COVARIANT_POSE_SPECS, ODOMETRY_SPECS, POSE_SPECS, PosesDisplay } from "./poses";
 import { RANGE_SPECS, RangeDisplay } from "./range";
 import { ROBOT_SPECS, RobotDisplay } from "./robot";
 import { TF_SPECS, TfDisplay } from "./tf";
 
 interface Kind {
   specs: readonly OptionSpec[];
+  /** Whether it takes so much that it is shown only when asked for. */
+  heavy?: boolean;
   /** Whether it shows what comes on a topic. */
   topic: boolean;
   make(id: number, config: DisplayConfig, specs: readonly OptionSpec[], context: Context, meshes: Meshes): Display;
@@ -41,13 +44,14 @@ export const KINDS: Record<string, Kind> = {
   Map: plain(MAP_SPECS, MapDisplay),
   Path: plain(PATH_SPECS, PathDisplay),
   Pose: plain(POSE_SPECS, PosesDisplay),
-  PoseWithCovariance: plain(POSE_SPECS, PosesDisplay),
+  PoseWithCovariance: plain(COVARIANT_POSE_SPECS, PosesDisplay),
   PoseArray: plain(POSE_SPECS, PosesDisplay),
   Odometry: plain(ODOMETRY_SPECS, PosesDisplay),
   Marker: markers,
   MarkerArray: markers,
   Range: plain(RANGE_SPECS, RangeDisplay),
   Camera: plain(CAMERA_SPECS, CameraDisplay),
+  Image: { ...plain(IMAGE_SPECS, ImageDisplay), heavy: true },
   CameraInfo: plain(CAMERA_SPECS, CameraDisplay),
 };
 

@@ -2,7 +2,7 @@
 
 import * as THREE from "three";
 import URDFLoader, { type URDFJoint, type URDFRobot } from "urdf-loader";
-import { materialsOf, type Meshes } from "../meshes";
+import { dropEmptyTextures, hasPicture, materialsOf, NOTHING, type Meshes } from "../meshes";
 import type { Placement } from "../placement";
 import type { Robot, Tick } from "../protocol";
 import { Display, release, type Context, type DisplayConfig } from "./display";
@@ -60,9 +60,13 @@ export class RobotDisplay extends Display {
 
   override probe(): Record<string, unknown> {
     let meshes = 0;
-    this.model?.traverse((part) => (meshes += (part as Partial<THREE.Mesh>).isMesh ? 1 : 0));
+    let textures = 0;
+    this.model?.traverse((part) => {
+      meshes += (part as Partial<THREE.Mesh>).isMesh ? 1 : 0;
+      for (const { map } of materialsOf(part) as THREE.MeshPhongMaterial[]) textures += map && hasPicture(map) ? 1 : 0;
+    });
     const visible = (this.model?.visible ?? false) && this.object.visible;
-    return { ...super.probe(), robot: this.robot?.name ?? null, meshes, loading: this.loading, visible, links: this.linkPoses() };
+    return { ...super.probe(), robot: this.robot?.name ?? null, meshes, textures, loading: this.loading, visible, links: this.linkPoses() };
   }
 
   /** In the scene: where each link is drawn. */
@@ -98,7 +102,10 @@ export class RobotDisplay extends Display {
   }
 
   private parse(robot: Robot): URDFRobot {
-    const loader = new URDFLoader(blockedManager());
+    const textures = new THREE.LoadingManager();
+    let complete = true;
+    textures.onStart = (): void => void (complete = false);
+    const loader = new URDFLoader(textures);
     // Names stay as they were written: the server's table says where each file is.
     loader.packages = (name: string): string => `package://${name}`;
     loader.parseVisual = this.options.flag("Visual Enabled");
@@ -115,6 +122,7 @@ export class RobotDisplay extends Display {
         .then(({ object, coloured }) => {
           this.paint(object, coloured ? null : material);
           done(object);
+          if (complete) dropEmptyTextures(object);
         })
         .catch((error: unknown) => this.problems.push(error instanceof Error ? error.message : String(error)))
         .finally(() => {
@@ -123,7 +131,13 @@ export class RobotDisplay extends Display {
           this.context.redraw();
         });
     };
+    textures.setURLModifier((path) => (Object.hasOwn(robot.meshes, path) ? (robot.meshes[path] as string) : NOTHING));
     const model = loader.parse(robot.urdf);
+    textures.onLoad = (): void => {
+      complete = true;
+      dropEmptyTextures(model);
+      this.context.redraw();
+    };
     model.traverse((part) => {
       if ((part as Partial<THREE.Mesh>).isMesh && !part.userData.shared) this.paint(part, null);
     });
@@ -213,11 +227,4 @@ function matrixOf(
     new THREE.Quaternion().fromArray(placement.quaternions, i * 4),
     new THREE.Vector3(1, 1, 1),
   );
-}
-
-/** The loader's own requests, for textures named in the URDF, would go to addresses the server does not know. */
-function blockedManager(): THREE.LoadingManager {
-  const manager = new THREE.LoadingManager();
-  manager.setURLModifier(() => "data:,");
-  return manager;
 }

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options
 from coframe.viewer.displays.grids import draw_grid
+from coframe.viewer.displays.images import draw_compressed_image, draw_image
 from coframe.viewer.displays.points import draw_cloud, draw_scan
 from coframe.viewer.displays.shapes import draw_camera, draw_path, draw_pose, draw_pose_array, draw_range
 
@@ -25,6 +26,8 @@ DRAWN_BY: dict[str, Callable[[Any, Options], Drawing]] = {
     "nav_msgs/msg/OccupancyGrid": draw_grid,
     "nav_msgs/msg/Path": draw_path,
     "sensor_msgs/msg/CameraInfo": draw_camera,
+    "sensor_msgs/msg/CompressedImage": draw_compressed_image,
+    "sensor_msgs/msg/Image": draw_image,
     "sensor_msgs/msg/LaserScan": draw_scan,
     "sensor_msgs/msg/PointCloud2": draw_cloud,
     "sensor_msgs/msg/Range": draw_range,
@@ -39,6 +42,8 @@ DISPLAYS: dict[str, str] = {
     "nav_msgs/msg/Odometry": "Odometry",
     "nav_msgs/msg/Path": "Path",
     "sensor_msgs/msg/CameraInfo": "Camera",
+    "sensor_msgs/msg/CompressedImage": "Image",
+    "sensor_msgs/msg/Image": "Image",
     "sensor_msgs/msg/LaserScan": "LaserScan",
     "sensor_msgs/msg/PointCloud2": "PointCloud2",
     "sensor_msgs/msg/Range": "Range",

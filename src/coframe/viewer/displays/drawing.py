@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -21,7 +21,8 @@ class CannotDrawError(ValueError):
     """A message that no drawing can be made of; the text says why."""
 
 
-class Drawing(NamedTuple):
+@dataclass(eq=False)
+class Drawing:
     """What is drawn of a message.
 
     Attributes:
@@ -29,12 +30,19 @@ class Drawing(NamedTuple):
         stamp: When it was there, in nanoseconds; 0 is the latest.
         data: The binary message to the page, without its display and sequence.
         locked: Whether it moves on with its frame after that.
+        placed: Whether it is somewhere; what is shown beside the scene is not.
     """
 
     frame: str
     stamp: int
     data: bytearray
     locked: bool = False
+    placed: bool = True
+
+    def take_data(self) -> bytearray:
+        """The binary message, which the drawing lets go of: it is sent once, and may be large."""
+        data, self.data = self.data, bytearray()
+        return data
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,47 @@
+"""How long `coframe view` takes until a tab has what it draws first: nanoseconds, by the wall's clock.
+
+    python -m benchmarks.viewer_start
+
+Prints the time until a tab has a tick of the graph that was joined, then until the address was there. A browser's own
+time begins at the latter.
+"""
+
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+from websockets.sync.client import connect
+
+ENVIRONMENT = {**os.environ, "ROS_DOMAIN_ID": "39", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+COMMAND = [str(Path(sys.executable).with_name("coframe")), "view", "--no-browser", "--port", "0"]
+
+
+def main() -> None:
+    begin = time.monotonic_ns()
+    server = subprocess.Popen(COMMAND, stdout=subprocess.PIPE, text=True, env=ENVIRONMENT)
+    assert server.stdout
+    try:
+        address = server.stdout.readline().strip()
+        announced = time.monotonic_ns()
+        with connect(address.replace("http", "ws") + "ws", max_size=None, compression=None) as tab:
+            joined = False
+            while True:
+                message = tab.recv()
+                if isinstance(message, bytes):
+                    if joined:
+                        break
+                    tab.send('{"type":"ready"}')
+                else:
+                    told = json.loads(message)
+                    joined |= told["type"] == "hello" and told["can_publish"]
+        print(time.monotonic_ns() - begin, announced - begin)
+    finally:
+        server.terminate()
+        server.wait()
+
+
+if __name__ == "__main__":
+    main()

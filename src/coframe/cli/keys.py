@@ -1,0 +1,106 @@
+"""Single keys of the terminal, as they are pressed."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import select
+import sys
+import time
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["Keys", "keys"]
+
+_NAMES = {
+    "\x1b[A": "up",
+    "\x1b[B": "down",
+    "\x1b[C": "right",
+    "\x1b[D": "left",
+    "\x1bOA": "up",
+    "\x1bOB": "down",
+    "\x1bOC": "right",
+    "\x1bOD": "left",
+    "\x1b[5~": "page up",
+    "\x1b[6~": "page down",
+    # What Windows gives for them.
+    "\xe0H": "up",
+    "\xe0P": "down",
+    "\xe0M": "right",
+    "\xe0K": "left",
+    "\xe0I": "page up",
+    "\xe0Q": "page down",
+}
+
+
+class Keys:
+    """Reads keys while :func:`keys` is open."""
+
+    def read(self, timeout: float) -> str | None:
+        """The next key: its character, or `up`, `down`, `left`, `right`, `page up`, `page down`; None: none in time."""
+        raise NotImplementedError
+
+
+class _NoKeys(Keys):
+    """Where standard input is no terminal."""
+
+    def read(self, timeout: float) -> None:
+        time.sleep(timeout)
+
+
+class _PosixKeys(Keys):
+    def __init__(self, descriptor: int) -> None:
+        self._descriptor = descriptor
+        self._waiting = ""
+
+    def read(self, timeout: float) -> str | None:
+        if not self._waiting:
+            if not select.select([self._descriptor], [], [], timeout)[0]:
+                return None
+            self._waiting = os.read(self._descriptor, 1024).decode(errors="replace")
+            if not self._waiting:  # the terminal is gone
+                raise KeyboardInterrupt
+        for sequence, name in _NAMES.items():
+            if self._waiting.startswith(sequence):
+                self._waiting = self._waiting[len(sequence) :]
+                return name
+        key, self._waiting = self._waiting[0], self._waiting[1:]
+        return key
+
+
+class _WindowsKeys(Keys):
+    def read(self, timeout: float) -> str | None:
+        import msvcrt  # noqa: PLC0415 - Windows has it
+
+        end = time.monotonic() + timeout
+        while not msvcrt.kbhit():  # type: ignore[attr-defined,unused-ignore]
+            if time.monotonic() >= end:
+                return None
+            time.sleep(0.01)
+        key: str = msvcrt.getwch()  # type: ignore[attr-defined,unused-ignore]
+        if key in "\x00\xe0":
+            key = "\xe0" + msvcrt.getwch()  # type: ignore[attr-defined,unused-ignore]
+        return _NAMES.get(key, key)
+
+
+@contextlib.contextmanager
+def keys() -> Iterator[Keys]:
+    """Keys come one by one and are not shown; where standard input is no terminal, none ever comes."""
+    if not sys.stdin.isatty():
+        yield _NoKeys()
+        return
+    try:
+        import termios  # noqa: PLC0415 - Windows has none
+        import tty  # noqa: PLC0415
+    except ModuleNotFoundError:
+        yield _WindowsKeys()
+        return
+    descriptor = sys.stdin.fileno()
+    before = termios.tcgetattr(descriptor)
+    tty.setcbreak(descriptor)
+    try:
+        yield _PosixKeys(descriptor)
+    finally:
+        termios.tcsetattr(descriptor, termios.TCSADRAIN, before)

@@ -1,0 +1,5 @@
+"""``python -m joint_state_publisher [FILE] --ros-args ...``."""
+
+from joint_state_publisher import main
+
+main()

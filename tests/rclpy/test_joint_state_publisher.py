@@ -1,0 +1,194 @@
+"""joint_state_publisher as a node, and `coframe joints` as a user runs it."""
+
+import os
+import select
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from joint_state_publisher import JointStatePublisher
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from sensor_msgs.msg import JointState
+from std_msgs.msg import String
+
+URDF = """<robot name="arm">
+  <link name="base"/> <link name="a"/> <link name="b"/> <link name="c"/>
+  <joint name="turn" type="continuous"><parent link="base"/><child link="a"/></joint>
+  <joint name="lift" type="prismatic"><parent link="a"/><child link="b"/>
+    <limit lower="0.2" upper="0.6" effort="1" velocity="1"/></joint>
+  <joint name="follow" type="continuous"><parent link="b"/><child link="c"/>
+    <mimic joint="lift" multiplier="2" offset="0.1"/></joint>
+</robot>"""
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+PARAMETERS = """
+/**:
+  ros__parameters: {rate: 50, publish_default_velocities: true}
+/robots/joint_state_publisher:
+  ros__parameters:
+    source_list: [/measured]
+    zeros: {turn: 0.5}
+    dependent_joints:
+      follow: {parent: turn, factor: -1.0, offset: 0.25}
+other_node:
+  ros__parameters: {rate: 1}
+"""
+
+
+def positions(message):
+    return dict(zip(message.name, message.position, strict=True))
+
+
+@pytest.fixture
+def heard(make_node):
+    """A node that listens, and the joint states that it has heard of the plain topic and of the robot's."""
+    node = make_node("listener")
+    found = {"/joint_states": [], "/robots/joint_states": []}
+    for topic, messages in found.items():
+        node.create_subscription(JointState, topic, messages.append, 10)
+    return node, found
+
+
+def test_the_node_with_a_file_of_parameters(context, heard, wait_until, tmp_path):
+    """Wildcards and full names choose it; sources, a description that changes, and one that is refused."""
+    listener, found = heard
+    (tmp_path / "parameters.yaml").write_text(PARAMETERS)
+    arguments = ["--ros-args", "--params-file", str(tmp_path / "parameters.yaml"), "-r", "__ns:=/robots"]
+    node = JointStatePublisher(context=context, cli_args=arguments, start_parameter_services=False)
+    told = found["/robots/joint_states"]
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    executor.add_node(listener)
+    spin = lambda: executor.spin_once(timeout_sec=0.05)  # noqa: E731
+    descriptions = listener.create_publisher(String, "/robots/robot_description", LATCHED)
+    measured = listener.create_publisher(JointState, "/measured", 10)
+    try:
+        descriptions.publish(String(data=URDF))
+        wait_until(lambda: told, spin)
+        assert positions(told[0]) == pytest.approx({"turn": 0.5, "lift": 0.4, "follow": -0.25})
+        assert list(told[0].velocity) == [0.0, 0.0, 0.0]
+        assert list(told[0].effort) == []
+        assert told[0].header.stamp.sec > 0
+
+        wait_until(measured.get_subscription_count, spin)
+        measured.publish(JointState(name=["turn", "lift"], position=[1.0]))  # is left out
+        measured.publish(JointState(name=["turn", "follow"], position=[1.0, 9.0], velocity=[0.5, 9.0]))
+        wait_until(lambda: positions(told[-1])["turn"] == 1.0, spin)
+        assert positions(told[-1]) == pytest.approx({"turn": 1.0, "lift": 0.4, "follow": -0.75})
+        assert list(told[-1].velocity) == [0.5, 0.0, -0.5]
+
+        descriptions.publish(String(data="<robot/>"))  # is ignored
+        descriptions.publish(String(data=URDF.replace("lift", "raise")))
+        wait_until(lambda: "raise" in told[-1].name, spin)
+        assert positions(told[-1]) == pytest.approx({"turn": 0.5, "raise": 0.4, "follow": -0.25})
+    finally:
+        node.destroy_node()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (["rate:=0"], "parameter 'rate' must be more than 0 per second, but is 0"),
+        (["rate:=fast"], "parameter 'rate' must be a number, but is 'fast'"),
+        (["use_mimic_tags:=1"], "parameter 'use_mimic_tags' must be true or false, but is 1"),
+        (["source_list:=a"], "parameter 'source_list' must be a list of topics, but is 'a'"),
+        (["dependent_joints.a.factor:=2.0"], "must at least have a parent: 'a' has none"),
+        (["dependent_joints.a:=b"], "Invalid dependent_joint name 'a'"),
+    ],
+)
+def test_parameters_that_make_no_sense(context, arguments, reason):
+    words = ["--ros-args", *(word for argument in arguments for word in ("-p", argument))]
+    with pytest.raises(ValueError, match=reason):
+        JointStatePublisher(context=context, cli_args=words, start_parameter_services=False)
+
+
+def test_the_programs_end_with_a_sentence(tmp_path):
+    (tmp_path / "arm.urdf").write_text(URDF)
+    circle = ["--ros-args", "-p", "dependent_joints.lift.parent:=follow"]
+    file = str(tmp_path / "arm.urdf")
+    endless = "Found an infinite recursive mimic chain: ['lift', 'follow', 'lift']"
+    wrong = {
+        endless: ["joint_state_publisher", file, *circle],
+        f"coframe: {endless}": ["coframe.cli", "joints", file, *circle],
+        "no joint 'trun'": ["coframe.cli", "joints", file, "--zero", "trun=1"],
+        "coframe: Failed to parse ROS arguments: -p needs": ["coframe.cli", "robot", file, "--ros-args", "-p"],
+        "No such file": ["robot_state_publisher", file, "--ros-args", "--params-file", "/nowhere"],
+    }
+    processes = {
+        text: subprocess.Popen([sys.executable, "-m", *command], stderr=subprocess.PIPE, text=True)
+        for text, command in wrong.items()
+    }
+    for text, process in processes.items():
+        _, errors = process.communicate(timeout=60)
+        assert process.returncode in {1, 2}
+        assert text in errors
+        assert "Traceback" not in errors
+
+
+def test_the_command_where_there_is_no_terminal(context, heard, wait_until, tmp_path):
+    listener, found = heard
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(listener)
+    (tmp_path / "arm.urdf").write_text(URDF)
+    command = [sys.executable, "-m", "coframe.cli", "joints", str(tmp_path / "arm.urdf"), "--zero", "turn=-0.5"]
+    process = subprocess.Popen(
+        [*command, "--rate", "50"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    try:
+        wait_until(lambda: found["/joint_states"], lambda: executor.spin_once(timeout_sec=0.05), timeout=30.0)
+        expected = {"turn": -0.5, "lift": 0.4, "follow": 0.9}
+        assert positions(found["/joint_states"][-1]) == pytest.approx(expected)
+    finally:
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=20)
+    assert (process.returncode, output) == (0, "publishing on /joint_states\n")
+    assert "Traceback" not in errors
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a terminal of its own, as Unix has them")
+def test_the_sliders_of_the_terminal(context, heard, wait_until, tmp_path):
+    import pty
+
+    listener, found = heard
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(listener)
+    (tmp_path / "arm.urdf").write_text(URDF)
+    ours, its = pty.openpty()
+    command = [sys.executable, "-m", "coframe.cli", "joints", str(tmp_path / "arm.urdf"), "--rate", "50"]
+    process = subprocess.Popen(
+        command, stdin=its, stdout=its, stderr=its, start_new_session=True, env={**os.environ, "TERM": "xterm"}
+    )
+    os.close(its)
+    screen = bytearray()
+
+    def spin():
+        executor.spin_once(timeout_sec=0.02)
+        while select.select([ours], [], [], 0)[0]:
+            try:
+                screen.extend(os.read(ours, 65536))
+            except OSError:  # it has ended
+                return
+
+    def pressed(key, **expected):
+        os.write(ours, key)
+        wait_until(lambda: positions(found["/joint_states"][-1]) == pytest.approx(expected), spin)
+
+    try:
+        wait_until(lambda: found["/joint_states"] and b"lift" in screen, spin, timeout=30.0)
+        pressed(b"\x1b[B\x1b[C", turn=0.0, lift=0.404, follow=0.908)
+        pressed(b"\x1b[5~", turn=0.0, lift=0.444, follow=0.988)
+        pressed(b"0", turn=0.0, lift=0.4, follow=0.9)
+        pressed(b"\x1b[5~" * 9, turn=0.0, lift=0.6, follow=1.3)  # no further than its limit
+        os.write(ours, b"q")
+        wait_until(lambda: process.poll() is not None, spin)
+        assert process.returncode == 0
+        spin()
+        assert b"Traceback" not in screen
+        assert b"follow" not in screen  # what follows has no slider
+    finally:
+        if process.poll() is None:
+            process.kill()
+            process.wait()
+        os.close(ours)

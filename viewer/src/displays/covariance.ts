@@ -1,0 +1,80 @@
+/** How uncertain a pose is: an ellipsoid of one standard deviation about it, and a cone that its x axis may lie in. */
+
+import * as THREE from "three";
+import { principalAxes } from "../math";
+import type { OptionSpec, Options } from "./options";
+
+export const COVARIANCE_SPECS: readonly OptionSpec[] = [
+  { key: "Covariance/Value", label: "Covariance", kind: "flag", value: false },
+  { key: "Covariance/Position/Value", label: "Of the position", needs: "Covariance/Value", kind: "flag", value: true },
+  { key: "Covariance/Position/Scale", label: "Standard deviations", needs: "Covariance/Value", kind: "number", value: 1, min: 0, max: 1000, step: 1 },
+  { key: "Covariance/Position/Color", label: "Its colour", needs: "Covariance/Value", kind: "colour", value: "#cc33cc" },
+  { key: "Covariance/Position/Alpha", label: "Its alpha", needs: "Covariance/Value", kind: "number", value: 0.3, min: 0, max: 1, step: 0.05 },
+  { key: "Covariance/Orientation/Value", label: "Of the direction", needs: "Covariance/Value", kind: "flag", value: true },
+  { key: "Covariance/Orientation/Scale", label: "Standard deviations", needs: "Covariance/Value", kind: "number", value: 1, min: 0, max: 1000, step: 1 },
+  { key: "Covariance/Orientation/Offset", label: "Its length", needs: "Covariance/Value", kind: "number", value: 1, min: 0, max: 100, step: 0.1, unit: "m" },
+  { key: "Covariance/Orientation/Color", label: "Its colour", needs: "Covariance/Value", kind: "colour", value: "#ffff7f" },
+  { key: "Covariance/Orientation/Alpha", label: "Its alpha", needs: "Covariance/Value", kind: "number", value: 0.5, min: 0, max: 1, step: 0.05 },
+];
+
+/** A quarter turn would be a disc, and beyond it a cone opens backwards. */
+const WIDEST = 1.5;
+
+/**
+ * @param pose x, y, z, qx, qy, qz, qw.
+ * @param covariance 6 x 6, row after row: x, y, z along the message's axes, and turns about the pose's own.
+ */
+export function covarianceShapes(pose: Float32Array, covariance: readonly (number | null)[], options: Options): THREE.Object3D {
+  const group = new THREE.Group();
+  if (!options.flag("Covariance/Value") || covariance.length !== 36 || !pose.every(Number.isFinite)) return group;
+  const at = (i: number, j: number): number => ((covariance[i * 6 + j] ?? NaN) + (covariance[j * 6 + i] ?? NaN)) / 2;
+  group.position.fromArray(pose);
+  if (options.flag("Covariance/Position/Value")) group.add(...ellipsoid(at, options));
+  if (options.flag("Covariance/Orientation/Value")) {
+    const cone = directions(at, options);
+    for (const part of cone) part.quaternion.premultiply(new THREE.Quaternion().fromArray(pose, 3).normalize());
+    group.add(...cone);
+  }
+  return group;
+}
+
+type Covariance = (i: number, j: number) => number;
+
+function ellipsoid(at: Covariance, options: Options): THREE.Mesh[] {
+  const indices = [0, 1, 2];
+  const axes = principalAxes(indices.flatMap((i) => indices.map((j) => at(i, j))));
+  const radii = axes.variances.map((variance) => Math.sqrt(variance) * options.number("Covariance/Position/Scale"));
+  if (!radii.every(Number.isFinite)) return [];
+  const mesh = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), material(options, "Position"));
+  // What is certain is flat, not nothing: that could not be lit.
+  mesh.scale.fromArray(radii.map((radius) => Math.max(radius, 1e-6)));
+  mesh.quaternion.fromArray(axes.quaternion);
+  return [mesh];
+}
+
+/** Turning about z moves the tip of the x axis along y, turning about y against z. */
+function directions(at: Covariance, options: Options): THREE.Mesh[] {
+  const across = -at(4, 5);
+  const axes = principalAxes([0, 0, 0, 0, at(5, 5), across, 0, across, at(4, 4)]);
+  const length = options.number("Covariance/Orientation/Offset");
+  const [, y, z] = axes.variances.map((variance) => {
+    const angle = Math.sqrt(variance) * options.number("Covariance/Orientation/Scale");
+    return Math.max(1e-6, length * Math.tan(Math.min(WIDEST, angle)));
+  }) as [number, number, number];
+  if (!Number.isFinite(y) || !Number.isFinite(z) || length === 0) return [];
+  const cone = new THREE.ConeGeometry(1, 1, 32, 1, true).translate(0, -0.5, 0).rotateZ(Math.PI / 2);
+  const mesh = new THREE.Mesh(cone, material(options, "Orientation"));
+  mesh.scale.set(length, y, z);
+  mesh.quaternion.fromArray(axes.quaternion);
+  return [mesh];
+}
+
+function material(options: Options, what: "Position" | "Orientation"): THREE.Material {
+  return new THREE.MeshLambertMaterial({
+    color: options.colour(`Covariance/${what}/Color`),
+    transparent: true,
+    opacity: options.number(`Covariance/${what}/Alpha`),
+    side: THREE.DoubleSide,
+    depthWrite: false,
+  });
+}
