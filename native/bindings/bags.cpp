@@ -3,11 +3,14 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string_view.h>
 
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "bags/mcap_records.hpp"
 #include "bindings/arguments.hpp"
 #include "bindings/bindings.hpp"
+#include "core/cdr.hpp"
 
 namespace coframe::bindings {
 
@@ -58,6 +61,68 @@ nb::tuple ingest_slices(nb::handle buffer, nb::handle data, nb::handle starts, n
   return nb::make_tuple(damaged, reason);
 }
 
+// The transforms of many messages, a row each, as columns; names become numbers in the order in which they come up.
+class TransformColumns {
+ public:
+  void add(const std::uint8_t* data, std::size_t size, std::uint32_t message) {
+    const DecodeFailure failure = decode_tf_message(data, size, views_);
+    if (failure.reason) {
+      if (damaged_++ == 0) reason_ = failure.reason;
+      return;
+    }
+    for (const TransformView& view : views_) {
+      messages_.push_back(message);
+      stamps_.push_back(view.stamp);
+      parents_.push_back(number(view.parent));
+      children_.push_back(number(view.child));
+      values_.insert(values_.end(), std::begin(view.values.translation), std::end(view.values.translation));
+      values_.insert(values_.end(), std::begin(view.values.rotation), std::end(view.values.rotation));
+    }
+  }
+
+  nb::tuple take() const {
+    nb::list names;
+    for (const std::string& name : names_) {
+      names.append(nb::steal<nb::str>(
+          PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace")));
+    }
+    return nb::make_tuple(bytes_of(messages_), bytes_of(stamps_), bytes_of(parents_), bytes_of(children_),
+                          bytes_of(values_), names, damaged_, nb::str(reason_));
+  }
+
+ private:
+  std::uint32_t number(std::string_view name) {
+    const auto [found, is_new] = numbers_.try_emplace(std::string(name), static_cast<std::uint32_t>(names_.size()));
+    if (is_new) names_.emplace_back(name);
+    return found->second;
+  }
+
+  std::vector<TransformView> views_;
+  std::vector<std::uint32_t> messages_, parents_, children_;
+  std::vector<Stamp> stamps_;
+  std::vector<double> values_;
+  std::unordered_map<std::string, std::uint32_t> numbers_;
+  std::vector<std::string> names_;
+  std::size_t damaged_ = 0;
+  const char* reason_ = "";
+};
+
+nb::tuple transform_columns(nb::handle data, nb::handle starts, nb::handle ends) {
+  const Memory bytes(data, PyBUF_SIMPLE), first(starts, PyBUF_SIMPLE), last(ends, PyBUF_SIMPLE);
+  const std::size_t count = first.size() / sizeof(std::uint64_t);
+  if (first.size() != last.size()) throw nb::value_error("as many ends as starts are wanted");
+  TransformColumns columns;
+  {
+    const WithoutGil release;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint64_t start = first.data<const std::uint64_t>()[i], end = last.data<const std::uint64_t>()[i];
+      if (start > end || end > bytes.size()) throw std::invalid_argument("a slice is not inside the data");
+      columns.add(bytes.data<const std::uint8_t>() + start, end - start, static_cast<std::uint32_t>(i));
+    }
+  }
+  return columns.take();
+}
+
 }  // namespace
 
 void define_bags(nb::module_& module) {
@@ -68,6 +133,8 @@ void define_bags(nb::module_& module) {
   module.def("ingest_slices", &ingest_slices, arg("buffer"), arg("data"), arg("starts"), arg("ends"), arg("static"),
              arg("authority"), arg("encoding") = "cdr", arg("renaming") = nb::none(),
              "Buffer.ingest() of many parts of `data`, which uint64 arrays tell: how many are damaged, and why the first.");
+  module.def("transform_columns", &transform_columns, arg("data"), arg("starts"), arg("ends"),
+             "The transforms of many TFMessages as they were sent, as columns.");
 }
 
 }  // namespace coframe::bindings

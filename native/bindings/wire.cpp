@@ -14,6 +14,7 @@
 #include "wire/endpoint_reader.hpp"
 #include "wire/participant.hpp"
 #include "wire/reader.hpp"
+#include "wire/tap.hpp"
 #include "wire/tf_reader.hpp"
 #include "wire/writer.hpp"
 
@@ -37,6 +38,7 @@ using PyParticipant = Closing<DomainParticipant>;
 using PyWriter = Closing<Writer>;
 using PyReader = Closing<Reader>;
 using PyEndpointReader = Closing<EndpointReader>;
+using PyTap = Closing<Tap>;
 using PyTfReader = Closing<TfReader>;
 
 nb::bytes to_bytes(const dds::Guid& guid) { return nb::bytes(guid.bytes, sizeof guid.bytes); }
@@ -46,6 +48,15 @@ nb::list matched_handles(const Endpoint& endpoint) {
   nb::list list;
   for (const dds::Handle handle : endpoint.matched_handles()) list.append(handle);
   return list;
+}
+
+// Calls `write`, a method of Writer, with the message and without the GIL.
+template <void (Writer::*write)(const void*, std::size_t) const>
+void write_bytes(const PyWriter& writer, nb::bytes message) {
+  const char* data = message.c_str();
+  const std::size_t size = message.size();
+  WithoutGil release;
+  (writer.*write)(data, size);
 }
 
 nb::tuple to_tuple(const QosProfile& qos) {
@@ -75,6 +86,20 @@ nb::list take(PyReader& reader, std::uint32_t limit) {
   for (const dds::Sample& sample : samples) {
     messages.append(
         nb::make_tuple(to_bytes(sample), sample.info().source_timestamp, sample.info().publication_handle));
+  }
+  return messages;
+}
+
+nb::list take_tapped(PyTap& tap) {
+  std::vector<Tap::Message> tapped;
+  {
+    WithoutGil release;
+    tapped = tap.take();
+  }
+  nb::list messages;
+  for (const Tap::Message& message : tapped) {
+    messages.append(nb::make_tuple(nb::bytes(message.bytes.data(), message.bytes.size()), message.arrived,
+                                   message.sent, message.writer));
   }
   return messages;
 }
@@ -125,24 +150,9 @@ void define_writer(nb::module_& wire) {
   nb::class_<PyWriter>(wire, "Writer", "A DDS writer of serialised messages.")
       .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, bool>(), nb::arg("participant"),
            nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("unchecked") = false, ReleaseGil())
-      .def(
-          "write",
-          [](const PyWriter& self, nb::bytes message) {
-            const char* data = message.c_str();
-            const std::size_t size = message.size();
-            WithoutGil release;
-            self.write(data, size);
-          },
-          nb::arg("message"), "Sends one serialised message, without the GIL.")
-      .def(
-          "forward",
-          [](const PyWriter& self, nb::bytes message) {
-            const char* data = message.c_str();
-            const std::size_t size = message.size();
-            WithoutGil release;
-            self.forward(data, size);
-          },
-          nb::arg("message"), "The same on an unchecked topic for a message of any type, whose bytes nobody looks at.")
+      .def("write", &write_bytes<&Writer::write>, nb::arg("message"), "Sends one serialised message, without the GIL.")
+      .def("forward", &write_bytes<&Writer::forward>, nb::arg("message"),
+           "The same on an unchecked topic, whose bytes nobody here understands.")
       .def_prop_ro("guid", [](const PyWriter& self) { return to_bytes(self.guid()); })
       .def_prop_ro("matched", &PyWriter::matched, "How many readers the writer has found.", ReleaseGil())
       .def("matched_handles", &matched_handles<PyWriter>, "The handles of those readers.")
@@ -177,6 +187,14 @@ void define_readers(nb::module_& wire) {
       .def("take", &take, nb::arg("limit"), "Up to `limit` tuples (bytes, source timestamp in ns, writer's handle).")
       .def_prop_ro("pending", &PyReader::pending, "Whether messages may be waiting.");
   define_reader_properties<PyReader>(reader);
+
+  auto tap = nb::class_<PyTap>(wire, "Tap", "Notes when messages come, on DDS's thread.");
+  tap.def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, std::size_t, std::size_t>(),
+          nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("head"),
+          nb::arg("capacity"), ReleaseGil())
+      .def("take", &take_tapped, "The messages since the last call: tuples (bytes, arrived, sent, writer's handle).")
+      .def_prop_ro("missed", &PyTap::missed, "How many messages came while it was full.");
+  define_reader_properties<PyTap>(tap);
 
   auto tf_reader = nb::class_<PyTfReader>(wire, "TfReader", "Stores the transforms of a topic in a buffer.");
   tf_reader

@@ -5,6 +5,13 @@
 #include "core/cdr.hpp"
 
 namespace coframe {
+namespace {
+
+void check_encapsulation(std::size_t size) {
+  if (size < 4) throw std::invalid_argument("a serialised message begins with 4 bytes of encapsulation");
+}
+
+}  // namespace
 
 Writer::Writer(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
                bool unchecked)
@@ -14,22 +21,22 @@ Writer::Writer(dds::Entity participant, dds::Entity topic, const QosProfile& pro
 }
 
 void Writer::write(const void* data, std::size_t size) const {
-  if (size < 4) throw std::invalid_argument("a serialised message begins with 4 bytes of encapsulation");
+  check_encapsulation(size);
   const dds::SampleContainer sample{data, size};
   dds::check(unchecked_ ? write_unchecked(data, size) : dds::functions().dds_write(entity_, &sample), "write");
 }
 
 void Writer::forward(const void* data, std::size_t size) const {
-  if (size < 4) throw std::invalid_argument("a serialised message begins with 4 bytes of encapsulation");
-  dds::check(send(data, size), "write");
+  check_encapsulation(size);
+  dds::check(pass_on(data, size), "write");
 }
 
 dds::Code Writer::write_unchecked(const void* data, std::size_t size) const {
-  if (check_tf_message(static_cast<const std::uint8_t*>(data), size).reason) return dds::kBadParameter;
-  return send(data, size);
+  const bool is_damaged = check_tf_message(static_cast<const std::uint8_t*>(data), size).reason != nullptr;
+  return is_damaged ? dds::kBadParameter : pass_on(data, size);
 }
 
-dds::Code Writer::send(const void* data, std::size_t size) const {
+dds::Code Writer::pass_on(const void* data, std::size_t size) const {
   const dds::Functions& f = dds::functions();
   const std::lock_guard lock(closing_);
   const dds::Sertype* type;

@@ -33,7 +33,7 @@ class Writer {
 
  private:
   dds::Code write_unchecked(const void* data, std::size_t size) const;
-  dds::Code send(const void* data, std::size_t size) const;
+  dds::Code pass_on(const void* data, std::size_t size) const;
 
   const bool unchecked_;
   mutable std::mutex closing_;  // held while the topic's type, which ends with the entity, is used

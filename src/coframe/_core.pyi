@@ -413,6 +413,17 @@ def ingest_slices(
     `encoding` is "cdr", or "ros1" for tf2_msgs/TFMessage and tf/tfMessage of ROS 1.
     """
 
+def transform_columns(
+    data: Any, starts: Any, ends: Any
+) -> tuple[bytes, bytes, bytes, bytes, bytes, list[str], int, str]:
+    """The transforms of many TFMessages as they were sent, whatever a buffer would make of them.
+
+    Returns:
+        Of each transform the number of its message (uint32), its stamp (int64), the numbers of its parent's and its
+        child's name (uint32), x, y, z, qx, qy, qz, qw (float64); the names; how many messages are damaged, and why the
+        first.
+    """
+
 class JointTree:
     """A tree of joints, and where all its links are.
 
@@ -566,6 +577,7 @@ class Relay:
 
     def writers(self, source: int) -> list[tuple[tuple[int, int, int, int | None, str, str, str], int, int]]:
         """What each writer of a source has sent: as TfReader.heard(), messages and transforms that were bad."""
+
 def frozen_parts(buffer: Buffer) -> tuple[bytes, int]:
     """Of a frozen buffer the table that a file of it begins with, and how many chunks of samples it has."""
 
@@ -664,6 +676,38 @@ class Reader:
     @property
     def pending(self) -> bool:
         """Whether messages may be waiting."""
+
+    @property
+    def guid(self) -> bytes: ...
+    @property
+    def matched(self) -> int:
+        """How many writers the reader has found."""
+
+    def matched_handles(self) -> list[int]:
+        """The handles of those writers."""
+
+    @property
+    def refused_policy(self) -> int:
+        """DDS's number of the policy by which the last writer was refused; 0: none was."""
+
+    def close(self) -> None:
+        """Ends the reader; no callback runs afterwards."""
+
+class Tap:
+    """Notes when messages come, on DDS's thread and without the GIL; whoever looks now and then takes them."""
+
+    def __init__(
+        self, participant: int, topic: int, qos: QosProfile, user_data: str, head: int, capacity: int
+    ) -> None: ...
+    def take(self) -> list[tuple[bytes, int, int, int]]:
+        """The messages since the last call: tuples (first `head` bytes, arrived, sent, writer's handle).
+
+        The times are nanoseconds since 1970, by the clocks of this machine and of the writer's.
+        """
+
+    @property
+    def missed(self) -> int:
+        """How many messages came while `capacity` of them were waiting."""
 
     @property
     def guid(self) -> bytes: ...

@@ -26,6 +26,7 @@ import difflib
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe import _core
+from coframe.catalogue.hints import hint
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -246,18 +247,17 @@ def _restore(kind: str | type[TransformException], text: str, facts: dict[str, o
 
 
 def _hint(failure: Failure) -> str:
-    if failure.code == "unknown_frame":
-        return _unknown_frame_hint(failure.name, list(failure.parents))
-    if failure.code == "not_connected":
-        return _not_connected_hint(failure)
-    if failure.code == "leading_slash":
-        return f"Leave the leading '/' off: {failure.name.lstrip('/')!r}."
     if failure.code == "too_old" and _looks_like_seconds(failure):
-        return f"Stamps are nanoseconds: {failure.requested} s would be {failure.requested}_000_000_000."
-    if failure.code in _FIXED_HINTS:
-        parent, child = failure.edge or ("", "")
-        return _FIXED_HINTS[failure.code].format(parent=parent, child=child)
-    return ""
+        return hint("in_seconds", requested=str(failure.requested))
+    parent, child = failure.edge or ("", "")
+    return hint(
+        failure.code,
+        parent=parent,
+        child=child,
+        bare=failure.name.lstrip("/"),
+        guess=_guess(failure.name, list(failure.parents)) if failure.code == "unknown_frame" else "",
+        trees=_trees(failure) if failure.code == "not_connected" else "",
+    )
 
 
 def _looks_like_seconds(failure: Failure) -> bool:
@@ -267,17 +267,7 @@ def _looks_like_seconds(failure: Failure) -> bool:
     return failure.earliest <= failure.requested * 1_000_000_000 <= failure.latest
 
 
-_FIXED_HINTS = {
-    "empty_name": "Give the name of a frame; is a header's frame_id unset?",
-    "loop": "Two broadcasters disagree about parents: let each frame have one parent only.",
-    "only_other": "{parent} -> {child} has been heard once only: wait for more, or ask for the latest (stamp 0).",
-    "too_new": "{parent} -> {child} lags behind the request: wait for it (timeout=...), or ask for the latest (0).",
-    "too_old": "{parent} -> {child} has forgotten that time: use a longer cache, or ask for a newer time.",
-    "no_data": "The buffer was cleared and {child} has not been heard of since.",
-}
-
-
-def _unknown_frame_hint(name: str, known: list[str]) -> str:
+def _guess(name: str, known: list[str]) -> str:
     if not known:
         return "No transforms have arrived yet: is a broadcaster running, in the same ROS domain?"
     close = difflib.get_close_matches(name, known, n=1)
@@ -285,7 +275,7 @@ def _unknown_frame_hint(name: str, known: list[str]) -> str:
     return f"{guess}The frames are: {', '.join(sorted(known))}."
 
 
-def _not_connected_hint(failure: Failure) -> str:
+def _trees(failure: Failure) -> str:
     target_root, source_root = failure.roots or ("", "")
     trees = " and ".join(_tree_text(root, failure.parents) for root in (target_root, source_root))
     return (

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from coframe.bags.storage import Channel, Slices
 
-__all__ = ["HEAD", "StampPlace", "stamps_for"]
+__all__ = ["HEAD", "StampPlace", "opens_with_header", "stamps_for"]
 
 HEAD = 24  # bytes of a message that are enough
 _IN_ROS1 = {"time": 0, "header": 4, "headers": 8}
@@ -57,6 +57,12 @@ class StampPlace:
             seconds = seconds.astype(np.int32).astype(np.int64)
         stamps[there] = seconds * time.NANOSECONDS_PER_SECOND + nanoseconds
         return stamps
+
+
+def opens_with_header(ros_type: str) -> bool:
+    """Whether coframe has the type, and its messages open with a header."""
+    cls = message_class(ros_type)
+    return cls is not None and _place_in(cls) == "header"
 
 
 def _place(channel: Channel) -> str | None:

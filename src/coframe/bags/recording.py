@@ -129,6 +129,7 @@ def open_bag(
     prefix: str = "",
     keep: Iterable[str] = (),
     progress: Callable[[int, int], object] | None = None,
+    heard: Callable[[Channel, NDArray[np.int64], Slices], object] | None = None,
 ) -> Recording:
     """Reads a recording: rosbag2 (MCAP or SQLite, any compression), a bag of ROS 1, or MCAP with Foxglove's transforms.
 
@@ -138,6 +139,8 @@ def open_bag(
         prefix: Goes in front of the names of frames in the buffers, as it is: ``robot1/`` makes ``robot1/base_link``.
         keep: The frames that get no prefix, as they are shared: ``["map"]``.
         progress: Called now and then with the bytes that are read and the bytes that there are.
+        heard: Called with all messages that hold transforms, many at a time: their channel, when they were received,
+            and their bytes.
 
     Returns:
         The recording. What could not be read of it is among its ``problems``.
@@ -155,7 +158,7 @@ def open_bag(
     recording = Recording(Path(path))
     recording._renaming = renaming(prefix, keep)  # noqa: SLF001 - the other half of __init__
     try:
-        recording._scan(namespace, progress or (lambda _done, _total: None))  # noqa: SLF001 - likewise
+        recording._scan(namespace, progress or (lambda _done, _total: None), heard)  # noqa: SLF001 - likewise
     except BaseException:
         recording.close()
         raise
@@ -189,11 +192,16 @@ class Recording:
         self._by_stamp: dict[str, tuple[NDArray[np.int64], NDArray[np.intp]]] = {}
         self._decoders: dict[int, Callable[[bytes], Any]] = {}
 
-    def _scan(self, namespace: str | None, progress: Callable[[int, int], object]) -> None:
+    def _scan(
+        self,
+        namespace: str | None,
+        progress: Callable[[int, int], object],
+        heard: Callable[[Channel, NDArray[np.int64], Slices], object] | None,
+    ) -> None:
         storages = open_files(self.path, self._problems, self._closing)
         total = sum(storage.size for storage in storages)
         done = 0
-        collected = tree.Transforms(self._problems, namespace, self._renaming)
+        collected = tree.Transforms(self._problems, namespace, self._renaming, heard)
         for storage in storages:
             self._scan_file(storage, collected, lambda bytes_, before=done: progress(before + bytes_, total))  # type: ignore[misc]
             done += storage.size
@@ -203,7 +211,7 @@ class Recording:
         tree.report(self.buffer, self._problems)
 
     def _scan_file(self, storage: Storage, collected: tree.Transforms, progress: Callable[[int], object]) -> None:
-        tracks: dict[Channel, tuple[_Track, Callable[[Slices], None] | None]] = {}
+        tracks: dict[Channel, tuple[_Track, Callable[[NDArray[np.int64], Slices], None] | None]] = {}
         for channel, received, positions, messages in storage.batches(_has_transforms, progress):
             if channel not in tracks:
                 tracks[channel] = _Track(storage, channel), collected.ingest(channel)
@@ -215,7 +223,7 @@ class Recording:
                 stamps = received if track.place is None else track.place.stamps(messages, received)
                 track.stamps.frombytes(stamps.tobytes())
                 if ingest is not None:
-                    ingest(messages)
+                    ingest(received, messages)
 
     def _transform_messages(self) -> Iterator[tuple[Channel, Slices]]:
         """All messages with transforms once more, as they lie in their files."""
@@ -354,6 +362,17 @@ class Recording:
             self._stamps[name] = stamps[order]
             self._stamps[name].setflags(write=False)
         return self._stamps[name]
+
+    def received(self, topic: str) -> NDArray[np.int64]:
+        """When a topic's messages were received: (N,) nanoseconds by the recorder's clock, sorted.
+
+        Args:
+            topic: Its name; the slash in front may be left out.
+
+        Raises:
+            RecordingError: There is no such topic.
+        """
+        return self._index(self._name(topic)).received
 
     def message_at(self, topic: str, stamp: StampLike) -> RecordedMessage | None:
         """The newest message of a topic that is no newer than a time; None before the first one.

@@ -13,10 +13,12 @@ from coframe import _core
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from numpy.typing import NDArray
+
     from coframe.bags.storage import Channel, Slices
     from coframe.buffer import Buffer
 
-__all__ = ["Ingest", "ingest_for", "is_static"]
+__all__ = ["Columns", "Ingest", "cdr_columns", "ingest_for", "is_static"]
 
 _SECOND = 1_000_000_000
 # Behind the count, the stamp and the name's length, and in ROS 1 the number, in CDR the header.
@@ -32,6 +34,46 @@ class _Stamped(NamedTuple):
     child: str
     stamp: int
     values: tuple[float, float, float, float, float, float, float]
+
+
+class Columns(NamedTuple):
+    """The transforms of many messages as they were sent, a row each, also those that a buffer refuses.
+
+    Attributes:
+        message: (N,) which message the row is from.
+        stamp: (N,) nanoseconds.
+        parent: (N,) number of the parent's name.
+        child: (N,) number of the child's name.
+        values: (N, 7) x, y, z, qx, qy, qz, qw.
+        names: By number.
+        damaged: How many messages are not what they claim to be.
+    """
+
+    message: NDArray[np.int64]
+    stamp: NDArray[np.int64]
+    parent: NDArray[np.int64]
+    child: NDArray[np.int64]
+    values: NDArray[np.float64]
+    names: list[str]
+    damaged: int
+
+
+def cdr_columns(messages: Slices) -> Columns:
+    """Of TFMessages as ROS 2 sends them."""
+    *columns, names, damaged, _ = _core.transform_columns(messages.data, messages.starts, messages.ends)
+    kinds = (np.uint32, np.int64, np.uint32, np.uint32, np.float64)
+    message, stamp, parent, child, values = (
+        np.frombuffer(column, dtype=kind) for column, kind in zip(columns, kinds, strict=True)
+    )
+    return Columns(
+        message.astype(np.int64),
+        stamp,
+        parent.astype(np.int64),
+        child.astype(np.int64),
+        values.reshape(-1, 7),
+        names,
+        damaged,
+    )
 
 
 class Ingest:
@@ -69,9 +111,7 @@ class Ingest:
         """Takes messages in, each whole or not at all; how many are damaged, and what is wrong with the first."""
         if isinstance(self._decode, str):
             slices = (messages.data, messages.starts, messages.ends)
-            return _core.ingest_slices(
-                buffer, *slices, self.static, self._authority, self._decode, self._renaming
-            )
+            return _core.ingest_slices(buffer, *slices, self.static, self._authority, self._decode, self._renaming)
         damaged, reason = 0, ""
         for message in messages.each():
             try:
@@ -80,6 +120,31 @@ class Ingest:
             except _DAMAGE as error:
                 damaged, reason = damaged + 1, reason or f"{type(error).__name__}: {error}"
         return damaged, reason
+
+    def columns(self, messages: Slices) -> Columns:
+        """The same messages as columns."""
+        if self._decode == "cdr":
+            return cdr_columns(messages)
+        decode = _ros1 if isinstance(self._decode, str) else self._decode
+        rows: list[tuple[int, _Stamped]] = []
+        damaged = 0
+        for number, message in enumerate(messages.each()):
+            try:
+                rows += [(number, transform) for transform in list(decode(message))]
+            except _DAMAGE:
+                damaged += 1
+        numbers: dict[str, int] = {}
+        pairs = [[numbers.setdefault(name, len(numbers)) for name in (row.parent, row.child)] for _, row in rows]
+        parent, child = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
+        return Columns(
+            np.array([number for number, _ in rows], dtype=np.int64),
+            np.array([row.stamp for _, row in rows], dtype=np.int64),
+            parent,
+            child,
+            np.array([row.values for _, row in rows], dtype=np.float64).reshape(-1, 7),
+            list(numbers),
+            damaged,
+        )
 
     def _set(self, buffer: Buffer, transform: _Stamped) -> None:
         names = (transform.parent, transform.child)
@@ -98,6 +163,23 @@ def ingest_for(channel: Channel, renaming: _core.Renaming | None = None) -> Inge
     if kind not in _DECODINGS:
         return None
     return Ingest(_DECODINGS[kind], is_static(channel.topic), channel.topic, renaming)
+
+
+def _ros1(data: bytes | memoryview) -> Iterator[_Stamped]:
+    """tf2_msgs/TFMessage and tf/tfMessage of ROS 1, where their columns are wanted."""
+    (count,) = struct.unpack_from("<I", data)
+    position = 4
+    for _ in range(count):
+        _, seconds, nanoseconds = struct.unpack_from("<III", data, position)
+        position, names = position + 12, []
+        for _ in range(2):
+            (length,) = struct.unpack_from("<I", data, position)
+            if position + 4 + length > len(data):
+                raise ValueError("a text is longer than the message")
+            names.append(str(data[position + 4 : position + 4 + length], "utf-8"))
+            position += 4 + length
+        yield _Stamped(*names, seconds * _SECOND + nanoseconds, struct.unpack_from("<7d", data, position))
+        position += 56
 
 
 def _foxglove_cdr(data: bytes | memoryview) -> Iterator[_Stamped]:

@@ -10,6 +10,9 @@ from coframe.buffer import Buffer
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    import numpy as np
+    from numpy.typing import NDArray
+
     from coframe import _core
     from coframe.bags.problems import Problems
     from coframe.bags.storage import Channel, Slices
@@ -40,6 +43,8 @@ class _Tree:
                     f"{edge.parent} -> {edge.child} is both on {edge.authority} and on a topic of moving transforms: "
                     "the moving ones are kept"
                 )
+            elif edge.parent.startswith("/") or edge.child.startswith("/"):  # once one slash is left off
+                problems.add(f"{edge.parent} -> {edge.child} cannot be looked up: tf2 wants no slash in front")
             elif edge.parent:
                 transform = self.static.lookup(edge.parent, edge.child)
                 self.moving.set(edge.parent, edge.child, transform, 0, static=True, authority=edge.authority)
@@ -53,16 +58,24 @@ class Transforms:
         problems: Gets what is damaged or odd.
         namespace: Only topics in this one; None: all.
         renaming: What the frames are called in the buffers; None: as they come.
+        heard: Is told of all of them, too.
     """
 
-    def __init__(self, problems: Problems, namespace: str | None, renaming: _core.Renaming | None = None) -> None:
+    def __init__(
+        self,
+        problems: Problems,
+        namespace: str | None,
+        renaming: _core.Renaming | None = None,
+        heard: Callable[[Channel, NDArray[np.int64], Slices], object] | None = None,
+    ) -> None:
         self._renaming = renaming
         self._problems = problems
+        self._heard = heard
         self._namespace = None if namespace is None else _bare(namespace)
         self._trees: dict[str, _Tree] = {}
 
-    def ingest(self, channel: Channel) -> Callable[[Slices], None] | None:
-        """What takes in a channel's messages; None if they are no transforms, or not wanted."""
+    def ingest(self, channel: Channel) -> Callable[[NDArray[np.int64], Slices], None] | None:
+        """What takes in a channel's messages with the times of their receipt; None if they are not wanted."""
         namespace = _namespace(channel.topic)
         take = ingest_for(channel, self._renaming)
         if take is None or self._namespace not in {None, namespace}:
@@ -70,7 +83,9 @@ class Transforms:
         tree = self._trees.setdefault(namespace, _Tree())
         buffer = tree.static if take.static else tree.moving
 
-        def ingest(messages: Slices) -> None:
+        def ingest(received: NDArray[np.int64], messages: Slices) -> None:
+            if self._heard is not None:
+                self._heard(channel, received, messages)
             if take.names_begin_with_slash(messages):
                 self._problems.add(f"{channel.topic}: names of frames begin with '/': it is left off, as tf2 does", 0)
             damaged, reason = take(buffer, messages)

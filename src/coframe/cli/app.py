@@ -6,9 +6,11 @@ from coframe.cli.bag import bag
 from coframe.cli.batch import batch
 from coframe.cli.cloud import cloud
 from coframe.cli.demo import demo
+from coframe.cli.doctor import doctor
 from coframe.cli.echo import echo
 from coframe.cli.joints import joints
 from coframe.cli.lookup import lookup
+from coframe.cli.monitor import monitor
 from coframe.cli.new_app import new_app
 from coframe.cli.play import PlayCommand, play
 from coframe.cli.record import record
@@ -22,7 +24,9 @@ __all__ = ["app"]
 
 app = new_app()
 app.command()(demo)
+app.command()(doctor)
 app.command()(echo)
+app.command()(monitor)
 app.command()(view)
 app.command()(relay)
 app.command()(lookup)

@@ -15,11 +15,11 @@ from coframe.bags import open_bag, parse_instant
 from coframe.cli.session import fail
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from coframe.bags import Recording
 
-__all__ = ["BagArgument", "NamespaceOption", "instant", "opened", "seconds"]
+__all__ = ["BagArgument", "NamespaceOption", "instant", "opened", "reading", "seconds"]
 
 SECOND = 1_000_000_000
 
@@ -30,19 +30,20 @@ NamespaceOption = Annotated[
 
 
 @contextmanager
-def opened(path: Path, namespace: str | None, prefix: str, keep: str) -> Iterator[Recording]:
-    """The recording, read with a progress bar if that takes long; what could not be read goes to stderr."""
+def reading() -> Iterator[Callable[[int, int], object]]:
+    """Shows how far the reading has come, in a terminal: what :func:`open_bag` takes as ``progress``."""
     console = Console(stderr=True)
     columns = (TextColumn("reading"), BarColumn(), DownloadColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("reading", total=None)
-        recording = open_bag(
-            path,
-            namespace=namespace,
-            prefix=prefix,
-            keep=keep,
-            progress=lambda d, t: bar.update(task, completed=d, total=t),
-        )
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+@contextmanager
+def opened(path: Path, namespace: str | None, prefix: str, keep: str) -> Iterator[Recording]:
+    """The recording, read with a progress bar if that takes long; what could not be read goes to stderr."""
+    with reading() as progress:
+        recording = open_bag(path, namespace=namespace, prefix=prefix, keep=keep, progress=progress)
     with recording:
         told = recording.problems
         for problem in told:

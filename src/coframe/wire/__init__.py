@@ -8,7 +8,16 @@ Example:
 """
 
 from coframe.wire.connection import Connection, connect
-from coframe.wire.endpoints import GraphNode, Publisher, RawPublisher, Sample, Subscription, TfReader
+from coframe.wire.endpoints import (
+    GraphNode,
+    Publisher,
+    RawPublisher,
+    Sample,
+    Subscription,
+    Tap,
+    TappedMessage,
+    TfReader,
+)
 from coframe.wire.graph import Endpoint
 from coframe.wire.participant import Participant
 from coframe.wire.qos import QoS
@@ -25,6 +34,8 @@ __all__ = [
     "Sample",
     "StaticWriter",
     "Subscription",
+    "Tap",
+    "TappedMessage",
     "TfReader",
     "connect",
 ]

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _REMEMBERED = 100  # publishers that have left
 _NO_AUTHORITY = "<no authority available>"
 
-NativeEndpoint: TypeAlias = "_core.Writer | _core.Reader | _core.TfReader"
+NativeEndpoint: TypeAlias = "_core.Writer | _core.Reader | _core.Tap | _core.TfReader"
 
 
 class Sample(NamedTuple):
@@ -211,6 +211,39 @@ class Subscription(WireEndpoint):
     def pending(self) -> bool:
         """Whether messages may be waiting: cheap, and now and then true although `take` finds none."""
         return not self._closed and self._reader.pending
+
+
+class TappedMessage(NamedTuple):
+    """A message, or its first bytes, and when it came. Times are nanoseconds since 1970.
+
+    Attributes:
+        data: 4 bytes of encapsulation, then CDR; the first bytes of it.
+        arrived: by this machine's clock.
+        sent: by the clock of its writer's machine.
+        writer: its writer's handle, for `Participant.writer_node`.
+    """
+
+    data: bytes
+    arrived: int
+    sent: int
+    writer: int
+
+
+class Tap(WireEndpoint):
+    """Notes when messages come, on DDS's own thread, for those who look now and then."""
+
+    def __init__(self, native: _core.Tap, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
+        self._tap = native
+        super().__init__(native, node, topic, dds_type, qos)
+
+    def take(self) -> list[TappedMessage]:
+        """The messages since the last call, the oldest first."""
+        return [TappedMessage(*message) for message in self._tap.take()]
+
+    @property
+    def missed(self) -> int:
+        """How many messages came while too many were waiting."""
+        return self._tap.missed
 
 
 class TfReader(WireEndpoint):

@@ -17,6 +17,7 @@ from coframe.wire.endpoints import (
     Publisher,
     RawPublisher,
     Subscription,
+    Tap,
     TfReader,
     WireEndpoint,
     initial_authority,
@@ -233,6 +234,24 @@ class Participant:
         name, type_name, entity = self._unchecked_topic(topic, ros_type)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
         return Subscription(native, node, name, type_name, qos, adapts=adapts)
+
+    def tap(self, node: GraphNode, topic: str, ros_type: str, qos: QoS, *, head: int, capacity: int = 100_000) -> Tap:
+        """A subscription of `node` that notes when messages of any type come, without Python.
+
+        Args:
+            node: its node.
+            topic: fully qualified: "/scan".
+            ros_type: such as "sensor_msgs/msg/LaserScan"; nobody here needs to know it.
+            qos: what is asked for.
+            head: so many bytes of each message are kept.
+            capacity: so many messages may wait to be taken; others are counted only.
+
+        Raises:
+            WireError: DDS refuses.
+        """
+        name, type_name, entity = self._unchecked_topic(topic, ros_type)
+        native = _create(lambda: _core.Tap(self._native.entity, entity, _native_qos(qos), "", head, capacity), topic)
+        return Tap(native, node, name, type_name, qos)
 
     def tf_reader(
         self,

@@ -1,0 +1,60 @@
+#include "wire/tap.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace coframe {
+namespace {
+
+std::int64_t now() {
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(since_1970).count();
+}
+
+}  // namespace
+
+Tap::Tap(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
+         std::size_t head, std::size_t capacity)
+    : head_(head),
+      capacity_(capacity),
+      reader_(participant, topic, make_qos(profile, user_data).get(), &Tap::on_data, this) {
+  on_data(reader_.entity(), this);  // what came before the listener
+}
+
+// An exception must not reach DDS, which is C: out of memory, a message is lost.
+void Tap::on_data(dds::Entity reader, void* self) noexcept {
+  try {
+    static_cast<Tap*>(self)->drain(reader);
+  } catch (...) {
+  }
+}
+
+void Tap::drain(dds::Entity reader) {
+  const std::int64_t arrived = now();
+  const std::lock_guard lock(mutex_);
+  const auto keep = [&](const dds::Sample& sample) {
+    if (messages_.size() >= capacity_) {
+      ++missed_;
+      return;
+    }
+    const auto bytes = sample.bytes();
+    const std::size_t size = std::min(bytes.size(), head_);
+    messages_.push_back({arrived, sample.info().source_timestamp, sample.info().publication_handle,
+                         std::string(reinterpret_cast<const char*>(bytes.data()), size)});
+  };
+  while (dds::take(reader, dds::kBatch, keep) == dds::kBatch) {
+  }
+}
+
+std::vector<Tap::Message> Tap::take() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(messages_, {});
+}
+
+std::uint64_t Tap::missed() {
+  const std::lock_guard lock(mutex_);
+  return missed_;
+}
+
+}  // namespace coframe

@@ -1,0 +1,151 @@
+"""``coframe doctor``: what is wrong with the transforms, on the wire or in a recording."""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path  # noqa: TC003 - typer reads the annotations
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console, Group
+from rich.live import Live
+from rich.markdown import Markdown
+from rich.text import Text
+
+from coframe.cli.recordings import NamespaceOption, reading
+from coframe.cli.session import DomainOption, TfStaticTopicOption, TfTopicOption, fail, printable, session
+from coframe.doctor import codes, diagnose, observe_recording, page
+from coframe.doctor.rendering.plain import as_data
+from coframe.doctor.rendering.sarif import as_sarif
+from coframe.doctor.rendering.text import lines
+from coframe.time import duration_ns
+
+if TYPE_CHECKING:
+    from coframe.doctor import Report
+    from coframe.wire.observing import Listening
+
+__all__ = ["doctor"]
+
+SECOND = 1_000_000_000
+_STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan", "good": "green", "dim": "dim", "plain": ""}
+# A running verdict takes at most this part of a processor.
+_SHARE = 0.01
+
+
+def doctor(
+    bag: Annotated[
+        Path | None, typer.Argument(metavar="[BAG]", help="A recording; without one it listens.", show_default=False)
+    ] = None,
+    watch: Annotated[bool, typer.Option("--watch", help="Listen on, with a running verdict.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="JSON on standard output, and nothing else there.")] = False,
+    sarif: Annotated[bool, typer.Option("--sarif", help="SARIF 2.1.0, likewise.")] = False,
+    ignore: Annotated[list[str] | None, typer.Option(metavar="CODE", help="Leave a check out; again for more.")] = None,
+    explain: Annotated[str | None, typer.Option(metavar="CODE", help="Print the page of a code.")] = None,
+    duration: Annotated[str, typer.Option(help="How long to listen; the window of --watch.")] = "10s",
+    cache: Annotated[str, typer.Option(help="How far back the listeners' buffers reach.")] = "10s",
+    namespace: NamespaceOption = None,
+    domain: DomainOption = None,
+    tf_topic: TfTopicOption = "/tf",
+    tf_static_topic: TfStaticTopicOption = "/tf_static",
+) -> None:
+    """Tell what is wrong with the transforms, why it matters, and what to do: live, or in the recording BAG.
+
+    Exit code 0: healthy; 1: findings of the level of a warning or above. Notes do not count.
+
+    Example: coframe doctor run.mcap --ignore TF018
+    """
+    if explain is not None:
+        _explain(explain)
+        return
+    unwanted = _codes(ignore or [])
+    window, buffers = _length("--duration", duration), _length("--cache", cache)
+    if (as_json and sarif) or (watch and (sarif or bag is not None)):
+        fail("--json and --sarif, --watch and --sarif, and --watch and a recording exclude each other", code=2)
+    with session():
+        if bag is not None:
+            with reading() as progress:
+                seen = observe_recording(bag, namespace=namespace, cache=buffers, progress=progress)
+            reports = {name: diagnose(one, ignore=unwanted) for name, one in seen.items()}
+            _finish(reports, as_json, sarif, str(bag))
+        from coframe.wire.observing import Listening  # noqa: PLC0415 - recordings need no DDS
+
+        kept = window if watch else None
+        with Listening(
+            domain, cache=buffers, window=kept, tf_topic=tf_topic, tf_static_topic=tf_static_topic
+        ) as listening:
+            if watch:
+                _watch(listening, unwanted, as_json)
+                return
+            if Console(stderr=True).is_terminal:
+                typer.echo(f"listening for {duration} ...", err=True)
+            listening.listen(window / SECOND)
+            report = diagnose(listening.observe(), ignore=unwanted)
+        _finish({"": report}, as_json, sarif, "live")
+
+
+def _explain(code: str) -> None:
+    try:
+        text = page(code).text
+    except KeyError:
+        fail(f"there is no page for {code!r}", f"There are {', '.join(codes())}.", code=2)
+    console = Console()
+    if console.is_terminal:
+        console.print(Markdown(text))
+    else:
+        print(text, end="")
+
+
+def _codes(wanted: list[str]) -> list[str]:
+    every = [code.strip().upper() for option in wanted for code in option.split(",")]
+    for code in every:
+        if code not in codes():
+            fail(f"--ignore: there is no check {code!r}", f"There are {', '.join(codes())}.", code=2)
+    return every
+
+
+def _length(option: str, text: str) -> int:
+    try:
+        nanoseconds = duration_ns(text)
+    except (ValueError, TypeError) as error:
+        fail(f"{option}: {error}", code=2)
+    if nanoseconds <= 0:
+        fail(f"{option} must be more than 0", code=2)
+    return nanoseconds
+
+
+def _finish(reports: dict[str, Report], as_json: bool, sarif: bool, what: str) -> None:
+    """Prints, and ends with the verdict as exit code."""
+    if sarif:
+        print(json.dumps(as_sarif(reports, what), indent=2))
+    elif as_json:
+        data: Any = {name: as_data(report) for name, report in reports.items()}
+        print(json.dumps(data[""] if list(data) == [""] else {"namespaces": data}, indent=2))
+    else:
+        console = Console(highlight=False, soft_wrap=True)
+        for name, report in reports.items():
+            if len(reports) > 1:
+                console.print(Text(printable(f"{name or '/'}:"), style="bold"))
+            for line in _texts(report):
+                console.print(line)
+    raise typer.Exit(0 if all(report.healthy for report in reports.values()) else 1)
+
+
+def _texts(report: Report) -> list[Text]:
+    every = [Text(printable(line), style=_STYLES[style]) for style, line in lines(report)]
+    every += [Text(f"could not be read: {printable(problem)}", style="dim") for problem in report.observation.unread]
+    return every
+
+
+def _watch(listening: Listening, ignore: list[str], as_json: bool) -> None:
+    """A verdict a second, or less often where it takes long; until Ctrl-C."""
+    console = Console(highlight=False)
+    with Live(console=console, auto_refresh=False, screen=False, transient=False) as live:
+        while True:
+            begun = time.process_time()
+            report = diagnose(listening.observe(), ignore=ignore)
+            if as_json:
+                print(json.dumps(as_data(report)), flush=True)
+            else:
+                live.update(Group(*_texts(report)), refresh=True)
+            listening.listen(max(1.0, (time.process_time() - begun) / _SHARE))

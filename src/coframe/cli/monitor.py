@@ -1,0 +1,198 @@
+"""``coframe monitor``: tf2_monitor's figures, by publisher and right."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+
+import typer
+from rich.console import Console, Group
+from rich.live import Live
+from rich.table import Table
+from rich.text import Text
+
+from coframe.cli.session import DomainOption, TfStaticTopicOption, TfTopicOption, fail, printable, session
+from coframe.doctor.figures import chain_figures, link_figures, publisher_figures
+from coframe.time import duration_ns
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from typing import TypeAlias
+
+    from coframe.doctor import Observation
+    from coframe.doctor.figures import ChainFigures
+    from coframe.wire.observing import Listening
+
+    Pair: TypeAlias = tuple[str, str] | None
+
+__all__ = ["monitor"]
+
+SECOND = 1_000_000_000
+_MS = 1e6
+
+
+def monitor(
+    target: Annotated[str | None, typer.Argument(help="With SOURCE: the way between two frames.")] = None,
+    source: Annotated[str | None, typer.Argument(help="The other frame.")] = None,
+    once: Annotated[bool, typer.Option("--once", help="One report after --duration, and leave.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="One line of JSON a report; times in nanoseconds.")] = False,
+    classic: Annotated[bool, typer.Option("--classic", help="In the format of ROS 2's tf2_monitor.")] = False,
+    duration: Annotated[str, typer.Option(help="Over how much time the figures are taken.")] = "10s",
+    domain: DomainOption = None,
+    tf_topic: TfTopicOption = "/tf",
+    tf_static_topic: TfStaticTopicOption = "/tf_static",
+) -> None:
+    """Tell of each link and publisher its rate, jitter, delay and age; of two frames, which link limits them.
+
+    Example: coframe monitor map base_link --once
+    """
+    if (target is None) != (source is None):
+        fail("give two frames, or none", code=2)
+    if as_json and classic:
+        fail("--json and --classic exclude each other", code=2)
+    window = _length(duration)
+    pair = (target, source) if target is not None and source is not None else None
+    with session():
+        from coframe.wire.observing import Listening  # noqa: PLC0415 - 100 ms
+
+        with Listening(
+            domain, window=window, tf_topic=tf_topic, tf_static_topic=tf_static_topic, node_name="coframe_monitor"
+        ) as listening:
+            if classic:
+                what = " -> ".join(pair) if pair else "all frames"
+                print(f"Gathering data on {what} for {window / SECOND:g} seconds...", flush=True)
+            if not (once or as_json or classic):
+                _watch(listening, pair)
+            _report(listening, pair, window / SECOND, _printer(as_json, classic), once=once)
+
+
+def _length(text: str) -> int:
+    try:
+        nanoseconds = duration_ns(text)
+    except (ValueError, TypeError) as error:
+        fail(f"--duration: {error}", code=2)
+    if nanoseconds <= 0:
+        fail("--duration must be more than 0", code=2)
+    return nanoseconds
+
+
+def _printer(as_json: bool, classic: bool) -> Callable[[Observation, Pair], None]:
+    if as_json:
+        return lambda seen, pair: print(json.dumps(_data(seen, pair)), flush=True)
+    if classic:
+        return lambda seen, pair: print("\n".join(_classic(seen, pair)), flush=True)
+    return lambda seen, pair: _console().print(_picture(seen, pair))
+
+
+def _report(
+    listening: Listening, pair: Pair, seconds: float, printer: Callable[[Observation, Pair], None], *, once: bool
+) -> None:
+    """Reports one after the other, or one."""
+    while True:
+        listening.listen(seconds)
+        seen = listening.observe()
+        printer(seen, pair)
+        if once and not len(seen.transforms):
+            fail("no transforms came", "Is a broadcaster running, in the same ROS domain?")
+        if once:
+            return
+
+
+def _console() -> Console:
+    # What is written to a file or another program is not cut to the width of a terminal that is not there.
+    console = Console(highlight=False)
+    return console if console.is_terminal else Console(highlight=False, width=200)
+
+
+def _watch(listening: Listening, pair: Pair) -> NoReturn:
+    with Live(console=Console(highlight=False), auto_refresh=False) as live:
+        while True:
+            live.update(_picture(listening.observe(), pair), refresh=True)
+            listening.listen(1.0)
+
+
+def _picture(seen: Observation, pair: Pair) -> Group:
+    links = _table("link", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms", "count")
+    for row in link_figures(seen):
+        figures = (row.jitter, row.delay, row.delay_p99, row.age)
+        shown = ("static", "", "", "", "") if row.static else (_hertz(row.rate), *map(_ms, figures))
+        links.add_row(*_texts(f"{row.parent} -> {row.child}", row.publisher or "unknown", *shown, str(row.transforms)))
+    publishers = _table("publisher", "messages/s", "delay ms", "p99 ms")
+    for node in publisher_figures(seen):
+        delays = (_ms(node.delay), _ms(node.delay_p99))
+        publishers.add_row(*_texts(node.publisher or "unknown", _hertz(node.rate), *delays))
+    return Group(*([Text(printable(_chain(chain_figures(seen, *pair), pair)))] if pair else []), links, publishers)
+
+
+def _chain(figures: ChainFigures | None, pair: tuple[str, str]) -> str:
+    if figures is None:
+        return f"there is no way between {pair[0]} and {pair[1]} yet"
+    chain = f"chain: {' -> '.join(figures.frames)}"
+    if figures.limit is None:
+        return f"{chain}\nnothing on it moves, or not every link has been told of yet"
+    return (
+        f"{chain}\nnet delay: mean {_ms(figures.delay)} ms, p99 {_ms(figures.delay_p99)} ms; limited by "
+        f"{' -> '.join(figures.limit)} for {figures.limit_share:.0%} of the time"
+    )
+
+
+def _data(seen: Observation, pair: Pair) -> dict[str, Any]:
+    data: dict[str, Any] = {
+        "start_ns": seen.start,
+        "end_ns": seen.end,
+        "links": [row._asdict() for row in link_figures(seen)],
+        "publishers": [row._asdict() for row in publisher_figures(seen)],
+    }
+    if pair is not None:
+        chain = chain_figures(seen, *pair)
+        data["chain"] = None if chain is None else chain._asdict()
+    return data
+
+
+def _classic(seen: Observation, pair: Pair) -> Iterator[str]:
+    """As tf2_monitor prints it, with the publishers' names in the place of ``<no authority available>``.
+
+    What is static has no delay: 0 is printed, where tf2_monitor prints the age of the transform.
+    """
+    yield "\n\n"
+    if pair is not None:
+        chain = chain_figures(seen, *pair)
+        yield f"RESULTS: for {pair[0]} to {pair[1]}"
+        if chain is not None:
+            yield f"Chain is: {' -> '.join(chain.frames)}"
+            yield f"Net delay     avg = {_g(chain.delay)}: max = {_g(chain.delay_max)}"
+    else:
+        yield "RESULTS: for all Frames"
+    yield "\nFrames:"
+    for row in link_figures(seen):
+        name = printable(row.publisher) or "<no authority available>"
+        frame = printable(row.child)
+        yield f"Frame: {frame}, published by {name}, Average Delay: {_g(row.delay)}, Max Delay: {_g(row.delay_max)}"
+    yield "\nAll Broadcasters:"
+    for node in publisher_figures(seen):
+        name, rate = printable(node.publisher) or "<no authority available>", node.rate or 0.0
+        yield f"Node: {name} {rate:g} Hz, Average Delay: {_g(node.delay)} Max Delay: {_g(node.delay_max)}"
+
+
+def _g(nanoseconds: float | None) -> str:
+    """Seconds with six digits, as C++ prints them."""
+    return f"{(nanoseconds or 0.0) * 1e-9:g}"
+
+
+def _ms(nanoseconds: float | None) -> str:
+    return "" if nanoseconds is None else f"{nanoseconds / _MS:.1f}"
+
+
+def _hertz(rate: float | None) -> str:
+    return "" if rate is None else f"{rate:.1f}"
+
+
+def _texts(*cells: str) -> list[Text]:
+    return [Text(printable(cell)) for cell in cells]
+
+
+def _table(*columns: str) -> Table:
+    table = Table(box=None, pad_edge=False, header_style="dim")
+    for column in columns:
+        table.add_column(column, justify="left" if column in {"link", "publisher"} else "right", no_wrap=True)
+    return table

@@ -1,0 +1,145 @@
+"""A recording as observations, one a namespace: robots that each have a /tf of their own may use the same names."""
+
+from __future__ import annotations
+
+from itertools import islice
+from typing import TYPE_CHECKING, Any
+
+from coframe.bags import open_bag
+from coframe.bags.transforms import ingest_for
+from coframe.doctor.collector import Collector
+from coframe.doctor.joints import joint_states
+from coframe.doctor.observation import DEFAULT_CACHE, Clock, JointStates, LogLine, Observation, Sensor, TopicFacts
+from coframe.errors import DecodeError
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Callable, Iterator
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from coframe.bags import Recording
+    from coframe.bags.storage import Channel, Slices
+
+__all__ = ["observe_recording"]
+
+_MOST_DECODED = 2000  # messages a topic: enough to tell, and quick
+_MOST_DESCRIPTIONS = 10
+_LOGS = {"rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Log"}
+
+
+def observe_recording(
+    path: str | os.PathLike[str],
+    *,
+    namespace: str | None = None,
+    cache: int = DEFAULT_CACHE,
+    progress: Callable[[int, int], object] | None = None,
+) -> dict[str, Observation]:
+    """What is in a recording, by namespace: ``""`` for ``/tf``, ``/robot1`` for ``/robot1/tf``.
+
+    Args:
+        path: A file, or a folder of rosbag2.
+        namespace: Only transforms of this one; None: all.
+        cache: How far back a listener's buffer is taken to reach, in nanoseconds.
+        progress: Called now and then with the bytes that are read and the bytes that there are.
+
+    Raises:
+        RecordingError: Nothing of it can be read.
+    """
+    collectors: dict[str, Collector] = {}
+
+    def heard(channel: Channel, received: NDArray[np.int64], messages: Slices) -> None:
+        take = ingest_for(channel)
+        if take is not None:
+            collector = collectors.setdefault(channel.topic.rpartition("/")[0], Collector())
+            collector.add(channel.topic, take.static, take.columns(messages), received, [""] * len(received))
+
+    with open_bag(path, namespace=namespace, progress=progress, heard=heard) as recording:
+        facts = _Facts(recording)
+        return {
+            name: Observation(
+                live=False,
+                start=recording.start,
+                end=recording.end,
+                transforms=collector.transforms(),
+                empty_messages=collector.empty,
+                damaged_messages=collector.damaged,
+                topics=facts.topics,
+                sensors=tuple(s for s in facts.sensors if _belongs(s.topic, name, collectors)),
+                descriptions=tuple(text for topic, text in facts.descriptions if _belongs(topic, name, collectors)),
+                joint_states=tuple(j for j in facts.joints if _belongs(j.topic, name, collectors)),
+                clock=facts.clock,
+                log=facts.log,
+                cache=cache,
+                unread=tuple(recording.problems),
+            )
+            for name, collector in sorted((collectors or {"": Collector()}).items())
+        }
+
+
+def _belongs(topic: str, namespace: str, namespaces: dict[str, Collector]) -> bool:
+    """Whether a namespace is the longest one that the topic is in."""
+    around = [name for name in namespaces if topic.startswith(f"{name}/")]
+    return namespace == max(around, key=len, default=namespace)
+
+
+class _Facts:
+    """What all namespaces of a recording share."""
+
+    def __init__(self, recording: Recording) -> None:
+        self._recording = recording
+        self.topics = {
+            topic.name: TopicFacts(topic.name, topic.type, topic.messages) for topic in recording.topics.values()
+        }
+        self.clock = self._clock()
+        self.sensors = [sensor for name in self.topics if (sensor := self._sensor(name)) is not None]
+        self.descriptions = [
+            (name, str(message.data))
+            for name in self._of_type({"std_msgs/msg/String"})
+            if name.endswith("robot_description")
+            for message in self._decoded(name, _MOST_DESCRIPTIONS)
+        ]
+        self.joints = [self._joints(name) for name in self._of_type({"sensor_msgs/msg/JointState"})]
+        self.log = tuple(line for name in self._of_type(_LOGS) for line in self._lines(name))
+
+    def _of_type(self, types: set[str]) -> list[str]:
+        return [topic.name for topic in self.topics.values() if topic.type in types]
+
+    def _clock(self) -> Clock | None:
+        if "/clock" not in self._of_type({"rosgraph_msgs/msg/Clock"}):
+            return None
+        arrived, stamp = self._recording.received("/clock"), self._recording.stamps("/clock")
+        return Clock(arrived, stamp) if len(stamp) else None
+
+    def _decoded(self, topic: str, most: int) -> Iterator[Any]:
+        """Its first messages; those that are damaged are among the recording's problems."""
+        messages = islice(self._recording.messages(topic), most)
+        while (recorded := next(messages, None)) is not None:
+            try:
+                yield recorded.message
+            except DecodeError:
+                continue
+
+    def _sensor(self, topic: str) -> Sensor | None:
+        """None for messages that name no frame."""
+        facts = self.topics[topic]
+        try:
+            first = next(self._decoded(topic, 1), None)
+            frame = str(first.header.frame_id)  # type: ignore[union-attr]
+        except AttributeError:
+            return None
+        if not frame.lstrip("/") or facts.type == "sensor_msgs/msg/JointState":
+            return None
+        stamps, received = self._recording.stamps(topic), self._recording.received(topic)
+        return Sensor(topic, facts.type, frame.lstrip("/"), stamps, received)
+
+    def _joints(self, topic: str) -> JointStates:
+        messages = list(self._decoded(topic, _MOST_DECODED))
+        stamps = [message.header.stamp.sec * 10**9 + message.header.stamp.nanosec for message in messages]
+        return joint_states(topic, stamps, messages)
+
+    def _lines(self, topic: str) -> Iterator[LogLine]:
+        received = self._recording.received(topic)
+        for arrived, message in zip(received.tolist(), self._decoded(topic, _MOST_DECODED), strict=False):
+            yield LogLine(str(message.name), str(message.msg), arrived)

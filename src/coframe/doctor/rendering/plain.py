@@ -1,0 +1,62 @@
+"""A report as plain data, for JSON."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from coframe.catalogue import page
+
+if TYPE_CHECKING:
+    from coframe.doctor.diagnosis import Report
+    from coframe.doctor.finding import Finding
+
+__all__ = ["as_data"]
+
+
+def as_data(report: Report) -> dict[str, Any]:
+    """What ``--json`` prints. All times are integer nanoseconds."""
+    seen = report.observation
+    return {
+        "healthy": report.healthy,
+        "live": seen.live,
+        "start_ns": seen.start,
+        "end_ns": seen.end,
+        "transforms": len(seen.transforms),
+        "frames": list(seen.frames),
+        "trees": {root: list(frames) for root, frames in seen.trees.items()},
+        "findings": [_finding(finding) for finding in report.findings],
+        "sensors": [
+            {
+                "topic": sensor.topic,
+                "frame": sensor.frame,
+                "root": sensor.root,
+                "messages": sensor.messages,
+                "possible_at_once": sensor.possible[0],
+                "possible_after_50_ms": sensor.possible[1],
+                "possible_after_100_ms": sensor.possible[2],
+                "possible_after_200_ms": sensor.possible[3],
+                "median_wait_ns": sensor.median_wait,
+                "longest_wait_ns": sensor.longest_wait,
+            }
+            for sensor in report.sensors
+        ],
+        "topics": {facts.name: {"type": facts.type, "messages": facts.messages} for facts in seen.topics.values()},
+        "unread": list(seen.unread),
+    }
+
+
+def _finding(finding: Finding) -> dict[str, Any]:
+    return {
+        "code": finding.code,
+        "severity": str(finding.severity),
+        "title": page(finding.code).title,
+        "text": finding.text,
+        "edge": list(finding.edge) if finding.edge else None,
+        "topic": finding.topic or None,
+        "frames": sorted(finding.frames),
+        "first_stamp_ns": finding.first_stamp,
+        "publishers": list(finding.publishers),
+        "why": page(finding.code).why,
+        "fix": finding.fix,
+        "explains": [_finding(effect) for effect in finding.explains],
+    }

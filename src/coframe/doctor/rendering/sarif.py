@@ -1,0 +1,67 @@
+"""A report as SARIF 2.1.0, which code hosts show beside a change."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import coframe
+from coframe.catalogue import codes, page
+from coframe.doctor.finding import Severity
+
+if TYPE_CHECKING:
+    from coframe.doctor.diagnosis import Report
+    from coframe.doctor.finding import Finding
+
+__all__ = ["as_sarif"]
+
+_SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
+_LEVELS = {Severity.NOTE: "note", Severity.WARNING: "warning", Severity.ERROR: "error"}
+
+
+def as_sarif(reports: dict[str, Report], artifact: str) -> dict[str, Any]:
+    """One run with a result for every finding.
+
+    Args:
+        reports: By namespace.
+        artifact: What was looked at: a path, or "live".
+    """
+    rules = [
+        {
+            "id": code,
+            "name": "".join(word.capitalize() for word in page(code).title.replace(",", "").split()),
+            "shortDescription": {"text": page(code).title},
+            "fullDescription": {"text": page(code).why},
+            "help": {"text": page(code).text, "markdown": page(code).text},
+        }
+        for code in codes()
+    ]
+    results = [
+        _result(finding, namespace, artifact)
+        for namespace, report in reports.items()
+        for finding in report.every_finding()
+    ]
+    return {
+        "$schema": _SCHEMA,
+        "version": "2.1.0",
+        "runs": [
+            {
+                "tool": {"driver": {"name": "coframe doctor", "version": coframe.__version__, "rules": rules}},
+                "results": results,
+            }
+        ],
+    }
+
+
+def _result(finding: Finding, namespace: str, artifact: str) -> dict[str, Any]:
+    subject = f"{finding.subject}: " if finding.subject else ""
+    location: dict[str, Any] = {"physicalLocation": {"artifactLocation": {"uri": artifact}}}
+    if finding.subject:
+        location["logicalLocations"] = [{"name": finding.subject, "fullyQualifiedName": namespace + finding.subject}]
+    return {
+        "ruleId": finding.code,
+        "ruleIndex": codes().index(finding.code),
+        "level": _LEVELS[finding.severity],
+        "message": {"text": f"{subject}{finding.text}. {finding.fix}"},
+        "locations": [location],
+        "properties": {"first_stamp_ns": finding.first_stamp, "publishers": list(finding.publishers)},
+    }

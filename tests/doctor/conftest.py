@@ -1,0 +1,74 @@
+"""What the doctor says of recordings, and of real processes."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from coframe.doctor import diagnose, observe_recording
+
+
+@pytest.fixture
+def examine(tmp_path):
+    """From a run, or the path of a recording, to a report."""
+
+    def examine(run, **options):
+        path = run.write(tmp_path) if hasattr(run, "write") else run
+        (observation,) = observe_recording(path).values()
+        return diagnose(observation, **options)
+
+    return examine
+
+
+@pytest.fixture
+def only(examine):
+    """The one finding there is, with what it explains; fails where there are more or none."""
+
+    def only(run, code):
+        report = examine(run)
+        assert [finding.code for finding in report.findings] == [code], "\n".join(map(str, report.findings))
+        return report.findings[0]
+
+    return only
+
+
+class Inside:
+    """Runs Python in the test's own network, where no other test is heard."""
+
+    def __init__(self, network):
+        self._network = network
+        self._running = []
+
+    def start(self, *arguments, **options):
+        process = subprocess.Popen(
+            self._network.command(sys.executable, *arguments),
+            **{"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, **options},
+        )
+        self._running.append(process)
+        return process
+
+    def run(self, *arguments):
+        command = self._network.command(sys.executable, *arguments)
+        return subprocess.run(command, capture_output=True, text=True, check=False, timeout=90)
+
+    def doctor(self, *arguments):
+        """The verdict as data."""
+        result = self.run("-m", "coframe.cli", "doctor", "--json", *arguments)
+        assert "Traceback" not in result.stderr, result.stderr
+        data = json.loads(result.stdout)
+        assert result.returncode == (0 if data["healthy"] else 1)
+        return data
+
+    def close(self):
+        for process in self._running:
+            process.kill()
+            process.wait()
+
+
+@pytest.fixture
+def inside(network, domain_id):  # noqa: ARG001 - which it sets for the processes
+    pytest.importorskip("cyclonedds", reason="the processes speak DDS")
+    processes = Inside(network)
+    yield processes
+    processes.close()

@@ -1,0 +1,504 @@
+"""Each check finds its fault, and nothing else is found."""
+
+import json
+
+import numpy as np
+import pytest
+from recordings import START
+from runs import MS, SECOND, Run, rpy, stamp_message, yaw
+
+from coframe.doctor import Severity, codes, diagnose, observe_recording
+from coframe.doctor.diagnosis import all_checks
+from coframe.messages import find
+
+URDF = """<robot name="r"><link name="base_link"/><link name="lidar"/><link name="wheel"/>
+<joint name="mount" type="fixed"><parent link="base_link"/><child link="lidar"/><origin xyz="0.1 0 0.3"/></joint>
+<joint name="turn" type="continuous"><parent link="base_link"/><child link="wheel"/><axis xyz="0 0 1"/></joint>
+</robot>"""
+
+
+def later(seconds):
+    return START + round(seconds * SECOND)
+
+
+def describe(run, text, at=START):
+    run.message("/robot_description", "std_msgs/msg/String", find("std_msgs/msg/String")(data=text), at)
+
+
+def joints(run, at, **positions):
+    message = find("sensor_msgs/msg/JointState")(name=list(positions), position=list(positions.values()))
+    message.header.stamp = stamp_message(at)
+    run.message("/joint_states", "sensor_msgs/msg/JointState", message, at)
+
+
+def test_a_healthy_run_has_no_finding_at_all(examine):
+    report = examine(Run.healthy())
+    assert report.findings == []
+    assert report.healthy
+    (scan,) = report.sensors
+    assert (scan.topic, scan.frame, scan.root) == ("/scan", "lidar", "odom")
+
+
+def test_every_check_has_a_page_and_every_page_a_check():
+    assert tuple(all_checks()) == codes()
+    assert len(codes()) == 25
+
+
+def test_a_run_without_transforms_is_not_called_healthy(examine):
+    run = Run()
+    run.scan(START)
+    assert not examine(run).healthy
+
+
+# 1 to 7: structure
+
+
+def test_separate_trees_name_the_missing_link(only):
+    run = Run.healthy(skip={"scan", "static"})
+    run.tf("base_link", "lidar", START, (0.1, 0, 0), static=True)
+    run.tf("shelf", "box", START, static=True)
+    finding = only(run, "TF001")
+    assert "2 trees: 'odom' with 2 frames below it, and 'shelf' with box" in finding.text
+    assert "coframe static --frame-id PARENT --child-frame-id shelf" in finding.fix
+
+
+def test_the_usual_link_between_two_trees_is_named(only):
+    run = Run.healthy()
+    run.tf("world", "map", START, (0.1, 0, 0), static=True)
+    assert "most likely map -> odom is missing" in only(run, "TF001").text
+
+
+def test_a_misspelt_frame_is_guessed_with_the_line_to_change(only):
+    run = Run.healthy(skip={"scan", "static"})
+    run.tf("base_lnk", "lidar", START, (0.1, 0, 0), static=True)
+    finding = only(run, "TF001")
+    assert "'base_lnk' looks like 'base_link' misspelt" in finding.text
+    assert "t.header.frame_id = 'base_link'" in finding.fix
+
+
+def test_left_and_right_are_not_each_others_misspelling(only):
+    run = Run.healthy(skip={"scan", "static"})
+    run.tf("base_link", "wheel_left_link", START, static=True)
+    run.tf("wheel_right_link", "tyre", START, static=True)
+    assert "misspelt" not in only(run, "TF001").text
+
+
+def test_two_parents(only):
+    run = Run.healthy()
+    for i in range(600):
+        run.drive(later(i / 50 + 0.01), "map", "base_link")
+    finding = only(run, "TF002")
+    assert "'odom' 600 times" in finding.text
+    assert "'map' 600 times" in finding.text
+    assert finding.severity is Severity.ERROR
+
+
+def test_a_frame_that_changes_its_parent_once_is_a_note(only):
+    run = Run.healthy()
+    for i in range(600):
+        run.drive(later(i / 50 + 0.002), "base_link" if i < 300 else "odom", "cup")
+    assert only(run, "TF002").severity is Severity.NOTE
+
+
+def test_flicker_in_a_recording(only):
+    run = Run.healthy()
+    for i in range(600):
+        run.drive(later(i / 50 + 0.007), offset=0.2)
+    finding = only(run, "TF003")
+    assert "0.2" in finding.text
+    assert finding.edge == ("odom", "base_link")
+
+
+def test_flicker_by_a_publisher_that_is_rarer(only):
+    run = Run.healthy()
+    for i in range(100):
+        run.drive(later(i / 9 + 0.007), offset=0.5)
+    only(run, "TF003")
+
+
+def test_a_shaking_robot_does_not_flicker(examine):
+    run = Run.healthy(skip={"odom"})
+    noise = np.random.default_rng(1).normal(scale=0.02, size=(600, 2))
+    for i, (x, y) in enumerate(noise.tolist()):
+        run.tf("odom", "base_link", later(i / 50), (i / 500 + x, y, 0), arrived=later(i / 50) + MS)
+    assert examine(run).findings == []
+
+
+def test_loop(only):
+    run = Run.healthy(skip={"scan"})
+    run.tf("lidar", "camera", START, static=True)
+    run.tf("camera", "gripper", START, static=True)
+    run.tf("gripper", "arm", START, static=True)
+    for frame, parent in (("x", "y"), ("y", "z"), ("z", "x")):
+        for i in range(600):
+            run.drive(later(i / 50), parent, frame)
+    report = only(run, "TF004")
+    assert "loop" in report.text
+    assert report.frames == {"x", "y", "z"}
+
+
+@pytest.mark.parametrize(
+    ("parent", "child", "text"),
+    [("a", "a", "is its own parent"), ("a", "", "has no name"), ("", "b", "no parent's name")],
+)
+def test_names_that_tf2_refuses(only, parent, child, text):
+    run = Run.healthy()
+    run.tf(parent, child, later(1))
+    assert text in only(run, "TF004").text
+
+
+def test_a_link_on_both_topics(only):
+    run = Run.healthy()
+    for i in range(600):
+        run.tf("base_link", "lidar", later(i / 50), (0.1, 0.0, 0.3))
+    assert "600 times on /tf" in only(run, "TF005").text
+
+
+@pytest.mark.parametrize(
+    ("frame", "text"), [("/lidar2", "begin with a slash"), ("Base Link", "blanks"), ("BASE-LINK", "differ in case")]
+)
+def test_names(examine, frame, text):
+    run = Run.healthy()
+    run.tf("base_link", frame, START, static=True)
+    findings = examine(run).findings
+    assert {finding.code for finding in findings} == {"TF006"}
+    assert any(text in finding.text for finding in findings)
+
+
+def test_half_a_prefix_explains_the_two_trees(only):
+    run = Run.healthy(skip={"scan"})
+    for i in range(600):
+        run.drive(later(i / 50), "robot1/odom", "robot1/base_link")
+    finding = only(run, "TF006")
+    assert "half a prefix" in finding.text
+    assert [effect.code for effect in finding.explains] == ["TF001"]
+
+
+def test_odom_above_map(only):
+    run = Run.healthy()
+    for i in range(600):
+        run.drive(later(i / 50), "base_link", "map")
+    assert "'map' stands below 'base_link'" in only(run, "TF007").text
+
+
+# 8 to 15: time
+
+
+def test_stamps_ahead_of_the_clock(only):
+    run = Run.healthy(skip={"odom"})
+    for i in range(600):
+        run.drive(later(i / 50), stamp=later(i / 50) + 300 * MS)
+    assert "by up to 299 ms" in only(run, "TF008").text
+
+
+def test_localization_ahead_of_the_clock_is_a_note(only):
+    run = Run.healthy()
+    for i in range(600):
+        run.drive(later(i / 50), "map", "odom", stamp=later(i / 50) + SECOND)
+    assert only(run, "TF008").severity is Severity.NOTE
+
+
+def test_stamps_behind_the_clock(only):
+    run = Run.healthy(skip={"odom", "scan"})
+    for i in range(600):
+        run.drive(later(i / 50), stamp=later(i / 50) - 800 * MS)
+    assert "arrives 801 ms after its stamp" in only(run, "TF008").text
+
+
+def test_two_clocks(only):
+    run = Run.healthy()
+    for i in range(600):
+        run.drive(later(i / 50), "base_link", "arm", stamp=100 * SECOND + i * SECOND // 50)
+    assert "base_link -> arm is stamped by a clock hours off" in only(run, "TF009").text
+
+
+def test_a_sensor_by_the_walls_clock_in_a_simulation(only):
+    run = Run()
+    clock = find("rosgraph_msgs/msg/Clock")
+    for i in range(600):
+        at, simulated = later(i / 50), 5 * SECOND + i * SECOND // 50
+        run.message("/clock", "rosgraph_msgs/msg/Clock", clock(clock=stamp_message(simulated)), at)
+        run.drive(at, stamp=simulated)
+        if i % 5 == 0:
+            run.scan(at, "base_link")
+    finding = only(run, "TF009")
+    assert finding.topic == "/scan"
+    assert "use_sim_time:=true" in finding.fix
+
+
+def test_a_machine_whose_clock_is_off(only):
+    run = Run.healthy()
+    for i in range(600):
+        for parent, child in (("base_link", "arm"), ("arm", "hand")):
+            run.drive(later(i / 50), parent, child, stamp=later(i / 50) + 350 * MS)
+    finding = only(run, "TF010")
+    assert "349 ms ahead" in finding.text
+    assert "chrony" in finding.fix
+
+
+def test_repeated_stamps(only):
+    run = Run.healthy()
+    for i in range(0, 600, 3):
+        run.drive(later(i / 50), arrived=later(i / 50) + 3 * MS)
+    assert "200 of 800 transforms repeat a stamp, 0 of them" in only(run, "TF011").text
+
+
+def test_old_data(only):
+    run = Run.healthy(seconds=20)
+    for i in range(5):
+        run.drive(later(2 + i / 50), arrived=later(19 + i / 50))
+    assert "5 of 1005 transforms are older than the newest one" in only(run, "TF011").text
+
+
+def test_time_that_jumps_back(only):
+    run = Run.healthy(skip={"scan"})
+    for i in range(600):
+        run.drive(later(i / 50), arrived=later(12 + i / 50), stamp=later(2 + i / 50))
+    finding = only(run, "TF012")
+    assert "jumped back once, by up to 9.98 s" in finding.text
+
+
+def test_a_gap(only):
+    run = Run.healthy(skip={"odom", "scan"})
+    for i in range(600):
+        if not 200 <= i < 300:
+            run.drive(later(i / 50))
+    assert "a gap of 2.02 s where 20 ms is usual" in only(run, "TF013").text
+
+
+def test_a_link_that_has_fallen_silent(only):
+    run = Run.healthy()
+    for i in range(200):
+        run.drive(later(i / 50), "base_link", "arm")
+    assert "nothing for the last 8" in only(run, "TF013").text
+
+
+def test_a_link_that_is_rare(only):
+    run = Run.healthy()
+    for i in range(12):
+        run.drive(later(i), "base_link", "arm")
+    assert "only every 1 s" in only(run, "TF013").text
+
+
+def test_a_sensor_whose_frame_is_misspelt(only):
+    run = Run.healthy(skip={"scan"})
+    for i in range(100):
+        run.scan(later(i / 10), "lider")
+    finding = only(run, "TF014")
+    assert "did you mean 'lidar'?" in finding.text
+    assert "msg.header.frame_id = 'lidar'" in finding.fix
+
+
+def test_a_sensor_that_is_ahead_of_its_transforms(only):
+    run = Run.healthy(skip={"odom", "scan"})
+    for i in range(600):
+        run.drive(later(i / 50), arrived=later(i / 50) + 300 * MS)
+        if i % 5 == 0:
+            run.scan(later(i / 50))
+    finding = only(run, "TF014")
+    assert "cannot be transformed from 'lidar' to 'odom' even 200 ms after they came" in finding.text
+
+
+def test_a_sensor_that_comes_when_its_time_is_forgotten(only):
+    run = Run.healthy(seconds=30, skip={"scan"})
+    for i in range(100):
+        run.scan(later(i / 10), arrived=later(i / 10 + 15))
+    finding = only(run, "TF015")
+    assert "when a buffer of 10 s has forgotten them" in finding.text
+    assert "cache_time=Duration(seconds=16)" in finding.fix
+
+
+# 16 to 18: static delivery
+
+
+def test_static_links_of_an_earlier_run(only):
+    run = Run.healthy()
+    run.tf("base_link", "lidar", START - 100 * SECOND, (0.1, 0.0, 0.3), static=True, arrived=START)
+    finding = only(run, "TF016")
+    assert "100 s apart, always the same" in finding.text
+    assert finding.severity is Severity.NOTE
+
+
+def test_a_recording_without_its_statics(only):
+    run = Run.healthy(skip={"static", "scan"})
+    for i in range(600):
+        run.tf("wheel_base", "wheel", later(i / 50), (0.1, 0, 0), yaw(i / 50))
+    finding = only(run, "TF017")
+    assert [effect.code for effect in finding.explains] == ["TF001"]
+
+
+def test_a_mount_that_is_sent_again_and_again(only):
+    run = Run.healthy()
+    for i in range(120):
+        run.tf("base_link", "camera", later(i / 10) + 3 * MS, (0.25, 0, 0.5))
+    finding = only(run, "TF018")
+    assert "coframe static --frame-id base_link --child-frame-id camera --x 0.25 --y 0.0 --z 0.5" in finding.fix
+
+
+def test_a_joint_at_rest_is_no_mount(examine):
+    run = Run.healthy()
+    for i in range(600):
+        run.tf("base_link", "arm", later(i / 50), (0.25, 0, 0.5))
+    assert examine(run).findings == []
+
+
+def test_a_moving_link_sent_as_static(only):
+    run = Run.healthy()
+    for i in range(40):
+        run.tf("base_link", "arm", later(i / 50), (0.2, 0, 0), yaw(i / 50), static=True)
+    assert "changed 39 times on /tf_static" in only(run, "TF018").text
+
+
+# 19 to 21: values
+
+
+@pytest.mark.parametrize(
+    ("turn", "text", "severity"),
+    [
+        ((0, 0, 0, 0), "was never set", Severity.ERROR),
+        ((0, 0, float("nan"), 1), "NaN", Severity.ERROR),
+        ((0, 0, 0.5, 1), "is no rotation", Severity.ERROR),
+        ((0, 0.707, 0, 0.707), "not quite of length 1", Severity.NOTE),
+    ],
+)
+def test_quaternions(only, turn, text, severity):
+    run = Run.healthy()
+    run.tf("base_link", "camera", START, (0.1, 0, 0), turn, static=True)
+    finding = only(run, "TF019")
+    assert text in finding.text
+    assert finding.severity is severity
+    assert finding.edge == ("base_link", "camera")
+
+
+def test_a_jump(only):
+    run = Run.healthy(skip={"odom"})
+    for i in range(600):
+        run.drive(later(i / 50), offset=3.0 if i > 300 else 0.0)
+    assert "jumps once, at worst 2.99 m" in only(run, "TF020").text
+
+
+@pytest.mark.parametrize(
+    ("child", "place", "turn", "text"),
+    [
+        ("camera", (0.1, 0, 0), yaw(90.0), "yaw = 90 taken as radians"),
+        ("camera", (0.1, 0, 0), rpy(-45.0, 0, 0), "roll = -45 taken as radians"),
+        ("camera", (100, 0, 300), yaw(0), "were millimetres meant (316.2 mm)"),
+        ("camera_optical_frame", (0.1, 0, 0), yaw(0), "is called optical, but is not turned"),
+    ],
+)
+def test_suspicious_mounts(only, child, place, turn, text):
+    run = Run.healthy()
+    run.tf("base_link", child, START, place, turn, static=True)
+    assert text in only(run, "TF021").text
+
+
+@pytest.mark.parametrize("degrees", range(-180, 181, 15))
+def test_plain_angles_are_not_suspicious(examine, degrees):
+    run = Run.healthy(seconds=1)
+    run.tf("base_link", "camera", START, (0.1, 0, 0), yaw(np.radians(degrees)), static=True)
+    run.tf("camera", "camera_optical_frame", START, (0, 0, 0), (-0.5, 0.5, -0.5, 0.5), static=True)
+    assert examine(run).findings == []
+
+
+# 22 to 24: the robot's model
+
+
+def test_a_model_that_agrees(examine):
+    run = Run.healthy()
+    describe(run, URDF)
+    for i in range(300):
+        joints(run, later(i / 25), turn=i / 25)
+        run.tf("base_link", "wheel", later(i / 25), turn=yaw(i / 25))
+    assert examine(run).findings == []
+
+
+def test_a_joint_that_nobody_tells_of(only):
+    run = Run.healthy()
+    describe(run, URDF)
+    assert "nobody tells of 1 of 1 movable joints: turn" in only(run, "TF022").text
+
+
+def test_a_joint_state_without_a_joint(only):
+    run = Run.healthy()
+    describe(run, URDF)
+    for i in range(300):
+        joints(run, later(i / 25), turn=i / 25, elbow=0.0)
+        run.tf("base_link", "wheel", later(i / 25), turn=yaw(i / 25))
+    assert "tell of elbow, which" in only(run, "TF022").text
+
+
+def test_transforms_that_are_not_the_models(examine):
+    run = Run.healthy()
+    describe(run, URDF.replace("0.1 0 0.3", "0.1 0 0.4"))
+    for i in range(300):
+        joints(run, later(i / 25), turn=i / 25)
+        run.tf("base_link", "wheel", later(i / 25), turn=yaw(i / 25 + 0.1))
+    texts = {finding.edge: finding for finding in examine(run).findings}
+    assert {finding.code for finding in texts.values()} == {"TF023"}
+    assert "by 0.1 m and 0 degrees" in texts["base_link", "lidar"].text
+    assert "5.73 degrees, the median of 300" in texts["base_link", "wheel"].text
+
+
+@pytest.mark.parametrize("text", ["", "<robot name=''/>", "<robot name='r'><link name='a'/><link name='b'/></robot>"])
+def test_a_broken_description(only, text):
+    run = Run.healthy()
+    describe(run, text)
+    assert only(run, "TF024").severity is Severity.WARNING
+
+
+# 25: listeners
+
+
+def test_a_node_whose_look_ups_fail(only):
+    run = Run.healthy()
+    log = find("rcl_interfaces/msg/Log")
+    text = "Transform lookup failed: Lookup would require extrapolation into the future.  Requested time 9.0 but ..."
+    for i in range(100):
+        run.message("/rosout", "rcl_interfaces/msg/Log", log(name="tf_listener", msg=text), later(i / 10))
+    finding = only(run, "TF025")
+    assert "tf_listener complains 100 times" in finding.text
+    assert "lookup_transform(target, source, rclpy.time.Time())" in finding.fix
+
+
+def test_look_ups_that_failed_at_the_start_only_are_no_fault(examine):
+    run = Run.healthy()
+    log = find("rcl_interfaces/msg/Log")
+    for i in range(10):
+        text = '"lidar" passed to lookupTransform argument source_frame does not exist. '
+        run.message("/rosout", "rcl_interfaces/msg/Log", log(name="tf_listener", msg=text), later(i / 10))
+    assert examine(run).findings == []
+
+
+def test_a_recorder_that_was_held_up(only):
+    run = Run.healthy(skip={"scan"}, arrived=lambda at: max(at, later(6)) if at > later(4) else at)
+    assert "then 109 transforms at once" in only(run, "TF025").text
+
+
+# all of them
+
+
+def test_a_check_can_be_left_out(examine):
+    run = Run.healthy()
+    run.tf("a", "a", later(1))
+    assert examine(run, ignore=["tf004"]).findings == []
+
+
+def test_robots_with_a_tf_of_their_own_are_examined_apart(tmp_path):
+    run = Run()
+    for i in range(300):
+        for robot in ("robot1", "robot2"):
+            run.tf("odom", "base_link", later(i / 50), (float(robot == "robot2"), i / 100, 0), topic=f"/{robot}/tf")
+    reports = {name: diagnose(seen) for name, seen in observe_recording(run.write(tmp_path)).items()}
+    assert list(reports) == ["/robot1", "/robot2"]
+    assert all(report.findings == [] for report in reports.values())
+
+
+def test_hostile_names_and_numbers_end_in_findings_not_in_exceptions(examine):
+    run = Run.healthy(seconds=1)
+    for name in ("\x1b[31m", "a" * 5000, "\u202e", "..", "/", "//"):
+        run.tf(name, f"{name}x", START, (1e300, -1e300, 5e-324), static=True)
+    run.tf("p", "q", -(2**31) * SECOND, (float("inf"), 0, 0), arrived=START)
+    run.tf("p", "q", (2**31 - 1) * SECOND, arrived=START)
+    report = examine(run)
+    assert not report.healthy
+    json.dumps([str(finding) for finding in report.findings])

@@ -1,0 +1,172 @@
+"""Faults made by real processes, found by the real command."""
+
+import json
+import subprocess
+import time
+
+import pytest
+
+# A node in a few lines: NODE's body runs with `node` and `stamped(parent, child, x)`.
+NODE = """
+import sys, rclpy
+from geometry_msgs.msg import TransformStamped
+from rclpy.duration import Duration
+from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.time import Time
+from tf2_msgs.msg import TFMessage
+from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformException, TransformListener
+
+rclpy.init()
+node = Node(sys.argv[1])
+
+def stamped(parent, child, x=0.0, stamp=None):
+    t = TransformStamped()
+    t.header.stamp = (stamp or node.get_clock().now()).to_msg()
+    t.header.frame_id, t.child_frame_id = parent, child
+    t.transform.translation.x, t.transform.rotation.w = x, 1.0
+    return t
+
+def every(period, call):
+    node.create_timer(period, call)
+
+{body}
+rclpy.spin(node)
+"""
+ROBOT = """
+broadcaster, statics = TransformBroadcaster(node), StaticTransformBroadcaster(node)
+statics.sendTransform(stamped("base_link", "lidar_link", 0.1))
+begun = node.get_clock().now()
+def move():
+    now = node.get_clock().now()
+    broadcaster.sendTransform(stamped("odom", "base_link", (now - begun).nanoseconds * 1e-10, now))
+every(0.02, move)
+"""
+
+
+@pytest.fixture
+def start(inside):
+    """Starts a node with this name and body."""
+    return lambda name, body: inside.start("-c", NODE.replace("{body}", body), name)
+
+
+@pytest.fixture
+def only(inside):
+    """The one finding there is, once the processes have come up."""
+
+    def only(code):
+        findings = []
+        for _ in range(5):
+            findings = inside.doctor("--duration", "2s")["findings"]
+            if [finding["code"] for finding in findings] == [code]:
+                return findings[0]
+        pytest.fail(f"not {code} alone: {findings}")
+
+    return only
+
+
+def test_two_publishers_of_one_link_are_named(start, only):
+    start("wheel_odometry", ROBOT)
+    start(
+        "filter",
+        'b = TransformBroadcaster(node)\nevery(0.03, lambda: b.sendTransform(stamped("odom", "base_link", 5.0)))',
+    )
+    finding = only("TF003")
+    assert finding["edge"] == ["odom", "base_link"]
+    assert sorted(finding["publishers"]) == ["/filter", "/wheel_odometry"]
+    assert "Stop one of the two" in finding["fix"]
+    assert finding["severity"] == "error"
+
+
+def test_a_misspelt_frame_is_answered_with_the_line_to_change(start, only):
+    start("robot", ROBOT)
+    start("mounts", 'StaticTransformBroadcaster(node).sendTransform(stamped("base_lnk", "camera_link"))')
+    finding = only("TF001")
+    assert finding["publishers"] == ["/mounts"]
+    assert "t.header.frame_id = 'base_link'" in finding["fix"]
+
+
+def test_a_look_up_at_now_without_waiting_is_answered_with_the_line_to_change(start, only):
+    start("robot", ROBOT)
+    body = """
+buffer = Buffer()
+listener = TransformListener(buffer, node)
+def query():
+    try:
+        buffer.lookup_transform("odom", "lidar_link", node.get_clock().now())
+    except TransformException as error:
+        node.get_logger().warn(f"Transform lookup failed: {error}")
+every(0.1, query)
+"""
+    start("tf_listener", body)
+    finding = only("TF025")
+    assert finding["publishers"] == ["/tf_listener"]
+    assert "extrapolation into the future" in finding["text"]
+    assert "lookup_transform(target, source, rclpy.time.Time())" in finding["fix"]
+    assert "timeout=Duration(seconds=0.1)" in finding["fix"]
+
+
+def test_volatile_statics_on_both_sides(start, inside):
+    start("robot", ROBOT)
+    start("own_publisher", 'p = node.create_publisher(TFMessage, "/tf_static", 10)')
+    start("own_listener", 's = node.create_subscription(TFMessage, "/tf_static", lambda m: None, 10)')
+    expected = {("TF016", "error", "/own_publisher"), ("TF016", "warning", "/own_listener")}
+    for _ in range(5):
+        findings = inside.doctor("--duration", "2s")["findings"]
+        if {(f["code"], f["severity"], *f["publishers"]) for f in findings} == expected:
+            return
+    pytest.fail(f"{findings}")
+
+
+def test_statics_that_one_process_overwrites(start, only):
+    start("robot", ROBOT)
+    body = """
+p = node.create_publisher(TFMessage, "/tf_static", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
+state = {"sent": 0}
+def send():
+    state["sent"] += 1
+    name = "camera_link" if state["sent"] % 2 else "imu_link"
+    p.publish(TFMessage(transforms=[stamped("base_link", name, 0.2)]))
+every(0.5, send)
+"""
+    start("mounts", body)
+    finding = only("TF016")
+    assert "/mounts has sent" in finding["text"]
+    assert "sendTransform([t1, t2, ...])" in finding["fix"]
+
+
+def test_nobody_there_is_not_healthy(inside):
+    data = inside.doctor("--duration", "1s")
+    assert data["findings"] == []
+    assert not data["healthy"]
+
+
+def test_watch_tells_again_and_again_and_ends_by_a_signal(start, inside):
+    start("robot", ROBOT)
+    options = ("--watch", "--json", "--duration", "5s")
+    with inside.start("-m", "coframe.cli", "doctor", *options, stdout=subprocess.PIPE, text=True) as process:
+        heard = [json.loads(process.stdout.readline())]
+        while not heard[-1]["healthy"]:
+            heard.append(json.loads(process.stdout.readline()))
+        process.terminate()
+        assert process.wait(20) == 0
+    assert set(heard[-1]["frames"]) == {"odom", "base_link", "lidar_link"}
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(200)
+@pytest.mark.parametrize("_run", range(5))
+def test_a_healthy_demo_has_no_finding_at_all(inside, _run, tmp_path):
+    log = (tmp_path / "demo.log").open("wb")
+    demo = inside.start("-m", "coframe.cli", "demo", "--no-browser", "--duration", "150", stdout=log, stderr=log)
+    try:
+        deadline = time.monotonic() + 60
+        while inside.doctor("--duration", "2s")["transforms"] < 50:
+            assert time.monotonic() < deadline, (demo.poll(), (tmp_path / "demo.log").read_text())
+        data = inside.doctor("--duration", "30s")
+    finally:
+        demo.terminate()
+        demo.wait(20)
+        log.close()
+    assert data["findings"] == []
+    assert data["healthy"]

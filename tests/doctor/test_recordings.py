@@ -1,0 +1,69 @@
+"""What is odd about recordings of real robots, as their manifest tells by hand, is found, and nothing else."""
+
+import pytest
+
+# (code, severity, link or topic, part of the text), the causes and what they explain, by recording.
+EXPECTED = {
+    "turtlesim_tf_demo.bag": set(),
+    "turtlesim_tf_demo_lz4.bag": set(),
+    "turtlesim_tf_demo_bz2.bag": set(),
+    "tb3_gazebo_walker": set(),
+    "tilt_laser.bag": {
+        ("TF006", "warning", "", "4 names begin with a slash"),
+        ("TF014", "warning", "/gravity_vector", "no transform tells of 'base_imu'"),
+        # All topics pause for 0.68 s, early on, and then come at once: receipt times tell, the manifest does not.
+        ("TF025", "warning", "", "nothing came for 683 ms"),
+        ("TF018", "note", "tilt_axis -> camera", "did not change in 178 transforms on /tf"),
+        ("TF018", "note", "tilt_axis -> laser", "did not change in 178 transforms on /tf"),
+        ("TF008", "note", "tilt_axis -> camera", "by up to 81.1 ms"),
+        ("TF008", "note", "tilt_axis -> laser", "by up to 81.1 ms"),
+        ("TF019", "note", "tilt_axis -> laser", "178 of 178 quaternions are not quite of length 1, by up to 1.5e-06"),
+    },
+    "epuck_webots": {
+        ("TF004", "note", "", "a message without any transform was sent once"),
+        ("TF006", "note", "", "'cap screw(0)'"),
+        ("TF009", "note", "base_link -> base_footprint", "1 have the stamp 0"),
+        ("TF011", "warning", "odom -> base_link", "182 of 780 transforms repeat a stamp"),
+        ("TF011", "note", "/joint_states", "184 of 792 joint states repeat a stamp, 183 of them with other positions"),
+        ("TF016", "note", "base_link -> base_footprint", "told 3 times with stamps up to 1186 s apart"),
+        ("TF024", "note", "/robot_description", "description 1 of 2"),
+    },
+    "tb3_tf_missing_static": {
+        ("TF017", "warning", "", "the moving ones make 2 separate trees"),
+        ("TF001", "warning", "", "most likely base_footprint -> base_link is missing"),
+    },
+    "world_talk_1hz": {
+        ("TF018", "note", "world -> talk", "did not change in 60 transforms on /tf"),
+        ("TF013", "note", "world -> talk", "only every 1 s"),
+    },
+}
+
+
+@pytest.mark.parametrize("name", EXPECTED)
+def test_the_oddities_of_the_manifest_are_found_and_nothing_else(examine, shared, name):
+    found = [
+        (f.code, str(f.severity), f.subject, f.text) for f in examine(shared / "recordings" / name).every_finding()
+    ]
+    for code, severity, subject, part in EXPECTED[name]:
+        assert any(f[:3] == (code, severity, subject) and part in f[3] for f in found), (code, subject, found)
+    assert len(found) == len(EXPECTED[name]), found
+
+
+@pytest.mark.parametrize(
+    ("name", "topic", "messages", "at_once"),
+    [
+        # As `spec/practice.md` counted, by another program.
+        ("tilt_laser.bag", "/scan", 178, 38),
+        ("tb3_gazebo_walker", "/scan", 99, 1),
+        ("tb3_gazebo_walker", "/imu", 3938, 22),
+        ("epuck_webots", "/ps0", 809, 487),
+    ],
+)
+def test_how_many_messages_are_transformable_at_once(examine, shared, name, topic, messages, at_once):
+    (sensor,) = [one for one in examine(shared / "recordings" / name).sensors if one.topic == topic]
+    assert (sensor.messages, sensor.possible[0]) == (messages, at_once)
+
+
+def test_a_recording_whose_file_was_renamed_is_examined_and_says_so(examine, shared):
+    report = examine(shared / "recordings" / "broken" / "db3_renamed_metadata_stale")
+    assert any("which is not there" in problem for problem in report.observation.unread)
