@@ -134,6 +134,15 @@ void define_writer(nb::module_& wire) {
             self.write(data, size);
           },
           nb::arg("message"), "Sends one serialised message, without the GIL.")
+      .def(
+          "forward",
+          [](const PyWriter& self, nb::bytes message) {
+            const char* data = message.c_str();
+            const std::size_t size = message.size();
+            WithoutGil release;
+            self.forward(data, size);
+          },
+          nb::arg("message"), "The same on an unchecked topic for a message of any type, whose bytes nobody looks at.")
       .def_prop_ro("guid", [](const PyWriter& self) { return to_bytes(self.guid()); })
       .def_prop_ro("matched", &PyWriter::matched, "How many readers the writer has found.", ReleaseGil())
       .def("matched_handles", &matched_handles<PyWriter>, "The handles of those readers.")

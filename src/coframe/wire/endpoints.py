@@ -165,9 +165,12 @@ class Publisher(WireEndpoint):
                 has not kept up for a second.
         """
         try:
-            self._writer.write(cdr)
+            self._send(cdr)
         except _core.DdsError as error:
             raise self._write_error(error) from error
+
+    def _send(self, cdr: bytes) -> None:
+        self._writer.write(cdr)
 
     def _write_error(self, error: _core.DdsError) -> WireError:
         topic = names.any_ros_name(self.topic)
@@ -182,6 +185,13 @@ class Publisher(WireEndpoint):
             f"Publishing on {topic} failed: {error}.",
             hint=f"The bytes must be the CDR of a {names.ros_type(self.description.type)}.",
         )
+
+
+class RawPublisher(Publisher):
+    """Writes serialised messages whose type nobody here knows."""
+
+    def _send(self, cdr: bytes) -> None:
+        self._writer.forward(cdr)
 
 
 class Subscription(WireEndpoint):

@@ -12,7 +12,15 @@ from coframe import _core
 from coframe.errors import WireError
 from coframe.wire import config, dds, names, types
 from coframe.wire.discovery_info import MAX_NAME, TOPIC, encode_info, gid_size
-from coframe.wire.endpoints import GraphNode, Publisher, Subscription, TfReader, WireEndpoint, initial_authority
+from coframe.wire.endpoints import (
+    GraphNode,
+    Publisher,
+    RawPublisher,
+    Subscription,
+    TfReader,
+    WireEndpoint,
+    initial_authority,
+)
 from coframe.wire.graph import DdsEndpoint, Endpoint, Graph
 from coframe.wire.mismatch import MismatchWatch
 from coframe.wire.publishers import OnceEach
@@ -48,7 +56,7 @@ class Participant:
         self._native = dds.join(domain_id, config.cyclone_config(), _ENCLAVE)
         self._lock = threading.RLock()
         self._topics: dict[tuple[str, str], int] = {}
-        self._tf_topics: dict[str, int] = {}
+        self._unchecked_topics: dict[tuple[str, str], int] = {}
         self._nodes: list[GraphNode] = []
         self._statics: dict[str, StaticTopic] = {}
         self._gid_size = gid_size(os.environ)
@@ -146,7 +154,9 @@ class Participant:
             WireError: DDS refuses.
         """
         of_transforms = types.ros_type(message_type) == _TF_TYPE
-        name, type_name, entity = self._tf_topic(topic) if of_transforms else self._topic_of(topic, message_type, kind)
+        name, type_name, entity = (
+            self._unchecked_topic(topic, _TF_TYPE) if of_transforms else self._topic_of(topic, message_type, kind)
+        )
         native = _create(
             lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), user_data, of_transforms), topic
         )
@@ -181,15 +191,48 @@ class Participant:
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
         return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
-    def tf_subscription(self, node: GraphNode, topic: str, qos: QoS, on_data: _core.Event) -> Subscription:
-        """A subscription of `node` to any bytes that come as TFMessage: who takes them checks them.
+    def raw_publisher(self, node: GraphNode, topic: str, ros_type: str, qos: QoS) -> RawPublisher:
+        """A publisher of `node` for messages of any type, whose bytes it passes on as they are.
+
+        Args:
+            node: its node.
+            topic: fully qualified: "/scan".
+            ros_type: such as "sensor_msgs/msg/LaserScan"; nobody here needs to know it.
+            qos: what is offered.
 
         Raises:
             WireError: DDS refuses.
         """
-        name, type_name, entity = self._tf_topic(topic)
+        name, type_name, entity = self._unchecked_topic(topic, ros_type)
+        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), "", True), topic)
+        return RawPublisher(native, node, name, type_name, qos)
+
+    def raw_subscription(
+        self,
+        node: GraphNode,
+        topic: str,
+        ros_type: str,
+        qos: QoS,
+        *,
+        on_data: _core.Event | None = None,
+        adapts: bool = False,
+    ) -> Subscription:
+        """A subscription of `node` to messages of any type, whose bytes nobody checks.
+
+        Args:
+            node: its node.
+            topic: fully qualified: "/scan".
+            ros_type: such as "sensor_msgs/msg/LaserScan"; nobody here needs to know it.
+            qos: what is asked for.
+            on_data: is set whenever messages arrive.
+            adapts: the caller follows what publishers offer, so that nobody is warned of those that offer less.
+
+        Raises:
+            WireError: DDS refuses.
+        """
+        name, type_name, entity = self._unchecked_topic(topic, ros_type)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
-        return Subscription(native, node, name, type_name, qos)
+        return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
     def tf_reader(
         self,
@@ -217,7 +260,7 @@ class Participant:
             WireError: DDS refuses.
         """
         chosen = qos or (TF_STATIC_READER if static else TF)
-        name, type_name, entity = self._tf_topic(topic)
+        name, type_name, entity = self._unchecked_topic(topic, _TF_TYPE)
         source = initial_authority(authority)
         native = _create(
             lambda: _core.TfReader(
@@ -259,6 +302,15 @@ class Participant:
     def publishers(self, topic: str, *, kind: Kind = "topic") -> list[Endpoint]:
         """Who publishes on a topic, by its ROS name."""
         return self._describe(self._graph.writers(names.dds_topic(topic, kind)))
+
+    def published(self) -> dict[str, dict[int, Endpoint]]:
+        """All topics that somebody publishes on, by their ROS names; the publishers by their handles, as of samples."""
+        self._graph.refresh()
+        found = {}
+        for name, writers in self._graph.by_topic(writers=True).items():
+            if (topic := names.ros_topic(name)) is not None:
+                found[topic] = {handle: self._graph.describe(writer) for handle, writer in writers.items()}
+        return found
 
     def subscribers(self, topic: str, *, kind: Kind = "topic") -> list[Endpoint]:
         """Who subscribes to a topic, by its ROS name."""
@@ -319,13 +371,14 @@ class Participant:
                 self._topics[key] = types.create_topic(self._native.entity, name, data_type)
             return self._topics[key]
 
-    def _tf_topic(self, topic: str) -> tuple[str, str, int]:
-        """As `_topic_of`, for transforms: the native endpoints check the bytes, and readers count what is malformed."""
-        name, type_name = names.dds_topic(topic), names.dds_type(_TF_TYPE)
+    def _unchecked_topic(self, topic: str, ros_type: str) -> tuple[str, str, int]:
+        """As `_topic_of`, for those who check the bytes themselves, or only pass them on."""
+        name, type_name = names.dds_topic(topic), names.dds_type(ros_type)
         with self._lock:
-            if name not in self._tf_topics:
-                self._tf_topics[name] = types.create_unchecked_topic(self._native.entity, name, type_name)
-            return name, type_name, self._tf_topics[name]
+            if (name, type_name) not in self._unchecked_topics:
+                entity = types.create_unchecked_topic(self._native.entity, name, type_name)
+                self._unchecked_topics[name, type_name] = entity
+            return name, type_name, self._unchecked_topics[name, type_name]
 
     def _describe(self, endpoints: dict[int, DdsEndpoint]) -> list[Endpoint]:
         return [self._graph.describe(endpoint) for endpoint in endpoints.values()]
