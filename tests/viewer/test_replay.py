@@ -230,6 +230,9 @@ class AtHand:
     def at(self, time):
         return self._sighting if time == 0 or time >= BEGIN else None
 
+    def pending(self):
+        return False
+
     def before(self, time, _count):
         return [self._sighting] if self.at(time) else []
 
