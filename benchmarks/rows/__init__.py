@@ -1,6 +1,18 @@
 """The rows of the table, a file for each of their subjects."""
 
-from benchmarks.rows import batch, history, insertion, listener, recordings, robots, sensors, single, startup, viewer
+from benchmarks.rows import (
+    batch,
+    fleet,
+    history,
+    insertion,
+    listener,
+    recordings,
+    robots,
+    sensors,
+    single,
+    startup,
+    viewer,
+)
 
 ROWS = {
     "single": single.ROWS,
@@ -9,6 +21,7 @@ ROWS = {
     "sensors": sensors.ROWS,
     "robots": robots.ROWS,
     "listener": listener.ROWS,
+    "fleet": fleet.ROWS,
     "recordings": recordings.ROWS,
     "history": history.ROWS,
     "startup": startup.ROWS,

@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/buffer.hpp"
@@ -64,11 +65,15 @@ struct BufferObject {
     return authorities.find(name, [this](std::string_view text) { return core->authority(text); });
   }
 
-  // The source of messages by this authority.
-  TransformStream& stream(bool is_static, AuthorityId authority) {
-    TransformStream& stream = streams[{is_static, authority}];
-    stream.is_static = is_static;
-    stream.authority = authority;
+  // The source of messages by this authority; its frames are renamed as they are when it is first asked for.
+  TransformStream& stream(bool is_static, AuthorityId authority, const std::optional<Renaming>& renaming = {}) {
+    const auto [found, is_new] = streams.try_emplace({is_static, authority});
+    TransformStream& stream = found->second;
+    if (is_new) {
+      stream.is_static = is_static;
+      stream.authority = authority;
+      if (renaming) stream.renaming = std::make_shared<const Renaming>(*renaming);
+    }
     return stream;
   }
 

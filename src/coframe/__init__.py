@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from coframe.bags import open_bag
     from coframe.recorder import play, record
     from coframe.viewer.show import show
+    from coframe.wire.relay import relay
 
 __version__ = "0.1.0"
 
@@ -54,6 +55,7 @@ __all__ = [
     "open_bag",
     "play",
     "record",
+    "relay",
     "show",
 ]
 
@@ -61,6 +63,7 @@ _LATE = {
     "open_bag": "coframe.bags",
     "play": "coframe.recorder",
     "record": "coframe.recorder",
+    "relay": "coframe.wire.relay",
     "show": "coframe.viewer",
 }
 

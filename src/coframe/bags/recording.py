@@ -22,6 +22,7 @@ from coframe.bags.problems import Problems
 from coframe.bags.storage import Slices
 from coframe.bags.transforms import ingest_for
 from coframe.errors import RecordingError
+from coframe.frame_names import renaming
 
 if TYPE_CHECKING:
     import os
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from typing_extensions import Self
 
+    from coframe import _core
     from coframe.bags.header_stamps import StampPlace
     from coframe.bags.storage import Channel, Storage
     from coframe.buffer import Buffer
@@ -123,6 +125,8 @@ def open_bag(
     path: str | os.PathLike[str],
     *,
     namespace: str | None = None,
+    prefix: str = "",
+    keep: Iterable[str] = (),
     progress: Callable[[int, int], object] | None = None,
 ) -> Recording:
     """Reads a recording: rosbag2 (MCAP or SQLite, any compression), a bag of ROS 1, or MCAP with Foxglove's transforms.
@@ -130,6 +134,8 @@ def open_bag(
     Args:
         path: A file, or a folder of rosbag2, with or without its metadata.
         namespace: Only transforms of this one, such as ``/robot1`` for ``/robot1/tf``; None: all.
+        prefix: Goes in front of the names of frames in the buffers, as it is: ``robot1/`` makes ``robot1/base_link``.
+        keep: The frames that get no prefix, as they are shared: ``["map"]``.
         progress: Called now and then with the bytes that are read and the bytes that there are.
 
     Returns:
@@ -137,6 +143,7 @@ def open_bag(
 
     Raises:
         RecordingError: Nothing of it can be read.
+        ValueError: The prefix begins with a slash.
 
     Example:
         >>> import coframe
@@ -145,8 +152,9 @@ def open_bag(
         coframe.errors.RecordingError: nowhere.mcap cannot be read: No such file or directory
     """
     recording = Recording(Path(path))
+    recording._renaming = renaming(prefix, keep)  # noqa: SLF001 - the other half of __init__
     try:
-        recording._scan(namespace, progress or (lambda _done, _total: None))  # noqa: SLF001 - the other half of __init__
+        recording._scan(namespace, progress or (lambda _done, _total: None))  # noqa: SLF001 - likewise
     except BaseException:
         recording.close()
         raise
@@ -171,6 +179,7 @@ class Recording:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._problems = Problems()
+        self._renaming: _core.Renaming | None = None
         self._closing = ExitStack()
         weakref.finalize(self, self._closing.close)  # for those who never close()
         self._tracks: dict[str, list[_Track]] = {}
@@ -183,7 +192,7 @@ class Recording:
         storages = open_files(self.path, self._problems, self._closing)
         total = sum(storage.size for storage in storages)
         done = 0
-        collected = tree.Transforms(self._problems, namespace)
+        collected = tree.Transforms(self._problems, namespace, self._renaming)
         for storage in storages:
             self._scan_file(storage, collected, lambda bytes_, before=done: progress(before + bytes_, total))  # type: ignore[misc]
             done += storage.size
@@ -225,6 +234,10 @@ class Recording:
         seconds = (int(received[-1]) - int(received[0])) / time.NANOSECONDS_PER_SECOND if len(received) else 0.0
         rate = (len(received) - 1) / seconds if seconds > 0 else 0.0
         return Topic(name, main.channel.type, len(received), rate, main.channel.encoding)
+
+    def frame(self, name: str) -> str:
+        """What a frame that a message names is called in the buffers: with the prefix, if it was given one."""
+        return name.removeprefix("/") if self._renaming is None else self._renaming(name)
 
     @property
     def problems(self) -> list[str]:

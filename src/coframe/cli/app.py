@@ -10,6 +10,7 @@ from coframe.cli.lookup import lookup
 from coframe.cli.new_app import new_app
 from coframe.cli.play import PlayCommand, play
 from coframe.cli.record import record
+from coframe.cli.relay import relay
 from coframe.cli.robot import robot
 from coframe.cli.static import static
 from coframe.cli.trajectory import trajectory
@@ -21,6 +22,7 @@ app = new_app()
 app.command()(demo)
 app.command()(echo)
 app.command()(view)
+app.command()(relay)
 app.command()(lookup)
 app.command()(trajectory)
 app.command()(record)

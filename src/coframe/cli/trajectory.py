@@ -11,7 +11,7 @@ import typer
 
 from coframe.bags import FORMATS, format_of, write_trajectory
 from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, instant, opened, seconds
-from coframe.cli.session import fail, session
+from coframe.cli.session import KeepOption, PrefixOption, fail, session
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -43,6 +43,8 @@ def trajectory(
     start: Annotated[str | None, typer.Option(help="From when on, as --at of coframe lookup.")] = None,
     stop: Annotated[str | None, typer.Option(help="Until when.")] = None,
     namespace: NamespaceOption = None,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
 ) -> None:
     """Write where SOURCE went, seen from TARGET, in the recording BAG.
 
@@ -53,7 +55,7 @@ def trajectory(
         fail("--rate and --stamps-of exclude each other", code=2)
     if rate is not None and not 0 < rate <= _FASTEST:
         fail(f"--rate must be above 0 and at most {_FASTEST:g} Hz, not {rate:g}", code=2)
-    with session(), opened(bag, namespace) as recording:
+    with session(), opened(bag, namespace, prefix, keep) as recording:
         limits = [None if text is None else instant("--start/--stop", text, recording) for text in (start, stop)]
         poses = _poses(recording, target, source, limits, rate, stamps_of)
         try:

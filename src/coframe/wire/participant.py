@@ -23,6 +23,7 @@ from coframe.wire.endpoints import (
 )
 from coframe.wire.graph import DdsEndpoint, Endpoint, Graph
 from coframe.wire.mismatch import MismatchWatch
+from coframe.wire.publishers import OnceEach
 from coframe.wire.qos import GRAPH_WRITER, TF, TF_STATIC_READER, QoS
 from coframe.wire.refusals import RefusalWatch
 from coframe.wire.statics import StaticTopic, StaticWriter
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 
     from coframe import Buffer
     from coframe.wire.names import Kind
+    from coframe.wire.publishers import TfPublisher
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -65,6 +67,7 @@ class Participant:
         self._graph = Graph(self._native.entity, graph_topic, self._wake)
         self._mismatches = MismatchWatch(self._graph, self._warn)
         self._refusals = RefusalWatch(self._graph, self._warn)
+        self._odd_names = OnceEach(self._warn)
         self._watchers: list[_core.Event] = []
         self._warning_callbacks: list[Callable[[str], None]] = []
         self._ending = False
@@ -134,7 +137,7 @@ class Participant:
                 self.announce()
 
     def publisher(
-        self, node: GraphNode, topic: str, message_type: type, qos: QoS, *, kind: Kind = "topic"
+        self, node: GraphNode, topic: str, message_type: type, qos: QoS, *, kind: Kind = "topic", user_data: str = ""
     ) -> Publisher:
         """A publisher of `node`.
 
@@ -145,6 +148,7 @@ class Participant:
                 (client's identifier, sequence number) between the encapsulation and the message.
             qos: what is offered.
             kind: "topic", "request" or "reply".
+            user_data: what readers can learn of it from DDS, before the first message.
 
         Raises:
             WireError: DDS refuses.
@@ -153,7 +157,9 @@ class Participant:
         name, type_name, entity = (
             self._unchecked_topic(topic, _TF_TYPE) if of_transforms else self._topic_of(topic, message_type, kind)
         )
-        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), "", of_transforms), topic)
+        native = _create(
+            lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), user_data, of_transforms), topic
+        )
         return Publisher(native, node, name, type_name, qos)
 
     def subscription(
@@ -222,6 +228,16 @@ class Participant:
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
         return Subscription(native, node, name, type_name, qos, adapts=True)
 
+    def tf_subscription(self, node: GraphNode, topic: str, qos: QoS, on_data: _core.Event) -> Subscription:
+        """A subscription of `node` to any bytes that come as TFMessage: who takes them checks them.
+
+        Raises:
+            WireError: DDS refuses.
+        """
+        name, type_name, entity = self._unchecked_topic(topic, _TF_TYPE)
+        native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
+        return Subscription(native, node, name, type_name, qos)
+
     def tf_reader(
         self,
         node: GraphNode,
@@ -231,6 +247,7 @@ class Participant:
         static: bool,
         qos: QoS | None = None,
         authority: str | None = "default_authority",
+        renaming: _core.Renaming | None = None,
     ) -> TfReader:
         """A subscription of `node` that stores transforms in `buffer` as they arrive, without Python.
 
@@ -241,6 +258,7 @@ class Participant:
             static: whether they hold for all times.
             qos: what is asked for; None: as tf2's listener.
             authority: what the buffer notes as their source; None: the name of the publishing node.
+            renaming: what the frames are called in the buffer (`coframe.frame_names.renaming`); None: as they come.
 
         Raises:
             WireError: DDS refuses.
@@ -249,10 +267,12 @@ class Participant:
         name, type_name, entity = self._unchecked_topic(topic, _TF_TYPE)
         source = initial_authority(authority)
         native = _create(
-            lambda: _core.TfReader(self._native.entity, entity, _native_qos(chosen), "", buffer, static, source),
+            lambda: _core.TfReader(
+                self._native.entity, entity, _native_qos(chosen), "", buffer, static, source, renaming
+            ),
             topic,
         )
-        reader = TfReader(native, node, name, type_name, chosen, name_writers=authority is None)
+        reader = TfReader(native, node, name, type_name, chosen, static=static, name_writers=authority is None)
         reader.name_writers(self._graph)
         self._refusals.add(reader, buffer)
         return reader
@@ -299,6 +319,14 @@ class Participant:
     def subscribers(self, topic: str, *, kind: Kind = "topic") -> list[Endpoint]:
         """Who subscribes to a topic, by its ROS name."""
         return self._describe(self._graph.readers(names.dds_topic(topic, kind)))
+
+    def tf_publishers(self, reader: TfReader) -> list[TfPublisher]:
+        """Who was heard by a reader of transforms, also who has left."""
+        return reader.publishers(self._graph)
+
+    def writers(self, topic: str) -> dict[int, DdsEndpoint]:
+        """The writers on a topic as DDS describes them, by the handles that their samples bear."""
+        return self._graph.writers(names.dds_topic(topic))
 
     def writer_node(self, handle: int) -> str | None:
         """The full name of the node that wrote a sample, such as "/talker"; None if no node has claimed it."""
@@ -379,12 +407,20 @@ class Participant:
                 if version != seen or self._mismatches.waiting:
                     self._mismatches.check(self._endpoints())
                 seen = version
-                self._refusals.check([end for end in self._endpoints() if isinstance(end, TfReader)])
+                listeners = [end for end in self._endpoints() if isinstance(end, TfReader)]
+                self._refusals.check(listeners)
+                self._tell_odd_names(listeners)
             except Exception:
                 # A callback of the user's, or an endpoint that was closed meanwhile.
                 if not self._ending:
                     _logger.exception("coframe's housekeeping of the ROS graph failed and goes on")
             self._wake.wait(_CHECK_PERIOD_NS)
+
+    def _tell_odd_names(self, listeners: list[TfReader]) -> None:
+        for listener in listeners:
+            for publisher in listener.publishers(self._graph):
+                for sentence in publisher.oddities:
+                    self._odd_names(sentence, sentence)
 
     def _graph_changed(self) -> None:
         with self._lock:
