@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "core/dump.hpp"
+#include "core/frozen.hpp"
+#include "core/ros1.hpp"
 
 namespace coframe {
 
@@ -28,8 +30,8 @@ void measure_intervals(const History::View& samples, EdgeSummary& edge) {
   edge.mean_interval = edge.interval_deviation = edge.longest_interval = 0.0;
   if (samples.is_static() || samples.size() < 2) return;
   const double count = static_cast<double>(samples.size() - 1);
-  const auto interval = [&](std::size_t i) { return static_cast<double>(samples.time(i) - samples.time(i - 1)); };
-  edge.mean_interval = static_cast<double>(samples.newest() - samples.oldest()) / count;
+  const auto interval = [&](std::size_t i) { return static_cast<double>(elapsed(samples.time(i - 1), samples.time(i))); };
+  edge.mean_interval = static_cast<double>(elapsed(samples.oldest(), samples.newest())) / count;
   double squares = 0.0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double difference = interval(i) - edge.mean_interval;
@@ -196,7 +198,8 @@ DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, 
 DecodeFailure Buffer::take_in(TransformStream& stream, const std::uint8_t* data, std::size_t size,
                               std::size_t& stored) {
   stored = 0;
-  const DecodeFailure failure = decode_tf_message(data, size, stream.decoded, stream.expected);
+  const auto decode = stream.encoding == TransformStream::Encoding::cdr ? decode_tf_message : decode_ros1_tf_message;
+  const DecodeFailure failure = decode(data, size, stream.decoded, stream.expected);
   const std::size_t transforms = stream.decoded.size();
   stream.inserted.resize(transforms);
   stream.newest = 0;
@@ -290,6 +293,15 @@ std::shared_ptr<Buffer> Buffer::snapshot() const {
   std::shared_ptr<Buffer> copy(new Buffer(tree_));
   copy->counts_ = counts_;
   return copy;
+}
+
+std::shared_ptr<Buffer> Buffer::restored(Stamp cache_length, std::span<const std::uint8_t> table,
+                                         std::span<const std::uint8_t> chunks, std::shared_ptr<const void> memory,
+                                         const char*& reason) {
+  auto buffer = std::make_shared<Buffer>(cache_length);
+  reason = restore(buffer->tree_, table, chunks, std::move(memory));
+  buffer->freeze();
+  return reason ? nullptr : buffer;
 }
 
 // A sample at the latest common time may be dropped between the choice of that time and the look at the sample; a

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 
 #include "core/batch.hpp"
 #include "core/cdr.hpp"
@@ -28,9 +29,11 @@ struct Counts {
 // One source of messages: the same publisher sends the same names in the same order, so the last ones are tried
 // first. Used by one thread at a time.
 struct TransformStream {
+  enum class Encoding : std::uint8_t { cdr, ros1 };
   // More of one message's transforms are not remembered: there may be many sources, and any of them may send much.
   static constexpr std::size_t kMaxRemembered = 1024;
   bool is_static = false;
+  Encoding encoding = Encoding::cdr;
   AuthorityId authority = 0;
   std::shared_ptr<const Renaming> renaming;  // may be null: names are taken as they are
   NameOddities odd;
@@ -88,6 +91,10 @@ class Buffer {
 
   // What is in here now, as a frozen buffer of its own; the samples are shared, not copied.
   std::shared_ptr<Buffer> snapshot() const;
+  // What was frozen into a file, used where it lies; nullptr, and `reason` says why, where the bytes are not that.
+  static std::shared_ptr<Buffer> restored(Stamp cache_length, std::span<const std::uint8_t> table,
+                                          std::span<const std::uint8_t> chunks, std::shared_ptr<const void> memory,
+                                          const char*& reason);
   // From now on nothing is taken in, nor forgotten.
   void freeze() { frozen_.store(true); }
   bool frozen() const { return frozen_.load(); }

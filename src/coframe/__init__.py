@@ -9,6 +9,7 @@ from coframe.errors import (
     DecodeError,
     ExtrapolationException,
     FrameMismatchException,
+    FrozenFileError,
     InvalidArgumentException,
     LookupException,
     PackageError,
@@ -24,6 +25,7 @@ from coframe.wire.connection import Connection, connect
 
 if TYPE_CHECKING:
     from coframe.bags import open_bag
+    from coframe.frozen import load
     from coframe.recorder import play, record
     from coframe.viewer.show import show
     from coframe.wire.relay import relay
@@ -39,6 +41,7 @@ __all__ = [
     "ExtrapolationException",
     "FrameInfo",
     "FrameMismatchException",
+    "FrozenFileError",
     "InvalidArgumentException",
     "LookupException",
     "PackageError",
@@ -52,6 +55,7 @@ __all__ = [
     "WireError",
     "__version__",
     "connect",
+    "load",
     "open_bag",
     "play",
     "record",
@@ -60,6 +64,7 @@ __all__ = [
 ]
 
 _LATE = {
+    "load": "coframe.frozen",
     "open_bag": "coframe.bags",
     "play": "coframe.recorder",
     "record": "coframe.recorder",

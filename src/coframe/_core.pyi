@@ -405,9 +405,13 @@ def ingest_slices(
     ends: Any,
     static: bool,
     authority: str,
+    encoding: str = "cdr",
     renaming: Renaming | None = None,
 ) -> tuple[int, str]:
-    """Buffer.ingest() of many parts of `data`, told by uint64 arrays: how many are damaged, and why the first is."""
+    """Buffer.ingest() of many parts of `data`, told by uint64 arrays: how many are damaged, and why the first is.
+
+    `encoding` is "cdr", or "ros1" for tf2_msgs/TFMessage and tf/tfMessage of ROS 1.
+    """
 
 class JointTree:
     """A tree of joints, and where all its links are.
@@ -562,6 +566,34 @@ class Relay:
 
     def writers(self, source: int) -> list[tuple[tuple[int, int, int, int | None, str, str, str], int, int]]:
         """What each writer of a source has sent: as TfReader.heard(), messages and transforms that were bad."""
+def frozen_parts(buffer: Buffer) -> tuple[bytes, int]:
+    """Of a frozen buffer the table that a file of it begins with, and how many chunks of samples it has."""
+
+def frozen_chunks(buffer: Buffer, first: int, count: int) -> bytes:
+    """Some of these chunks; fewer at the end."""
+
+def become_frozen(buffer: Buffer, file: Any, table: int, table_size: int, samples: int, samples_size: int) -> str:
+    """Makes a new buffer one that uses a file's bytes where they lie.
+
+    Args:
+        buffer: One that nobody uses yet.
+        file: The whole file, by the buffer protocol; held as long as it is needed.
+        table: Where the table begins.
+        table_size: How many bytes it has.
+        samples: Where the chunks of samples begin, at a multiple of 64.
+        samples_size: How many bytes they have.
+
+    Returns:
+        What is wrong with them; nothing if they are good.
+    """
+
+def samples_of(buffer: Buffer, child: str) -> tuple[bytes, bytes, bytes, list[str]]:
+    """The samples of one frame of a frozen buffer.
+
+    Returns:
+        Stamps (int64), poses (rows of 7 float64: x, y, z, qx, qy, qz, qw), which of the names each parent has (uint32),
+        these names.
+    """
 
 PUBLICATIONS: int
 SUBSCRIPTIONS: int

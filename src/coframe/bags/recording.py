@@ -20,6 +20,7 @@ from coframe.bags.header_stamps import HEAD, stamps_for
 from coframe.bags.opening import open_files
 from coframe.bags.problems import Problems
 from coframe.bags.storage import Slices
+from coframe.bags.table import edge_table
 from coframe.bags.transforms import ingest_for
 from coframe.errors import RecordingError
 from coframe.frame_names import renaming
@@ -116,7 +117,7 @@ class _Index(NamedTuple):
     """All messages of a topic in the order in which they were received: of which track, and where there."""
 
     tracks: list[_Track]
-    of_track: NDArray[np.intp]
+    of_track: NDArray[np.uint32]
     positions: NDArray[np.uint64]
     received: NDArray[np.int64]
 
@@ -372,6 +373,21 @@ class Recording:
         row = int(np.searchsorted(stamps, time.stamp_ns(stamp), side="right")) - 1
         return None if row < 0 else self._read(name, int(order[row]))
 
+    def table(self, format_: str = "arrow") -> Any:
+        """Every transform as one table, a row a sample, one edge after the other.
+
+        Args:
+            format_: ``"arrow"`` for a ``pyarrow.Table``, ``"pandas"`` for a ``DataFrame``.
+
+        Returns:
+            The columns ``stamp_ns`` (int64; 0 where static), ``parent``, ``child``, ``x``, ``y``, ``z`` (metres, told
+            in the parent), ``qx``, ``qy``, ``qz``, ``qw``, ``static``, ``topic`` (by which the edge was told of last).
+
+        Raises:
+            RecordingError: The package is not installed.
+        """
+        return edge_table(self.buffers.values(), format_)
+
     def _read(self, name: str, row: int) -> RecordedMessage | None:
         """One message; None, and a problem more, if it can no longer be read."""
         index = self._index(name)
@@ -420,11 +436,13 @@ class Recording:
     def _index(self, name: str) -> _Index:
         if name not in self._indices:
             tracks = self._tracks[name]
-            received = np.concatenate([_numbers(track.received) for track in tracks])
-            of_track = np.repeat(np.arange(len(tracks)), [len(track.received) for track in tracks])
-            positions = np.concatenate([np.array(track.positions, dtype=np.uint64) for track in tracks])
-            order = np.argsort(received, kind="stable")
-            self._indices[name] = _Index(tracks, of_track[order], positions[order], received[order])
+            received = _joined([_numbers(track.received) for track in tracks])
+            positions = _joined([np.asarray(track.positions, dtype=np.uint64) for track in tracks])
+            of_track = np.repeat(np.arange(len(tracks), dtype=np.uint32), [len(track.received) for track in tracks])
+            if not (received[1:] >= received[:-1]).all():
+                order = np.argsort(received, kind="stable")
+                received, positions, of_track = received[order], positions[order], of_track[order]
+            self._indices[name] = _Index(tracks, of_track, positions, received)
         return self._indices[name]
 
     def _name(self, topic: str) -> str:
@@ -462,4 +480,8 @@ def _head(track: _Track, position: int) -> bytes:
 
 
 def _numbers(values: array[int]) -> NDArray[np.int64]:
-    return np.array(values, dtype=np.int64)
+    return np.asarray(values, dtype=np.int64)
+
+
+def _joined(parts: list[NDArray[Any]]) -> NDArray[Any]:
+    return parts[0] if len(parts) == 1 else np.concatenate(parts)

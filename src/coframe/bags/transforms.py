@@ -38,7 +38,7 @@ class Ingest:
     """Takes messages of one channel into a buffer.
 
     Args:
-        decode: From bytes to transforms; None: the buffer reads them itself.
+        decode: From bytes to transforms; or the encoding of TFMessages, which the buffer reads itself.
         static: Valid for all time.
         authority: Who says so.
         renaming: What the frames are called in the buffer; None: as they come.
@@ -46,7 +46,7 @@ class Ingest:
 
     def __init__(
         self,
-        decode: Callable[[bytes | memoryview], Iterator[_Stamped]] | None,
+        decode: Callable[[bytes | memoryview], Iterator[_Stamped]] | str,
         static: bool,
         authority: str,
         renaming: _core.Renaming | None,
@@ -58,7 +58,7 @@ class Ingest:
 
     def names_begin_with_slash(self, messages: Slices) -> bool:
         """Whether the first parent in one of them does; of messages of ROS."""
-        if self._decode not in {None, _ros1}:
+        if not isinstance(self._decode, str):
             return False
         places = (messages.starts + np.uint64(_FIRST_PARENT))[
             messages.starts + np.uint64(_FIRST_PARENT) < messages.ends
@@ -67,9 +67,10 @@ class Ingest:
 
     def __call__(self, buffer: Buffer, messages: Slices) -> tuple[int, str]:
         """Takes messages in, each whole or not at all; how many are damaged, and what is wrong with the first."""
-        if self._decode is None:
+        if isinstance(self._decode, str):
+            slices = (messages.data, messages.starts, messages.ends)
             return _core.ingest_slices(
-                buffer, messages.data, messages.starts, messages.ends, self.static, self._authority, self._renaming
+                buffer, *slices, self.static, self._authority, self._decode, self._renaming
             )
         damaged, reason = 0, ""
         for message in messages.each():
@@ -97,27 +98,6 @@ def ingest_for(channel: Channel, renaming: _core.Renaming | None = None) -> Inge
     if kind not in _DECODINGS:
         return None
     return Ingest(_DECODINGS[kind], is_static(channel.topic), channel.topic, renaming)
-
-
-def _ros1(data: bytes | memoryview) -> Iterator[_Stamped]:
-    """tf2_msgs/TFMessage and tf/tfMessage of ROS 1."""
-    (count,) = struct.unpack_from("<I", data)
-    position = 4
-    for _ in range(count):
-        _, seconds, nanoseconds = struct.unpack_from("<III", data, position)
-        parent, position = _text(data, position + 12)
-        child, position = _text(data, position)
-        values = struct.unpack_from("<7d", data, position)
-        position += 56
-        yield _Stamped(parent, child, seconds * _SECOND + nanoseconds, values)
-
-
-def _text(data: bytes | memoryview, position: int) -> tuple[str, int]:
-    (length,) = struct.unpack_from("<I", data, position)
-    end = position + 4 + length
-    if end > len(data):
-        raise ValueError("a text is longer than the message")
-    return str(data[position + 4 : end], "utf-8"), end
 
 
 def _foxglove_cdr(data: bytes | memoryview) -> Iterator[_Stamped]:
@@ -207,13 +187,13 @@ def _varint(data: Any, position: int) -> tuple[int, int]:
     raise ValueError("an integer of more than 64 bits")
 
 
-# By encoding and type; None: the buffer decodes it. Foxglove's CDR of many transforms is laid out as a TFMessage.
-_DECODINGS: dict[tuple[str, str], Callable[[bytes | memoryview], Iterator[_Stamped]] | None] = {
-    ("cdr", "tf2_msgs/TFMessage"): None,
-    ("cdr", "foxglove_msgs/FrameTransforms"): None,
+# By encoding and type. Foxglove's CDR of many transforms is laid out as a TFMessage.
+_DECODINGS: dict[tuple[str, str], Callable[[bytes | memoryview], Iterator[_Stamped]] | str] = {
+    ("cdr", "tf2_msgs/TFMessage"): "cdr",
+    ("cdr", "foxglove_msgs/FrameTransforms"): "cdr",
     ("cdr", "foxglove_msgs/FrameTransform"): _foxglove_cdr,
-    ("ros1", "tf2_msgs/TFMessage"): _ros1,
-    ("ros1", "tf/tfMessage"): _ros1,
+    ("ros1", "tf2_msgs/TFMessage"): "ros1",
+    ("ros1", "tf/tfMessage"): "ros1",
     ("protobuf", "foxglove.FrameTransform"): _protobuf_one,
     ("protobuf", "foxglove.FrameTransforms"): _protobuf_many,
     ("json", "foxglove.FrameTransform"): _json_one,

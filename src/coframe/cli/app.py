@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from coframe.cli.bag import bag
+from coframe.cli.batch import batch
+from coframe.cli.cloud import cloud
 from coframe.cli.demo import demo
 from coframe.cli.echo import echo
 from coframe.cli.joints import joints
@@ -27,6 +29,8 @@ app.command()(lookup)
 app.command()(trajectory)
 app.command()(record)
 app.command(cls=PlayCommand)(play)
+app.command()(cloud)
+app.command()(batch)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(robot)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(joints)
 app.add_typer(bag, name="bag")

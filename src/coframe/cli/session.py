@@ -13,6 +13,7 @@ import typer
 from coframe import frame_names
 from coframe.errors import (
     DecodeError,
+    FrozenFileError,
     RecordingError,
     RobotDescriptionError,
     TransformException,
@@ -100,7 +101,7 @@ def session() -> Iterator[None]:
         pass
     except BrokenPipeError:  # the reader, `head` perhaps, has seen enough
         sys.stderr.close()
-    except (WireError, ViewerError, TransformException, DecodeError, RobotDescriptionError, RecordingError) as error:
+    except _OURS as error:
         fail(str(error), error.hint)
     finally:
         for number, handler in previous.items():
@@ -117,6 +118,16 @@ def node_errors() -> Iterator[None]:
     except (NameValidationException, ParameterException, RCLError) as error:
         fail(str(error), code=2)
 
+
+_OURS = (
+    DecodeError,
+    FrozenFileError,
+    RecordingError,
+    RobotDescriptionError,
+    TransformException,
+    ViewerError,
+    WireError,
+)
 
 # Windows has no SIGHUP.
 _ENDING = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]

@@ -135,7 +135,7 @@ class Subscriptions:
             qos = QoS(depth=_DEPTH, reliable=offer.reliable, transient_local=offer.transient_local)
             with suppress(WireError):
                 self._readers[offer] = self._participant.raw_subscription(
-                    self._node, offer.topic, offer.type, qos, on_data=self._event
+                    self._node, offer.topic, offer.type, qos, on_data=self._event, adapts=True
                 )
                 return True
         self._refused.add(offer)

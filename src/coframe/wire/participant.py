@@ -208,11 +208,16 @@ class Participant:
         return RawPublisher(native, node, name, type_name, qos)
 
     def raw_subscription(
-        self, node: GraphNode, topic: str, ros_type: str, qos: QoS, *, on_data: _core.Event | None = None
+        self,
+        node: GraphNode,
+        topic: str,
+        ros_type: str,
+        qos: QoS,
+        *,
+        on_data: _core.Event | None = None,
+        adapts: bool = False,
     ) -> Subscription:
         """A subscription of `node` to messages of any type, whose bytes nobody checks.
-
-        The caller follows what publishers offer: nobody is warned of those that offer less than this one asks for.
 
         Args:
             node: its node.
@@ -220,23 +225,14 @@ class Participant:
             ros_type: such as "sensor_msgs/msg/LaserScan"; nobody here needs to know it.
             qos: what is asked for.
             on_data: is set whenever messages arrive.
+            adapts: the caller follows what publishers offer, so that nobody is warned of those that offer less.
 
         Raises:
             WireError: DDS refuses.
         """
         name, type_name, entity = self._unchecked_topic(topic, ros_type)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
-        return Subscription(native, node, name, type_name, qos, adapts=True)
-
-    def tf_subscription(self, node: GraphNode, topic: str, qos: QoS, on_data: _core.Event) -> Subscription:
-        """A subscription of `node` to any bytes that come as TFMessage: who takes them checks them.
-
-        Raises:
-            WireError: DDS refuses.
-        """
-        name, type_name, entity = self._unchecked_topic(topic, _TF_TYPE)
-        native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
-        return Subscription(native, node, name, type_name, qos)
+        return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
     def tf_reader(
         self,

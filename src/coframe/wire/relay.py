@@ -30,6 +30,7 @@ _logger = logging.getLogger("coframe.wire")
 _NS = 1_000_000_000
 _CHECK_PERIOD_NS = _NS // 2
 _TAKE = 100
+_TF_TYPE = "tf2_msgs/msg/TFMessage"
 # The first message passes at once; those that come right behind it wait so many seconds, and go together: of many
 # robots each write, and each time that the thread wakes up, serves several.
 _PAUSE = 0.005
@@ -249,13 +250,14 @@ class Relay:
 
     def _inlet(self, topic: str, static: bool) -> _Inlet:
         qos = _STATIC_READER if static else _READER
-        return _Inlet(topic, static, self.participant.tf_subscription(self.node, topic, qos, self._event), [])
+        reader = self.participant.raw_subscription(self.node, topic, _TF_TYPE, qos, on_data=self._event)
+        return _Inlet(topic, static, reader, [])
 
     def _outlet(self, topic: str, static: bool) -> _Outlet:
         from coframe.messages.registry import find  # noqa: PLC0415 - importing coframe.wire stays cheap
 
         qos = TF_STATIC_WRITER if static else _WRITER
-        message_type = find("tf2_msgs/msg/TFMessage")
+        message_type = find(_TF_TYPE)
         publisher = self.participant.publisher(self.node, topic, message_type, qos, user_data=_MARK)
         return _Outlet(topic, _core.Relay(static, 0 if static else self._period), publisher, [])
 
