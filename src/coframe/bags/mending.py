@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.bags.as_cdr import as_cdr, transforms_of
-from coframe.bags.frame_names import FrameNames
+from coframe.bags.message_frames import FrameNames
 from coframe.bags.offered_qos import OfferedQos, from_yaml, to_yaml
 from coframe.bags.recording import open_bag
 from coframe.bags.storage import Channel
@@ -16,12 +16,13 @@ from coframe.bags.transforms import is_static
 from coframe.bags.writer import Writer
 from coframe.buffer import Buffer
 from coframe.errors import RecordingError
+from coframe.frame_names import renaming
 from coframe.messages import deserialize, find, serialize
 from coframe.messages.conversions import to_transform_stamped
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Collection
+    from collections.abc import Callable, Iterable
 
     from coframe.bags.recording import Recording
     from coframe.messages.generated.geometry_msgs.msg import TransformStamped
@@ -56,7 +57,7 @@ def mend(
     *,
     statics: str | os.PathLike[str] | None = None,
     prefix: str = "",
-    keep: Collection[str] = (),
+    keep: Iterable[str] = (),
     compression: str = "zstd",
 ) -> Mended:
     """Writes a recording anew, as far as it can be read: the old one stays as it is.
@@ -69,17 +70,19 @@ def mend(
         target: The new folder, which must not be there yet.
         statics: Another recording, whose static transforms are added as far as this one says nothing of their children.
         prefix: Is put before all names of frames, such as "robot1/".
-        keep: Names that get no prefix, such as "map".
+        keep: Names that get no prefix, such as "map"; a text is one name, or several behind commas.
         compression: ``zstd``, ``lz4`` or ``none``.
 
     Raises:
         RecordingError: Nothing can be read, or the new one cannot be written.
+        ValueError: The prefix begins with a slash.
     """
+    rename = _Renaming(prefix, keep)
     with open_bag(source) as recording:
         added = [] if statics is None else _statics_of(statics)
         found = recording.problems
         with Writer(target, compression=compression) as writer:
-            work = _Mending(recording, writer, _Renaming(prefix, frozenset(keep)))
+            work = _Mending(recording, writer, rename)
             work.run(added)
         found = list(dict.fromkeys([*found, *recording.problems]))
     with open_bag(target) as anew:
@@ -88,26 +91,19 @@ def mend(
 
 
 class _Renaming:
-    """A frame's new name."""
+    """A frame's new name: without slashes in front, and with the prefix where one is wanted."""
 
-    def __init__(self, prefix: str, keep: frozenset[str]) -> None:
-        self._prefix = prefix
-        self._keep = keep
+    def __init__(self, prefix: str, keep: Iterable[str]) -> None:
+        self._renamed = renaming(prefix, keep)
+        self.what = f"put under {prefix!r}" if prefix else "freed of '/' in front"
 
     @property
     def has_prefix(self) -> bool:
-        return bool(self._prefix)
-
-    @property
-    def what(self) -> str:
-        """What it does, in words."""
-        return f"put under {self._prefix!r}" if self._prefix else "freed of '/' in front"
+        return self._renamed is not None
 
     def __call__(self, name: str) -> str:
         bare = name.lstrip("/")
-        if not bare or bare in self._keep or (self._prefix and bare.startswith(self._prefix)):
-            return bare
-        return self._prefix + bare
+        return self._renamed(bare) if bare and self._renamed is not None else bare
 
 
 class _Route(NamedTuple):

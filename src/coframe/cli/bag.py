@@ -56,10 +56,8 @@ def fix(
     statics: Annotated[
         Path | None, typer.Option(help="A recording whose static transforms are added where BAG has none.")
     ] = None,
-    prefix: Annotated[str, typer.Option(help="Put before the names of frames, such as robot1/.", show_default="")] = "",
-    keep: Annotated[
-        list[str] | None, typer.Option(help="A frame that gets no prefix, such as map; may be repeated.")
-    ] = None,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
     compression: Annotated[str, typer.Option(help="none, zstd or lz4.")] = "zstd",
 ) -> None:
     """Write the recording BAG anew into the folder OUT, as far as it can be read, and tell what was mended.
@@ -71,7 +69,7 @@ def fix(
     if compression not in COMPRESSIONS:
         fail(f"--compression: there is no {compression!r}: it is one of {', '.join(COMPRESSIONS)}", code=2)
     with session():
-        mended = mend(bag, output, statics=statics, prefix=prefix, keep=keep or (), compression=compression)
+        mended = mend(bag, output, statics=statics, prefix=prefix, keep=keep, compression=compression)
         for title, sentences in (("found", mended.found), ("mended", mended.done), ("still odd", mended.left)):
             for sentence in sentences:
                 print(printable(f"{title}: {sentence}"))
