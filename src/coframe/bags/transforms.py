@@ -178,7 +178,8 @@ def _ros1(data: bytes | memoryview) -> Iterator[_Stamped]:
                 raise ValueError("a text is longer than the message")
             names.append(str(data[position + 4 : position + 4 + length], "utf-8"))
             position += 4 + length
-        yield _Stamped(*names, seconds * _SECOND + nanoseconds, struct.unpack_from("<7d", data, position))
+        values = struct.unpack_from("<7d", data, position)
+        yield _Stamped(names[0], names[1], seconds * _SECOND + nanoseconds, values)
         position += 56
 
 
