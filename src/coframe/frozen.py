@@ -5,8 +5,8 @@ A frozen file is little endian throughout:
     header    ``_HEADER``: what it is, where its two parts are and their checksums, padded to a page
     samples   chunks of 256 stamps (int64) and 256 records of 64 bytes (x, y, z, w of the quaternion, x, y, z of the
               translation, the parent's number); each frame begins a chunk of its own
-    table     names of authorities and frames; of each frame its kind, its counts, how many samples it has, and from when
-              to when
+    table     names of authorities and frames; of each frame its kind, its counts, how many samples it has, and from
+              when to when
 
 Opening reads the header and the table only and checks both; the samples are mapped into memory, and the system reads
 what look-ups touch. A number in there never leads outside the file, whatever it is.
