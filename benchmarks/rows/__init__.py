@@ -2,6 +2,7 @@
 
 from benchmarks.rows import (
     batch,
+    fleet,
     history,
     insertion,
     large_recordings,
@@ -21,6 +22,7 @@ ROWS = {
     "sensors": sensors.ROWS,
     "robots": robots.ROWS,
     "listener": listener.ROWS,
+    "fleet": fleet.ROWS,
     "recordings": recordings.ROWS + large_recordings.ROWS,
     "history": history.ROWS,
     "startup": startup.ROWS,

@@ -1,5 +1,6 @@
 // Recordings: many messages in one call.
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string_view.h>
 
 #include <vector>
@@ -38,12 +39,12 @@ TransformStream::Encoding encoding_of(std::string_view name) {
 
 // How many of the slices were damaged, and what is wrong with the first of these.
 nb::tuple ingest_slices(nb::handle buffer, nb::handle data, nb::handle starts, nb::handle ends, bool is_static,
-                        nb::handle authority, std::string_view encoding) {
+                        nb::handle authority, const std::optional<Renaming>& renaming, std::string_view encoding) {
   BufferObject& self = buffer_of(buffer);
   const Memory bytes(data, PyBUF_SIMPLE), first(starts, PyBUF_SIMPLE), last(ends, PyBUF_SIMPLE);
   const std::size_t count = first.size() / sizeof(std::uint64_t);
   if (first.size() != last.size()) throw nb::value_error("as many ends as starts are wanted");
-  TransformStream& stream = self.stream(is_static, self.authority(authority.ptr()), encoding_of(encoding));
+  TransformStream& stream = self.stream(is_static, self.authority(authority.ptr()), renaming, encoding_of(encoding));
   std::size_t damaged = 0;
   const char* reason = "";
   for (std::size_t i = 0; i < count; ++i) {
@@ -65,7 +66,7 @@ void define_bags(nb::module_& module) {
              "Where the messages lie among records of MCAP: channels (uint16), times, records, starts and ends (uint64) "
              "as bytes, definitions as (opcode, start, end), and how many bytes are whole records.");
   module.def("ingest_slices", &ingest_slices, arg("buffer"), arg("data"), arg("starts"), arg("ends"), arg("static"),
-             arg("authority"), arg("encoding") = "cdr",
+             arg("authority"), arg("renaming") = nb::none(), arg("encoding") = "cdr",
              "Buffer.ingest() of many parts of `data`, which uint64 arrays tell: how many are damaged, and why the first.");
 }
 

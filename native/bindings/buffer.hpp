@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -66,13 +67,17 @@ struct BufferObject {
   }
 
   using StreamKey = std::tuple<bool, TransformStream::Encoding, AuthorityId>;
-  // The source of messages by this authority.
-  TransformStream& stream(bool is_static, AuthorityId authority,
+  // The source of messages by this authority; its frames are renamed as they are when it is first asked for.
+  TransformStream& stream(bool is_static, AuthorityId authority, const std::optional<Renaming>& renaming = {},
                           TransformStream::Encoding encoding = TransformStream::Encoding::cdr) {
-    TransformStream& stream = streams[{is_static, encoding, authority}];
-    stream.is_static = is_static;
-    stream.encoding = encoding;
-    stream.authority = authority;
+    const auto [found, is_new] = streams.try_emplace({is_static, encoding, authority});
+    TransformStream& stream = found->second;
+    if (is_new) {
+      stream.is_static = is_static;
+      stream.encoding = encoding;
+      stream.authority = authority;
+      if (renaming) stream.renaming = std::make_shared<const Renaming>(*renaming);
+    }
     return stream;
   }
 

@@ -14,6 +14,7 @@ NB_MODULE(_core, module) {
   define_messages(module);
   define_poses(module);
   define_frozen(module);
+  define_relay(module);
   define_event(module);
   define_robots(module);
   define_sensors(module);

@@ -171,10 +171,12 @@ AuthorityId Buffer::authority(std::string_view name) {
   return tree_.authority(name);
 }
 
-TransformStream Buffer::open_stream(bool is_static, std::string_view authority) {
+TransformStream Buffer::open_stream(bool is_static, std::string_view authority,
+                                    std::shared_ptr<const Renaming> renaming) {
   const std::lock_guard lock(writing_);
   TransformStream stream;
   stream.is_static = is_static;
+  stream.renaming = std::move(renaming);
   stream.authority = tree_.authority(authority);
   return stream;
 }
@@ -200,6 +202,8 @@ DecodeFailure Buffer::take_in(TransformStream& stream, const std::uint8_t* data,
   const DecodeFailure failure = decode(data, size, stream.decoded, stream.expected);
   const std::size_t transforms = stream.decoded.size();
   stream.inserted.resize(transforms);
+  stream.newest = 0;
+  for (const TransformView& view : stream.decoded) stream.newest = std::max(stream.newest, view.stamp);
   {
     const std::lock_guard lock(writing_);
     ++counts_.messages;
@@ -235,12 +239,21 @@ void Buffer::store(TransformStream& stream, std::size_t index, const TransformVi
 
 Inserted Buffer::store_unexpected(TransformStream& stream, std::size_t index, const TransformView& view) {
   if (!is_utf8(view.parent) || !is_utf8(view.child)) return {.refusals = kNoChildFrame};
-  const Inserted inserted =
-      tree_.insert(view.parent, view.child, view.stamp, view.values, stream.is_static, stream.authority);
+  static const Renaming none;
+  const Renaming& renaming = stream.renaming ? *stream.renaming : none;
+  stream.odd.note(renaming, view.parent);
+  stream.odd.note(renaming, view.child);
+  if (!stream.renaming) return store_named(stream, index, view, view.parent, view.child);
+  return store_named(stream, index, view, renaming(view.parent), renaming(view.child));
+}
+
+Inserted Buffer::store_named(TransformStream& stream, std::size_t index, const TransformView& view,
+                             std::string_view parent, std::string_view child) {
+  const Inserted inserted = tree_.insert(parent, child, view.stamp, view.values, stream.is_static, stream.authority);
   if (inserted.refusals == 0 && index < TransformStream::kMaxRemembered) {
     if (stream.expected.size() <= index) stream.expected.resize(index + 1);
-    stream.expected[index] = {std::string(view.name_bytes), tree_.find(without_slash(view.parent)),
-                              tree_.find(without_slash(view.child))};
+    stream.expected[index] = {std::string(view.name_bytes), tree_.find(without_slash(parent)),
+                              tree_.find(without_slash(child))};
   }
   return inserted;
 }

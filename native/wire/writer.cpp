@@ -19,9 +19,18 @@ void Writer::write(const void* data, std::size_t size) const {
   dds::check(unchecked_ ? write_unchecked(data, size) : dds::functions().dds_write(entity_, &sample), "write");
 }
 
+void Writer::forward(const void* data, std::size_t size) const {
+  if (size < 4) throw std::invalid_argument("a serialised message begins with 4 bytes of encapsulation");
+  dds::check(send(data, size), "write");
+}
+
 dds::Code Writer::write_unchecked(const void* data, std::size_t size) const {
-  const dds::Functions& f = dds::functions();
   if (check_tf_message(static_cast<const std::uint8_t*>(data), size).reason) return dds::kBadParameter;
+  return send(data, size);
+}
+
+dds::Code Writer::send(const void* data, std::size_t size) const {
+  const dds::Functions& f = dds::functions();
   const std::lock_guard lock(closing_);
   const dds::Sertype* type;
   if (const dds::Code code = f.dds_get_entity_sertype(entity_, &type); code < 0) return code;

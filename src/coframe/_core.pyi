@@ -399,7 +399,14 @@ def mcap_records(data: Any) -> tuple[bytes, bytes, bytes, bytes, bytes, list[tup
     """
 
 def ingest_slices(
-    buffer: Buffer, data: Any, starts: Any, ends: Any, static: bool, authority: str, encoding: str = "cdr"
+    buffer: Buffer,
+    data: Any,
+    starts: Any,
+    ends: Any,
+    static: bool,
+    authority: str,
+    renaming: Renaming | None = None,
+    encoding: str = "cdr",
 ) -> tuple[int, str]:
     """Buffer.ingest() of many parts of `data`, told by uint64 arrays: how many are damaged, and why the first is.
 
@@ -545,6 +552,50 @@ def samples_of(buffer: Buffer, child: str) -> tuple[bytes, bytes, bytes, list[st
         these names.
     """
 
+class Renaming:
+    """Puts a prefix in front of the names of frames, except of those to keep."""
+
+    def __init__(self, prefix: str, keep: Sequence[str]) -> None: ...
+    def __call__(self, name: str) -> str:
+        """The name among those of others."""
+
+class Relay:
+    """TFMessages of several sources into those of one tree. Not for several threads at once."""
+
+    def __init__(self, static: bool, period: int) -> None:
+        """With `static`, what is written is always all; else of each edge one transform in `period` nanoseconds."""
+
+    def add_source(self, renaming: Renaming, split: bool) -> int:
+        """The number of another source. With `split` only what has the prefix or is kept passes, without the prefix."""
+
+    def add(self, source: int, writer: int, message: bytes, at: int = -1) -> None:
+        """Takes a message in that came from a writer of a source.
+
+        Args:
+            source: Its number.
+            writer: Any number for the writer.
+            message: A TFMessage's CDR; what is malformed is counted.
+            at: When it came, in nanoseconds of a clock that never goes back; negative: now, by the steady clock.
+        """
+
+    def take(self) -> bytes | None:
+        """One message of what was taken in since the last one, or None."""
+
+    def forget_writer(self, source: int, writer: int) -> None:
+        """The writer has left."""
+
+    def edges(self) -> list[tuple[str, str, int, int, int | None, int, int, int, int, int]]:
+        """What is known of each edge.
+
+        Returns:
+            Parent and child as they are written; the source that is listened to, and the writer of its last message; a
+            source that tells something else, or None, and how often that was; how many transforms were passed on, and
+            how many left out for the rate; the newest stamp; when it was heard of last.
+        """
+
+    def writers(self, source: int) -> list[tuple[tuple[int, int, int, int | None, str, str, str], int, int]]:
+        """What each writer of a source has sent: as TfReader.heard(), messages and transforms that were bad."""
+
 PUBLICATIONS: int
 SUBSCRIPTIONS: int
 
@@ -583,6 +634,9 @@ class Writer:
     ) -> None: ...
     def write(self, message: bytes) -> None:
         """Sends one serialised message, without the GIL."""
+
+    def forward(self, message: bytes) -> None:
+        """The same on an unchecked topic for a message of any type, whose bytes nobody looks at."""
 
     @property
     def guid(self) -> bytes: ...
@@ -640,7 +694,17 @@ class TfReader:
         buffer: Buffer,
         is_static: bool,
         authority: str,
+        renaming: Renaming | None = None,
     ) -> None: ...
+    def heard(self) -> list[tuple[int, int, int, int | None, str, str, str]]:
+        """What each writer has sent.
+
+        Returns:
+            The writer's handle; how many messages; when the last one came, in nanoseconds of the steady clock; by how
+            much its stamps were behind the system clock, the lower quartile of its last messages, or None; examples of
+            names that begin with a slash, have the prefix already, and have not.
+        """
+
     def forget_writer(self, writer: int) -> None:
         """The writer with this handle has left."""
 
@@ -671,7 +735,7 @@ class EndpointReader:
     """What DDS discovery tells about writers (PUBLICATIONS) or readers (SUBSCRIPTIONS)."""
 
     def __init__(self, participant: int, topic: int, on_change: Event) -> None: ...
-    def take(self) -> list[tuple[int, bool, bytes, bytes, str, str, tuple[int, bool, bool, bool]]]:
-        """The changes: (handle, alive, guid, guid of the participant, topic, type, the four policies of its QoS)."""
+    def take(self) -> list[tuple[int, bool, bytes, bytes, str, str, tuple[int, bool, bool, bool], bytes]]:
+        """The changes: (handle, alive, guid, participant's guid, topic, type, four policies of its QoS, user data)."""
 
     def close(self) -> None: ...

@@ -1,4 +1,5 @@
-// TFMessages as bytes, most of them damaged, taken in by one buffer, for a sanitizer to watch. The same every time.
+// TFMessages as bytes, most of them damaged, taken in by a buffer and by relays, for a sanitizer to watch. The same every
+// time.
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 
 #include "core/buffer.hpp"
 #include "core/dump.hpp"
+#include "core/relay.hpp"
 
 namespace {
 
@@ -63,9 +65,14 @@ class Message {
 class Fuzzer {
  public:
   Fuzzer() : rng_(20) {
-    for (int i = 0; i < 8; ++i) {
-      streams_.push_back(buffer_.open_stream(i % 2 == 0, "fuzzer"));
+    const auto renaming = std::make_shared<const Renaming>("frame1", std::vector<std::string>{"frame2"});
+    for (int i = 0; i < 2 * kCdrStreams; ++i) {
+      streams_.push_back(buffer_.open_stream(i % 2 == 0, "fuzzer", i % kCdrStreams < 2 ? nullptr : renaming));
       if (i >= kCdrStreams) streams_.back().encoding = TransformStream::Encoding::ros1;
+    }
+    for (Relay& relay : relays_) {
+      relay.add_source(*renaming, Relay::Direction::merge);
+      relay.add_source(*renaming, Relay::Direction::split);
     }
   }
 
@@ -77,6 +84,7 @@ class Fuzzer {
       const bool damaged = rng_() % 4 != 0;
       for (unsigned n = damaged ? 1 + rng_() % 4 : 0; n > 0; --n) damage(bytes);
       take_in(kind, bytes, transforms, damaged);
+      relay(bytes);
       if (i % 16 == 0) ask();
       if (i % 5000 == 0) buffer_.clear();
     }
@@ -167,6 +175,24 @@ class Fuzzer {
     }
   }
 
+  void relay(const Bytes& bytes) {
+    const std::unique_ptr<std::uint8_t[]> exact(new std::uint8_t[bytes.size()]);
+    std::copy(bytes.begin(), bytes.end(), exact.get());
+    Relay& relay = relays_[rng_() % relays_.size()];
+    now_ += static_cast<std::int64_t>(rng_() % 10'000'000);
+    relay.add(rng_() % 2, rng_() % 1500, exact.get(), bytes.size(), now_, now_);
+    if (rng_() % 2 == 0) return;
+    const std::string passed = relay.take();
+    if (passed.empty()) return;
+    std::vector<TransformView> views;
+    const auto* data = reinterpret_cast<const std::uint8_t*>(passed.data());
+    expect(!decode_tf_message(data, passed.size(), views).reason, "a relay's message is not good");
+    for (const TransformView& view : views) {
+      expect(check_names(view.parent, view.child) == 0 && check_values(view.values) == 0 && is_utf8(view.child),
+             "a relay passes on what a buffer refuses");
+    }
+  }
+
   void ask() {
     const std::vector<std::string> names = buffer_.frame_names();
     if (names.empty()) return;
@@ -188,6 +214,8 @@ class Fuzzer {
   std::mt19937 rng_;
   Buffer buffer_{10'000'000'000};
   std::vector<TransformStream> streams_;
+  std::array<Relay, 3> relays_{Relay(false, 0), Relay(false, 50'000'000), Relay(true, 0)};
+  std::int64_t now_ = 0;
 };
 
 }  // namespace

@@ -23,14 +23,16 @@ from coframe.bags.storage import Slices
 from coframe.bags.table import edge_table
 from coframe.bags.transforms import ingest_for
 from coframe.errors import RecordingError
+from coframe.frame_names import renaming
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from numpy.typing import NDArray
     from typing_extensions import Self
 
+    from coframe import _core
     from coframe.bags.header_stamps import StampPlace
     from coframe.bags.storage import Channel, Storage
     from coframe.buffer import Buffer
@@ -124,6 +126,8 @@ def open_bag(
     path: str | os.PathLike[str],
     *,
     namespace: str | None = None,
+    prefix: str = "",
+    keep: Iterable[str] = (),
     progress: Callable[[int, int], object] | None = None,
 ) -> Recording:
     """Reads a recording: rosbag2 (MCAP or SQLite, any compression), a bag of ROS 1, or MCAP with Foxglove's transforms.
@@ -131,6 +135,8 @@ def open_bag(
     Args:
         path: A file, or a folder of rosbag2, with or without its metadata.
         namespace: Only transforms of this one, such as ``/robot1`` for ``/robot1/tf``; None: all.
+        prefix: Goes in front of the names of frames in the buffers, as it is: ``robot1/`` makes ``robot1/base_link``.
+        keep: The frames that get no prefix, as they are shared: ``["map"]``.
         progress: Called now and then with the bytes that are read and the bytes that there are.
 
     Returns:
@@ -138,6 +144,7 @@ def open_bag(
 
     Raises:
         RecordingError: Nothing of it can be read.
+        ValueError: The prefix begins with a slash.
 
     Example:
         >>> import coframe
@@ -146,8 +153,9 @@ def open_bag(
         coframe.errors.RecordingError: nowhere.mcap cannot be read: No such file or directory
     """
     recording = Recording(Path(path))
+    recording._renaming = renaming(prefix, keep)  # noqa: SLF001 - the other half of __init__
     try:
-        recording._scan(namespace, progress or (lambda _done, _total: None))  # noqa: SLF001 - the other half of __init__
+        recording._scan(namespace, progress or (lambda _done, _total: None))  # noqa: SLF001 - likewise
     except BaseException:
         recording.close()
         raise
@@ -172,6 +180,7 @@ class Recording:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._problems = Problems()
+        self._renaming: _core.Renaming | None = None
         self._closing = ExitStack()
         weakref.finalize(self, self._closing.close)  # for those who never close()
         self._tracks: dict[str, list[_Track]] = {}
@@ -184,7 +193,7 @@ class Recording:
         storages = open_files(self.path, self._problems, self._closing)
         total = sum(storage.size for storage in storages)
         done = 0
-        collected = tree.Transforms(self._problems, namespace)
+        collected = tree.Transforms(self._problems, namespace, self._renaming)
         for storage in storages:
             self._scan_file(storage, collected, lambda bytes_, before=done: progress(before + bytes_, total))  # type: ignore[misc]
             done += storage.size
@@ -226,6 +235,10 @@ class Recording:
         seconds = (int(received[-1]) - int(received[0])) / time.NANOSECONDS_PER_SECOND if len(received) else 0.0
         rate = (len(received) - 1) / seconds if seconds > 0 else 0.0
         return Topic(name, main.channel.type, len(received), rate, main.channel.encoding)
+
+    def frame(self, name: str) -> str:
+        """What a frame that a message names is called in the buffers: with the prefix, if it was given one."""
+        return name.removeprefix("/") if self._renaming is None else self._renaming(name)
 
     @property
     def problems(self) -> list[str]:
@@ -277,6 +290,42 @@ class Recording:
         if stop is not None:
             chosen &= stamps < time.stamp_ns(stop)
         return self._read_all(name, np.flatnonzero(chosen))
+
+    def channels(self) -> list[Channel]:
+        """What was recorded on which topic, as the files say: one for each file, topic and type."""
+        return [track.channel for tracks in self._tracks.values() for track in tracks]
+
+    def in_order(
+        self, topics: Iterable[str] | None = None, start: int | None = None, stop: int | None = None
+    ) -> Iterator[tuple[Channel, int, bytes]]:
+        """The messages of several topics as they were received: (channel, time of receipt in nanoseconds, bytes).
+
+        Args:
+            topics: Their names; None: all.
+            start: Only those received at or after this, in nanoseconds.
+            stop: Only those received before this.
+
+        Raises:
+            RecordingError: There is no such topic.
+        """
+        tracks = [
+            track
+            for name in (self._tracks if topics is None else map(self._name, topics))
+            for track in self._tracks[name]
+        ]
+        if not tracks:
+            return
+        received = np.concatenate([_numbers(track.received) for track in tracks])
+        positions = np.concatenate([np.array(track.positions, dtype=np.uint64) for track in tracks])
+        of_track = np.repeat(np.arange(len(tracks)), [len(track.received) for track in tracks])
+        order = np.argsort(received, kind="stable")
+        first = 0 if start is None else int(np.searchsorted(received[order], start))
+        last = len(order) if stop is None else int(np.searchsorted(received[order], stop))
+        for row in order[first:last]:
+            track = tracks[of_track[row]]
+            data = self._bytes(track, int(positions[row]))
+            if data is not None:
+                yield track.channel, int(received[row]), data
 
     def _read_all(self, name: str, rows: NDArray[np.intp]) -> Iterator[RecordedMessage]:
         for row in rows.tolist():
@@ -343,16 +392,21 @@ class Recording:
         """One message; None, and a problem more, if it can no longer be read."""
         index = self._index(name)
         track = index.tracks[index.of_track[row]]
-        try:
-            data = track.storage.read(int(index.positions[row]))
-        except (DamagedError, OSError) as error:
-            track.storage.problem(f"a message on {name} cannot be read again: {error}")
+        data = self._bytes(track, int(index.positions[row]))
+        if data is None:
             return None
         key = id(track.channel)
         if key not in self._decoders:
             self._decoders[key] = decoder(track.channel, self._problems)
         stamp, received = int(self.stamps(name)[row]), int(index.received[row])
         return RecordedMessage(name, track.channel.type, stamp, received, data, self._decoders[key])
+
+    def _bytes(self, track: _Track, position: int) -> bytes | None:
+        try:
+            return track.storage.read(position)
+        except (DamagedError, OSError) as error:
+            track.storage.problem(f"a message on {track.channel.topic} cannot be read again: {error}")
+            return None
 
     def _track_stamps(self, track: _Track) -> NDArray[np.int64]:
         received = _numbers(track.received)

@@ -41,14 +41,20 @@ class Ingest:
         decode: From bytes to transforms; or the encoding of TFMessages, which the buffer reads itself.
         static: Valid for all time.
         authority: Who says so.
+        renaming: What the frames are called in the buffer; None: as they come.
     """
 
     def __init__(
-        self, decode: Callable[[bytes | memoryview], Iterator[_Stamped]] | str, static: bool, authority: str
+        self,
+        decode: Callable[[bytes | memoryview], Iterator[_Stamped]] | str,
+        static: bool,
+        authority: str,
+        renaming: _core.Renaming | None,
     ) -> None:
         self._decode = decode
         self.static = static
         self._authority = authority
+        self._renaming = renaming
 
     def names_begin_with_slash(self, messages: Slices) -> bool:
         """Whether the first parent in one of them does; of messages of ROS."""
@@ -63,7 +69,7 @@ class Ingest:
         """Takes messages in, each whole or not at all; how many are damaged, and what is wrong with the first."""
         if isinstance(self._decode, str):
             slices = (messages.data, messages.starts, messages.ends)
-            return _core.ingest_slices(buffer, *slices, self.static, self._authority, self._decode)
+            return _core.ingest_slices(buffer, *slices, self.static, self._authority, self._renaming, self._decode)
         damaged, reason = 0, ""
         for message in messages.each():
             try:
@@ -74,9 +80,9 @@ class Ingest:
         return damaged, reason
 
     def _set(self, buffer: Buffer, transform: _Stamped) -> None:
-        buffer.set_values(
-            transform.parent, transform.child, transform.stamp, *transform.values, self.static, self._authority
-        )
+        names = (transform.parent, transform.child)
+        parent, child = names if self._renaming is None else map(self._renaming, names)
+        buffer.set_values(parent, child, transform.stamp, *transform.values, self.static, self._authority)
 
 
 def is_static(topic: str) -> bool:
@@ -84,12 +90,12 @@ def is_static(topic: str) -> bool:
     return topic.rpartition("/")[2] == "tf_static"
 
 
-def ingest_for(channel: Channel) -> Ingest | None:
+def ingest_for(channel: Channel, renaming: _core.Renaming | None = None) -> Ingest | None:
     """What takes in a channel's messages; None if they are no transforms."""
     kind = (channel.encoding, channel.type.replace("/msg/", "/"))
     if kind not in _DECODINGS:
         return None
-    return Ingest(_DECODINGS[kind], is_static(channel.topic), channel.topic)
+    return Ingest(_DECODINGS[kind], is_static(channel.topic), channel.topic, renaming)
 
 
 def _foxglove_cdr(data: bytes | memoryview) -> Iterator[_Stamped]:

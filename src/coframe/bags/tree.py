@@ -10,6 +10,7 @@ from coframe.buffer import Buffer
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from coframe import _core
     from coframe.bags.problems import Problems
     from coframe.bags.storage import Channel, Slices
     from coframe.buffer import EdgeInfo
@@ -51,9 +52,11 @@ class Transforms:
     Args:
         problems: Gets what is damaged or odd.
         namespace: Only topics in this one; None: all.
+        renaming: What the frames are called in the buffers; None: as they come.
     """
 
-    def __init__(self, problems: Problems, namespace: str | None) -> None:
+    def __init__(self, problems: Problems, namespace: str | None, renaming: _core.Renaming | None = None) -> None:
+        self._renaming = renaming
         self._problems = problems
         self._namespace = None if namespace is None else _bare(namespace)
         self._trees: dict[str, _Tree] = {}
@@ -61,7 +64,7 @@ class Transforms:
     def ingest(self, channel: Channel) -> Callable[[Slices], None] | None:
         """What takes in a channel's messages; None if they are no transforms, or not wanted."""
         namespace = _namespace(channel.topic)
-        take = ingest_for(channel)
+        take = ingest_for(channel, self._renaming)
         if take is None or self._namespace not in {None, namespace}:
             return None
         tree = self._trees.setdefault(namespace, _Tree())
@@ -108,7 +111,7 @@ class Transforms:
     def _merged(self, messages: Iterable[tuple[Channel, Slices]]) -> Buffer:
         tree = _Tree()
         for channel, slices in messages:
-            take = ingest_for(channel)
+            take = ingest_for(channel, self._renaming)
             if take is not None and self._namespace in {None, _namespace(channel.topic)}:
                 take(tree.static if take.static else tree.moving, slices)
         return tree.joined(self._problems)

@@ -10,6 +10,9 @@ from coframe.cli.echo import echo
 from coframe.cli.joints import joints
 from coframe.cli.lookup import lookup
 from coframe.cli.new_app import new_app
+from coframe.cli.play import PlayCommand, play
+from coframe.cli.record import record
+from coframe.cli.relay import relay
 from coframe.cli.robot import robot
 from coframe.cli.static import static
 from coframe.cli.trajectory import trajectory
@@ -21,10 +24,13 @@ app = new_app()
 app.command()(demo)
 app.command()(echo)
 app.command()(view)
+app.command()(relay)
 app.command()(lookup)
 app.command()(trajectory)
 app.command()(cloud)
 app.command()(batch)
+app.command()(record)
+app.command(cls=PlayCommand)(play)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(robot)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(joints)
 app.add_typer(bag, name="bag")

@@ -54,7 +54,7 @@ def cloud(
         fail(f"--voxel must be above 0 m, not {voxel:g}", code=2)
     if at is not None and (start is not None or stop is not None):
         fail("--at excludes --start and --stop", code=2)
-    with session(), opened(bag, namespace) as recording:
+    with session(), opened(bag, namespace, "", "") as recording:
         when = {"at": at, "start": start, "stop": stop}
         clouds = Clouds(
             recording,

@@ -30,13 +30,19 @@ NamespaceOption = Annotated[
 
 
 @contextmanager
-def opened(path: Path, namespace: str | None = None) -> Iterator[Recording]:
+def opened(path: Path, namespace: str | None, prefix: str, keep: str) -> Iterator[Recording]:
     """The recording, read with a progress bar if that takes long; what could not be read goes to stderr."""
     console = Console(stderr=True)
     columns = (TextColumn("reading"), BarColumn(), DownloadColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("reading", total=None)
-        recording = open_bag(path, namespace=namespace, progress=lambda d, t: bar.update(task, completed=d, total=t))
+        recording = open_bag(
+            path,
+            namespace=namespace,
+            prefix=prefix,
+            keep=keep,
+            progress=lambda d, t: bar.update(task, completed=d, total=t),
+        )
     with recording:
         told = recording.problems
         for problem in told:

@@ -10,7 +10,7 @@ import typer
 
 from coframe.bags import FORMATS, Question, format_of, write_trajectory
 from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, seconds
-from coframe.cli.session import fail, session
+from coframe.cli.session import KeepOption, PrefixOption, fail, session
 
 __all__ = ["trajectory"]
 
@@ -34,6 +34,8 @@ def trajectory(
     start: Annotated[str | None, typer.Option(help="From when on, as --at of coframe lookup.")] = None,
     stop: Annotated[str | None, typer.Option(help="Until when.")] = None,
     namespace: NamespaceOption = None,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
 ) -> None:
     """Write where SOURCE went, seen from TARGET, in the recording BAG.
 
@@ -44,7 +46,7 @@ def trajectory(
         question = Question(target, source, rate, stamps_of, start, stop)
     except ValueError as error:
         fail(str(error), code=2)
-    with session(), opened(bag, namespace) as recording:
+    with session(), opened(bag, namespace, prefix, keep) as recording:
         for text in filter(None, (start, stop)):
             instant("--start/--stop", text, recording)
         poses, missing = question.ask(recording)

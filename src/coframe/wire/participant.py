@@ -12,9 +12,18 @@ from coframe import _core
 from coframe.errors import WireError
 from coframe.wire import config, dds, names, types
 from coframe.wire.discovery_info import MAX_NAME, TOPIC, encode_info, gid_size
-from coframe.wire.endpoints import GraphNode, Publisher, Subscription, TfReader, WireEndpoint, initial_authority
+from coframe.wire.endpoints import (
+    GraphNode,
+    Publisher,
+    RawPublisher,
+    Subscription,
+    TfReader,
+    WireEndpoint,
+    initial_authority,
+)
 from coframe.wire.graph import DdsEndpoint, Endpoint, Graph
 from coframe.wire.mismatch import MismatchWatch
+from coframe.wire.publishers import OnceEach
 from coframe.wire.qos import GRAPH_WRITER, TF, TF_STATIC_READER, QoS
 from coframe.wire.refusals import RefusalWatch
 from coframe.wire.statics import StaticTopic, StaticWriter
@@ -24,6 +33,7 @@ if TYPE_CHECKING:
 
     from coframe import Buffer
     from coframe.wire.names import Kind
+    from coframe.wire.publishers import TfPublisher
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -46,7 +56,7 @@ class Participant:
         self._native = dds.join(domain_id, config.cyclone_config(), _ENCLAVE)
         self._lock = threading.RLock()
         self._topics: dict[tuple[str, str], int] = {}
-        self._tf_topics: dict[str, int] = {}
+        self._unchecked_topics: dict[tuple[str, str], int] = {}
         self._nodes: list[GraphNode] = []
         self._statics: dict[str, StaticTopic] = {}
         self._gid_size = gid_size(os.environ)
@@ -57,6 +67,7 @@ class Participant:
         self._graph = Graph(self._native.entity, graph_topic, self._wake)
         self._mismatches = MismatchWatch(self._graph, self._warn)
         self._refusals = RefusalWatch(self._graph, self._warn)
+        self._odd_names = OnceEach(self._warn)
         self._watchers: list[_core.Event] = []
         self._warning_callbacks: list[Callable[[str], None]] = []
         self._ending = False
@@ -126,7 +137,7 @@ class Participant:
                 self.announce()
 
     def publisher(
-        self, node: GraphNode, topic: str, message_type: type, qos: QoS, *, kind: Kind = "topic"
+        self, node: GraphNode, topic: str, message_type: type, qos: QoS, *, kind: Kind = "topic", user_data: str = ""
     ) -> Publisher:
         """A publisher of `node`.
 
@@ -137,13 +148,18 @@ class Participant:
                 (client's identifier, sequence number) between the encapsulation and the message.
             qos: what is offered.
             kind: "topic", "request" or "reply".
+            user_data: what readers can learn of it from DDS, before the first message.
 
         Raises:
             WireError: DDS refuses.
         """
         of_transforms = types.ros_type(message_type) == _TF_TYPE
-        name, type_name, entity = self._tf_topic(topic) if of_transforms else self._topic_of(topic, message_type, kind)
-        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), "", of_transforms), topic)
+        name, type_name, entity = (
+            self._unchecked_topic(topic, _TF_TYPE) if of_transforms else self._topic_of(topic, message_type, kind)
+        )
+        native = _create(
+            lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), user_data, of_transforms), topic
+        )
         return Publisher(native, node, name, type_name, qos)
 
     def subscription(
@@ -175,6 +191,49 @@ class Participant:
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
         return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
+    def raw_publisher(self, node: GraphNode, topic: str, ros_type: str, qos: QoS) -> RawPublisher:
+        """A publisher of `node` for messages of any type, whose bytes it passes on as they are.
+
+        Args:
+            node: its node.
+            topic: fully qualified: "/scan".
+            ros_type: such as "sensor_msgs/msg/LaserScan"; nobody here needs to know it.
+            qos: what is offered.
+
+        Raises:
+            WireError: DDS refuses.
+        """
+        name, type_name, entity = self._unchecked_topic(topic, ros_type)
+        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), "", True), topic)
+        return RawPublisher(native, node, name, type_name, qos)
+
+    def raw_subscription(
+        self,
+        node: GraphNode,
+        topic: str,
+        ros_type: str,
+        qos: QoS,
+        *,
+        on_data: _core.Event | None = None,
+        adapts: bool = False,
+    ) -> Subscription:
+        """A subscription of `node` to messages of any type, whose bytes nobody checks.
+
+        Args:
+            node: its node.
+            topic: fully qualified: "/scan".
+            ros_type: such as "sensor_msgs/msg/LaserScan"; nobody here needs to know it.
+            qos: what is asked for.
+            on_data: is set whenever messages arrive.
+            adapts: the caller follows what publishers offer, so that nobody is warned of those that offer less.
+
+        Raises:
+            WireError: DDS refuses.
+        """
+        name, type_name, entity = self._unchecked_topic(topic, ros_type)
+        native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
+        return Subscription(native, node, name, type_name, qos, adapts=adapts)
+
     def tf_reader(
         self,
         node: GraphNode,
@@ -184,6 +243,7 @@ class Participant:
         static: bool,
         qos: QoS | None = None,
         authority: str | None = "default_authority",
+        renaming: _core.Renaming | None = None,
     ) -> TfReader:
         """A subscription of `node` that stores transforms in `buffer` as they arrive, without Python.
 
@@ -194,18 +254,21 @@ class Participant:
             static: whether they hold for all times.
             qos: what is asked for; None: as tf2's listener.
             authority: what the buffer notes as their source; None: the name of the publishing node.
+            renaming: what the frames are called in the buffer (`coframe.frame_names.renaming`); None: as they come.
 
         Raises:
             WireError: DDS refuses.
         """
         chosen = qos or (TF_STATIC_READER if static else TF)
-        name, type_name, entity = self._tf_topic(topic)
+        name, type_name, entity = self._unchecked_topic(topic, _TF_TYPE)
         source = initial_authority(authority)
         native = _create(
-            lambda: _core.TfReader(self._native.entity, entity, _native_qos(chosen), "", buffer, static, source),
+            lambda: _core.TfReader(
+                self._native.entity, entity, _native_qos(chosen), "", buffer, static, source, renaming
+            ),
             topic,
         )
-        reader = TfReader(native, node, name, type_name, chosen, name_writers=authority is None)
+        reader = TfReader(native, node, name, type_name, chosen, static=static, name_writers=authority is None)
         reader.name_writers(self._graph)
         self._refusals.add(reader, buffer)
         return reader
@@ -240,9 +303,26 @@ class Participant:
         """Who publishes on a topic, by its ROS name."""
         return self._describe(self._graph.writers(names.dds_topic(topic, kind)))
 
+    def published(self) -> dict[str, dict[int, Endpoint]]:
+        """All topics that somebody publishes on, by their ROS names; the publishers by their handles, as of samples."""
+        self._graph.refresh()
+        found = {}
+        for name, writers in self._graph.by_topic(writers=True).items():
+            if (topic := names.ros_topic(name)) is not None:
+                found[topic] = {handle: self._graph.describe(writer) for handle, writer in writers.items()}
+        return found
+
     def subscribers(self, topic: str, *, kind: Kind = "topic") -> list[Endpoint]:
         """Who subscribes to a topic, by its ROS name."""
         return self._describe(self._graph.readers(names.dds_topic(topic, kind)))
+
+    def tf_publishers(self, reader: TfReader) -> list[TfPublisher]:
+        """Who was heard by a reader of transforms, also who has left."""
+        return reader.publishers(self._graph)
+
+    def writers(self, topic: str) -> dict[int, DdsEndpoint]:
+        """The writers on a topic as DDS describes them, by the handles that their samples bear."""
+        return self._graph.writers(names.dds_topic(topic))
 
     def writer_node(self, handle: int) -> str | None:
         """The full name of the node that wrote a sample, such as "/talker"; None if no node has claimed it."""
@@ -291,13 +371,14 @@ class Participant:
                 self._topics[key] = types.create_topic(self._native.entity, name, data_type)
             return self._topics[key]
 
-    def _tf_topic(self, topic: str) -> tuple[str, str, int]:
-        """As `_topic_of`, for transforms: the native endpoints check the bytes, and readers count what is malformed."""
-        name, type_name = names.dds_topic(topic), names.dds_type(_TF_TYPE)
+    def _unchecked_topic(self, topic: str, ros_type: str) -> tuple[str, str, int]:
+        """As `_topic_of`, for those who check the bytes themselves, or only pass them on."""
+        name, type_name = names.dds_topic(topic), names.dds_type(ros_type)
         with self._lock:
-            if name not in self._tf_topics:
-                self._tf_topics[name] = types.create_unchecked_topic(self._native.entity, name, type_name)
-            return name, type_name, self._tf_topics[name]
+            if (name, type_name) not in self._unchecked_topics:
+                entity = types.create_unchecked_topic(self._native.entity, name, type_name)
+                self._unchecked_topics[name, type_name] = entity
+            return name, type_name, self._unchecked_topics[name, type_name]
 
     def _describe(self, endpoints: dict[int, DdsEndpoint]) -> list[Endpoint]:
         return [self._graph.describe(endpoint) for endpoint in endpoints.values()]
@@ -322,12 +403,20 @@ class Participant:
                 if version != seen or self._mismatches.waiting:
                     self._mismatches.check(self._endpoints())
                 seen = version
-                self._refusals.check([end for end in self._endpoints() if isinstance(end, TfReader)])
+                listeners = [end for end in self._endpoints() if isinstance(end, TfReader)]
+                self._refusals.check(listeners)
+                self._tell_odd_names(listeners)
             except Exception:
                 # A callback of the user's, or an endpoint that was closed meanwhile.
                 if not self._ending:
                     _logger.exception("coframe's housekeeping of the ROS graph failed and goes on")
             self._wake.wait(_CHECK_PERIOD_NS)
+
+    def _tell_odd_names(self, listeners: list[TfReader]) -> None:
+        for listener in listeners:
+            for publisher in listener.publishers(self._graph):
+                for sentence in publisher.oddities:
+                    self._odd_names(sentence, sentence)
 
     def _graph_changed(self) -> None:
         with self._lock:
