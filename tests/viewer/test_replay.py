@@ -224,9 +224,6 @@ class AtHand:
         self.type = message.ROS_TYPE
         self._sighting = Sighting(1, BEGIN, lambda: message)
 
-    def pending(self):
-        return False
-
     def at(self, time):
         return self._sighting if time == 0 or time >= BEGIN else None
 
