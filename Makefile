@@ -42,6 +42,7 @@ sanitize: ## the native core under ThreadSanitizer for a minute, and under Addre
 	tests/native/sanitized.sh build/sanitize/address/stress 20
 	tests/native/sanitized.sh build/sanitize/address/latest 10
 	tests/native/sanitized.sh build/sanitize/address/fuzz_ingest 200000
+	tests/native/sanitized.sh build/sanitize/address/fuzz_frozen 3000
 
 conformance: $(STAMP) ## tf2's semantics, case by case
 	@$(BIN)/python conformance/run.py $(ARGS)

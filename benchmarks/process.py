@@ -75,12 +75,16 @@ class Program:
         self._environment = {**os.environ, **environment}
 
     def sample(self, number: int = 0) -> float:
+        return self.samples()[number]
+
+    def samples(self) -> list[float]:
+        """All of one run."""
         done = subprocess.run(
             self._command, cwd=ROOT, env=self._environment, capture_output=True, text=True, check=False
         )
         if done.returncode:
             raise PeerError(last_line(done.stderr) or f"exit status {done.returncode}")
-        return float(done.stdout.split()[number])
+        return [float(word) for word in done.stdout.split()]
 
 
 @functools.lru_cache

@@ -205,6 +205,11 @@ BARS = [
     ("talos, one configuration", "Pinocchio, poses kept", TimesAsFast(5)),
     ("listener, 1 kHz x 10, CPU of one core", "floor: a bare UDP socket", AtMost(1.5)),
     ("listener, 1 kHz x 10, latency, p50", "floor: a bare UDP socket", AtMost(40_000)),
+    (
+        "relay, 10 robots x 20 x 50 Hz, nothing lost, CPU of one core",
+        "floor: no relay, the listener names the frames",
+        AtMost(10.0),
+    ),
     ("open_bag, MCAP, zstd, per transform", "rosbags, reading and decoding alone", TimesAsFast(10)),
     ("open_bag, MCAP, zstd, per transform", "tf_tree.ingest_bag", TimesAsFast(1)),
     ("open_bag, SQLite, per transform", "rosbags, reading and decoding alone", TimesAsFast(10)),

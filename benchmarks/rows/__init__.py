@@ -1,6 +1,19 @@
 """The rows of the table, a file for each of their subjects."""
 
-from benchmarks.rows import batch, history, insertion, listener, recordings, robots, sensors, single, startup, viewer
+from benchmarks.rows import (
+    batch,
+    fleet,
+    history,
+    insertion,
+    large_recordings,
+    listener,
+    recordings,
+    robots,
+    sensors,
+    single,
+    startup,
+    viewer,
+)
 
 ROWS = {
     "single": single.ROWS,
@@ -9,7 +22,8 @@ ROWS = {
     "sensors": sensors.ROWS,
     "robots": robots.ROWS,
     "listener": listener.ROWS,
-    "recordings": recordings.ROWS,
+    "fleet": fleet.ROWS,
+    "recordings": recordings.ROWS + large_recordings.ROWS,
     "history": history.ROWS,
     "startup": startup.ROWS,
     "viewer": viewer.ROWS,

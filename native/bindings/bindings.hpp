@@ -19,6 +19,8 @@ void define_buffer(nb::module_& module);
 void define_waiting(nb::module_& module);
 void define_messages(nb::module_& module);
 void define_poses(nb::module_& module);
+void define_relay(nb::module_& module);
+void define_frozen(nb::module_& module);
 void define_failure(nb::module_& module);
 void define_event(nb::module_& module);
 void define_robots(nb::module_& module);

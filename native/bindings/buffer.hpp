@@ -6,6 +6,8 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "core/buffer.hpp"
@@ -64,17 +66,25 @@ struct BufferObject {
     return authorities.find(name, [this](std::string_view text) { return core->authority(text); });
   }
 
-  // The source of messages by this authority.
-  TransformStream& stream(bool is_static, AuthorityId authority) {
-    TransformStream& stream = streams[{is_static, authority}];
-    stream.is_static = is_static;
-    stream.authority = authority;
+  using StreamKey = std::tuple<bool, TransformStream::Encoding, AuthorityId>;
+  // The source of messages by this authority; its frames are renamed as they are when it is first asked for.
+  TransformStream& stream(bool is_static, AuthorityId authority,
+                          TransformStream::Encoding encoding = TransformStream::Encoding::cdr,
+                          const std::optional<Renaming>& renaming = {}) {
+    const auto [found, is_new] = streams.try_emplace({is_static, encoding, authority});
+    TransformStream& stream = found->second;
+    if (is_new) {
+      stream.is_static = is_static;
+      stream.encoding = encoding;
+      stream.authority = authority;
+      if (renaming) stream.renaming = std::make_shared<const Renaming>(*renaming);
+    }
     return stream;
   }
 
   IdentityCache frames, authorities;
   PathCache paths;  // guarded by the GIL, unlike the core's own
-  std::map<std::pair<bool, AuthorityId>, TransformStream> streams;
+  std::map<StreamKey, TransformStream> streams;
 };
 
 }  // namespace coframe::bindings

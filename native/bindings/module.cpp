@@ -13,6 +13,8 @@ NB_MODULE(_core, module) {
   define_waiting(module);
   define_messages(module);
   define_poses(module);
+  define_relay(module);
+  define_frozen(module);
   define_event(module);
   define_robots(module);
   define_sensors(module);

@@ -1,13 +1,16 @@
 // DDS without the GIL: what coframe.wire stands on.
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "bindings/bindings.hpp"
 #include "bindings/buffer.hpp"
+#include "bindings/relay.hpp"
 #include "wire/endpoint_reader.hpp"
 #include "wire/participant.hpp"
 #include "wire/reader.hpp"
@@ -45,15 +48,6 @@ nb::list matched_handles(const Endpoint& endpoint) {
   nb::list list;
   for (const dds::Handle handle : endpoint.matched_handles()) list.append(handle);
   return list;
-}
-
-// Calls `write`, a method of Writer, with the message and without the GIL.
-template <void (Writer::*write)(const void*, std::size_t) const>
-void write_bytes(const PyWriter& writer, nb::bytes message) {
-  const char* data = message.c_str();
-  const std::size_t size = message.size();
-  WithoutGil release;
-  (writer.*write)(data, size);
 }
 
 nb::tuple to_tuple(const QosProfile& qos) {
@@ -115,7 +109,21 @@ nb::list take_endpoints(PyEndpointReader& reader) {
           PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace"));
     };
     list.append(nb::make_tuple(change.handle, change.alive, to_bytes(change.guid), to_bytes(change.participant),
-                               text(change.topic), text(change.type), to_tuple(change.qos)));
+                               text(change.topic), text(change.type), to_tuple(change.qos),
+                               nb::bytes(change.user_data.data(), change.user_data.size())));
+  }
+  return list;
+}
+
+nb::list heard(const PyTfReader& reader) {
+  std::vector<TfReader::Heard> all;
+  {
+    WithoutGil release;
+    all = reader.heard();
+  }
+  nb::list list;
+  for (const auto& [writer, messages, heard_at, lag, odd] : all) {
+    list.append(heard_tuple(writer, messages, heard_at, lag, odd));
   }
   return list;
 }
@@ -133,9 +141,24 @@ void define_writer(nb::module_& wire) {
   nb::class_<PyWriter>(wire, "Writer", "A DDS writer of serialised messages.")
       .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, bool>(), nb::arg("participant"),
            nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("unchecked") = false, ReleaseGil())
-      .def("write", &write_bytes<&Writer::write>, nb::arg("message"), "Sends one serialised message, without the GIL.")
-      .def("forward", &write_bytes<&Writer::forward>, nb::arg("message"),
-           "The same on an unchecked topic, whose bytes nobody here understands.")
+      .def(
+          "write",
+          [](const PyWriter& self, nb::bytes message) {
+            const char* data = message.c_str();
+            const std::size_t size = message.size();
+            WithoutGil release;
+            self.write(data, size);
+          },
+          nb::arg("message"), "Sends one serialised message, without the GIL.")
+      .def(
+          "forward",
+          [](const PyWriter& self, nb::bytes message) {
+            const char* data = message.c_str();
+            const std::size_t size = message.size();
+            WithoutGil release;
+            self.forward(data, size);
+          },
+          nb::arg("message"), "The same on an unchecked topic for a message of any type, whose bytes nobody looks at.")
       .def_prop_ro("guid", [](const PyWriter& self) { return to_bytes(self.guid()); })
       .def_prop_ro("matched", &PyWriter::matched, "How many readers the writer has found.", ReleaseGil())
       .def("matched_handles", &matched_handles<PyWriter>, "The handles of those readers.")
@@ -184,15 +207,18 @@ void define_readers(nb::module_& wire) {
       .def(
           "__init__",
           [](PyTfReader* self, dds::Entity participant, dds::Entity topic, const QosProfile& qos,
-             const std::string& user_data, const BufferObject& buffer, bool is_static, const std::string& authority) {
-            new (self) PyTfReader(participant, topic, qos, user_data, buffer.core, is_static, authority);
+             const std::string& user_data, const BufferObject& buffer, bool is_static, const std::string& authority,
+             const std::optional<Renaming>& renaming) {
+            new (self) PyTfReader(participant, topic, qos, user_data, buffer.core, is_static, authority,
+                                  renaming ? std::make_shared<const Renaming>(*renaming) : nullptr);
           },
           nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("buffer"),
-          nb::arg("is_static"), nb::arg("authority"), ReleaseGil())
+          nb::arg("is_static"), nb::arg("authority"), nb::arg("renaming") = nb::none(), ReleaseGil())
       .def("name_writer", &PyTfReader::name_writer, nb::arg("writer"), nb::arg("authority"), ReleaseGil(),
            "The buffer notes `authority` for what the writer with this handle has sent and will send.")
       .def("forget_writer", &PyTfReader::forget_writer, nb::arg("writer"), ReleaseGil(),
            "The writer with this handle has left.")
+      .def("heard", &heard, "What each writer has sent.")
       .def_prop_ro("stored_at", &PyTfReader::stored_at,
                    "When the newest message's transforms were in the buffer, in nanoseconds of the steady clock; 0: never.");
   define_reader_properties<PyTfReader>(tf_reader);
@@ -202,7 +228,7 @@ void define_readers(nb::module_& wire) {
            nb::arg("on_change"), ReleaseGil())
       .def("take", &take_endpoints,
            "The changes: tuples (handle, alive, guid, participant's guid, topic, type, "
-           "(depth, reliable, transient_local, keep_all)).")
+           "(depth, reliable, transient_local, keep_all), user data).")
       .def("close", &PyEndpointReader::close, ReleaseGil());
   wire.attr("PUBLICATIONS") = dds::kPublicationTopic;
   wire.attr("SUBSCRIPTIONS") = dds::kSubscriptionTopic;

@@ -187,7 +187,7 @@ Twist rate_at(const History::View& history, Stamp stamp) {
   std::size_t next = history.first_after(stamp);
   next = std::clamp<std::size_t>(next, 1, history.size() - 1);
   while (next > 1 && history.time(next) == history.time(next - 1)) --next;
-  const double seconds = static_cast<double>(history.time(next) - history.time(next - 1)) * 1e-9;
+  const double seconds = static_cast<double>(elapsed(history.time(next - 1), history.time(next))) * 1e-9;
   const Sample a = history.sample(next - 1), b = history.sample(next);
   return seconds > 0.0 && a.parent == b.parent ? rate_between(a, b, seconds) : Twist{};
 }

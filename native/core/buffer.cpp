@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "core/dump.hpp"
+#include "core/frozen.hpp"
+#include "core/ros1.hpp"
 
 namespace coframe {
 
@@ -28,8 +30,8 @@ void measure_intervals(const History::View& samples, EdgeSummary& edge) {
   edge.mean_interval = edge.interval_deviation = edge.longest_interval = 0.0;
   if (samples.is_static() || samples.size() < 2) return;
   const double count = static_cast<double>(samples.size() - 1);
-  const auto interval = [&](std::size_t i) { return static_cast<double>(samples.time(i) - samples.time(i - 1)); };
-  edge.mean_interval = static_cast<double>(samples.newest() - samples.oldest()) / count;
+  const auto interval = [&](std::size_t i) { return static_cast<double>(elapsed(samples.time(i - 1), samples.time(i))); };
+  edge.mean_interval = static_cast<double>(elapsed(samples.oldest(), samples.newest())) / count;
   double squares = 0.0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const double difference = interval(i) - edge.mean_interval;
@@ -169,10 +171,12 @@ AuthorityId Buffer::authority(std::string_view name) {
   return tree_.authority(name);
 }
 
-TransformStream Buffer::open_stream(bool is_static, std::string_view authority) {
+TransformStream Buffer::open_stream(bool is_static, std::string_view authority,
+                                    std::shared_ptr<const Renaming> renaming) {
   const std::lock_guard lock(writing_);
   TransformStream stream;
   stream.is_static = is_static;
+  stream.renaming = std::move(renaming);
   stream.authority = tree_.authority(authority);
   return stream;
 }
@@ -194,9 +198,12 @@ DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, 
 DecodeFailure Buffer::take_in(TransformStream& stream, const std::uint8_t* data, std::size_t size,
                               std::size_t& stored) {
   stored = 0;
-  const DecodeFailure failure = decode_tf_message(data, size, stream.decoded, stream.expected);
+  const auto decode = stream.encoding == TransformStream::Encoding::cdr ? decode_tf_message : decode_ros1_tf_message;
+  const DecodeFailure failure = decode(data, size, stream.decoded, stream.expected);
   const std::size_t transforms = stream.decoded.size();
   stream.inserted.resize(transforms);
+  stream.newest = 0;
+  for (const TransformView& view : stream.decoded) stream.newest = std::max(stream.newest, view.stamp);
   {
     const std::lock_guard lock(writing_);
     ++counts_.messages;
@@ -232,12 +239,21 @@ void Buffer::store(TransformStream& stream, std::size_t index, const TransformVi
 
 Inserted Buffer::store_unexpected(TransformStream& stream, std::size_t index, const TransformView& view) {
   if (!is_utf8(view.parent) || !is_utf8(view.child)) return {.refusals = kNoChildFrame};
-  const Inserted inserted =
-      tree_.insert(view.parent, view.child, view.stamp, view.values, stream.is_static, stream.authority);
+  static const Renaming none;
+  const Renaming& renaming = stream.renaming ? *stream.renaming : none;
+  stream.odd.note(renaming, view.parent);
+  stream.odd.note(renaming, view.child);
+  if (!stream.renaming) return store_named(stream, index, view, view.parent, view.child);
+  return store_named(stream, index, view, renaming(view.parent), renaming(view.child));
+}
+
+Inserted Buffer::store_named(TransformStream& stream, std::size_t index, const TransformView& view,
+                             std::string_view parent, std::string_view child) {
+  const Inserted inserted = tree_.insert(parent, child, view.stamp, view.values, stream.is_static, stream.authority);
   if (inserted.refusals == 0 && index < TransformStream::kMaxRemembered) {
     if (stream.expected.size() <= index) stream.expected.resize(index + 1);
-    stream.expected[index] = {std::string(view.name_bytes), tree_.find(without_slash(view.parent)),
-                              tree_.find(without_slash(view.child))};
+    stream.expected[index] = {std::string(view.name_bytes), tree_.find(without_slash(parent)),
+                              tree_.find(without_slash(child))};
   }
   return inserted;
 }
@@ -277,6 +293,15 @@ std::shared_ptr<Buffer> Buffer::snapshot() const {
   std::shared_ptr<Buffer> copy(new Buffer(tree_));
   copy->counts_ = counts_;
   return copy;
+}
+
+std::shared_ptr<Buffer> Buffer::restored(Stamp cache_length, std::span<const std::uint8_t> table,
+                                         std::span<const std::uint8_t> chunks, std::shared_ptr<const void> memory,
+                                         const char*& reason) {
+  auto buffer = std::make_shared<Buffer>(cache_length);
+  reason = restore(buffer->tree_, table, chunks, std::move(memory));
+  buffer->freeze();
+  return reason ? nullptr : buffer;
 }
 
 // A sample at the latest common time may be dropped between the choice of that time and the look at the sample; a

@@ -2,14 +2,17 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 
 #include "core/batch.hpp"
 #include "core/cdr.hpp"
 #include "core/light_mutex.hpp"
 #include "core/lookup.hpp"
 #include "core/question.hpp"
+#include "core/renaming.hpp"
 #include "core/tree.hpp"
 #include "core/waiting.hpp"
 
@@ -26,11 +29,16 @@ struct Counts {
 // One source of messages: the same publisher sends the same names in the same order, so the last ones are tried
 // first. Used by one thread at a time.
 struct TransformStream {
+  enum class Encoding : std::uint8_t { cdr, ros1 };
   // More of one message's transforms are not remembered: there may be many sources, and any of them may send much.
   static constexpr std::size_t kMaxRemembered = 1024;
   bool is_static = false;
+  Encoding encoding = Encoding::cdr;
   AuthorityId authority = 0;
-  std::vector<ExpectedNames> expected;
+  std::shared_ptr<const Renaming> renaming;  // may be null: names are taken as they are
+  NameOddities odd;
+  Stamp newest = 0;  // of the last message; 0: it had none
+  std::vector<ExpectedNames> expected;  // by the names as they come, with the numbers of the frames that they became
   std::vector<TransformView> decoded;
   std::vector<Inserted> inserted;
 };
@@ -69,7 +77,8 @@ class Buffer {
   unsigned insert_many(const Track& track, bool is_static, AuthorityId authority, std::size_t& stored,
                        std::size_t& bad_row);
   AuthorityId authority(std::string_view name);
-  TransformStream open_stream(bool is_static, std::string_view authority);
+  TransformStream open_stream(bool is_static, std::string_view authority,
+                              std::shared_ptr<const Renaming> renaming = nullptr);
   // The source has another name: notes it for the frames that its last messages told of, and for all to come.
   void rename(TransformStream& stream, std::string_view authority);
   DecodeFailure ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
@@ -82,6 +91,10 @@ class Buffer {
 
   // What is in here now, as a frozen buffer of its own; the samples are shared, not copied.
   std::shared_ptr<Buffer> snapshot() const;
+  // What was frozen into a file, used where it lies; nullptr, and `reason` says why, where the bytes are not that.
+  static std::shared_ptr<Buffer> restored(Stamp cache_length, std::span<const std::uint8_t> table,
+                                          std::span<const std::uint8_t> chunks, std::shared_ptr<const void> memory,
+                                          const char*& reason);
   // From now on nothing is taken in, nor forgotten.
   void freeze() { frozen_.store(true); }
   bool frozen() const { return frozen_.load(); }
@@ -170,6 +183,8 @@ class Buffer {
   unsigned insert_and_announce(Insert&& insert);
   void store(TransformStream& stream, std::size_t index, const TransformView& view, Inserted& inserted);
   Inserted store_unexpected(TransformStream& stream, std::size_t index, const TransformView& view);
+  Inserted store_named(TransformStream& stream, std::size_t index, const TransformView& view, std::string_view parent,
+                       std::string_view child);
   bool count(unsigned refusals);
   void count_change() { changes_.store(changes_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
   void announce(const Inserted* inserted, std::size_t count);

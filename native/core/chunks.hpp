@@ -28,6 +28,11 @@ inline std::uint64_t distance(Stamp a, Stamp b) {
   return a < b ? second - first : first - second;
 }
 
+// From one to the other; wraps around where it is too far for a number.
+inline std::int64_t elapsed(Stamp from, Stamp to) {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from));
+}
+
 // A pose and the frame it is told in.
 struct Sample {
   Pose pose;
@@ -65,27 +70,32 @@ class alignas(64) SharedSample {
 };
 static_assert(sizeof(SharedSample) == 64);
 
+// As it lies in memory it also lies in a frozen file.
 struct Chunk {
   // Large enough that inserting seldom needs a new one, small enough for a tree of a thousand frames.
   static constexpr std::size_t kSize = 256;
 
   std::array<Relaxed<Stamp>, kSize> stamps;
   std::array<SharedSample, kSize> samples;
+};
+static_assert(sizeof(Chunk) == Chunk::kSize * (sizeof(Stamp) + sizeof(SharedSample)));
+
+struct PooledChunk : Chunk {
   std::atomic<std::uint32_t> holders{0};  // histories it is part of: one, and its snapshots
 };
 
 class ChunkPool {
  public:
   // Held once. The caller must tell readers (Revision::Change): they may still be reading it as part of another history.
-  Chunk* take() {
+  PooledChunk* take() {
     const std::lock_guard lock(mutex_);
-    Chunk* chunk = free_.empty() ? fresh() : free_.back();
+    PooledChunk* chunk = free_.empty() ? fresh() : free_.back();
     if (!free_.empty()) free_.pop_back();
     chunk->holders.store(1, std::memory_order_relaxed);
     return chunk;
   }
 
-  void release(Chunk* chunk) {
+  void release(PooledChunk* chunk) {
     if (chunk->holders.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
     const std::lock_guard lock(mutex_);
     free_.push_back(chunk);
@@ -93,25 +103,25 @@ class ChunkPool {
 
  private:
   // A few samples take little memory, many are in large pages.
-  static constexpr std::size_t kFew = 16, kMany = Slab::kLarge / sizeof(Chunk);
+  static constexpr std::size_t kFew = 16, kMany = Slab::kLarge / sizeof(PooledChunk);
 
-  Chunk* fresh() {
+  PooledChunk* fresh() {
     if (used_ == last_size_) {
       const std::size_t size = count_ < kFew ? std::max<std::size_t>(3 * count_, 1) : kMany;
-      slabs_.push_back(std::make_unique<Slab>(size == kMany ? Slab::kLarge : size * sizeof(Chunk)));
+      slabs_.push_back(std::make_unique<Slab>(size == kMany ? Slab::kLarge : size * sizeof(PooledChunk)));
       last_size_ = size;
       used_ = 0;
     }
     ++count_;
-    return new (slabs_.back()->data() + used_++ * sizeof(Chunk)) Chunk;
+    return new (slabs_.back()->data() + used_++ * sizeof(PooledChunk)) PooledChunk;
   }
 
   std::mutex mutex_;  // a snapshot may end in any thread
   std::vector<std::unique_ptr<Slab>> slabs_;
   std::size_t count_ = 0;                 // of all chunks
   std::size_t used_ = 0, last_size_ = 0;  // of the last slab
-  std::vector<Chunk*> free_;
+  std::vector<PooledChunk*> free_;
 };
-static_assert(std::is_trivially_destructible_v<Chunk>);
+static_assert(std::is_trivially_destructible_v<PooledChunk>);
 
 }  // namespace coframe

@@ -1,6 +1,8 @@
 #include "core/history.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 
 #include "kernels/kernels.hpp"
 
@@ -73,6 +75,16 @@ Found History::View::at(Stamp stamp, Pose& pose, FrameId& parent) const {
   pair.newer->load(to);
   interpolate(from, to, pair.part / pair.whole, pose);
   return found;
+}
+
+void History::View::copy(std::size_t first, char* stamps, char* samples) const {
+  const std::size_t count = std::min(Chunk::kSize, size() - first);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Stamp stamp = time(first + i);
+    const SharedSample& sample = sample_of(begin_ + first + i);
+    std::memcpy(stamps + i * sizeof stamp, &stamp, sizeof stamp);
+    std::memcpy(samples + i * sizeof sample, sample.numbers(), sizeof sample);
+  }
 }
 
 std::size_t History::View::first_after(Stamp stamp) const {
@@ -184,6 +196,7 @@ void History::share(const History& other) {
   const View samples = other.view();
   kind_ = other.kind_.get();
   one_parent_ = other.one_parent_.get();
+  mapped_ = other.mapped_;
   fixed_.store(other.fixed_.load());
   begin_ = samples.begin_;
   end_ = samples.end_;
@@ -194,11 +207,28 @@ void History::share(const History& other) {
   auto copy = std::make_unique<Directory>(samples.directory_->mask + 1);
   for (std::uint64_t n = samples.begin_ / Chunk::kSize; n <= (samples.end_ - 1) / Chunk::kSize; ++n) {
     Chunk* chunk = other.chunk_at(n * Chunk::kSize);
-    chunk->holders.fetch_add(1, std::memory_order_relaxed);
+    if (!mapped_) static_cast<PooledChunk*>(chunk)->holders.fetch_add(1, std::memory_order_relaxed);
     copy->chunks[n & copy->mask].store(chunk, std::memory_order_relaxed);
   }
   directories_.push_back(std::move(copy));
   directory_ = directories_.back().get();
+}
+
+void History::map(const Chunk* chunks, std::uint64_t samples, bool one_parent, const Reach& reach) {
+  const std::uint64_t count = (samples + Chunk::kSize - 1) / Chunk::kSize;
+  auto directory = std::make_unique<Directory>(std::bit_ceil(std::max<std::uint64_t>(count, 1)));
+  // No writer comes near them: what holds mapped chunks takes nothing in.
+  auto* first = const_cast<Chunk*>(chunks);
+  for (std::uint64_t n = 0; n < count; ++n) directory->chunks[n].store(first + n, std::memory_order_relaxed);
+  directories_.push_back(std::move(directory));
+  directory_ = directories_.back().get();
+  kind_ = HistoryKind::dynamic;
+  one_parent_ = one_parent;
+  mapped_ = true;
+  end_ = samples;
+  first_ = reach.first;
+  last_ = reach.last;
+  parent_ = reach.parent;
 }
 
 void History::release(ChunkPool& pool) { drop_all(pool); }
@@ -268,7 +298,7 @@ void History::add_chunk(const HistoryContext& context) {
 // Chunks that a snapshot also has are copied before they change.
 void History::own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end) {
   for (std::uint64_t n = first / Chunk::kSize; n <= (end - 1) / Chunk::kSize; ++n) {
-    Chunk* shared = chunk_at(n * Chunk::kSize);
+    PooledChunk* shared = pooled_chunk_at(n * Chunk::kSize);
     if (shared->holders.load(std::memory_order_acquire) == 1) continue;
     Chunk* own = pool.take();
     for (std::size_t i = 0; i < Chunk::kSize; ++i) {
@@ -288,15 +318,17 @@ void History::drop_older_than(ChunkPool& pool, Stamp stamp) {
   if (begin == first) return;
   first_.store(chunk_at(begin)->stamps[begin % Chunk::kSize], std::memory_order_release);
   begin_.store(begin, std::memory_order_release);
-  for (std::uint64_t n = first / Chunk::kSize; n < begin / Chunk::kSize; ++n) pool.release(chunk_at(n * Chunk::kSize));
+  for (std::uint64_t n = first / Chunk::kSize; n < begin / Chunk::kSize; ++n) {
+    pool.release(pooled_chunk_at(n * Chunk::kSize));
+  }
 }
 
 // What comes next starts a chunk of its own.
 void History::drop_all(ChunkPool& pool) {
   const std::uint64_t end = end_;
-  if (kind_ == HistoryKind::dynamic && end > begin_) {
+  if (kind_ == HistoryKind::dynamic && end > begin_ && !mapped_) {
     for (std::uint64_t n = begin_ / Chunk::kSize; n <= (end - 1) / Chunk::kSize; ++n) {
-      pool.release(chunk_at(n * Chunk::kSize));
+      pool.release(pooled_chunk_at(n * Chunk::kSize));
     }
   }
   const std::uint64_t next = (end + Chunk::kSize - 1) / Chunk::kSize * Chunk::kSize;

@@ -102,6 +102,9 @@ class History {
       pair = {&chunk.samples[i - 1], &chunk.samples[i], static_cast<double>(stamp - start), static_cast<double>(whole)};
       return true;
     }
+    // A chunk's worth of stamps and samples from that index on, without what is beyond the last one; not for a static
+    // history.
+    void copy(std::size_t first, char* stamps, char* samples) const;
     // Index of the first sample newer than `stamp`; size() if there is none.
     std::size_t first_after(Stamp stamp) const;
 
@@ -272,6 +275,8 @@ class History {
   void clear(const HistoryContext& context);
   // Becomes what `other` is at this moment; the chunks are shared.
   void share(const History& other);
+  // Becomes one whose samples somebody else holds and nobody changes: chunks in a row, all full but for the last.
+  void map(const Chunk* chunks, std::uint64_t samples, bool one_parent, const Reach& reach);
   void release(ChunkPool& pool);
 
  private:
@@ -295,6 +300,7 @@ class History {
   }
   void drop_older_than(ChunkPool& pool, Stamp stamp);
   void drop_all(ChunkPool& pool);
+  PooledChunk* pooled_chunk_at(std::uint64_t index) const { return static_cast<PooledChunk*>(chunk_at(index)); }
   Chunk* chunk_at(std::uint64_t index) const {
     const Directory& directory = *directory_;
     return directory.chunks[index / Chunk::kSize & directory.mask].load(std::memory_order_relaxed);
@@ -310,6 +316,7 @@ class History {
   Relaxed<FrameId> parent_{0};
   Relaxed<HistoryKind> kind_{HistoryKind::none};
   Relaxed<bool> one_parent_{true};
+  bool mapped_ = false;  // the chunks are of no pool
   SharedSample fixed_;  // the one sample of a static history
   std::vector<std::unique_ptr<Directory>> directories_;  // the last is in use; readers may still be in the others
 };

@@ -1,6 +1,7 @@
 #include "core/slab.hpp"
 
 #include <array>
+#include <cstdint>
 #include <mutex>
 #include <new>
 
@@ -29,15 +30,31 @@ std::byte* allocate(std::size_t size, std::size_t alignment) {
   return static_cast<std::byte*>(::operator new(size, std::align_val_t{alignment}));
 }
 
+// Straight from the system where it can be asked: what the heap cuts off before and behind aligned pieces would stay in
+// memory, and that can be half as much again.
+#if __has_include(<sys/mman.h>)
+std::byte* map_large() {
+  void* mapped = mmap(nullptr, 2 * Slab::kLarge, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (mapped == MAP_FAILED) throw std::bad_alloc();
+  auto* start = static_cast<std::byte*>(mapped);
+  const std::size_t before = -reinterpret_cast<std::uintptr_t>(start) % Slab::kLarge;
+  if (before > 0) munmap(start, before);
+  munmap(start + before + Slab::kLarge, Slab::kLarge - before);
+#if defined(MADV_HUGEPAGE)
+  madvise(start + before, Slab::kLarge, MADV_HUGEPAGE);  // where that fails, it is only slower
+#endif
+  return start + before;
+}
+void unmap_large(std::byte* data) { munmap(data, Slab::kLarge); }
+#else
+std::byte* map_large() { return allocate(Slab::kLarge, Slab::kLarge); }
+void unmap_large(std::byte* data) { ::operator delete(data, std::align_val_t{Slab::kLarge}); }
+#endif
+
 std::byte* allocate_large() {
   Spare& kept = spare();
   const std::lock_guard lock(kept.mutex);
-  if (kept.count > 0) return kept.slabs[--kept.count];
-  std::byte* data = allocate(Slab::kLarge, Slab::kLarge);
-#if defined(MADV_HUGEPAGE)
-  madvise(data, Slab::kLarge, MADV_HUGEPAGE);  // where that fails, it is only slower
-#endif
-  return data;
+  return kept.count > 0 ? kept.slabs[--kept.count] : map_large();
 }
 
 void free_large(std::byte* data) {
@@ -46,7 +63,7 @@ void free_large(std::byte* data) {
   if (kept.count < kept.slabs.size()) {
     kept.slabs[kept.count++] = data;
   } else {
-    ::operator delete(data, std::align_val_t{Slab::kLarge});
+    unmap_large(data);
   }
 }
 

@@ -70,7 +70,7 @@ Tree::Tree(Stamp cache_length) : cache_length_(cache_length), pool_(std::make_sh
   authorities_.append([](std::string& name) { name = "no recorded authority"; });
 }
 
-Tree::Tree(const Tree& other) : cache_length_(other.cache_length_), pool_(other.pool_) {
+Tree::Tree(const Tree& other) : cache_length_(other.cache_length_), memory_(other.memory_), pool_(other.pool_) {
   for (FrameId id = 0; id < other.frame_count(); ++id) {
     const Frame& theirs = other.frame(id);
     frames_.append([&](Frame& frame) {
@@ -112,6 +112,14 @@ FrameId Tree::find_or_add(std::string_view name, bool& is_new) {
     is_new = true;
   }
   return id;
+}
+
+Frame* Tree::restore_frame(std::string_view name) {
+  if (find_number(name) != NameTable::kNone) return nullptr;
+  const auto id = static_cast<FrameId>(frames_.append([&](Frame& frame) { frame.name = name; }));
+  frame_numbers_.add(name, id);
+  raise_version();
+  return &frames_[id];
 }
 
 AuthorityId Tree::authority(std::string_view name) {

@@ -70,13 +70,17 @@ class Tree {
   // 0 when there is no such frame. "NO_PARENT" is a frame of that name in tf2 as well, and has the number 0.
   FrameId find(std::string_view name) const;
   std::size_t frame_count() const { return frames_.size(); }  // with NO_PARENT
-  const std::string& name(FrameId id) const { return frames_[id].name; }
-  History::View history(FrameId id) const {
+  const std::string& name(FrameId id) const { return frame(id).name; }
+  History::View history(FrameId id) const { return frame(id).history.view(); }
+  // For a number from anywhere, as samples of a file may tell: NO_PARENT where nothing has it.
+  const Frame& frame(FrameId id) const {
     const Frame* frame = frames_.find(id);
-    return (frame ? frame : frames_.find(0))->history.view();
+    return frame ? *frame : frames_[0];
   }
-  const Frame& frame(FrameId id) const { return frames_[id]; }
-  Frame& frame(FrameId id) { return frames_[id]; }
+  Frame& frame(FrameId id) {
+    Frame* frame = frames_.find(id);
+    return frame ? *frame : frames_[0];
+  }
 
   const std::string& authority_name(AuthorityId id) const { return authorities_[id]; }
   Stamp cache_length() const { return cache_length_; }
@@ -87,6 +91,12 @@ class Tree {
   // The rest is for the one writer.
 
   AuthorityId authority(std::string_view name);
+  // A frame as it was in another tree, with nothing in its history yet; nullptr where there is one of that name.
+  Frame* restore_frame(std::string_view name);
+  HistoryContext context() { return {cache_length_, *pool_, revision_}; }
+  // What must live as long as the samples.
+  void keep(std::shared_ptr<const void> memory) { memory_ = std::move(memory); }
+  std::size_t authority_count() const { return authorities_.size(); }
   // For a frame whose newest transform came from `from`.
   void change_authority(FrameId id, AuthorityId from, AuthorityId to) {
     if (frames_[id].authority == from) frames_[id].authority = to;
@@ -115,9 +125,9 @@ class Tree {
   void store(Frame& frame, FrameId child, Stamp stamp, const Sample& sample, bool is_static, AuthorityId authority,
              Inserted& inserted);
   void raise_version() { version_.fetch_add(1, std::memory_order_release); }
-  HistoryContext context() { return {cache_length_, *pool_, revision_}; }
 
   Stamp cache_length_;
+  std::shared_ptr<const void> memory_;
   std::shared_ptr<ChunkPool> pool_;  // with the snapshots
   Revision revision_;
   StableVector<Frame> frames_;

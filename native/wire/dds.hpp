@@ -151,6 +151,8 @@ inline constexpr Code kPreconditionNotMet = -4;
   X(void, dds_qset_durability_service,                                                                       \
     (Qos*, std::int64_t cleanup_delay_ns, std::int32_t history_kind, std::int32_t history_depth,             \
      std::int32_t max_samples, std::int32_t max_instances, std::int32_t max_samples_per_instance))           \
+  X(bool, dds_qget_userdata, (const Qos*, void** data, std::size_t* size))                                   \
+  X(void, dds_free, (void*))                                                                                 \
   X(bool, dds_qget_durability, (const Qos*, std::int32_t* kind))                                             \
   X(bool, dds_qget_history, (const Qos*, std::int32_t* kind, std::int32_t* depth))                           \
   X(bool, dds_qget_reliability, (const Qos*, std::int32_t* kind, std::int64_t* max_blocking_ns))             \

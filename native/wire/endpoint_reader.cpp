@@ -1,5 +1,6 @@
 #include "wire/endpoint_reader.hpp"
 
+#include <memory>
 #include <utility>
 
 namespace coframe {
@@ -21,6 +22,14 @@ QosProfile read_qos(const dds::Qos* qos) {
           .keep_all = history == dds::kKeepAll};
 }
 
+std::string read_user_data(const dds::Qos* qos) {
+  void* data = nullptr;
+  std::size_t size = 0;
+  if (!dds::functions().dds_qget_userdata(qos, &data, &size) || data == nullptr) return {};
+  const std::unique_ptr<void, void (*)(void*)> given(data, dds::functions().dds_free);
+  return {static_cast<const char*>(data), size};
+}
+
 EndpointChange read_change(const dds::BuiltinEndpoint& endpoint, const dds::SampleInfo& info) {
   if (!info.valid_data || info.instance_state != dds::kAliveInstance) {
     return {.handle = info.instance_handle, .alive = false};
@@ -31,7 +40,8 @@ EndpointChange read_change(const dds::BuiltinEndpoint& endpoint, const dds::Samp
           .participant = endpoint.participant_key,
           .topic = endpoint.topic_name,
           .type = endpoint.type_name,
-          .qos = read_qos(endpoint.qos)};
+          .qos = read_qos(endpoint.qos),
+          .user_data = read_user_data(endpoint.qos)};
 }
 
 }  // namespace

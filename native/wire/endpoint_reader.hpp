@@ -19,6 +19,7 @@ struct EndpointChange {
   std::string topic{};
   std::string type{};
   QosProfile qos{};
+  std::string user_data{};
 };
 
 class EndpointReader {

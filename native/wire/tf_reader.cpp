@@ -10,19 +10,20 @@ namespace {
 // Publishers come and go, and of those without a name nobody says that they have left: so many are remembered.
 constexpr std::size_t kMaxSources = 1024;
 
+template <class Clock>
 std::int64_t now() {
-  const auto since_start = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(since_start).count();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
 
 TfReader::TfReader(dds::Entity participant, dds::Entity topic, const QosProfile& profile,
                    const std::string& user_data, std::shared_ptr<Buffer> buffer, bool is_static,
-                   const std::string& authority)
+                   const std::string& authority, std::shared_ptr<const Renaming> renaming)
     : buffer_(std::move(buffer)),
       is_static_(is_static),
       authority_(authority),
+      renaming_(std::move(renaming)),
       reader_(participant, topic, make_qos(profile, user_data).get(), &TfReader::on_data, this) {
   on_data(reader_.entity(), this);  // what came before the listener
 }
@@ -37,6 +38,15 @@ void TfReader::name_writer(dds::Handle writer, const std::string& authority) {
 void TfReader::forget_writer(dds::Handle writer) {
   const std::lock_guard lock(mutex_);
   sources_.erase(writer);
+}
+
+std::vector<TfReader::Heard> TfReader::heard() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Heard> all;
+  for (const auto& [writer, source] : sources_) {
+    all.push_back({writer, source.messages, source.heard_at, source.lag, source.stream.odd});
+  }
+  return all;
 }
 
 // An exception must not reach DDS, which is C: out of memory, a message is lost.
@@ -57,17 +67,23 @@ TfReader::Source& TfReader::source_of(dds::Handle writer) {
   const auto found = sources_.find(writer);
   if (found != sources_.end()) return found->second;
   if (sources_.size() >= kMaxSources) std::erase_if(sources_, [](const auto& entry) { return !entry.second.named; });
-  return sources_.emplace(writer, Source{buffer_->open_stream(is_static_, authority_), false}).first->second;
+  return sources_.emplace(writer, Source{.stream = buffer_->open_stream(is_static_, authority_, renaming_), .lag = {}})
+      .first->second;
 }
 
 void TfReader::store(const dds::Sample& sample) {
   const auto bytes = sample.bytes();
-  TransformStream& stream = source_of(sample.info().publication_handle).stream;
   std::size_t stored = 0;
+  Source& source = source_of(sample.info().publication_handle);
   // What is malformed the buffer counts.
-  buffer_->take_in(stream, bytes.data(), bytes.size(), stored);
-  if (stored > 0) stored_at_.store(now(), std::memory_order_release);
-  buffer_->tell_of_last(stream);
+  buffer_->take_in(source.stream, bytes.data(), bytes.size(), stored);
+  source.heard_at = now<std::chrono::steady_clock>();
+  if (stored > 0) stored_at_.store(source.heard_at, std::memory_order_release);
+  buffer_->tell_of_last(source.stream);
+  ++source.messages;
+  if (!is_static_ && source.stream.newest != 0) {
+    source.lag.add(now<std::chrono::system_clock>() - source.stream.newest);
+  }
 }
 
 }  // namespace coframe

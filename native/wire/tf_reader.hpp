@@ -7,8 +7,10 @@
 #include <mutex>
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "core/buffer.hpp"
+#include "core/lag.hpp"
 #include "wire/data_reader.hpp"
 #include "wire/qos.hpp"
 
@@ -16,15 +18,29 @@ namespace coframe {
 
 class TfReader {
  public:
-  // `authority` is what the buffer notes as the source of every transform, until `name_writer` says better.
+  // What one writer has sent so far.
+  struct Heard {
+    dds::Handle writer;
+    std::uint64_t messages;
+    std::int64_t heard_at;  // nanoseconds of the steady clock
+    Lag lag;                // behind the system clock; of transforms that are not static
+    NameOddities odd;
+  };
+
+  // `authority` is what the buffer notes as the source of every transform, until `name_writer` says better. With a
+  // `renaming` (may be null) the buffer gets the frames under the names that it makes.
   TfReader(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
-           std::shared_ptr<Buffer> buffer, bool is_static, const std::string& authority);
+           std::shared_ptr<Buffer> buffer, bool is_static, const std::string& authority,
+           std::shared_ptr<const Renaming> renaming);
   void close() noexcept { reader_.close(); }
 
   // The buffer notes `authority` for what this writer has sent and will send.
   void name_writer(dds::Handle writer, const std::string& authority);
   // The writer has left.
   void forget_writer(dds::Handle writer);
+
+  // Of each writer that is remembered.
+  std::vector<Heard> heard() const;
 
   // When the newest message's transforms were in the buffer, in nanoseconds of the steady clock; 0: never.
   std::int64_t stored_at() const { return stored_at_; }
@@ -35,6 +51,9 @@ class TfReader {
   struct Source {
     TransformStream stream;
     bool named = false;
+    std::uint64_t messages = 0;
+    std::int64_t heard_at = 0;
+    Lag lag;
   };
 
   static void on_data(dds::Entity reader, void* self) noexcept;
@@ -45,7 +64,8 @@ class TfReader {
   std::shared_ptr<Buffer> buffer_;
   const bool is_static_;
   const std::string authority_;
-  std::mutex mutex_;                                  // of the sources
+  const std::shared_ptr<const Renaming> renaming_;
+  mutable std::mutex mutex_;                          // of the sources
   std::unordered_map<dds::Handle, Source> sources_;  // by writer
   std::atomic<std::int64_t> stored_at_ = 0;
   DataReader reader_;                                 // last: its callback uses the members above

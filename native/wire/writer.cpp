@@ -13,31 +13,23 @@ Writer::Writer(dds::Entity participant, dds::Entity topic, const QosProfile& pro
   entity_ = dds::check(dds::functions().dds_create_writer(participant, topic, qos.get(), nullptr), "create a writer");
 }
 
-namespace {
-
-void check_encapsulation(std::size_t size) {
-  if (size < 4) throw std::invalid_argument("a serialised message begins with 4 bytes of encapsulation");
-}
-
-}  // namespace
-
 void Writer::write(const void* data, std::size_t size) const {
-  check_encapsulation(size);
+  if (size < 4) throw std::invalid_argument("a serialised message begins with 4 bytes of encapsulation");
   const dds::SampleContainer sample{data, size};
   dds::check(unchecked_ ? write_unchecked(data, size) : dds::functions().dds_write(entity_, &sample), "write");
 }
 
 void Writer::forward(const void* data, std::size_t size) const {
-  check_encapsulation(size);
-  dds::check(pass_on(data, size), "write");
+  if (size < 4) throw std::invalid_argument("a serialised message begins with 4 bytes of encapsulation");
+  dds::check(send(data, size), "write");
 }
 
 dds::Code Writer::write_unchecked(const void* data, std::size_t size) const {
-  const bool is_damaged = check_tf_message(static_cast<const std::uint8_t*>(data), size).reason != nullptr;
-  return is_damaged ? dds::kBadParameter : pass_on(data, size);
+  if (check_tf_message(static_cast<const std::uint8_t*>(data), size).reason) return dds::kBadParameter;
+  return send(data, size);
 }
 
-dds::Code Writer::pass_on(const void* data, std::size_t size) const {
+dds::Code Writer::send(const void* data, std::size_t size) const {
   const dds::Functions& f = dds::functions();
   const std::lock_guard lock(closing_);
   const dds::Sertype* type;

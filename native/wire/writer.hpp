@@ -22,7 +22,7 @@ class Writer {
 
   // Sends one message: 4 bytes of encapsulation, then CDR. Throws std::invalid_argument for less than that.
   void write(const void* data, std::size_t size) const;
-  // The same on an unchecked topic, whose bytes nobody here understands.
+  // The same on an unchecked topic for a message of any type: the bytes are nobody's business here.
   void forward(const void* data, std::size_t size) const;
   void close() noexcept;
 
@@ -33,7 +33,7 @@ class Writer {
 
  private:
   dds::Code write_unchecked(const void* data, std::size_t size) const;
-  dds::Code pass_on(const void* data, std::size_t size) const;
+  dds::Code send(const void* data, std::size_t size) const;
 
   const bool unchecked_;
   mutable std::mutex closing_;  // held while the topic's type, which ends with the entity, is used

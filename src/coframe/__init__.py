@@ -9,6 +9,7 @@ from coframe.errors import (
     DecodeError,
     ExtrapolationException,
     FrameMismatchException,
+    FrozenFileError,
     InvalidArgumentException,
     LookupException,
     PackageError,
@@ -24,7 +25,10 @@ from coframe.wire.connection import Connection, connect
 
 if TYPE_CHECKING:
     from coframe.bags import open_bag
+    from coframe.frozen import load
+    from coframe.recorder import play, record
     from coframe.viewer.show import show
+    from coframe.wire.relay import relay
 
 __version__ = "0.1.0"
 
@@ -37,6 +41,7 @@ __all__ = [
     "ExtrapolationException",
     "FrameInfo",
     "FrameMismatchException",
+    "FrozenFileError",
     "InvalidArgumentException",
     "LookupException",
     "PackageError",
@@ -50,17 +55,28 @@ __all__ = [
     "WireError",
     "__version__",
     "connect",
+    "load",
     "open_bag",
+    "play",
+    "record",
+    "relay",
     "show",
 ]
 
-_LATE = {"open_bag": "coframe.bags", "show": "coframe.viewer"}
+_LATE = {
+    "load": "coframe.frozen",
+    "open_bag": "coframe.bags",
+    "play": "coframe.recorder",
+    "record": "coframe.recorder",
+    "relay": "coframe.wire.relay",
+    "show": "coframe.viewer",
+}
 
 
 def __getattr__(name: str) -> Any:
     """What takes long to import, and few need, is imported when it is first used."""
     if name in _LATE:
         return getattr(importlib.import_module(_LATE[name]), name)
-    if name in {"bags", "robots", "viewer"}:
+    if name in {"bags", "recorder", "robots", "viewer"}:
         return importlib.import_module(f"coframe.{name}")
     raise AttributeError(f"module 'coframe' has no attribute {name!r}")

@@ -398,11 +398,23 @@ def mcap_records(data: Any) -> tuple[bytes, bytes, bytes, bytes, bytes, list[tup
         bytes end (uint64); of each schema and channel its opcode and the two ends of its content; the bytes dealt with.
     """
 
-def ingest_slices(buffer: Buffer, data: Any, starts: Any, ends: Any, static: bool, authority: str) -> tuple[int, str]:
-    """Buffer.ingest() of many parts of `data`, told by uint64 arrays: how many are damaged, and why the first is."""
+def ingest_slices(
+    buffer: Buffer,
+    data: Any,
+    starts: Any,
+    ends: Any,
+    static: bool,
+    authority: str,
+    encoding: str = "cdr",
+    renaming: Renaming | None = None,
+) -> tuple[int, str]:
+    """Buffer.ingest() of many parts of `data`, told by uint64 arrays: how many are damaged, and why the first is.
+
+    `encoding` is "cdr", or "ros1" for tf2_msgs/TFMessage and tf/tfMessage of ROS 1.
+    """
 
 def transform_columns(
-    data: Any, starts: Any, ends: Any
+    data: Any, starts: Any, ends: Any, encoding: str = "cdr"
 ) -> tuple[bytes, bytes, bytes, bytes, bytes, list[str], int, str]:
     """The transforms of many TFMessages as they were sent, whatever a buffer would make of them.
 
@@ -522,6 +534,79 @@ def poses_near(poses: Any, told: Any, origin: Any, fixed: int, reach: float, nea
         near: (N, 7) float32, gets the poses.
     """
 
+class Renaming:
+    """Puts a prefix in front of the names of frames, except of those to keep."""
+
+    def __init__(self, prefix: str, keep: Sequence[str]) -> None: ...
+    def __call__(self, name: str) -> str:
+        """The name among those of others."""
+
+class Relay:
+    """TFMessages of several sources into those of one tree. Not for several threads at once."""
+
+    def __init__(self, static: bool, period: int) -> None:
+        """With `static`, what is written is always all; else of each edge one transform in `period` nanoseconds."""
+
+    def add_source(self, renaming: Renaming, split: bool) -> int:
+        """The number of another source. With `split` only what has the prefix or is kept passes, without the prefix."""
+
+    def add(self, source: int, writer: int, message: bytes, at: int = -1) -> None:
+        """Takes a message in that came from a writer of a source.
+
+        Args:
+            source: Its number.
+            writer: Any number for the writer.
+            message: A TFMessage's CDR; what is malformed is counted.
+            at: When it came, in nanoseconds of a clock that never goes back; negative: now, by the steady clock.
+        """
+
+    def take(self) -> bytes | None:
+        """One message of what was taken in since the last one, or None."""
+
+    def forget_writer(self, source: int, writer: int) -> None:
+        """The writer has left."""
+
+    def edges(self) -> list[tuple[str, str, int, int, int | None, int, int, int, int, int]]:
+        """What is known of each edge.
+
+        Returns:
+            Parent and child as they are written; the source that is listened to, and the writer of its last message; a
+            source that tells something else, or None, and how often that was; how many transforms were passed on, and
+            how many left out for the rate; the newest stamp; when it was heard of last.
+        """
+
+    def writers(self, source: int) -> list[tuple[tuple[int, int, int, int | None, str, str, str], int, int]]:
+        """What each writer of a source has sent: as TfReader.heard(), messages and transforms that were bad."""
+
+def frozen_parts(buffer: Buffer) -> tuple[bytes, int]:
+    """Of a frozen buffer the table that a file of it begins with, and how many chunks of samples it has."""
+
+def frozen_chunks(buffer: Buffer, first: int, count: int) -> bytes:
+    """Some of these chunks; fewer at the end."""
+
+def become_frozen(buffer: Buffer, file: Any, table: int, table_size: int, samples: int, samples_size: int) -> str:
+    """Makes a new buffer one that uses a file's bytes where they lie.
+
+    Args:
+        buffer: One that nobody uses yet.
+        file: The whole file, by the buffer protocol; held as long as it is needed.
+        table: Where the table begins.
+        table_size: How many bytes it has.
+        samples: Where the chunks of samples begin, at a multiple of 64.
+        samples_size: How many bytes they have.
+
+    Returns:
+        What is wrong with them; nothing if they are good.
+    """
+
+def samples_of(buffer: Buffer, child: str) -> tuple[bytes, bytes, bytes, list[str]]:
+    """The samples of one frame of a frozen buffer.
+
+    Returns:
+        Stamps (int64), poses (rows of 7 float64: x, y, z, qx, qy, qz, qw), which of the names each parent has (uint32),
+        these names.
+    """
+
 PUBLICATIONS: int
 SUBSCRIPTIONS: int
 
@@ -562,7 +647,7 @@ class Writer:
         """Sends one serialised message, without the GIL."""
 
     def forward(self, message: bytes) -> None:
-        """The same on an unchecked topic, whose bytes nobody here understands."""
+        """The same on an unchecked topic for a message of any type, whose bytes nobody looks at."""
 
     @property
     def guid(self) -> bytes: ...
@@ -652,7 +737,17 @@ class TfReader:
         buffer: Buffer,
         is_static: bool,
         authority: str,
+        renaming: Renaming | None = None,
     ) -> None: ...
+    def heard(self) -> list[tuple[int, int, int, int | None, str, str, str]]:
+        """What each writer has sent.
+
+        Returns:
+            The writer's handle; how many messages; when the last one came, in nanoseconds of the steady clock; by how
+            much its stamps were behind the system clock, the lower quartile of its last messages, or None; examples of
+            names that begin with a slash, have the prefix already, and have not.
+        """
+
     def forget_writer(self, writer: int) -> None:
         """The writer with this handle has left."""
 
@@ -683,7 +778,7 @@ class EndpointReader:
     """What DDS discovery tells about writers (PUBLICATIONS) or readers (SUBSCRIPTIONS)."""
 
     def __init__(self, participant: int, topic: int, on_change: Event) -> None: ...
-    def take(self) -> list[tuple[int, bool, bytes, bytes, str, str, tuple[int, bool, bool, bool]]]:
-        """The changes: (handle, alive, guid, guid of the participant, topic, type, the four policies of its QoS)."""
+    def take(self) -> list[tuple[int, bool, bytes, bytes, str, str, tuple[int, bool, bool, bool], bytes]]:
+        """The changes: (handle, alive, guid, participant's guid, topic, type, four policies of its QoS, user data)."""
 
     def close(self) -> None: ...

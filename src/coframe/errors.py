@@ -13,6 +13,7 @@
     ├── DecodeError(ValueError)         bytes that are not what they claim to be
     ├── RobotDescriptionError(ValueError)  a robot description that contradicts itself
     ├── PackageError(LookupError)       a package, or a file of one, that is not there
+    ├── FrozenFileError(ValueError)     a file that is no frozen buffer, or a damaged one
     └── RecordingError(ValueError)      a recording of which nothing can be read
 
 The names of the transform exceptions are tf2's, and so are their texts (``str(error)``). Each also carries the facts
@@ -37,6 +38,7 @@ __all__ = [
     "DecodeError",
     "ExtrapolationException",
     "FrameMismatchException",
+    "FrozenFileError",
     "InvalidArgumentException",
     "LookupException",
     "PackageError",
@@ -229,6 +231,10 @@ class RobotDescriptionError(_Hinting, ValueError):
 
 class PackageError(_Hinting, LookupError):
     """A package or a file of it that is not there, or a file that is not inside its package."""
+
+
+class FrozenFileError(_Hinting, ValueError):
+    """A file that is no frozen buffer, or one that is damaged or cannot be written."""
 
 
 class RecordingError(_Hinting, ValueError):

@@ -148,6 +148,16 @@ def test_a_frame_that_is_static_and_moves_keeps_moving(tmp_path):
     assert "odom -> base is both on /tf_static" in problem
 
 
+@pytest.mark.parametrize("kind", ["ros2", "ros1"])
+def test_the_frames_of_one_robot_among_those_of_others(tmp_path, kind):
+    """The bytes of ROS 2 go straight into the buffer, those of ROS 1 through Python: the names are the same."""
+    write = {"ros2": recordings.write_mcap, "ros1": recordings.write_rosbag1}[kind]
+    with coframe.open_bag(write(tmp_path / "run"), prefix="robot1/", keep="odom") as bag:
+        assert sorted(bag.buffer.frame_names()) == ["odom", "robot1/base", "robot1/lidar"]
+        assert bag.buffer.can_transform("odom", "robot1/lidar")
+        assert (bag.frame("/base"), bag.frame("odom")) == ("robot1/base", "odom")
+
+
 def test_robots_of_several_namespaces(tmp_path):
     def rows(namespace, prefix):
         for topic, at, parent, child, transform in recordings.walk():

@@ -216,3 +216,66 @@ def test_renamed_files_are_read_with_a_warning(folder):
         assert recording.topics["/tf"].messages == 60
         whole = coframe.open_bag(folder / "world_talk_1hz")
         assert recording.buffer.lookup("world", "talk") == whole.buffer.lookup("world", "talk")
+
+
+def test_a_static_transform_that_was_sent_as_a_moving_one(folder):
+    """It has samples, a span and a rate, and says the same at every time of it."""
+    with coframe.open_bag(folder / "world_talk_1hz") as recording:
+        (edge,) = [edge for edge in recording.buffer.edges() if edge.parent]
+        assert (edge.parent, edge.child, edge.static, edge.samples) == ("world", "talk", False, 60)
+        assert edge.rate == pytest.approx(1.0, abs=0.01)
+        poses = recording.buffer.trajectory("world", "talk")
+        assert len({tuple(row) for row in poses.matrix.reshape(-1, 16)}) == 1
+        with pytest.raises(coframe.ExtrapolationException):
+            recording.buffer.lookup("world", "talk", edge.newest + 1)
+
+
+def test_statics_of_earlier_runs_and_of_no_time_hold_for_all_of_it(folder):
+    with coframe.open_bag(folder / "epuck_webots") as recording:
+        statics = [transform for m in recording.messages("/tf_static") for transform in m.message.transforms]
+        footprints = [s for s in statics if (s.header.frame_id, s.child_frame_id) == ("base_link", "base_footprint")]
+        assert len(footprints) == 3
+        assert any((s.header.stamp.sec, s.header.stamp.nanosec) == (0, 0) for s in statics)
+        for stamp in recording.span:
+            assert recording.buffer.lookup("base_link", "base_footprint", stamp)
+        moving = [
+            (transform.child_frame_id, transform.header.stamp.sec, transform.header.stamp.nanosec)
+            for message in recording.messages("/tf")
+            for transform in message.message.transforms
+        ]
+        assert len(moving) - len(set(moving)) == sum(edge.repeated for edge in recording.buffer.edges()) + sum(
+            edge.samples - len(np.unique(recording.buffer.trajectory(edge.parent, edge.child).stamps))
+            for edge in recording.buffer.edges()
+            if edge.parent and not edge.static
+        )
+
+
+@pytest.mark.parametrize(
+    ("name", "topic", "frame", "messages", "reason"),
+    [
+        ("tb3_gazebo_walker", "/scan", "odom", 99, None),
+        ("tilt_laser.bag", "/scan", "tilt_base", 177, "ExtrapolationException"),
+        ("epuck_webots", "/scan", "odom", None, None),
+    ],
+)
+def test_scans_in_a_frame_that_stands_still(folder, name, topic, frame, messages, reason):
+    """None is lost silently: each one is among the clouds or among what was left out."""
+    with coframe.open_bag(folder / name) as recording:
+        clouds = coframe.bags.Clouds(recording, topic, frame)
+        given = sum(1 for _ in clouds)
+        assert given + sum(clouds.left_out.values()) == recording.topics[topic].messages
+        assert messages in {None, given}
+        assert reason is None or next(iter(clouds.left_out)).startswith(reason)
+        assert clouds.points > 100
+
+
+@pytest.mark.parametrize("name", ["turtlesim_tf_demo.bag", "tilt_laser.bag", "tb3_gazebo_walker", "epuck_webots"])
+def test_a_frozen_recording_answers_as_the_recording_does(folder, tmp_path, name):
+    with coframe.open_bag(folder / name) as recording:
+        recording.buffer.save(tmp_path / "run.cfz")
+        frozen = coframe.load(tmp_path / "run.cfz", verify=True)
+        assert frozen.edges(now=0) == recording.buffer.edges(now=0)
+        for edge in frozen.edges():
+            if edge.parent:
+                expected = recording.buffer.trajectory(edge.parent, edge.child)
+                assert frozen.trajectory(edge.parent, edge.child) == expected

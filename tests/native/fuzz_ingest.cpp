@@ -1,4 +1,5 @@
-// TFMessages as bytes, most of them damaged, taken in by one buffer, for a sanitizer to watch. The same every time.
+// TFMessages as bytes, most of them damaged, taken in by a buffer and by relays, for a sanitizer to watch. The same every
+// time.
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 
 #include "core/buffer.hpp"
 #include "core/dump.hpp"
+#include "core/relay.hpp"
 
 namespace {
 
@@ -28,46 +30,61 @@ void expect(bool holds, const char* what) {
   std::_Exit(1);
 }
 
-// CDR in either byte order, written from the standard and not from the code under test.
+enum class Kind { cdr_little, cdr_big, ros1 };
+
+// CDR in either byte order, or as ROS 1 has it; written from the standards and not from the code under test.
 class Message {
  public:
-  explicit Message(bool big) : big_(big), bytes_{0, static_cast<std::uint8_t>(big ? 0 : 1), 0, 0} {}
+  explicit Message(Kind kind) : kind_(kind) {
+    if (kind != Kind::ros1) bytes_ = {0, static_cast<std::uint8_t>(kind == Kind::cdr_big ? 0 : 1), 0, 0};
+  }
 
   template <class T>
   void number(T value) {
-    while ((bytes_.size() - kHeader) % sizeof(T) != 0) bytes_.push_back(0);
+    while (kind_ != Kind::ros1 && (bytes_.size() - kHeader) % sizeof(T) != 0) bytes_.push_back(0);
     std::array<std::uint8_t, sizeof(T)> raw;
     std::memcpy(raw.data(), &value, sizeof(T));
-    if (big_) std::reverse(raw.begin(), raw.end());
+    if (kind_ == Kind::cdr_big) std::reverse(raw.begin(), raw.end());
     bytes_.insert(bytes_.end(), raw.begin(), raw.end());
   }
 
   void text(std::string_view value) {
-    number(static_cast<std::uint32_t>(value.size() + 1));
+    const bool ends_with_nul = kind_ != Kind::ros1;
+    number(static_cast<std::uint32_t>(value.size() + ends_with_nul));
     bytes_.insert(bytes_.end(), value.begin(), value.end());
-    bytes_.push_back(0);
+    if (ends_with_nul) bytes_.push_back(0);
   }
 
   Bytes take() { return std::move(bytes_); }
 
  private:
-  bool big_;
+  Kind kind_;
   Bytes bytes_;
 };
 
 class Fuzzer {
  public:
   Fuzzer() : rng_(20) {
-    for (int i = 0; i < 4; ++i) streams_.push_back(buffer_.open_stream(i % 2 == 0, "fuzzer"));
+    const auto renaming = std::make_shared<const Renaming>("frame1", std::vector<std::string>{"frame2"});
+    for (int i = 0; i < 8; ++i) {
+      streams_.push_back(buffer_.open_stream(i % 2 == 0, "fuzzer", i % 4 < 2 ? nullptr : renaming));
+      if (i >= kCdrStreams) streams_.back().encoding = TransformStream::Encoding::ros1;
+    }
+    for (Relay& relay : relays_) {
+      relay.add_source(*renaming, Relay::Direction::merge);
+      relay.add_source(*renaming, Relay::Direction::split);
+    }
   }
 
   void run(int messages) {
     for (int i = 0; i < messages; ++i) {
       std::size_t transforms = 0;
-      Bytes bytes = message(transforms);
+      const Kind kind = static_cast<Kind>(rng_() % 3);
+      Bytes bytes = message(kind, transforms);
       const bool damaged = rng_() % 4 != 0;
       for (unsigned n = damaged ? 1 + rng_() % 4 : 0; n > 0; --n) damage(bytes);
-      take_in(bytes, transforms, damaged);
+      take_in(kind, bytes, transforms, damaged);
+      relay(bytes);
       if (i % 16 == 0) ask();
       if (i % 5000 == 0) buffer_.clear();
     }
@@ -81,6 +98,8 @@ class Fuzzer {
   }
 
  private:
+  static constexpr int kCdrStreams = 4;
+
   template <class T, std::size_t size>
   const T& one_of(const std::array<T, size>& values) {
     return values[rng_() % size];
@@ -96,12 +115,13 @@ class Fuzzer {
     return rng_() % 50 == 0 ? one_of(odd) : std::uniform_real_distribution<double>(-10, 10)(rng_);
   }
 
-  Bytes message(std::size_t& transforms) {
+  Bytes message(Kind kind, std::size_t& transforms) {
     static const std::array<std::int32_t, 4> odd_seconds{0, -1, 0x7fffffff, -0x7fffffff - 1};
-    Message made(rng_() % 2 == 0);
+    Message made(kind);
     transforms = rng_() % 3 == 0 ? 0 : rng_() % 20;
     made.number(static_cast<std::uint32_t>(transforms));
     for (std::size_t i = 0; i < transforms; ++i) {
+      if (kind == Kind::ros1) made.number(static_cast<std::uint32_t>(rng_()));  // of its header
       made.number(rng_() % 200 == 0 ? one_of(odd_seconds) : static_cast<std::int32_t>(1000 + rng_() % 20));
       made.number(static_cast<std::uint32_t>(rng_() % 100 == 0 ? rng_() : rng_() % 1'000'000'000));
       made.text(name());
@@ -135,13 +155,14 @@ class Fuzzer {
     }
   }
 
-  void take_in(const Bytes& bytes, std::size_t transforms, bool damaged) {
+  void take_in(Kind kind, const Bytes& bytes, std::size_t transforms, bool damaged) {
     // Not a byte more: what is read beyond is seen.
     const std::unique_ptr<std::uint8_t[]> exact(new std::uint8_t[bytes.size()]);
     std::copy(bytes.begin(), bytes.end(), exact.get());
     const Counts before = buffer_.counts();
     std::size_t stored = 0;
-    const DecodeFailure failure = buffer_.ingest(streams_[rng_() % streams_.size()], exact.get(), bytes.size(), stored);
+    TransformStream& stream = streams_[rng_() % kCdrStreams + (kind == Kind::ros1 ? kCdrStreams : 0)];
+    const DecodeFailure failure = buffer_.ingest(stream, exact.get(), bytes.size(), stored);
     const Counts after = buffer_.counts();
     expect(after.stored - before.stored == stored, "another number than was counted");
     expect(damaged || (!failure.reason && stored <= transforms), "a good message is refused");
@@ -151,6 +172,24 @@ class Fuzzer {
     } else {
       const std::uint64_t told = after.stored + after.refused + after.old - before.stored - before.refused - before.old;
       expect(damaged || told == transforms, "transforms that were not counted");
+    }
+  }
+
+  void relay(const Bytes& bytes) {
+    const std::unique_ptr<std::uint8_t[]> exact(new std::uint8_t[bytes.size()]);
+    std::copy(bytes.begin(), bytes.end(), exact.get());
+    Relay& relay = relays_[rng_() % relays_.size()];
+    now_ += static_cast<std::int64_t>(rng_() % 10'000'000);
+    relay.add(rng_() % 2, rng_() % 1500, exact.get(), bytes.size(), now_, now_);
+    if (rng_() % 2 == 0) return;
+    const std::string passed = relay.take();
+    if (passed.empty()) return;
+    std::vector<TransformView> views;
+    const auto* data = reinterpret_cast<const std::uint8_t*>(passed.data());
+    expect(!decode_tf_message(data, passed.size(), views).reason, "a relay's message is not good");
+    for (const TransformView& view : views) {
+      expect(check_names(view.parent, view.child) == 0 && check_values(view.values) == 0 && is_utf8(view.child),
+             "a relay passes on what a buffer refuses");
     }
   }
 
@@ -175,6 +214,8 @@ class Fuzzer {
   std::mt19937 rng_;
   Buffer buffer_{10'000'000'000};
   std::vector<TransformStream> streams_;
+  std::array<Relay, 3> relays_{Relay(false, 0), Relay(false, 50'000'000), Relay(true, 0)};
+  std::int64_t now_ = 0;
 };
 
 }  // namespace

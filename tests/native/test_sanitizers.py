@@ -68,3 +68,9 @@ def test_the_latest_is_there_however_fast_samples_are_dropped(tmp_path):
 def test_damaged_messages_do_no_harm(tmp_path):
     build("address", tmp_path)
     run("address", "fuzz_ingest", 200_000)
+
+
+@pytest.mark.slow
+def test_damaged_frozen_buffers_do_no_harm(tmp_path):
+    build("address", tmp_path)
+    run("address", "fuzz_frozen", 3000)

@@ -147,6 +147,32 @@ def test_the_command_where_there_is_no_terminal(context, heard, wait_until, tmp_
     assert "Traceback" not in errors
 
 
+def test_the_sliders_of_the_viewer_are_a_source(context, heard, wait_until, tmp_path):
+    pytest.importorskip("websockets", reason="the viewer's server")
+    listener, found = heard
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(listener)
+    (tmp_path / "arm.urdf").write_text(URDF)
+    command = [sys.executable, "-m", "coframe.cli", "joints", str(tmp_path / "arm.urdf"), "--gui", "--no-browser"]
+    process = subprocess.Popen([*command, "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    sliders = listener.create_publisher(JointState, "/coframe_joints/sliders", 10)
+    told = found["/joint_states"]
+
+    def spin():
+        executor.spin_once(timeout_sec=0.05)
+        sliders.publish(JointState(name=["turn", "lift", "follow"], position=[1.25, 0.5, 9.0]))
+
+    try:
+        assert process.stdout.readline().startswith("http://127.0.0.1:")
+        expected = {"turn": 1.25, "lift": 0.5, "follow": 1.1}
+        wait_until(lambda: told and positions(told[-1]) == pytest.approx(expected), spin, timeout=30.0)
+    finally:
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=20)
+    assert process.returncode == 0
+    assert "Traceback" not in errors
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="a terminal of its own, as Unix has them")
 def test_the_sliders_of_the_terminal(context, heard, wait_until, tmp_path):
     import pty

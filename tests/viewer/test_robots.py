@@ -160,7 +160,8 @@ def test_a_file_that_is_no_robot_is_a_sentence(tmp_path):
             coframe.show(coframe.Buffer(), port=0, robot=tmp_path / "bad.urdf")
 
 
-def test_descriptions_come_from_the_topic_and_joint_states_go_back(domain_id, view, open_tab):
+@pytest.mark.parametrize(("options", "topic"), [({}, "/joint_states"), ({"joint_states": "/sliders"}, "/sliders")])
+def test_descriptions_come_from_the_topic_and_joint_states_go_back(domain_id, view, open_tab, options, topic):
     pytest.importorskip("cyclonedds", reason="topics come over DDS")
     from coframe.messages import find
     from coframe.wire.qos import QoS
@@ -168,7 +169,7 @@ def test_descriptions_come_from_the_topic_and_joint_states_go_back(domain_id, vi
     text = find("std_msgs/msg/String")
     with coframe.connect("viewer_test", domain=domain_id) as ros:
         publisher = ros.publisher("/robot_description", text, QoS(1, transient_local=True))
-        tab = open_tab(view(ros))
+        tab = open_tab(view(ros, **options))
         publisher.publish(text(data=BOMB))
         problem = tab.wait("problem")
         assert problem["text"].startswith("/robot_description tells of no robot: ")
@@ -177,7 +178,7 @@ def test_descriptions_come_from_the_topic_and_joint_states_go_back(domain_id, vi
         assert (robot["name"], robot["description_topic"]) == ("arm", "/robot_description")
         assert robot["problems"] == ["there is no ROS package 'none' here"]
 
-        heard = ros.subscribe("/joint_states", find("sensor_msgs/msg/JointState"))
+        heard = ros.subscribe(topic, find("sensor_msgs/msg/JointState"))
         tab.send("joints", robot=robot["id"], positions={"turn": 1.0}, publish=True)
         for _ in range(2):  # again and again, as programs that follow them want it
             state = heard.receive("10s")

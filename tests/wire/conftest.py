@@ -4,7 +4,6 @@ import os
 import subprocess
 import sys
 import textwrap
-import time
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -38,19 +37,6 @@ def participant(domain_id: int) -> Iterator[Participant]:
 @pytest.fixture
 def node(participant: Participant) -> GraphNode:
     return participant.add_node("/", "tester")
-
-
-@pytest.fixture
-def eventually() -> Callable[[Callable[[], object]], None]:
-    """Waits until a condition holds; fails when it does not in time."""
-
-    def wait(condition: Callable[[], object]) -> None:
-        deadline = time.monotonic() + _PATIENCE
-        while not condition():
-            assert time.monotonic() < deadline, "waited in vain"
-            time.sleep(0.005)
-
-    return wait
 
 
 class Child:

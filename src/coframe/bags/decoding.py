@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from coframe.bags.problems import Problems
     from coframe.bags.storage import Channel
 
-__all__ = ["decoder", "message_class"]
+__all__ = ["UnknownTypeError", "decoder", "fits_humble", "humble_store", "message_class", "ros2_name", "store_for"]
 
 _TYPE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*/msg/[A-Za-z][A-Za-z0-9_]*", re.ASCII)
 _LONGEST_DEFINITION = 1 << 20
@@ -27,9 +27,14 @@ _ALIASES = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
 def message_class(ros_type: str) -> Any:
     """The class that coframe has for a type, or None."""
     try:
-        return find(_ALIASES.get(ros_type, ros_type))
+        return find(ros2_name(ros_type))
     except LookupError:
         return None
+
+
+def ros2_name(ros_type: str) -> str:
+    """What ROS 2 calls a type that ROS 1 may call differently."""
+    return _ALIASES.get(ros_type, ros_type)
 
 
 def decoder(channel: Channel, problems: Problems) -> Callable[[bytes], Any]:
@@ -49,12 +54,12 @@ def decoder(channel: Channel, problems: Problems) -> Callable[[bytes], Any]:
         return bytes
     try:
         return _ros_decoder(channel)
-    except _UnknownTypeError as error:
+    except UnknownTypeError as error:
         problems.add(f"{channel.topic}: messages of the type {channel.type} are given as bytes: {error}")
         return bytes
 
 
-class _UnknownTypeError(Exception):
+class UnknownTypeError(Exception):
     """Nobody says how messages of a type are to be read."""
 
 
@@ -62,7 +67,7 @@ def _ros_decoder(channel: Channel) -> Callable[[bytes], Any]:
     own = message_class(channel.type)
     if not channel.definition and own is not None and channel.encoding == "cdr":
         return lambda data: deserialize(data, own)
-    store = _store(channel.type, channel.definition, channel.definition_format)
+    store = store_for(channel.type, channel.definition, channel.definition_format)
     own = own if own is not None and _fits(store) else None
     if channel.encoding == "cdr":
         if own is not None:
@@ -85,23 +90,23 @@ def _guarded(decode: Callable[..., Any], name: str, data: bytes) -> Any:
 
 
 @functools.lru_cache(maxsize=256)
-def _store(name: str, definition: bytes, definition_format: str) -> Any:
+def store_for(name: str, definition: bytes, definition_format: str) -> Any:
     """A type store of rosbags in which the type is known.
 
     Raises:
-        _UnknownTypeError: It is not.
+        UnknownTypeError: It is not.
     """
     try:
         from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore  # noqa: PLC0415
     except ModuleNotFoundError:
-        raise _UnknownTypeError("the package rosbags is not installed (pip install 'coframe[bags]')") from None
+        raise UnknownTypeError("the package rosbags is not installed (pip install 'coframe[bags]')") from None
     if not definition:
         known = get_typestore(Stores.LATEST)
         if name in known.types:
             return known
-        raise _UnknownTypeError("the recording does not say what they are made of")
+        raise UnknownTypeError("the recording does not say what they are made of")
     if not _TYPE_NAME.fullmatch(name) or len(definition) > _LONGEST_DEFINITION:
-        raise _UnknownTypeError("that cannot be the name of a type, or its definition is too long")
+        raise UnknownTypeError("that cannot be the name of a type, or its definition is too long")
     text = definition.decode("utf-8", "replace")
     store = get_typestore(Stores.EMPTY)
     try:
@@ -109,7 +114,7 @@ def _store(name: str, definition: bytes, definition_format: str) -> Any:
         store.get_msgdef(name)
     except Exception as error:  # noqa: BLE001 - of the parser, of its code, of ours that it makes
         reason = str(error).partition("\n")[0] or type(error).__name__
-        raise _UnknownTypeError(f"its definition cannot be used ({reason[:200]})") from None
+        raise UnknownTypeError(f"its definition cannot be used ({reason[:200]})") from None
     return store
 
 
@@ -119,8 +124,17 @@ def _fits(store: Any) -> bool:
     return all(_layout(name, fields) == humble[name] for name, (_, fields) in store.fielddefs.items() if name in humble)
 
 
+def fits_humble(name: str, definition: bytes) -> bool:
+    """Whether a type of ROS 1, as a recording describes it, is one of ROS 2 Humble."""
+    try:
+        return _fits(store_for(name, definition, "ros1msg")) and ros2_name(name) in _humble()
+    except UnknownTypeError:
+        return False
+
+
 @functools.cache
-def _humble_store() -> Any:
+def humble_store() -> Any:
+    """A type store of rosbags with the types of ROS 2 Humble."""
     from rosbags.typesys import Stores, get_typestore  # noqa: PLC0415
 
     return get_typestore(Stores.ROS2_HUMBLE)
@@ -128,13 +142,13 @@ def _humble_store() -> Any:
 
 @functools.cache
 def _humble() -> dict[str, Any]:
-    return {name: _layout(name, fields) for name, (_, fields) in _humble_store().fielddefs.items()}
+    return {name: _layout(name, fields) for name, (_, fields) in humble_store().fielddefs.items()}
 
 
 def _deserialize_ros1(data: bytes, name: str) -> Any:
     """By way of CDR, which differs in its padding and leaves the numbers of headers out."""
-    name = _ALIASES.get(name, name)
-    return deserialize(_humble_store().ros1_to_cdr(data, name), find(name))
+    name = ros2_name(name)
+    return deserialize(humble_store().ros1_to_cdr(data, name), find(name))
 
 
 def _layout(name: str, fields: Any) -> list[Any]:

@@ -166,13 +166,14 @@ class McapStorage(ChunkedStorage):
                 return
             number, schema = struct.unpack_from("<HH", data)
             topic, position = _text(data, 4)
-            encoding, _ = _text(data, position)
+            encoding, position = _text(data, position)
+            offered_qos = _entry(data, position, "offered_qos_profiles")
         except (struct.error, ValueError, IndexError):
             self.problem("a damaged description of a channel")
             return
         if number not in self._channels:
             name, kind, definition = self._schemas.get(schema, ("", "", b""))
-            self._channels[number] = Channel(topic, name, encoding, definition, kind)
+            self._channels[number] = Channel(topic, name, encoding, definition, kind, offered_qos)
 
 
 _TOO_LATE = np.uint64(1 << 63)
@@ -180,6 +181,18 @@ _TOO_LATE = np.uint64(1 << 63)
 
 def _is_record(opcode: int) -> bool:
     return 0 < opcode <= _LAST_OPCODE or opcode >= 0x80
+
+
+def _entry(data: bytes, position: int, wanted: str) -> str:
+    """A value of the map of texts that begins there; "" where it has none."""
+    end = min(position + 4 + int.from_bytes(data[position : position + 4], "little"), len(data))
+    position += 4
+    while position < end:
+        key, position = _text(data, position)
+        value, position = _text(data, position)
+        if key == wanted:
+            return value
+    return ""
 
 
 def _text(data: bytes | memoryview, position: int) -> tuple[str, int]:

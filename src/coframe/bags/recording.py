@@ -20,16 +20,19 @@ from coframe.bags.header_stamps import HEAD, stamps_for
 from coframe.bags.opening import open_files
 from coframe.bags.problems import Problems
 from coframe.bags.storage import Slices
+from coframe.bags.table import edge_table
 from coframe.bags.transforms import ingest_for
 from coframe.errors import RecordingError
+from coframe.frame_names import renaming
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     from numpy.typing import NDArray
     from typing_extensions import Self
 
+    from coframe import _core
     from coframe.bags.header_stamps import StampPlace
     from coframe.bags.storage import Channel, Storage
     from coframe.buffer import Buffer
@@ -114,7 +117,7 @@ class _Index(NamedTuple):
     """All messages of a topic in the order in which they were received: of which track, and where there."""
 
     tracks: list[_Track]
-    of_track: NDArray[np.intp]
+    of_track: NDArray[np.uint32]
     positions: NDArray[np.uint64]
     received: NDArray[np.int64]
 
@@ -123,6 +126,8 @@ def open_bag(
     path: str | os.PathLike[str],
     *,
     namespace: str | None = None,
+    prefix: str = "",
+    keep: Iterable[str] = (),
     progress: Callable[[int, int], object] | None = None,
     heard: Callable[[Channel, NDArray[np.int64], Slices], object] | None = None,
 ) -> Recording:
@@ -131,6 +136,8 @@ def open_bag(
     Args:
         path: A file, or a folder of rosbag2, with or without its metadata.
         namespace: Only transforms of this one, such as ``/robot1`` for ``/robot1/tf``; None: all.
+        prefix: Goes in front of the names of frames in the buffers, as it is: ``robot1/`` makes ``robot1/base_link``.
+        keep: The frames that get no prefix, as they are shared: ``["map"]``.
         progress: Called now and then with the bytes that are read and the bytes that there are.
         heard: Called with all messages that hold transforms, many at a time: their channel, when they were received,
             and their bytes.
@@ -140,6 +147,7 @@ def open_bag(
 
     Raises:
         RecordingError: Nothing of it can be read.
+        ValueError: The prefix begins with a slash.
 
     Example:
         >>> import coframe
@@ -148,8 +156,9 @@ def open_bag(
         coframe.errors.RecordingError: nowhere.mcap cannot be read: No such file or directory
     """
     recording = Recording(Path(path))
+    recording._renaming = renaming(prefix, keep)  # noqa: SLF001 - the other half of __init__
     try:
-        recording._scan(namespace, progress or (lambda _done, _total: None), heard)  # noqa: SLF001 - the other half of __init__
+        recording._scan(namespace, progress or (lambda _done, _total: None), heard)  # noqa: SLF001 - likewise
     except BaseException:
         recording.close()
         raise
@@ -174,6 +183,7 @@ class Recording:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._problems = Problems()
+        self._renaming: _core.Renaming | None = None
         self._closing = ExitStack()
         weakref.finalize(self, self._closing.close)  # for those who never close()
         self._tracks: dict[str, list[_Track]] = {}
@@ -191,7 +201,7 @@ class Recording:
         storages = open_files(self.path, self._problems, self._closing)
         total = sum(storage.size for storage in storages)
         done = 0
-        collected = tree.Transforms(self._problems, namespace, heard)
+        collected = tree.Transforms(self._problems, namespace, self._renaming, heard)
         for storage in storages:
             self._scan_file(storage, collected, lambda bytes_, before=done: progress(before + bytes_, total))  # type: ignore[misc]
             done += storage.size
@@ -233,6 +243,10 @@ class Recording:
         seconds = (int(received[-1]) - int(received[0])) / time.NANOSECONDS_PER_SECOND if len(received) else 0.0
         rate = (len(received) - 1) / seconds if seconds > 0 else 0.0
         return Topic(name, main.channel.type, len(received), rate, main.channel.encoding)
+
+    def frame(self, name: str) -> str:
+        """What a frame that a message names is called in the buffers: with the prefix, if it was given one."""
+        return name.removeprefix("/") if self._renaming is None else self._renaming(name)
 
     @property
     def problems(self) -> list[str]:
@@ -284,6 +298,42 @@ class Recording:
         if stop is not None:
             chosen &= stamps < time.stamp_ns(stop)
         return self._read_all(name, np.flatnonzero(chosen))
+
+    def channels(self) -> list[Channel]:
+        """What was recorded on which topic, as the files say: one for each file, topic and type."""
+        return [track.channel for tracks in self._tracks.values() for track in tracks]
+
+    def in_order(
+        self, topics: Iterable[str] | None = None, start: int | None = None, stop: int | None = None
+    ) -> Iterator[tuple[Channel, int, bytes]]:
+        """The messages of several topics as they were received: (channel, time of receipt in nanoseconds, bytes).
+
+        Args:
+            topics: Their names; None: all.
+            start: Only those received at or after this, in nanoseconds.
+            stop: Only those received before this.
+
+        Raises:
+            RecordingError: There is no such topic.
+        """
+        tracks = [
+            track
+            for name in (self._tracks if topics is None else map(self._name, topics))
+            for track in self._tracks[name]
+        ]
+        if not tracks:
+            return
+        received = np.concatenate([_numbers(track.received) for track in tracks])
+        positions = np.concatenate([np.array(track.positions, dtype=np.uint64) for track in tracks])
+        of_track = np.repeat(np.arange(len(tracks)), [len(track.received) for track in tracks])
+        order = np.argsort(received, kind="stable")
+        first = 0 if start is None else int(np.searchsorted(received[order], start))
+        last = len(order) if stop is None else int(np.searchsorted(received[order], stop))
+        for row in order[first:last]:
+            track = tracks[of_track[row]]
+            data = self._bytes(track, int(positions[row]))
+            if data is not None:
+                yield track.channel, int(received[row]), data
 
     def _read_all(self, name: str, rows: NDArray[np.intp]) -> Iterator[RecordedMessage]:
         for row in rows.tolist():
@@ -342,20 +392,40 @@ class Recording:
         row = int(np.searchsorted(stamps, time.stamp_ns(stamp), side="right")) - 1
         return None if row < 0 else self._read(name, int(order[row]))
 
+    def table(self, format_: str = "arrow") -> Any:
+        """Every transform as one table, a row a sample, one edge after the other.
+
+        Args:
+            format_: ``"arrow"`` for a ``pyarrow.Table``, ``"pandas"`` for a ``DataFrame``.
+
+        Returns:
+            The columns ``stamp_ns`` (int64; 0 where static), ``parent``, ``child``, ``x``, ``y``, ``z`` (metres, told
+            in the parent), ``qx``, ``qy``, ``qz``, ``qw``, ``static``, ``topic`` (by which the edge was told of last).
+
+        Raises:
+            RecordingError: The package is not installed.
+        """
+        return edge_table(self.buffers.values(), format_)
+
     def _read(self, name: str, row: int) -> RecordedMessage | None:
         """One message; None, and a problem more, if it can no longer be read."""
         index = self._index(name)
         track = index.tracks[index.of_track[row]]
-        try:
-            data = track.storage.read(int(index.positions[row]))
-        except (DamagedError, OSError) as error:
-            track.storage.problem(f"a message on {name} cannot be read again: {error}")
+        data = self._bytes(track, int(index.positions[row]))
+        if data is None:
             return None
         key = id(track.channel)
         if key not in self._decoders:
             self._decoders[key] = decoder(track.channel, self._problems)
         stamp, received = int(self.stamps(name)[row]), int(index.received[row])
         return RecordedMessage(name, track.channel.type, stamp, received, data, self._decoders[key])
+
+    def _bytes(self, track: _Track, position: int) -> bytes | None:
+        try:
+            return track.storage.read(position)
+        except (DamagedError, OSError) as error:
+            track.storage.problem(f"a message on {track.channel.topic} cannot be read again: {error}")
+            return None
 
     def _track_stamps(self, track: _Track) -> NDArray[np.int64]:
         received = _numbers(track.received)
@@ -385,11 +455,13 @@ class Recording:
     def _index(self, name: str) -> _Index:
         if name not in self._indices:
             tracks = self._tracks[name]
-            received = np.concatenate([_numbers(track.received) for track in tracks])
-            of_track = np.repeat(np.arange(len(tracks)), [len(track.received) for track in tracks])
-            positions = np.concatenate([np.array(track.positions, dtype=np.uint64) for track in tracks])
-            order = np.argsort(received, kind="stable")
-            self._indices[name] = _Index(tracks, of_track[order], positions[order], received[order])
+            received = _joined([_numbers(track.received) for track in tracks])
+            positions = _joined([np.asarray(track.positions, dtype=np.uint64) for track in tracks])
+            of_track = np.repeat(np.arange(len(tracks), dtype=np.uint32), [len(track.received) for track in tracks])
+            if not (received[1:] >= received[:-1]).all():
+                order = np.argsort(received, kind="stable")
+                received, positions, of_track = received[order], positions[order], of_track[order]
+            self._indices[name] = _Index(tracks, of_track, positions, received)
         return self._indices[name]
 
     def _name(self, topic: str) -> str:
@@ -427,4 +499,8 @@ def _head(track: _Track, position: int) -> bytes:
 
 
 def _numbers(values: array[int]) -> NDArray[np.int64]:
-    return np.array(values, dtype=np.int64)
+    return np.asarray(values, dtype=np.int64)
+
+
+def _joined(parts: list[NDArray[Any]]) -> NDArray[Any]:
+    return parts[0] if len(parts) == 1 else np.concatenate(parts)

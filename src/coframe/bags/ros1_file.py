@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.bags.compression import LARGEST, DamagedError, unpack
+from coframe.bags.offered_qos import OfferedQos, to_yaml
 from coframe.bags.storage import Batch, Channel, ChunkedStorage, Slices
 
 if TYPE_CHECKING:
@@ -174,6 +175,7 @@ class Ros1Storage(ChunkedStorage):
             encoding="ros1",
             definition=about.get(b"message_definition", b""),
             definition_format="ros1msg",
+            offered_qos=to_yaml([OfferedQos(1, transient_local=True)]) if about.get(b"latching") == b"1" else "",
         )
 
 

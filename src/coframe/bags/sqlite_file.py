@@ -114,9 +114,12 @@ class SqliteStorage(Storage):
                 "SELECT topic_type, encoding, encoded_message_definition FROM message_definitions"
             ):
                 definitions[type_] = (str(text).encode(), str(kind))
+        qos = "offered_qos_profiles" if "offered_qos_profiles" in str(tables["topics"]) else "''"
         return {
-            number: Channel(str(topic), str(type_), str(encoding), *definitions.get(type_, (b"", "")))
-            for number, topic, type_, encoding in self._query("SELECT id, name, type, serialization_format FROM topics")
+            number: Channel(str(topic), str(type_), str(encoding), *definitions.get(type_, (b"", "")), str(offered))
+            for number, topic, type_, encoding, offered in self._query(
+                f"SELECT id, name, type, serialization_format, {qos} FROM topics"  # noqa: S608 - one of our own words
+            )
             if isinstance(number, int)
         }
 

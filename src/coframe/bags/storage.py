@@ -33,6 +33,7 @@ class Channel:
         encoding: Of the messages: ``cdr``, ``ros1``, ``protobuf``, ``json``, ...
         definition: What the file says of the type; may be empty.
         definition_format: ``ros2msg``, ``ros2idl``, ``ros1msg``, ``protobuf``, ``jsonschema`` or empty.
+        offered_qos: What the publishers offered, as rosbag2 writes it: YAML; may be empty.
     """
 
     topic: str
@@ -40,6 +41,7 @@ class Channel:
     encoding: str
     definition: bytes = b""
     definition_format: str = ""
+    offered_qos: str = ""
 
 
 class Slices(NamedTuple):

@@ -123,7 +123,7 @@ def _sensor(recording: Recording, topic: Topic, roots: dict[str, str]) -> Sensor
     """None for messages that name no frame, or cannot be decoded."""
     try:
         first: Any = next(recording.messages(topic.name)).message
-        frame = str(first.header.frame_id).lstrip("/")
+        frame = recording.frame(str(first.header.frame_id))
     except (StopIteration, DecodeError, AttributeError):
         return None
     if not frame:

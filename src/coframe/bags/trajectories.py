@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TextIO
 import numpy as np
 
 from coframe import time
+from coframe.bags.table import POSE_COLUMNS
 from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
@@ -25,7 +26,6 @@ __all__ = ["FORMATS", "format_of", "write_trajectory"]
 
 _SUFFIXES = {".tum": "tum", ".txt": "tum", ".kitti": "kitti", ".csv": "csv", ".parquet": "parquet", ".npz": "npz"}
 FORMATS = ("tum", "kitti", "csv", "parquet", "npz")
-_COLUMNS = ("x", "y", "z", "qx", "qy", "qz", "qw")
 
 
 def format_of(path: str | os.PathLike[str]) -> str:
@@ -93,7 +93,7 @@ def _kitti(_stamps: NDArray[np.int64], _values: NDArray[np.float64], poses: Tran
 
 
 def _csv(stamps: NDArray[np.int64], values: NDArray[np.float64], _poses: Transform) -> Iterator[str]:
-    yield ",".join(("stamp_ns", *_COLUMNS))
+    yield ",".join(("stamp_ns", *POSE_COLUMNS))
     for stamp, row in zip(stamps.tolist(), values.tolist(), strict=True):
         yield f"{stamp},{','.join(map(repr, row))}"
 
@@ -113,7 +113,7 @@ def _write_parquet(poses: Transform, stamps: NDArray[np.int64], values: NDArray[
         parquet: Any = importlib.import_module("pyarrow.parquet")
     except ModuleNotFoundError:
         raise RecordingError("Parquet needs the package pyarrow", hint="pip install 'coframe[parquet]'") from None
-    columns = {name: values[:, i] for i, name in enumerate(_COLUMNS)}
+    columns = {name: values[:, i] for i, name in enumerate(POSE_COLUMNS)}
     table = arrow.table({"stamp_ns": stamps, **columns})
     about = {"target": poses.target or "", "source": poses.source or ""}
     parquet.write_table(table.replace_schema_metadata(about), path)

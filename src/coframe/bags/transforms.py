@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from coframe.bags.storage import Channel, Slices
     from coframe.buffer import Buffer
 
-__all__ = ["Columns", "Ingest", "cdr_columns", "ingest_for", "is_static"]
+__all__ = ["Columns", "Ingest", "ingest_for", "is_static", "tf_columns"]
 
 _SECOND = 1_000_000_000
 # Behind the count, the stamp and the name's length, and in ROS 1 the number, in CDR the header.
@@ -58,9 +58,9 @@ class Columns(NamedTuple):
     damaged: int
 
 
-def cdr_columns(messages: Slices) -> Columns:
-    """Of TFMessages as ROS 2 sends them."""
-    *columns, names, damaged, _ = _core.transform_columns(messages.data, messages.starts, messages.ends)
+def tf_columns(messages: Slices, encoding: str = "cdr") -> Columns:
+    """Of TFMessages as ROS 2 sends them, or as ROS 1 does (``ros1``)."""
+    *columns, names, damaged, _ = _core.transform_columns(messages.data, messages.starts, messages.ends, encoding)
     kinds = (np.uint32, np.int64, np.uint32, np.uint32, np.float64)
     message, stamp, parent, child, values = (
         np.frombuffer(column, dtype=kind) for column, kind in zip(columns, kinds, strict=True)
@@ -80,21 +80,27 @@ class Ingest:
     """Takes messages of one channel into a buffer.
 
     Args:
-        decode: From bytes to transforms; None: the buffer reads them itself.
+        decode: From bytes to transforms; or the encoding of TFMessages, which the buffer reads itself.
         static: Valid for all time.
         authority: Who says so.
+        renaming: What the frames are called in the buffer; None: as they come.
     """
 
     def __init__(
-        self, decode: Callable[[bytes | memoryview], Iterator[_Stamped]] | None, static: bool, authority: str
+        self,
+        decode: Callable[[bytes | memoryview], Iterator[_Stamped]] | str,
+        static: bool,
+        authority: str,
+        renaming: _core.Renaming | None,
     ) -> None:
         self._decode = decode
         self.static = static
         self._authority = authority
+        self._renaming = renaming
 
     def names_begin_with_slash(self, messages: Slices) -> bool:
         """Whether the first parent in one of them does; of messages of ROS."""
-        if self._decode not in {None, _ros1}:
+        if not isinstance(self._decode, str):
             return False
         places = (messages.starts + np.uint64(_FIRST_PARENT))[
             messages.starts + np.uint64(_FIRST_PARENT) < messages.ends
@@ -103,10 +109,9 @@ class Ingest:
 
     def __call__(self, buffer: Buffer, messages: Slices) -> tuple[int, str]:
         """Takes messages in, each whole or not at all; how many are damaged, and what is wrong with the first."""
-        if self._decode is None:
-            return _core.ingest_slices(
-                buffer, messages.data, messages.starts, messages.ends, self.static, self._authority
-            )
+        if isinstance(self._decode, str):
+            slices = (messages.data, messages.starts, messages.ends)
+            return _core.ingest_slices(buffer, *slices, self.static, self._authority, self._decode, self._renaming)
         damaged, reason = 0, ""
         for message in messages.each():
             try:
@@ -118,8 +123,8 @@ class Ingest:
 
     def columns(self, messages: Slices) -> Columns:
         """The same messages as columns."""
-        if self._decode is None:
-            return cdr_columns(messages)
+        if isinstance(self._decode, str):
+            return tf_columns(messages, self._decode)
         rows: list[tuple[int, _Stamped]] = []
         damaged = 0
         for number, message in enumerate(messages.each()):
@@ -141,9 +146,9 @@ class Ingest:
         )
 
     def _set(self, buffer: Buffer, transform: _Stamped) -> None:
-        buffer.set_values(
-            transform.parent, transform.child, transform.stamp, *transform.values, self.static, self._authority
-        )
+        names = (transform.parent, transform.child)
+        parent, child = names if self._renaming is None else map(self._renaming, names)
+        buffer.set_values(parent, child, transform.stamp, *transform.values, self.static, self._authority)
 
 
 def is_static(topic: str) -> bool:
@@ -151,33 +156,12 @@ def is_static(topic: str) -> bool:
     return topic.rpartition("/")[2] == "tf_static"
 
 
-def ingest_for(channel: Channel) -> Ingest | None:
+def ingest_for(channel: Channel, renaming: _core.Renaming | None = None) -> Ingest | None:
     """What takes in a channel's messages; None if they are no transforms."""
     kind = (channel.encoding, channel.type.replace("/msg/", "/"))
     if kind not in _DECODINGS:
         return None
-    return Ingest(_DECODINGS[kind], is_static(channel.topic), channel.topic)
-
-
-def _ros1(data: bytes | memoryview) -> Iterator[_Stamped]:
-    """tf2_msgs/TFMessage and tf/tfMessage of ROS 1."""
-    (count,) = struct.unpack_from("<I", data)
-    position = 4
-    for _ in range(count):
-        _, seconds, nanoseconds = struct.unpack_from("<III", data, position)
-        parent, position = _text(data, position + 12)
-        child, position = _text(data, position)
-        values = struct.unpack_from("<7d", data, position)
-        position += 56
-        yield _Stamped(parent, child, seconds * _SECOND + nanoseconds, values)
-
-
-def _text(data: bytes | memoryview, position: int) -> tuple[str, int]:
-    (length,) = struct.unpack_from("<I", data, position)
-    end = position + 4 + length
-    if end > len(data):
-        raise ValueError("a text is longer than the message")
-    return str(data[position + 4 : end], "utf-8"), end
+    return Ingest(_DECODINGS[kind], is_static(channel.topic), channel.topic, renaming)
 
 
 def _foxglove_cdr(data: bytes | memoryview) -> Iterator[_Stamped]:
@@ -267,13 +251,13 @@ def _varint(data: Any, position: int) -> tuple[int, int]:
     raise ValueError("an integer of more than 64 bits")
 
 
-# By encoding and type; None: the buffer decodes it. Foxglove's CDR of many transforms is laid out as a TFMessage.
-_DECODINGS: dict[tuple[str, str], Callable[[bytes | memoryview], Iterator[_Stamped]] | None] = {
-    ("cdr", "tf2_msgs/TFMessage"): None,
-    ("cdr", "foxglove_msgs/FrameTransforms"): None,
+# By encoding and type. Foxglove's CDR of many transforms is laid out as a TFMessage.
+_DECODINGS: dict[tuple[str, str], Callable[[bytes | memoryview], Iterator[_Stamped]] | str] = {
+    ("cdr", "tf2_msgs/TFMessage"): "cdr",
+    ("cdr", "foxglove_msgs/FrameTransforms"): "cdr",
     ("cdr", "foxglove_msgs/FrameTransform"): _foxglove_cdr,
-    ("ros1", "tf2_msgs/TFMessage"): _ros1,
-    ("ros1", "tf/tfMessage"): _ros1,
+    ("ros1", "tf2_msgs/TFMessage"): "ros1",
+    ("ros1", "tf/tfMessage"): "ros1",
     ("protobuf", "foxglove.FrameTransform"): _protobuf_one,
     ("protobuf", "foxglove.FrameTransforms"): _protobuf_many,
     ("json", "foxglove.FrameTransform"): _json_one,

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from coframe import _core
     from coframe.bags.problems import Problems
     from coframe.bags.storage import Channel, Slices
     from coframe.buffer import EdgeInfo
@@ -56,6 +57,7 @@ class Transforms:
     Args:
         problems: Gets what is damaged or odd.
         namespace: Only topics in this one; None: all.
+        renaming: What the frames are called in the buffers; None: as they come.
         heard: Is told of all of them, too.
     """
 
@@ -63,8 +65,10 @@ class Transforms:
         self,
         problems: Problems,
         namespace: str | None,
+        renaming: _core.Renaming | None = None,
         heard: Callable[[Channel, NDArray[np.int64], Slices], object] | None = None,
     ) -> None:
+        self._renaming = renaming
         self._problems = problems
         self._heard = heard
         self._namespace = None if namespace is None else _bare(namespace)
@@ -73,7 +77,7 @@ class Transforms:
     def ingest(self, channel: Channel) -> Callable[[NDArray[np.int64], Slices], None] | None:
         """What takes in a channel's messages with the times of their receipt; None if they are not wanted."""
         namespace = _namespace(channel.topic)
-        take = ingest_for(channel)
+        take = ingest_for(channel, self._renaming)
         if take is None or self._namespace not in {None, namespace}:
             return None
         tree = self._trees.setdefault(namespace, _Tree())
@@ -122,7 +126,7 @@ class Transforms:
     def _merged(self, messages: Iterable[tuple[Channel, Slices]]) -> Buffer:
         tree = _Tree()
         for channel, slices in messages:
-            take = ingest_for(channel)
+            take = ingest_for(channel, self._renaming)
             if take is not None and self._namespace in {None, _namespace(channel.topic)}:
                 take(tree.static if take.static else tree.moving, slices)
         return tree.joined(self._problems)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from coframe.cli.bag import bag
+from coframe.cli.batch import batch
+from coframe.cli.cloud import cloud
 from coframe.cli.demo import demo
 from coframe.cli.doctor import doctor
 from coframe.cli.echo import echo
@@ -10,6 +12,9 @@ from coframe.cli.joints import joints
 from coframe.cli.lookup import lookup
 from coframe.cli.monitor import monitor
 from coframe.cli.new_app import new_app
+from coframe.cli.play import PlayCommand, play
+from coframe.cli.record import record
+from coframe.cli.relay import relay
 from coframe.cli.robot import robot
 from coframe.cli.static import static
 from coframe.cli.trajectory import trajectory
@@ -23,8 +28,13 @@ app.command()(doctor)
 app.command()(echo)
 app.command()(monitor)
 app.command()(view)
+app.command()(relay)
 app.command()(lookup)
 app.command()(trajectory)
+app.command()(record)
+app.command(cls=PlayCommand)(play)
+app.command()(cloud)
+app.command()(batch)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(robot)
 app.command(context_settings={"ignore_unknown_options": True, "allow_extra_args": True})(joints)
 app.add_typer(bag, name="bag")

@@ -1,9 +1,10 @@
-"""``coframe bag info``: what a recording holds."""
+"""``coframe bag info``: what a recording holds; ``coframe bag fix``: the recording once more, whole."""
 
 from __future__ import annotations
 
 import json
 from datetime import datetime, timezone
+from pathlib import Path  # noqa: TC003 - typer reads the annotations
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -11,9 +12,9 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from coframe.bags import summarize
+from coframe.bags import COMPRESSIONS, mend, summarize
 from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, seconds
-from coframe.cli.session import printable, session
+from coframe.cli.session import KeepOption, PrefixOption, fail, printable, session
 
 if TYPE_CHECKING:
     from coframe.bags import Summary
@@ -32,18 +33,49 @@ def _bag() -> None:
 def info(
     bag: BagArgument,
     namespace: NamespaceOption = None,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
     as_json: Annotated[bool, typer.Option("--json", help="As JSON, with all digits.")] = False,
 ) -> None:
     """Tell what the recording BAG holds: topics, trees of frames, gaps, and which sensors could be transformed.
 
     Example: coframe bag info run.mcap
     """
-    with session(), opened(bag, namespace) as recording:
+    with session(), opened(bag, namespace, prefix, keep) as recording:
         summary = summarize(recording)
         if as_json:
             print(json.dumps(_plain(summary), indent=2))
         else:
             _print(summary)
+
+
+@bag.command()
+def fix(
+    bag: BagArgument,
+    output: Annotated[Path, typer.Argument(metavar="OUT", help="The new folder, which must not be there yet.")],
+    statics: Annotated[
+        Path | None, typer.Option(help="A recording whose static transforms are added where BAG has none.")
+    ] = None,
+    prefix: Annotated[str, typer.Option(help="Put before the names of frames, such as robot1/.", show_default="")] = "",
+    keep: Annotated[
+        list[str] | None, typer.Option(help="A frame that gets no prefix, such as map; may be repeated.")
+    ] = None,
+    compression: Annotated[str, typer.Option(help="none, zstd or lz4.")] = "zstd",
+) -> None:
+    """Write the recording BAG anew into the folder OUT, as far as it can be read, and tell what was mended.
+
+    OUT has an index, metadata, its static transforms in front and no names that begin with a slash; BAG stays as it is.
+
+    Example: coframe bag fix broken.mcap mended
+    """
+    if compression not in COMPRESSIONS:
+        fail(f"--compression: there is no {compression!r}: it is one of {', '.join(COMPRESSIONS)}", code=2)
+    with session():
+        mended = mend(bag, output, statics=statics, prefix=prefix, keep=keep or (), compression=compression)
+        for title, sentences in (("found", mended.found), ("mended", mended.done), ("still odd", mended.left)):
+            for sentence in sentences:
+                print(printable(f"{title}: {sentence}"))
+        print(f"{mended.path}: {mended.messages} messages")
 
 
 def _print(summary: Summary) -> None:

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import contextlib
 import threading
 import time
 from collections import Counter
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 from rich.console import Console, Group
@@ -14,14 +13,21 @@ from rich.live import Live
 from rich.text import Text
 
 import coframe
+from coframe.cli.fleet import fleet
 from coframe.cli.live import tree_table
-from coframe.cli.session import DomainOption, fail, session
-from coframe.cli.view import PortOption, announce
+from coframe.cli.session import (
+    DomainOption,
+    KeepOption,
+    PrefixOption,
+    TfStaticTopicOption,
+    TfTopicOption,
+    fail,
+    session,
+)
+from coframe.cli.view import PortOption, viewer_beside
+from coframe.frame_names import renaming
 from coframe.lab.launcher import COMPLETE_LAB, DESCRIBED_LAB, Launcher
 from coframe.messages.generated.sensor_msgs.msg import PointCloud2
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 __all__ = ["demo"]
 
@@ -56,10 +62,23 @@ def demo(
     urdf: Annotated[
         bool, typer.Option("--urdf", help="Arm, sensors and gripper come from a xacro file, as the very same frames.")
     ] = False,
+    robots: Annotated[
+        int | None, typer.Option(min=1, max=50, help="So many robots instead, each with its own odom under one map.")
+    ] = None,
+    own_topics: Annotated[
+        bool,
+        typer.Option(
+            "--own-topics", help="With --robots: each on topics of its own, /robot1/tf, with a relay to one tree."
+        ),
+    ] = False,
     duration: Annotated[float | None, typer.Option(min=0.0, help="Leave after so many seconds.")] = None,
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Stay in the terminal.")] = False,
     port: PortOption = None,
     domain: DomainOption = None,
+    tf_topic: TfTopicOption = "/tf",
+    tf_static_topic: TfStaticTopicOption = "/tf_static",
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
 ) -> None:
     """Start the lab's nodes, each in a process of its own, and watch them move: in the browser and in the terminal.
 
@@ -69,11 +88,21 @@ def demo(
     Example: coframe demo --duration 10
     """
     console = Console()
+    listening = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
+    if robots is not None:
+        if urdf:
+            fail("--robots and --urdf do not go together: the robots of a fleet have no URDF", "Leave one of them out.")
+        fleet(robots, duration, own_topics=own_topics, port=port, browser=not no_browser, domain=domain, **listening)
+        return
+    remaps = ("-r", f"/tf:={tf_topic}", "-r", f"/tf_static:={tf_static_topic}")
+    lab = DESCRIBED_LAB if urdf else COMPLETE_LAB
+    commands = tuple(command._replace(arguments=(*command.arguments, *remaps)) for command in lab)
+    name = renaming(prefix, keep) or str
     with (
         session(),
-        coframe.connect("coframe_demo", domain=domain) as ros,
-        Launcher(DESCRIBED_LAB if urdf else COMPLETE_LAB, domain=domain) as nodes,
-        _viewer(ros, port, browser=not no_browser),
+        coframe.connect("coframe_demo", domain=domain, **listening) as ros,
+        Launcher(commands, domain=domain) as nodes,
+        viewer_beside(ros, port, browser=not no_browser),
     ):
         clouds = Clouds()
         ros.subscribe("/scan_base_frame", PointCloud2, clouds.take)
@@ -83,28 +112,14 @@ def demo(
             running = time.monotonic() - start
             state = f"{running:.0f} s, Ctrl-C to leave: {', '.join(nodes.names)}"
             return Group(
-                tree_table(ros.buffer, "base_link", wide=console.width >= 100),
+                tree_table(ros.buffer, name("base_link"), wide=console.width >= 100),
                 Text(str(clouds)),
                 *(Text(warning, style="red") for warning in _others(ros, nodes)),
                 Text(state, style="dim", no_wrap=True),
             )
 
         with Live(get_renderable=picture, console=console, refresh_per_second=1 / REFRESH, transient=False):
-            _watch(ros.buffer, nodes, start, duration)
-
-
-@contextlib.contextmanager
-def _viewer(ros: coframe.Connection, port: int | None, *, browser: bool) -> Iterator[None]:
-    """The viewer, where what it needs is installed; else a sentence, and the terminal does."""
-    try:
-        viewer = coframe.show(ros, port=port)
-    except coframe.ViewerError as error:
-        typer.echo(f"coframe: no viewer: {error}", err=True)
-        yield
-        return
-    with viewer:
-        announce(viewer, browser=browser)
-        yield
+            _watch(ros.buffer, nodes, start, duration, [name(frame) for frame in COMPLETE])
 
 
 def _others(ros: coframe.Connection, nodes: Launcher) -> list[str]:
@@ -116,14 +131,14 @@ def _others(ros: coframe.Connection, nodes: Launcher) -> list[str]:
     return [f"another {', '.join(twice)} in this domain: stop it, or choose another domain with --domain"]
 
 
-def _watch(buffer: coframe.Buffer, nodes: Launcher, start: float, duration: float | None) -> None:
+def _watch(buffer: coframe.Buffer, nodes: Launcher, start: float, duration: float | None, complete: list[str]) -> None:
     pause = threading.Event()
     while duration is None or time.monotonic() - start < duration:
         failed = nodes.failed()
         if failed:
             fail(f"the node {failed.name} ended with exit code {failed.exit_code}:\n{failed.last_lines}")
-        if time.monotonic() - start > START_TIMEOUT and not all(frame in buffer for frame in COMPLETE):
-            missing = ", ".join(frame for frame in COMPLETE if frame not in buffer)
+        if time.monotonic() - start > START_TIMEOUT and not all(frame in buffer for frame in complete):
+            missing = ", ".join(frame for frame in complete if frame not in buffer)
             fail(
                 f"after {START_TIMEOUT:.0f} s these frames have still not arrived: {missing}",
                 "Can DDS use the loopback interface here? `ip link show lo` should say UP.",

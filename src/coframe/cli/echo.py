@@ -10,7 +10,16 @@ import numpy as np
 import typer
 
 import coframe
-from coframe.cli.session import DomainOption, TfStaticTopicOption, TfTopicOption, fail, log, session
+from coframe.cli.session import (
+    DomainOption,
+    KeepOption,
+    PrefixOption,
+    TfStaticTopicOption,
+    TfTopicOption,
+    fail,
+    log,
+    session,
+)
 from coframe.errors import TransformException
 
 if TYPE_CHECKING:
@@ -44,6 +53,8 @@ def echo(
     domain: DomainOption = None,
     tf_topic: TfTopicOption = "/tf",
     tf_static_topic: TfStaticTopicOption = "/tf_static",
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
 ) -> None:
     """Print where TARGET_FRAME is, seen from SOURCE_FRAME, again and again, as ROS 2's tf2_echo does.
 
@@ -60,7 +71,13 @@ def echo(
     with (
         session(),
         coframe.connect(
-            NODE, domain=domain, tf_topic=tf_topic, tf_static_topic=tf_static_topic, cache=round(cache_time * SECOND)
+            NODE,
+            domain=domain,
+            tf_topic=tf_topic,
+            tf_static_topic=tf_static_topic,
+            cache=round(cache_time * SECOND),
+            prefix=prefix,
+            keep=keep,
         ) as ros,
     ):
         period = round(SECOND / hertz)

@@ -9,7 +9,7 @@ import typer
 
 from coframe.cli.echo import MOST_DIGITS, format_transform
 from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened
-from coframe.cli.session import fail, session
+from coframe.cli.session import KeepOption, PrefixOption, fail, session
 
 if TYPE_CHECKING:
     from coframe import Transform
@@ -33,6 +33,8 @@ def lookup(
         str | None, typer.Option(help="Time travel: the source as it was then, told in the target as of --at.")
     ] = None,
     namespace: NamespaceOption = None,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
     precision: Annotated[int, typer.Option("--precision", "-p", min=0, max=MOST_DIGITS, help="Digits.")] = 6,
     as_json: Annotated[bool, typer.Option("--json", help="One line of JSON with all digits.")] = False,
 ) -> None:
@@ -42,7 +44,7 @@ def lookup(
     """
     if (fixed is None) != (source_time is None):
         fail("time travel takes both --fixed and --source-time", code=2)
-    with session(), opened(bag, namespace) as recording:
+    with session(), opened(bag, namespace, prefix, keep) as recording:
         when = 0 if at is None else instant("--at", at, recording)
         buffer = recording.buffer
         if fixed is None or source_time is None:

@@ -7,7 +7,15 @@ from typing import Annotated
 
 import typer
 
-from coframe.cli.session import DomainOption, node_errors, session
+from coframe.cli.session import (
+    DomainOption,
+    KeepOption,
+    PrefixOption,
+    TfStaticTopicOption,
+    TfTopicOption,
+    node_errors,
+    session,
+)
 from coframe.robots import load
 
 __all__ = ["robot"]
@@ -16,7 +24,8 @@ __all__ = ["robot"]
 def robot(
     context: typer.Context,
     file: Annotated[Path, typer.Argument(help="URDF, or xacro.")],
-    prefix: Annotated[str, typer.Option(help="Put before the names of frames, with its own slash: robot1/.")] = "",
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
     frequency: Annotated[
         float,
         typer.Option("--frequency", "-f", min=0.0, max=1000.0, help="How often at most a joint is told of, in Hz."),
@@ -25,6 +34,8 @@ def robot(
         bool, typer.Option("--ignore-timestamp", help="Tell of every joint state, however close together.")
     ] = False,
     domain: DomainOption = None,
+    tf_topic: TfTopicOption = "/tf",
+    tf_static_topic: TfStaticTopicOption = "/tf_static",
 ) -> None:
     """Publish the transforms of the robot in FILE from its joint states, as robot_state_publisher does.
 
@@ -36,6 +47,7 @@ def robot(
         parameters = {
             "robot_description": load(file).text,
             "frame_prefix": prefix,
+            "frame_prefix_keep": keep,
             "publish_frequency": frequency,
             "ignore_timestamp": ignore_timestamp,
         }
@@ -43,5 +55,6 @@ def robot(
         from robot_state_publisher import run  # noqa: PLC0415
 
         overrides = [Parameter(name, value=value) for name, value in parameters.items()]
+        remaps = ["--ros-args", "-r", f"/tf:={tf_topic}", "-r", f"/tf_static:={tf_static_topic}"]
         with node_errors():
-            run(["coframe", *context.args], domain_id=domain, parameter_overrides=overrides)
+            run(["coframe", *context.args, *remaps], domain_id=domain, parameter_overrides=overrides)

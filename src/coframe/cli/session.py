@@ -10,8 +10,10 @@ from typing import TYPE_CHECKING, Annotated, NoReturn
 
 import typer
 
+from coframe import frame_names
 from coframe.errors import (
     DecodeError,
+    FrozenFileError,
     RecordingError,
     RobotDescriptionError,
     TransformException,
@@ -23,7 +25,19 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import FrameType
 
-__all__ = ["DomainOption", "TfStaticTopicOption", "TfTopicOption", "fail", "log", "node_errors", "printable", "session"]
+__all__ = [
+    "DomainOption",
+    "KeepOption",
+    "PrefixOption",
+    "TfStaticTopicOption",
+    "TfTopicOption",
+    "check_prefix",
+    "fail",
+    "log",
+    "node_errors",
+    "printable",
+    "session",
+]
 
 DomainOption = Annotated[
     int | None, typer.Option(min=0, max=232, help="The ROS domain; by default ROS_DOMAIN_ID, or 0.", show_default=False)
@@ -36,6 +50,26 @@ def _qualified(topic: str) -> str:
 
 TfTopicOption = Annotated[str, typer.Option(help="Where transforms are sent, such as /robot1/tf.", callback=_qualified)]
 TfStaticTopicOption = Annotated[str, typer.Option(help="Where static transforms are sent.", callback=_qualified)]
+
+
+def check_prefix(prefix: str) -> str:
+    """The prefix; a word where it has no slash at its end, and the command's end where it has one in front."""
+    try:
+        frame_names.renaming(prefix)
+    except ValueError as error:
+        fail(str(error), code=2)
+    if advice := frame_names.prefix_advice(prefix):
+        typer.echo(f"coframe: {printable(advice)}", err=True)
+    return prefix
+
+
+PrefixOption = Annotated[
+    str,
+    typer.Option(
+        help="Goes in front of the names of frames as it is, with its own slash: robot1/.", callback=check_prefix
+    ),
+]
+KeepOption = Annotated[str, typer.Option(help="Frames that are shared and get no prefix, such as map,world.")]
 
 
 def fail(text: str, hint: str = "", *, code: int = 1) -> NoReturn:
@@ -67,7 +101,7 @@ def session() -> Iterator[None]:
         pass
     except BrokenPipeError:  # the reader, `head` perhaps, has seen enough
         sys.stderr.close()
-    except (WireError, ViewerError, TransformException, DecodeError, RobotDescriptionError, RecordingError) as error:
+    except _OURS as error:
         fail(str(error), error.hint)
     finally:
         for number, handler in previous.items():
@@ -84,6 +118,16 @@ def node_errors() -> Iterator[None]:
     except (NameValidationException, ParameterException, RCLError) as error:
         fail(str(error), code=2)
 
+
+_OURS = (
+    DecodeError,
+    FrozenFileError,
+    RecordingError,
+    RobotDescriptionError,
+    TransformException,
+    ViewerError,
+    WireError,
+)
 
 # Windows has no SIGHUP.
 _ENDING = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]

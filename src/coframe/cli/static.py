@@ -9,8 +9,9 @@ import time
 
 import typer
 
-from coframe.cli.session import fail, log, session
+from coframe.cli.session import check_prefix, fail, log, session
 from coframe.cli.static_arguments import ArgumentError, StaticArguments, parse
+from coframe.frame_names import renaming
 from coframe.messages.conversions import to_transform_stamped
 from coframe.wire import Participant
 
@@ -19,6 +20,7 @@ __all__ = ["static"]
 USAGE = """\
 Usage: coframe static [--x X] [--y Y] [--z Z] [--qx QX --qy QY --qz QZ --qw QW | --roll R --pitch P --yaw Y]
                       --frame-id FRAME --child-frame-id CHILD [--domain ID] [--tf-static-topic TOPIC]
+                      [--prefix robot1/] [--keep map,world]
        coframe static X Y Z YAW PITCH ROLL FRAME CHILD      (the old order)
        coframe static X Y Z QX QY QZ QW FRAME CHILD         (the old order)
 
@@ -48,8 +50,16 @@ def static(context: typer.Context) -> None:
     if arguments.frame_id == arguments.child_frame_id:
         names = f"from '{arguments.frame_id}' to '{arguments.child_frame_id}'"
         fail(f"cannot publish static transform {names}, exiting", "A frame cannot be told in itself.")
+    _rename(arguments)
     with session():
         _publish_until_stopped(arguments, node)
+
+
+def _rename(arguments: StaticArguments) -> None:
+    check_prefix(arguments.prefix)
+    names = renaming(arguments.prefix, arguments.keep)
+    if names is not None:
+        arguments.frame_id, arguments.child_frame_id = names(arguments.frame_id), names(arguments.child_frame_id)
 
 
 def _publish_until_stopped(arguments: StaticArguments, node: str) -> None:

@@ -17,7 +17,7 @@ TRANSLATION = ("--x", "--y", "--z")
 QUATERNION = ("--qx", "--qy", "--qz", "--qw")
 EULER = ("--roll", "--pitch", "--yaw")
 NUMBERS = (*TRANSLATION, *QUATERNION, *EULER)
-NAMES = ("--frame-id", "--child-frame-id", "--domain", "--tf-static-topic")
+NAMES = ("--frame-id", "--child-frame-id", "--domain", "--tf-static-topic", "--prefix", "--keep")
 
 
 class ArgumentError(ValueError):
@@ -34,6 +34,8 @@ class StaticArguments:
     old_style: bool = False
     domain: int | None = None
     tf_static_topic: str = "/tf_static"
+    prefix: str = ""
+    keep: str = ""
 
 
 @dataclass
@@ -43,20 +45,26 @@ class _Flags:
     positional: list[str] = field(default_factory=list)
 
 
-def parse(arguments: Sequence[str]) -> StaticArguments:
+def parse(words: Sequence[str]) -> StaticArguments:
     """Reads ``--x 1 --frame-id a ...``, or ``x y z yaw pitch roll frame child``, or ``x y z qx qy qz qw frame child``.
 
     Raises:
         ArgumentError: They are incomplete, contradict each other, or are no numbers.
     """
-    flags = _flags(arguments)
-    topic = "/" + flags.names.get("--tf-static-topic", "/tf_static").removeprefix("/")
-    domain = _domain(flags.names.get("--domain"))
+    flags = _flags(words)
+    arguments = _transform(flags)
+    arguments.domain = _domain(flags.names.get("--domain"))
+    arguments.tf_static_topic = "/" + flags.names.get("--tf-static-topic", "/tf_static").removeprefix("/")
+    arguments.prefix, arguments.keep = flags.names.get("--prefix", ""), flags.names.get("--keep", "")
+    return arguments
+
+
+def _transform(flags: _Flags) -> StaticArguments:
     if not flags.positional:
-        return _new_style(flags, domain, topic)
+        return _new_style(flags)
     if flags.numbers or {"--frame-id", "--child-frame-id"} & set(flags.names):
         raise ArgumentError("Cannot specify both new-style (flags) and old-style (arguments)")
-    return _old_style(flags.positional, domain, topic)
+    return _old_style(flags.positional)
 
 
 def _flags(arguments: Sequence[str]) -> _Flags:
@@ -103,7 +111,7 @@ def _domain(text: str | None) -> int | None:
     return int(text)
 
 
-def _new_style(flags: _Flags, domain: int | None, topic: str) -> StaticArguments:
+def _new_style(flags: _Flags) -> StaticArguments:
     numbers = flags.numbers
     if any(flag in numbers for flag in QUATERNION) and any(flag in numbers for flag in EULER):
         raise ArgumentError("Cannot specify both quaternion and Euler rotations")
@@ -115,10 +123,10 @@ def _new_style(flags: _Flags, domain: int | None, topic: str) -> StaticArguments
         transform = Transform.from_rpy(translation, [numbers.get(flag, 0.0) for flag in EULER])
     frame_id, child_frame_id = flags.names.get("--frame-id", ""), flags.names.get("--child-frame-id", "")
     _check_names(frame_id, child_frame_id)
-    return StaticArguments(frame_id, child_frame_id, transform, domain=domain, tf_static_topic=topic)
+    return StaticArguments(frame_id, child_frame_id, transform)
 
 
-def _old_style(positional: list[str], domain: int | None, topic: str) -> StaticArguments:
+def _old_style(positional: list[str]) -> StaticArguments:
     if len(positional) not in {8, 9}:
         raise ArgumentError("Extra unparsed arguments on command-line")
     *texts, frame_id, child_frame_id = positional
@@ -129,7 +137,7 @@ def _old_style(positional: list[str], domain: int | None, topic: str) -> StaticA
     else:
         transform = _from_quaternion(numbers[:3], numbers[3:])
     _check_names(frame_id, child_frame_id)
-    return StaticArguments(frame_id, child_frame_id, transform, True, domain, topic)
+    return StaticArguments(frame_id, child_frame_id, transform, old_style=True)
 
 
 def _from_quaternion(translation: list[float], quaternion: list[float]) -> Transform:

@@ -13,15 +13,17 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 import coframe
-from coframe.cli.session import DomainOption, TfStaticTopicOption, TfTopicOption, session
+from coframe.cli.session import DomainOption, KeepOption, PrefixOption, TfStaticTopicOption, TfTopicOption, session
 from coframe.viewer import expect
 from coframe.wire import dds
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from coframe.viewer import Viewer
     from coframe.viewer.recorded import RecordedSource
 
-__all__ = ["announce", "view"]
+__all__ = ["announce", "view", "viewer_beside"]
 
 HostOption = Annotated[str, typer.Option(help="The address to listen on; others than this machine's let others in.")]
 PortOption = Annotated[
@@ -47,6 +49,8 @@ def view(
     domain: DomainOption = None,
     tf_topic: TfTopicOption = "/tf",
     tf_static_topic: TfStaticTopicOption = "/tf_static",
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
 ) -> None:
     """See all frames and the data in them in a browser tab, live or from a recording, at any time of it.
 
@@ -70,14 +74,14 @@ def view(
             # The browser starts meanwhile.
             if live:
                 announce(viewer, browser=not no_browser)
-                node = coframe.connect(
-                    "coframe_view", domain=domain, tf_topic=tf_topic, tf_static_topic=tf_static_topic
-                )
+                topics = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
+                node = coframe.connect("coframe_view", domain=domain, **topics, prefix=prefix, keep=keep)
                 from coframe.viewer.live import LiveSource  # noqa: PLC0415 - who reads a recording needs no graph
 
                 viewer.show(LiveSource(node, own=True))
             else:
-                viewer.show(_read(Path(bag), _Reading(viewer, browser=not no_browser)))
+                reading = _Reading(viewer, browser=not no_browser)
+                viewer.show(_read(Path(bag), reading, prefix=prefix, keep=keep))
             while True:  # until Ctrl-C, which an endless wait would not hear everywhere
                 time.sleep(60.0)
 
@@ -106,12 +110,28 @@ class _Reading:
             self._viewer.entitle(f"{name}: {100 * done // max(total, 1)} % read")
 
 
-def _read(bag: Path, reading: _Reading) -> RecordedSource:
+def _read(bag: Path, reading: _Reading, *, prefix: str, keep: str) -> RecordedSource:
     from coframe.viewer.recorded import RecordedSource  # noqa: PLC0415 - who looks at the graph needs no recordings
 
-    recording = coframe.open_bag(bag, progress=lambda done, total: reading.tell(done, total, bag.name))
+    recording = coframe.open_bag(
+        bag, progress=lambda done, total: reading.tell(done, total, bag.name), prefix=prefix, keep=keep
+    )
     reading.announce()
     return RecordedSource(recording, own=True)
+
+
+@contextlib.contextmanager
+def viewer_beside(ros: coframe.Connection, port: int | None, *, browser: bool) -> Iterator[None]:
+    """The viewer, where what it needs is installed; else a sentence, and the terminal does."""
+    try:
+        viewer = coframe.show(ros, port=port)
+    except coframe.ViewerError as error:
+        typer.echo(f"coframe: no viewer: {error}", err=True)
+        yield
+        return
+    with viewer:
+        announce(viewer, browser=browser)
+        yield
 
 
 def announce(viewer: Viewer, *, browser: bool) -> None:

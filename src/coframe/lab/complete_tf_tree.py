@@ -6,6 +6,8 @@ Try it:
 
 Parameters:
     rate: broadcasts of the moving transforms per second
+    publish_world: whether the map is placed in the world from here (false: another robot or nobody tells)
+    start_x, start_y, start_yaw: where odom begins on the map, metres and radians
     publish_base: whether map, odom and base_link move from here (false: a real or simulated robot tells)
     publish_arm: whether the arm moves from here (false: dynamic_tf_broadcaster or a robot tells)
     publish_mounts: whether the sensor mounts come from here (false: static_tf_broadcaster tells)
@@ -60,6 +62,8 @@ class CompleteTFTree(Node):
         self.frames = {
             frame: self.declare_parameter(f"{frame}_frame", default).value for frame, default in FRAMES.items()
         }
+        self.publish_world = self.declare_parameter("publish_world", True).value
+        self.start = [float(self.declare_parameter(f"start_{part}", 0.0).value) for part in ("x", "y", "yaw")]
         self.publish_base = self.declare_parameter("publish_base", True).value
         self.publish_arm = self.declare_parameter("publish_arm", True).value
         self.publish_mounts = self.declare_parameter("publish_mounts", True).value
@@ -90,8 +94,10 @@ class CompleteTFTree(Node):
         camera = self.lengths("camera_translation", [0.05, 0.0, 0.02])
         gripper = self.lengths("gripper_translation", [0.1, 0.0, 0.0])
 
-        # World to map (identity for simulation)
-        static_tfs = [self.make_transform("world", "map", NO_MOVE, NO_ROTATION)]
+        static_tfs = []
+        if self.publish_world:
+            # World to map (identity for simulation)
+            static_tfs.append(self.make_transform("world", "map", NO_MOVE, NO_ROTATION))
         if self.publish_mounts:
             static_tfs += [
                 self.make_transform("base", "imu", imu, NO_ROTATION),
@@ -125,12 +131,15 @@ class CompleteTFTree(Node):
 
     def base_transforms(self, stamp: Time) -> list[TransformStamped]:
         """The robot drives forward with a slight sway, and the localization drifts."""
+        start_x, start_y, start_yaw = self.start
         drift = 0.001 * self.sim_time
         x = 0.1 * self.sim_time
         y = 0.05 * math.sin(0.5 * self.sim_time)
         yaw = 0.1 * math.sin(0.2 * self.sim_time)
         return [
-            self.make_transform("map", "odom", [drift, drift / 2, 0.0], NO_ROTATION, stamp),
+            self.make_transform(
+                "map", "odom", [start_x + drift, start_y + drift / 2, 0.0], self.yaw_to_quat(start_yaw), stamp
+            ),
             self.make_transform("odom", "base", [x, y, 0.0], self.yaw_to_quat(yaw), stamp),
         ]
 

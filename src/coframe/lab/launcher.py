@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from types import TracebackType
 
     from typing_extensions import Self
@@ -22,10 +23,17 @@ END_TIMEOUT = 5.0
 
 
 class NodeCommand(NamedTuple):
-    """A node of the lab and its ROS arguments."""
+    """A node of the lab and its ROS arguments.
+
+    Attributes:
+        name: What it is called here.
+        arguments: What follows ``--ros-args``.
+        module: Its module in ``coframe.lab``; "": that of its name.
+    """
 
     name: str
     arguments: tuple[str, ...] = ()
+    module: str = ""
 
 
 class FailedNode(NamedTuple):
@@ -88,12 +96,15 @@ class Launcher:
 
     def failed(self) -> FailedNode | None:
         """The first node that has ended by itself, if any."""
+        return next(self.ended(), None)
+
+    def ended(self) -> Iterator[FailedNode]:
+        """The nodes that have ended by themselves."""
         for name, process in self._processes.items():
             code = process.poll()
             if code is not None:
                 lines = self._log(name).read_text(errors="replace").splitlines()
-                return FailedNode(name, code, "\n".join(lines[-10:]))
-        return None
+                yield FailedNode(name, code, "\n".join(lines[-10:]))
 
     def stop(self) -> None:
         """Asks all nodes to end, and insists where that takes too long."""
@@ -117,7 +128,7 @@ class Launcher:
         return Path(self._folder.name) / f"{name}.log"
 
     def _start(self, command: NodeCommand) -> subprocess.Popen[bytes]:
-        module = f"coframe.lab.{command.name}"
+        module = f"coframe.lab.{command.module or command.name}"
         arguments = ("--ros-args", *command.arguments) if command.arguments else ()
         with self._log(command.name).open("wb") as log:
             return subprocess.Popen(  # noqa: S603 - our own modules in our own Python

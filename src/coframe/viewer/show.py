@@ -121,7 +121,7 @@ def show(
         ...     viewer.url.startswith("http://127.0.0.1:")
         True
     """
-    return _viewer(lambda: _source_of(source), fixed, rviz, robot, mesh_roots, host, port)
+    return _viewer(lambda: _source_of(source), fixed, rviz, robot, mesh_roots, host, port, joint_states)
 
 
 def expect(
@@ -162,14 +162,13 @@ def _viewer(
     mesh_roots: Iterable[str | os.PathLike[str]],
     host: str,
     port: int | None,
+    joint_states: str = JOINT_STATES,
 ) -> Viewer:
     config = None if rviz is None else _read_config(Path(rviz))
     roots = [Path(root) for root in mesh_roots]
     description = None if robot is None else load(robot, packages=roots)
     meshes = mesh_table(None if robot is None else Path(robot), roots)
-    stage = Stage(
-        make_source(), fixed=fixed, rviz=config, robot=description, meshes=meshes, joint_states=joint_states
-    )
+    stage = Stage(make_source(), fixed=fixed, rviz=config, robot=description, meshes=meshes, joint_states=joint_states)
     return Viewer(stage, host=host, port=port)
 
 

@@ -8,7 +8,16 @@ Example:
 """
 
 from coframe.wire.connection import Connection, connect
-from coframe.wire.endpoints import GraphNode, Publisher, Sample, Subscription, Tap, TappedMessage, TfReader
+from coframe.wire.endpoints import (
+    GraphNode,
+    Publisher,
+    RawPublisher,
+    Sample,
+    Subscription,
+    Tap,
+    TappedMessage,
+    TfReader,
+)
 from coframe.wire.graph import Endpoint
 from coframe.wire.participant import Participant
 from coframe.wire.qos import QoS
@@ -21,6 +30,7 @@ __all__ = [
     "Participant",
     "Publisher",
     "QoS",
+    "RawPublisher",
     "Sample",
     "StaticWriter",
     "Subscription",

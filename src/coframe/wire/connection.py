@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from coframe import _core
 from coframe.buffer import Buffer
 from coframe.errors import WireError
+from coframe.frame_names import renaming
 from coframe.time import duration_ns
 from coframe.wire.participant import Participant
 from coframe.wire.qos import DEFAULT, QoS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
     from datetime import timedelta
     from types import TracebackType
 
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
     from coframe.messages.message import Message
     from coframe.wire.endpoints import Publisher, Subscription
+    from coframe.wire.publishers import TfPublisher
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -153,7 +155,10 @@ class Connection:
         tf_topic: str,
         tf_static_topic: str,
         cache: str | int | timedelta | None,
+        prefix: str,
+        keep: Iterable[str],
     ) -> None:
+        names = renaming(prefix, keep)
         self.buffer = Buffer(cache)
         self.participant = Participant.get(domain)
         self._closing = threading.Lock()
@@ -161,8 +166,10 @@ class Connection:
         self._subscriptions: list[MessageSubscription[Any]] = []
         try:
             self.node = self.participant.add_node(namespace, node_name)
-            for topic, static in ((tf_topic, False), (tf_static_topic, True)):
-                self.participant.tf_reader(self.node, topic, self.buffer, static=static, authority=None)
+            self._readers = [
+                self.participant.tf_reader(self.node, topic, self.buffer, static=static, authority=None, renaming=names)
+                for topic, static in ((tf_topic, False), (tf_static_topic, True))
+            ]
         except BaseException:
             self.participant.close()
             raise
@@ -197,6 +204,10 @@ class Connection:
         subscription = MessageSubscription(native, message_type, event, callback)
         self._subscriptions.append(subscription)
         return subscription
+
+    def publishers(self) -> list[TfPublisher]:
+        """Who has sent transforms: how long ago, by which clock, and whether it is still there."""
+        return [publisher for reader in self._readers for publisher in self.participant.tf_publishers(reader)]
 
     def close(self) -> None:
         """Leaves the graph; the buffer keeps what it has. Closing twice does no harm."""
@@ -250,6 +261,8 @@ def connect(
     tf_topic: str = "/tf",
     tf_static_topic: str = "/tf_static",
     cache: str | int | timedelta | None = "10s",
+    prefix: str = "",
+    keep: Iterable[str] = (),
 ) -> Connection:
     """Joins the ROS 2 graph, with a buffer that fills itself in the background.
 
@@ -263,8 +276,11 @@ def connect(
         tf_topic: where transforms are sent.
         tf_static_topic: where static transforms are sent.
         cache: how far back the buffer remembers: "10s", nanoseconds, a timedelta; None: everything.
+        prefix: goes in front of the names of frames in the buffer, as it is: "robot1/" makes "robot1/base_link".
+        keep: the frames that get no prefix, as they are shared: ["map"].
 
     Raises:
+        ValueError: the prefix begins with a slash.
         WireError: cyclonedds is missing, or DDS does not let us in; the text and `.hint` say more.
 
     Example:
@@ -278,4 +294,6 @@ def connect(
         tf_topic=tf_topic,
         tf_static_topic=tf_static_topic,
         cache=cache,
+        prefix=prefix,
+        keep=keep,
     )

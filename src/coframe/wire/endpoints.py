@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections import deque
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from coframe import _core
@@ -10,11 +11,13 @@ from coframe.errors import WireError
 from coframe.wire import names
 from coframe.wire.discovery_info import NodeInfo
 from coframe.wire.graph import DdsEndpoint, Graph
+from coframe.wire.publishers import TfPublisher, publisher_of
 
 if TYPE_CHECKING:
     from coframe.wire.participant import Participant
     from coframe.wire.qos import QoS
 
+_REMEMBERED = 100  # publishers that have left
 _NO_AUTHORITY = "<no authority available>"
 
 NativeEndpoint: TypeAlias = "_core.Writer | _core.Reader | _core.Tap | _core.TfReader"
@@ -247,10 +250,20 @@ class TfReader(WireEndpoint):
     """Stores the transforms of a topic in a buffer as they arrive, on DDS's own thread."""
 
     def __init__(
-        self, native: _core.TfReader, node: GraphNode, topic: str, dds_type: str, qos: QoS, *, name_writers: bool
+        self,
+        native: _core.TfReader,
+        node: GraphNode,
+        topic: str,
+        dds_type: str,
+        qos: QoS,
+        *,
+        static: bool,
+        name_writers: bool,
     ) -> None:
         self._reader = native
+        self._static = static
         self._named: dict[int, str] | None = {} if name_writers else None
+        self._gone: deque[int] = deque()
         self._naming = threading.Lock()
         super().__init__(native, node, topic, dds_type, qos)
 
@@ -268,6 +281,17 @@ class TfReader(WireEndpoint):
         del limit
         return []
 
+    def publishers(self, graph: Graph) -> list[TfPublisher]:
+        """Who was heard so far, also who has left."""
+        if self._closed:
+            return []
+        present = graph.writers(self.topic)
+        topic = names.any_ros_name(self.topic)
+        return [
+            publisher_of(heard, graph.writer_node(heard[0]), topic, static=self._static, present=heard[0] in present)
+            for heard in self._reader.heard()
+        ]
+
     def name_writers(self, graph: Graph) -> None:
         """Lets the buffer note the publishing nodes, as far as the graph tells them."""
         if self._named is None or self._closed:
@@ -275,8 +299,10 @@ class TfReader(WireEndpoint):
         with self._naming:
             writers = graph.writers(self.topic)
             for handle in self._named.keys() - writers.keys():
-                self._reader.forget_writer(handle)
+                self._gone.append(handle)
                 del self._named[handle]
+            while len(self._gone) > _REMEMBERED:
+                self._reader.forget_writer(self._gone.popleft())
             for handle, writer in writers.items():
                 node = graph.owner(writer.guid)
                 if node is not None and self._named.get(handle) != node:

@@ -49,6 +49,7 @@ class DdsEndpoint(NamedTuple):
     topic: str
     type: str
     qos: QoS
+    user_data: bytes = b""
 
 
 class Graph:
@@ -162,9 +163,10 @@ class Graph:
 
     def _take_endpoints(self, reader: _core.EndpointReader, known: dict[int, DdsEndpoint]) -> bool:
         changes = reader.take()
-        for handle, alive, guid, participant, topic, type_name, (depth, *policies) in changes:
+        for handle, alive, guid, participant, topic, type_name, (depth, *policies), user_data in changes:
             if alive:
-                known[handle] = DdsEndpoint(guid, participant, topic, type_name, QoS(max(depth, 1), *policies))
+                qos = QoS(max(depth, 1), *policies)
+                known[handle] = DdsEndpoint(guid, participant, topic, type_name, qos, user_data)
             else:
                 known.pop(handle, None)
         return bool(changes)

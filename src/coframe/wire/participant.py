@@ -24,6 +24,7 @@ from coframe.wire.endpoints import (
 )
 from coframe.wire.graph import DdsEndpoint, Endpoint, Graph
 from coframe.wire.mismatch import MismatchWatch
+from coframe.wire.publishers import OnceEach
 from coframe.wire.qos import GRAPH_WRITER, TF, TF_STATIC_READER, QoS
 from coframe.wire.refusals import RefusalWatch
 from coframe.wire.statics import StaticTopic, StaticWriter
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 
     from coframe import Buffer
     from coframe.wire.names import Kind
+    from coframe.wire.publishers import TfPublisher
 
 _logger = logging.getLogger("coframe.wire")
 
@@ -66,6 +68,7 @@ class Participant:
         self._graph = Graph(self._native.entity, graph_topic, self._wake)
         self._mismatches = MismatchWatch(self._graph, self._warn)
         self._refusals = RefusalWatch(self._graph, self._warn)
+        self._odd_names = OnceEach(self._warn)
         self._watchers: list[_core.Event] = []
         self._warning_callbacks: list[Callable[[str], None]] = []
         self._ending = False
@@ -135,7 +138,7 @@ class Participant:
                 self.announce()
 
     def publisher(
-        self, node: GraphNode, topic: str, message_type: type, qos: QoS, *, kind: Kind = "topic"
+        self, node: GraphNode, topic: str, message_type: type, qos: QoS, *, kind: Kind = "topic", user_data: str = ""
     ) -> Publisher:
         """A publisher of `node`.
 
@@ -146,13 +149,18 @@ class Participant:
                 (client's identifier, sequence number) between the encapsulation and the message.
             qos: what is offered.
             kind: "topic", "request" or "reply".
+            user_data: what readers can learn of it from DDS, before the first message.
 
         Raises:
             WireError: DDS refuses.
         """
         of_transforms = types.ros_type(message_type) == _TF_TYPE
-        name, type_name, entity = self._tf_topic(topic) if of_transforms else self._topic_of(topic, message_type, kind)
-        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), "", of_transforms), topic)
+        name, type_name, entity = (
+            self._unchecked_topic(topic, _TF_TYPE) if of_transforms else self._topic_of(topic, message_type, kind)
+        )
+        native = _create(
+            lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), user_data, of_transforms), topic
+        )
         return Publisher(native, node, name, type_name, qos)
 
     def subscription(
@@ -196,13 +204,19 @@ class Participant:
         Raises:
             WireError: DDS refuses.
         """
-        name, type_name = names.dds_topic(topic), names.dds_type(ros_type)
-        entity = self._unchecked_topic(name, type_name)
-        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), ""), topic)
+        name, type_name, entity = self._unchecked_topic(topic, ros_type)
+        native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), "", True), topic)
         return RawPublisher(native, node, name, type_name, qos)
 
     def raw_subscription(
-        self, node: GraphNode, topic: str, ros_type: str, qos: QoS, *, on_data: _core.Event | None = None
+        self,
+        node: GraphNode,
+        topic: str,
+        ros_type: str,
+        qos: QoS,
+        *,
+        on_data: _core.Event | None = None,
+        adapts: bool = False,
     ) -> Subscription:
         """A subscription of `node` to messages of any type, whose bytes nobody checks.
 
@@ -212,14 +226,14 @@ class Participant:
             ros_type: such as "sensor_msgs/msg/LaserScan"; nobody here needs to know it.
             qos: what is asked for.
             on_data: is set whenever messages arrive.
+            adapts: the caller follows what publishers offer, so that nobody is warned of those that offer less.
 
         Raises:
             WireError: DDS refuses.
         """
-        name, type_name = names.dds_topic(topic), names.dds_type(ros_type)
-        entity = self._unchecked_topic(name, type_name)
+        name, type_name, entity = self._unchecked_topic(topic, ros_type)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
-        return Subscription(native, node, name, type_name, qos)
+        return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
     def tap(self, node: GraphNode, topic: str, ros_type: str, qos: QoS, *, head: int, capacity: int = 100_000) -> Tap:
         """A subscription of `node` that notes when messages of any type come, without Python.
@@ -235,8 +249,7 @@ class Participant:
         Raises:
             WireError: DDS refuses.
         """
-        name, type_name = names.dds_topic(topic), names.dds_type(ros_type)
-        entity = self._unchecked_topic(name, type_name)
+        name, type_name, entity = self._unchecked_topic(topic, ros_type)
         native = _create(lambda: _core.Tap(self._native.entity, entity, _native_qos(qos), "", head, capacity), topic)
         return Tap(native, node, name, type_name, qos)
 
@@ -249,6 +262,7 @@ class Participant:
         static: bool,
         qos: QoS | None = None,
         authority: str | None = "default_authority",
+        renaming: _core.Renaming | None = None,
     ) -> TfReader:
         """A subscription of `node` that stores transforms in `buffer` as they arrive, without Python.
 
@@ -259,18 +273,21 @@ class Participant:
             static: whether they hold for all times.
             qos: what is asked for; None: as tf2's listener.
             authority: what the buffer notes as their source; None: the name of the publishing node.
+            renaming: what the frames are called in the buffer (`coframe.frame_names.renaming`); None: as they come.
 
         Raises:
             WireError: DDS refuses.
         """
         chosen = qos or (TF_STATIC_READER if static else TF)
-        name, type_name, entity = self._tf_topic(topic)
+        name, type_name, entity = self._unchecked_topic(topic, _TF_TYPE)
         source = initial_authority(authority)
         native = _create(
-            lambda: _core.TfReader(self._native.entity, entity, _native_qos(chosen), "", buffer, static, source),
+            lambda: _core.TfReader(
+                self._native.entity, entity, _native_qos(chosen), "", buffer, static, source, renaming
+            ),
             topic,
         )
-        reader = TfReader(native, node, name, type_name, chosen, name_writers=authority is None)
+        reader = TfReader(native, node, name, type_name, chosen, static=static, name_writers=authority is None)
         reader.name_writers(self._graph)
         self._refusals.add(reader, buffer)
         return reader
@@ -317,6 +334,14 @@ class Participant:
     def subscribers(self, topic: str, *, kind: Kind = "topic") -> list[Endpoint]:
         """Who subscribes to a topic, by its ROS name."""
         return self._describe(self._graph.readers(names.dds_topic(topic, kind)))
+
+    def tf_publishers(self, reader: TfReader) -> list[TfPublisher]:
+        """Who was heard by a reader of transforms, also who has left."""
+        return reader.publishers(self._graph)
+
+    def writers(self, topic: str) -> dict[int, DdsEndpoint]:
+        """The writers on a topic as DDS describes them, by the handles that their samples bear."""
+        return self._graph.writers(names.dds_topic(topic))
 
     def writer_node(self, handle: int) -> str | None:
         """The full name of the node that wrote a sample, such as "/talker"; None if no node has claimed it."""
@@ -365,18 +390,14 @@ class Participant:
                 self._topics[key] = types.create_topic(self._native.entity, name, data_type)
             return self._topics[key]
 
-    def _tf_topic(self, topic: str) -> tuple[str, str, int]:
-        """As `_topic_of`, for transforms: the native endpoints check the bytes, and readers count what is malformed."""
-        name, type_name = names.dds_topic(topic), names.dds_type(_TF_TYPE)
-        return name, type_name, self._unchecked_topic(name, type_name)
-
-    def _unchecked_topic(self, name: str, type_name: str) -> int:
-        """For those who check the bytes themselves, or only pass them on."""
-        key = (name, type_name)
+    def _unchecked_topic(self, topic: str, ros_type: str) -> tuple[str, str, int]:
+        """As `_topic_of`, for those who check the bytes themselves, or only pass them on."""
+        name, type_name = names.dds_topic(topic), names.dds_type(ros_type)
         with self._lock:
-            if key not in self._unchecked_topics:
-                self._unchecked_topics[key] = types.create_unchecked_topic(self._native.entity, name, type_name)
-            return self._unchecked_topics[key]
+            if (name, type_name) not in self._unchecked_topics:
+                entity = types.create_unchecked_topic(self._native.entity, name, type_name)
+                self._unchecked_topics[name, type_name] = entity
+            return name, type_name, self._unchecked_topics[name, type_name]
 
     def _describe(self, endpoints: dict[int, DdsEndpoint]) -> list[Endpoint]:
         return [self._graph.describe(endpoint) for endpoint in endpoints.values()]
@@ -401,12 +422,20 @@ class Participant:
                 if version != seen or self._mismatches.waiting:
                     self._mismatches.check(self._endpoints())
                 seen = version
-                self._refusals.check([end for end in self._endpoints() if isinstance(end, TfReader)])
+                listeners = [end for end in self._endpoints() if isinstance(end, TfReader)]
+                self._refusals.check(listeners)
+                self._tell_odd_names(listeners)
             except Exception:
                 # A callback of the user's, or an endpoint that was closed meanwhile.
                 if not self._ending:
                     _logger.exception("coframe's housekeeping of the ROS graph failed and goes on")
             self._wake.wait(_CHECK_PERIOD_NS)
+
+    def _tell_odd_names(self, listeners: list[TfReader]) -> None:
+        for listener in listeners:
+            for publisher in listener.publishers(self._graph):
+                for sentence in publisher.oddities:
+                    self._odd_names(sentence, sentence)
 
     def _graph_changed(self) -> None:
         with self._lock:

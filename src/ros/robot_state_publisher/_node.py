@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import rclpy
+from coframe.frame_names import kept
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
 from coframe.robots.publishing import StatePublisher
 from coframe.transform import Transform
@@ -44,6 +45,8 @@ class RobotStatePublisher(Node):
         hertz = ParameterDescriptor(floating_point_range=[FloatingPointRange(from_value=0.0, to_value=1000.0)])
         frequency = self.declare_parameter("publish_frequency", 20.0, hertz).value
         self._prefix = self.declare_parameter("frame_prefix", "").value
+        # Not upstream's: the links that are shared and get no prefix, such as "map,world".
+        self._kept = set(kept(self.declare_parameter("frame_prefix_keep", "").value))
         ignore_stamps = self.declare_parameter("ignore_timestamp", False).value
         robot = self._first_robot(description, file)
         self._states = StatePublisher(robot, frequency, ignore_stamps=ignore_stamps)
@@ -95,12 +98,15 @@ class RobotStatePublisher(Node):
             self._broadcaster.sendTransform([self._message(transform, stamp) for transform in moving])
 
     def _message(self, transform: Transform, stamp: int) -> TransformStamped:
-        message = TransformStamped(child_frame_id=f"{self._prefix}{transform.source}")
-        message.header.frame_id = f"{self._prefix}{transform.target}"
+        message = TransformStamped(child_frame_id=self._frame(transform.source or ""))
+        message.header.frame_id = self._frame(transform.target or "")
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, _SECOND)
         at, turn = message.transform.translation, message.transform.rotation
         at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w = transform.values
         return message
+
+    def _frame(self, link: str) -> str:
+        return link if link in self._kept else f"{self._prefix}{link}"
 
     def _set_parameters(self, parameters: Sequence[Parameter[Any]]) -> SetParametersResult:
         """Takes changes over, or refuses all of them."""

@@ -6,11 +6,13 @@ from collections.abc import Iterable
 from copy import deepcopy
 from typing import List, Optional, Union  # noqa: F401, UP035 - leaked upstream
 
+from coframe.frame_names import renaming
 from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, qos_from
 from tf2_msgs.msg import TFMessage
+from tf2_ros._prefix import renamed
 from tf2_ros.transform_broadcaster import as_list
 
 DEFAULT_STATIC_TF_TOPIC = "/tf_static"
@@ -29,7 +31,13 @@ class StaticTransformBroadcaster:
     """
 
     def __init__(
-        self, node: Node, qos: QoSProfile | int | None = None, *, tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC
+        self,
+        node: Node,
+        qos: QoSProfile | int | None = None,
+        *,
+        tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
+        prefix: str = "",
+        keep: Iterable[str] = (),
     ) -> None:
         """Create the publisher.
 
@@ -38,7 +46,10 @@ class StaticTransformBroadcaster:
             qos: Quality of service of a publisher of its own; by default all broadcasters of the process share one,
                 reliable and transient-local with a depth of 1.
             tf_static_topic: Topic to publish on.
+            prefix: Goes in front of the names of frames as it is, such as `robot1/`.
+            keep: Frames that get no prefix, such as `["map"]`.
         """
+        self._renaming = renaming(prefix, keep)
         self.pub_tf = _shared_publisher(node, tf_static_topic) if qos is None else _own(node, tf_static_topic, qos)
         self.net_message = TFMessage()
         self._child_frame_ids: set[str] = set()
@@ -47,7 +58,8 @@ class StaticTransformBroadcaster:
         """Publish one transform or several together with all earlier ones; the last word on a child frame holds."""
         transforms = {known.child_frame_id: known for known in self.net_message.transforms}
         # Copies: callers fill the same message again for their next frame.
-        transforms.update((new.child_frame_id, deepcopy(new)) for new in as_list(transform))
+        added = renamed(as_list(transform), self._renaming)
+        transforms.update((new.child_frame_id, deepcopy(new)) for new in added)
         self.net_message.transforms = list(transforms.values())
         self._child_frame_ids = set(transforms)
         self.pub_tf.publish(self.net_message)

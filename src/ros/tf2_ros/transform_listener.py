@@ -2,17 +2,20 @@
 
 # ruff: noqa: SLF001 - rclpy's nodes and tf2's buffers let this listener in, so that Python need not run
 
+from collections.abc import Iterable
 from threading import Thread
 from typing import Any, Optional, Union  # noqa: F401 - leaked upstream
 
 import rclpy
 import tf2_py as tf2
+from coframe.frame_names import renaming
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, qos_from
 from rclpy.subscription import Subscription
 from tf2_msgs.msg import TFMessage
+from tf2_ros._prefix import renamed
 from tf2_ros.buffer import Buffer, clear_on_time_jump
 from tf2_ros.static_transform_broadcaster import DEFAULT_STATIC_TF_TOPIC
 from tf2_ros.transform_broadcaster import DEFAULT_TF_TOPIC
@@ -48,6 +51,8 @@ class TransformListener:
         tf_topic: str = DEFAULT_TF_TOPIC,
         tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
         static_only: bool = False,
+        prefix: str = "",
+        keep: Iterable[str] = (),
     ) -> None:
         """Start listening.
 
@@ -60,7 +65,10 @@ class TransformListener:
             tf_topic: Topic of the transforms that change.
             tf_static_topic: Topic of the static transforms.
             static_only: Leave the transforms that change alone.
+            prefix: Goes in front of the names of frames in the buffer as it is, such as `robot1/`.
+            keep: Frames that get no prefix, such as `["map"]`.
         """
+        self.__renaming = renaming(prefix, keep)
         self.node = node if node is not None else _hidden_node(self)
         self.group = ReentrantCallbackGroup()
         self.__buffer = buffer
@@ -107,12 +115,12 @@ class TransformListener:
 
     def callback(self, data: TFMessage) -> None:
         """Take in transforms that change."""
-        for transform in data.transforms:
+        for transform in renamed(data.transforms, self.__renaming):
             self.buffer.set_transform(transform, _AUTHORITY)
 
     def static_callback(self, data: TFMessage) -> None:
         """Take in static transforms."""
-        for transform in data.transforms:
+        for transform in renamed(data.transforms, self.__renaming):
             self.buffer.set_transform_static(transform, _AUTHORITY)
 
     def __subscribe(self) -> None:
@@ -139,6 +147,7 @@ class TransformListener:
             static=static,
             qos=qos._to_wire(),
             authority=_AUTHORITY,
+            renaming=self.__renaming,
         )
         callback = self.static_callback if static else self.callback
         return self.node._adopt(Subscription(reader, TFMessage, topic, callback, self.group, qos, raw=False))

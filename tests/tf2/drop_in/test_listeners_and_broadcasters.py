@@ -330,3 +330,48 @@ def test_a_node_as_programs_write_it(domain_id, stamped):
     rclpy.spin(robot)
     assert robot.found.child_frame_id == "bar"
     robot.destroy_node()
+
+
+REMAPS = ["--ros-args", "-r", "__ns:=/robot1", "-r", "/tf:=/robot1/tf", "-r", "/tf_static:=tf_static"]
+
+
+@pytest.mark.usefixtures("node")
+def test_a_robot_on_topics_of_its_own_by_remaps(stamped):
+    """Nav2's way: the same program for each robot, with other arguments."""
+    robot = rclpy.create_node("driver", cli_args=REMAPS)
+    buffers = {name: tf2_ros.Buffer() for name in ("same node", "plain")}
+    tf2_ros.TransformListener(buffers["same node"], robot)
+    plain = rclpy.create_node("plain")
+    tf2_ros.TransformListener(buffers["plain"], plain)
+    moving, fixed = tf2_ros.TransformBroadcaster(robot), tf2_ros.StaticTransformBroadcaster(robot)
+    assert robot.get_fully_qualified_name() == "/robot1/driver"
+    assert (moving.pub_tf.topic_name, fixed.pub_tf.topic_name) == ("/robot1/tf", "/robot1/tf_static")
+    moving.sendTransform(stamped("odom", "base_link", 1.0))
+    fixed.sendTransform(stamped("base_link", "lidar", 1.0))
+    assert buffers["same node"].can_transform("odom", "lidar", Time(), ENOUGH)
+    assert not buffers["plain"].can_transform("odom", "lidar", Time())
+    names = dict(robot.get_topic_names_and_types())
+    assert {"/robot1/tf", "/robot1/tf_static"} <= names.keys()
+    for created in (robot, plain):
+        created.destroy_node()
+
+
+def test_prefixes_of_listeners_and_broadcasters(node, stamped):
+    """A plain listener, one that is watched on its way, and both broadcasters, whose messages stay as they were."""
+
+    class Watched(tf2_ros.TransformListener):
+        def callback(self, data):
+            super().callback(data)
+
+    buffers = [tf2_ros.Buffer(), tf2_ros.Buffer()]
+    tf2_ros.TransformListener(buffers[0], node, prefix="fleet/", keep=["map"])
+    Watched(buffers[1], node, prefix="fleet/", keep=["map"])
+    moving = tf2_ros.TransformBroadcaster(node, prefix="robot1/", keep=["map"])
+    fixed = tf2_ros.StaticTransformBroadcaster(node, prefix="robot1/", keep=["map"])
+    odom, lidar = stamped("map", "odom", 1.0), stamped("odom", "lidar", 1.0)
+    moving.sendTransform(odom)
+    fixed.sendTransform([lidar])
+    for buffer in buffers:
+        while not buffer.can_transform("map", "fleet/robot1/lidar", Time()):
+            rclpy.spin_once(node)
+    assert (odom.header.frame_id, odom.child_frame_id, lidar.child_frame_id) == ("map", "odom", "lidar")

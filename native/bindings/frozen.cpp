@@ -1,0 +1,109 @@
+// Buffers as files, and the samples of a buffer as arrays.
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+
+#include <algorithm>
+#include <unordered_map>
+#include <vector>
+
+#include "bindings/arguments.hpp"
+#include "bindings/bindings.hpp"
+#include "core/frozen.hpp"
+
+namespace coframe::bindings {
+
+namespace {
+
+const Buffer& frozen_core(nb::handle buffer) {
+  const Buffer& core = *buffer_of(buffer).core;
+  if (!core.frozen()) throw nb::value_error("the buffer must be frozen: take a snapshot() of it");
+  return core;
+}
+
+template <class T>
+nb::bytes bytes_of(const std::vector<T>& values) {
+  return nb::bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+// (table, number of chunks).
+nb::tuple frozen_parts(nb::handle buffer) {
+  return frozen_core(buffer).read([](const Tree& tree) {
+    const std::string table = frozen_table(tree);
+    return nb::make_tuple(nb::bytes(table.data(), table.size()), frozen_chunk_count(tree));
+  });
+}
+
+nb::bytes chunks(nb::handle buffer, std::uint64_t first, std::uint64_t count) {
+  const std::string bytes =
+      frozen_core(buffer).read([&](const Tree& tree) { return frozen_chunks(tree, first, count); });
+  return nb::bytes(bytes.data(), bytes.size());
+}
+
+// Python's memory, held for as long as a core needs it; any thread may be the last to let go.
+std::shared_ptr<const Memory> held(nb::handle object) {
+  return {new Memory(object, PyBUF_SIMPLE), [](const Memory* memory) {
+            if (!Py_IsInitialized()) return;  // the process ends, and its memory with it
+            const CallingPython calling;
+            const nb::gil_scoped_acquire acquire;
+            delete memory;
+          }};
+}
+
+// What is wrong with the bytes; nothing, and the buffer is what they tell, if they are good.
+std::string become_frozen(nb::handle object, nb::handle file, std::uint64_t table, std::uint64_t table_size,
+                          std::uint64_t samples, std::uint64_t samples_size) {
+  BufferObject& self = buffer_of(object);
+  const std::shared_ptr<const Memory> memory = held(file);
+  const std::uint64_t size = memory->size();
+  if (table > size || table_size > size - table || samples > size || samples_size > size - samples) {
+    return "it is cut off";
+  }
+  const std::span bytes(memory->data<const std::uint8_t>(), memory->size());
+  const char* reason;
+  auto core = Buffer::restored(self.core->cache_length(), bytes.subspan(table, table_size),
+                               bytes.subspan(samples, samples_size), memory, reason);
+  if (reason) return reason;
+  self.core = std::move(core);
+  return "";
+}
+
+// (stamps, poses, which of the names the parent is, names).
+nb::tuple samples_of(nb::handle buffer, std::string_view child) {
+  const Buffer& core = frozen_core(buffer);
+  return core.read([&](const Tree& tree) {
+    const History::View history = tree.history(tree.find(child));
+    const std::size_t count = history.size();
+    std::vector<Stamp> stamps(count);
+    std::vector<double> poses(7 * count);
+    std::vector<std::uint32_t> parents(count);
+    std::unordered_map<FrameId, std::uint32_t> numbers;
+    nb::list names;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Sample sample = history.sample(i);
+      stamps[i] = history.is_static() ? 0 : history.time(i);
+      std::copy_n(sample.pose.p, 3, &poses[7 * i]);
+      std::copy_n(sample.pose.q, 4, &poses[7 * i + 3]);
+      const auto [place, is_new] = numbers.try_emplace(sample.parent, static_cast<std::uint32_t>(numbers.size()));
+      if (is_new) names.append(tree.name(sample.parent));
+      parents[i] = place->second;
+    }
+    return nb::make_tuple(bytes_of(stamps), bytes_of(poses), bytes_of(parents), names);
+  });
+}
+
+}  // namespace
+
+void define_frozen(nb::module_& module) {
+  using nb::arg;
+  module.def("frozen_parts", &frozen_parts, arg("buffer"),
+             "Of a frozen buffer the table that a file of it begins with, and how many chunks of samples it has.");
+  module.def("frozen_chunks", &chunks, arg("buffer"), arg("first"), arg("count"), "Some of these chunks.");
+  module.def("become_frozen", &become_frozen, arg("buffer"), arg("file"), arg("table"), arg("table_size"),
+             arg("samples"), arg("samples_size"),
+             "Makes a new buffer one that uses a file's bytes where they lie; what is wrong with them, or nothing.");
+  module.def("samples_of", &samples_of, arg("buffer"), arg("child"),
+             "Of a frozen buffer the samples of one frame: stamps, poses, which name the parent has, these names.");
+}
+
+}  // namespace coframe::bindings

@@ -1,0 +1,96 @@
+// Frames under other names, and relays of their messages.
+#include "core/relay.hpp"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <chrono>
+
+#include "bindings/bindings.hpp"
+#include "bindings/relay.hpp"
+#include "core/renaming.hpp"
+
+namespace coframe::bindings {
+
+namespace {
+
+template <class Clock>
+std::int64_t now() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count();
+}
+
+// What Relay passes on is UTF-8, but examples of names may be cut anywhere.
+nb::str text_of(const std::string& name) {
+  return nb::steal<nb::str>(
+      PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace"));
+}
+
+void add(Relay& self, Relay::SourceId source, Relay::WriterId writer, nb::bytes message, std::int64_t at) {
+  if (source >= self.sources()) throw nb::index_error("there is no such source");
+  const std::int64_t steady = at < 0 ? now<std::chrono::steady_clock>() : at;
+  self.add(source, writer, reinterpret_cast<const std::uint8_t*>(message.c_str()), message.size(), steady,
+           now<std::chrono::system_clock>());
+}
+
+nb::object take(Relay& self) {
+  const std::string message = self.take();
+  return message.empty() ? nb::object(nb::none()) : nb::object(nb::bytes(message.data(), message.size()));
+}
+
+nb::list edges(const Relay& self) {
+  nb::list list;
+  for (const Relay::Edge& edge : self.edges()) {
+    const Relay::Claim& claim = self.claim(edge);
+    if (edge.passed == 0 && claim.rival == Relay::kNobody) continue;
+    const bool contested = claim.rival != Relay::kNobody;
+    list.append(nb::make_tuple(text_of(edge.parent), text_of(claim.child), claim.source, edge.writer,
+                               contested ? nb::int_(claim.rival) : nb::object(nb::none()), claim.contested,
+                               edge.passed, edge.thinned, edge.newest, edge.heard_at));
+  }
+  return list;
+}
+
+nb::list writers(const Relay& self, Relay::SourceId source) {
+  if (source >= self.sources()) throw nb::index_error("there is no such source");
+  nb::list list;
+  for (const auto& [handle, writer] : self.writers(source)) {
+    list.append(nb::make_tuple(heard_tuple(handle, writer.messages, writer.heard_at, writer.lag, writer.odd),
+                               writer.malformed, writer.refused));
+  }
+  return list;
+}
+
+}  // namespace
+
+nb::tuple heard_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t heard_at, const Lag& lag,
+                      const NameOddities& odd) {
+  const nb::object behind = lag.known() ? nb::object(nb::int_(lag.typical())) : nb::object(nb::none());
+  return nb::make_tuple(writer, messages, heard_at, behind, text_of(odd.slashed), text_of(odd.prefixed),
+                        text_of(odd.plain));
+}
+
+void define_relay(nb::module_& module) {
+  nb::class_<Renaming>(module, "Renaming", "Puts a prefix in front of the names of frames, except of those to keep.")
+      .def(nb::init<std::string, std::vector<std::string>>(), nb::arg("prefix"), nb::arg("keep"))
+      .def("__call__", [](const Renaming& self, const std::string& name) { return self(name); }, nb::arg("name"));
+
+  nb::class_<Relay>(module, "Relay", "TFMessages of several sources into those of one tree. Not for several threads at once.")
+      .def(
+          "__init__",
+          [](Relay* self, bool is_static, std::int64_t period) { new (self) Relay(is_static, period); },
+          nb::arg("static"), nb::arg("period"))
+      .def(
+          "add_source",
+          [](Relay& self, const Renaming& renaming, bool split) {
+            return self.add_source(renaming, split ? Relay::Direction::split : Relay::Direction::merge);
+          },
+          nb::arg("renaming"), nb::arg("split"), "The number of another source.")
+      .def("add", &add, nb::arg("source"), nb::arg("writer"), nb::arg("message"), nb::arg("at") = -1,
+           "Takes a message in that came from a writer of a source.")
+      .def("take", &take, "One message of what was taken in since the last one, or None.")
+      .def("forget_writer", &Relay::forget_writer, nb::arg("source"), nb::arg("writer"), "The writer has left.")
+      .def("edges", &edges, "What is known of each edge.")
+      .def("writers", &writers, nb::arg("source"), "What each writer of a source has sent.");
+}
+
+}  // namespace coframe::bindings

@@ -1,0 +1,160 @@
+#include "core/relay.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+namespace coframe {
+namespace {
+
+// The names of an edge as its relay writes them; false where this source's robot has no part in it.
+bool renamed(const Renaming& renaming, Relay::Direction direction, const TransformView& view, std::string& parent,
+             std::string& child) {
+  if (direction == Relay::Direction::merge) {
+    parent = renaming(view.parent);
+    child = renaming(view.child);
+    return true;
+  }
+  child = without_slash(view.child);
+  parent = without_slash(view.parent);
+  renaming.strip(view.parent, parent);  // it may also be shared
+  return renaming.strip(view.child, child) || renaming.keeps(child);
+}
+
+bool same(const TransformValues& a, const TransformValues& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+}  // namespace
+
+Relay::SourceId Relay::add_source(Renaming renaming, Direction direction) {
+  sources_.push_back({std::move(renaming), direction, {}});
+  return static_cast<SourceId>(sources_.size() - 1);
+}
+
+void Relay::add(SourceId source, WriterId writer, const std::uint8_t* data, std::size_t size, std::int64_t now,
+                std::int64_t wall) {
+  Writer& from = writer_of(sources_.at(source), writer);
+  ++from.messages;
+  from.heard_at = now;
+  if (decode_tf_message(data, size, decoded_, from.expected).reason) {
+    ++from.malformed;
+    return;
+  }
+  Stamp newest = 0;
+  for (std::size_t i = 0; i < decoded_.size(); ++i) {
+    const TransformView& view = decoded_[i];
+    newest = std::max(newest, view.stamp);
+    const std::uint32_t place =
+        view.as_expected ? from.expected[i].child : place_of(sources_[source], from, i, view);
+    if (place == 0) continue;
+    if (check_values(view.values) != 0) {
+      ++from.refused;
+      continue;
+    }
+    if (!is_listened_to(place - 1, source, view, now)) continue;
+    Edge& edge = edges_[place - 1];
+    is_news_ |= edge.passed == 0 || !same(edge.values, view.values);
+    edge.writer = writer;
+    edge.newest = view.stamp;
+    edge.heard_at = now;
+    edge.values = view.values;
+    if (is_static_ || is_due(edge, now)) {
+      ++edge.passed;
+      if (!is_static_) write(edge);
+    } else {
+      ++edge.thinned;
+    }
+  }
+  if (!is_static_ && newest != 0) from.lag.add(wall - newest);
+  if (decoded_.capacity() > kMaxRemembered) decoded_ = {};
+}
+
+std::string Relay::take() {
+  if (is_static_ && std::exchange(is_news_, false)) {
+    for (const Claim& claim : claims_) {
+      if (edges_[claim.edge].passed > 0) write(edges_[claim.edge]);
+    }
+  }
+  if (written_.empty()) return {};
+  std::string message = encode_tf_message(written_);
+  written_.clear();
+  if (written_.capacity() > kMaxRemembered) written_ = {};
+  return message;
+}
+
+Relay::Writer& Relay::writer_of(Source& source, WriterId writer) {
+  if (source.writers.size() >= kMaxWriters && !source.writers.contains(writer)) source.writers.clear();
+  return source.writers[writer];
+}
+
+// 1 + the place of the edge; 0: it is not passed on.
+std::uint32_t Relay::place_of(const Source& source, Writer& writer, std::size_t index, const TransformView& view) {
+  std::string parent, child;
+  std::uint32_t place = 0;
+  if (!is_utf8(view.parent) || !is_utf8(view.child)) {
+    ++writer.refused;
+    return 0;
+  }
+  writer.odd.note(source.renaming, view.parent);
+  writer.odd.note(source.renaming, view.child);
+  if (renamed(source.renaming, source.direction, view, parent, child)) {
+    if (check_names(parent, child) == 0) place = find_or_add(parent, child);
+    if (place == 0) {
+      ++writer.refused;
+      return 0;
+    }
+  }
+  if (index < kMaxRemembered) {
+    if (writer.expected.size() <= index) writer.expected.resize(index + 1);
+    writer.expected[index] = {std::string(view.name_bytes), 0, place};
+  }
+  return place;
+}
+
+std::uint32_t Relay::find_or_add(const std::string& parent, const std::string& child) {
+  const std::string key = parent + '\0' + child;
+  if (const auto known = edge_of_.find(key); known != edge_of_.end()) return known->second + 1;
+  if (edges_.size() >= kMaxEdges) return 0;
+  const auto [claim, is_new] = claim_of_.try_emplace(child, static_cast<std::uint32_t>(claims_.size()));
+  if (is_new) claims_.push_back({.child = child, .source = kNobody});
+  const auto place = static_cast<std::uint32_t>(edges_.size());
+  edges_.push_back({.claim = claim->second, .parent = parent});
+  edge_of_.emplace(key, place);
+  return place + 1;
+}
+
+// A source keeps the frames that it told of first, unless it falls silent: two at once would make them flicker, and what
+// comes back by way of another program would go round for ever.
+bool Relay::is_listened_to(std::uint32_t place, SourceId source, const TransformView& view, std::int64_t now) {
+  Claim& claim = claims_[edges_[place].claim];
+  const bool is_free = claim.source == kNobody || (!is_static_ && now - claim.heard_at > kPatience);
+  if (claim.source != source && !is_free) {
+    const bool agrees = is_static_ && claim.edge == place && same(edges_[place].values, view.values);
+    if (!agrees) {
+      claim.rival = source;
+      ++claim.contested;
+    }
+    return false;
+  }
+  claim.source = source;
+  claim.heard_at = now;
+  claim.edge = place;
+  return true;
+}
+
+// Counted from when one was due, not from when one came: the rate is kept on average.
+bool Relay::is_due(Edge& edge, std::int64_t now) const {
+  if (period_ > 0) {
+    if (now < edge.due) return false;
+    edge.due = (now - edge.due < period_ ? edge.due : now) + period_;
+  }
+  return true;
+}
+
+void Relay::write(const Edge& edge) {
+  written_.push_back({.parent = edge.parent,
+                      .child = claims_[edge.claim].child,
+                      .stamp = edge.newest,
+                      .values = edge.values});
+}
+
+}  // namespace coframe

@@ -1,0 +1,231 @@
+"""``coframe demo --robots``: a fleet, each robot in a process of its own, in one view."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+import threading
+import time
+from typing import TYPE_CHECKING, NamedTuple
+
+from rich.console import Console, Group
+from rich.live import Live
+from rich.table import Table
+from rich.text import Text
+
+import coframe
+from coframe.cli.session import fail, printable, session
+from coframe.cli.view import viewer_beside
+from coframe.errors import TransformException
+from coframe.frame_names import renaming
+from coframe.lab.launcher import Launcher, NodeCommand
+from coframe.wire.publishers import state_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from coframe.lab.launcher import FailedNode
+    from coframe.wire.publishers import TfPublisher
+    from coframe.wire.relay import Relay
+
+__all__ = ["fleet"]
+
+REFRESH = 0.2  # seconds
+START_TIMEOUT = 30.0
+SHARED = ("world", "map")
+# Of the lab's tree, whose node has a parameter for the name of each.
+FRAMES = ("odom", "base", "link1", "link2", "end_effector", "imu", "lidar", "camera", "gripper")
+_NS = 1_000_000_000
+
+
+def fleet(
+    count: int,
+    duration: float | None,
+    *,
+    own_topics: bool,
+    port: int | None,
+    browser: bool,
+    domain: int | None,
+    tf_topic: str,
+    tf_static_topic: str,
+    prefix: str,
+    keep: str,
+) -> None:
+    """Starts robot1, robot2, ... and shows them till Ctrl-C; one that ends leaves the others alone.
+
+    Args:
+        count: How many.
+        duration: So many seconds, or None.
+        own_topics: Each robot sends plain names on topics of its own, and a relay brings them together; else all send
+            names with a prefix on the same topics.
+        port: Of the viewer.
+        browser: Whether it is opened.
+        domain: The ROS domain.
+        tf_topic: Where all are in the end.
+        tf_static_topic: Likewise.
+        prefix: In front of all names, as they are shown.
+        keep: The frames that it is not put before.
+    """
+    names = [f"robot{number}" for number in range(1, count + 1)]
+    shown = renaming(prefix, keep) or str
+    listening = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
+    if own_topics and tf_static_topic != f"{tf_topic}_static":
+        fail(f"with --own-topics the static transforms go to {tf_topic}_static", code=2)
+    topics = None if own_topics else (tf_topic, tf_static_topic)
+    commands = tuple(_command(name, number, count, topics) for number, name in enumerate(names))
+    warnings: list[str] = []
+    with (
+        session(),
+        coframe.connect("coframe_demo", domain=domain, **listening) as ros,
+        _relay(names, tf_topic, domain, warnings.append, wanted=own_topics) as relay,
+        Launcher(commands, domain=domain) as nodes,
+        viewer_beside(ros, port, browser=browser),
+    ):
+        view = _View(names, ros, relay, nodes, shown)
+        start = time.monotonic()
+
+        def picture() -> Group:
+            state = f"{time.monotonic() - start:.0f} s, Ctrl-C to leave; {len(names)} robots, a process each"
+            said = [*view.sentences(), *(f"relay: {warning}" for warning in warnings[-5:])]
+            lines = (Text(printable(sentence), style="red") for sentence in said)
+            return Group(view.table(), *lines, Text(state, style="dim"))
+
+        with Live(get_renderable=picture, console=Console(), refresh_per_second=1 / REFRESH, transient=False):
+            _watch(view, nodes, start, duration)
+
+
+def _relay(
+    names: list[str], common: str, domain: int | None, warn: Callable[[str], None], *, wanted: bool
+) -> contextlib.AbstractContextManager[Relay | None]:
+    if not wanted:
+        return contextlib.nullcontext()
+    return coframe.relay(names, common=common, prefix_each=True, keep=SHARED, domain=domain, warn=warn)
+
+
+def _command(name: str, number: int, count: int, topics: tuple[str, str] | None) -> NodeCommand:
+    """A robot that starts on a circle, with its back to the middle; on topics of its own, or with its own names."""
+    angle = 2 * math.pi * number / count
+    radius = 0.0 if count == 1 else max(1.0, 0.3 * count)
+    parameters = {
+        "publish_world": "false",
+        "start_x": f"{radius * math.cos(angle):.3f}",
+        "start_y": f"{radius * math.sin(angle):.3f}",
+        "start_yaw": f"{angle:.3f}",
+    }
+    if topics is not None:
+        parameters |= {f"{frame}_frame": f"{name}/{_link(frame)}" for frame in FRAMES}
+    tf, tf_static = topics or (f"/{name}/tf", f"/{name}/tf_static")
+    arguments = ["-r", f"__ns:=/{name}", "-r", f"/tf:={tf}", "-r", f"/tf_static:={tf_static}"]
+    for parameter, value in parameters.items():
+        arguments += ["-p", f"{parameter}:={value}"]
+    return NodeCommand(name, tuple(arguments), module="complete_tf_tree")
+
+
+def _link(frame: str) -> str:
+    return frame if frame in {"odom", "link1", "link2", "end_effector"} else f"{frame}_link"
+
+
+class _Row(NamedTuple):
+    """What there is to say of a robot."""
+
+    name: str
+    state: str
+    publishers: list[TfPublisher]
+    ended: FailedNode | None
+
+    @property
+    def problem(self) -> str:
+        """A sentence; "" where all is well."""
+        if self.ended is not None:
+            code = self.ended.exit_code
+            return f"{self.name} has gone: its process ended with exit code {code}, its frames are stale"
+        if self.state in {"gone", "silent"}:
+            return f"{self.name} is {self.state}: its frames are stale"
+        return next((f"{self.name}: {told}" for each in self.publishers if (told := each.clock_problem())), "")
+
+
+class _View:
+    """The robots as the terminal shows them."""
+
+    def __init__(
+        self,
+        names: list[str],
+        ros: coframe.Connection,
+        relay: Relay | None,
+        nodes: Launcher,
+        shown: Callable[[str], str],
+    ) -> None:
+        self._names = names
+        self._ros = ros
+        self._relay = relay
+        self._nodes = nodes
+        self._shown = shown
+
+    def rows(self) -> list[_Row]:
+        """All robots."""
+        ended = {node.name: node for node in self._nodes.ended()}
+        if self._relay is not None:
+            heard = {robot.name: robot.publishers for robot in self._relay.robots}
+        else:
+            everyone = self._ros.publishers()
+            heard = {name: [one for one in everyone if one.node.startswith(f"/{name}/")] for name in self._names}
+        return [_Row(name, state_of(heard[name]), heard[name], ended.get(name)) for name in self._names]
+
+    def missing(self) -> list[str]:
+        """The robots whose frames have not come."""
+        return [name for name in self._names if self._frame(name, "base_link") not in self._ros.buffer]
+
+    def sentences(self) -> list[str]:
+        """What is wrong."""
+        return [row.problem for row in self.rows() if row.problem]
+
+    def table(self) -> Table:
+        """A line a robot."""
+        title = f"{len(self._names)} robots, seen from {self._shown('map')} (metres, degrees)"
+        table = Table(title=title, title_justify="left", box=None, padding=(0, 2, 0, 0), pad_edge=False)
+        for column in ("robot", "state", "frames", "rate Hz", "age ms", "clock ms", "x", "y", "yaw"):
+            table.add_column(column, justify="left" if column in {"robot", "state"} else "right", no_wrap=True)
+        frames = self._ros.buffer.frames()
+        for row in self.rows():
+            own = [frame for frame in frames if frame.name.startswith(self._frame(row.name, ""))]
+            rate = next((frame.rate for frame in own if frame.name == self._frame(row.name, "base_link")), 0.0)
+            moving = [publisher for publisher in row.publishers if not publisher.static]
+            age = min((publisher.age for publisher in moving), default=math.nan)
+            lag = next((publisher.lag for publisher in moving if publisher.lag is not None), None)
+            stale = row.ended is not None or row.state in {"gone", "silent"}
+            table.add_row(
+                Text(row.name, style="dim" if stale else "bold"),
+                Text("stale" if stale else row.state, style="red" if stale else "green"),
+                str(len(own)),
+                f"{rate:.1f}",
+                f"{age * 1e3:.0f}",
+                "-" if lag is None else f"{-lag * 1e-6:+.0f}",
+                *self._pose(row.name),
+            )
+        return table
+
+    def _frame(self, robot: str, frame: str) -> str:
+        return self._shown(f"{robot}/{frame}")
+
+    def _pose(self, robot: str) -> tuple[str, str, str]:
+        try:
+            pose = self._ros.buffer.lookup(self._shown("map"), self._frame(robot, "base_link"))
+        except TransformException:
+            return "-", "-", "-"
+        x, y, _ = pose.translation.tolist()
+        return f"{x:.2f}", f"{y:.2f}", f"{math.degrees(pose.rpy[2]):.0f}"
+
+
+def _watch(view: _View, nodes: Launcher, start: float, duration: float | None) -> None:
+    pause = threading.Event()
+    while duration is None or time.monotonic() - start < duration:
+        ended = list(nodes.ended())
+        if len(ended) == len(nodes.names):
+            fail(f"all robots have ended, {ended[0].name} with exit code {ended[0].exit_code}:\n{ended[0].last_lines}")
+        gone = {node.name for node in ended}
+        if time.monotonic() - start > START_TIMEOUT and (missing := set(view.missing()) - gone):
+            fail(
+                f"after {START_TIMEOUT:.0f} s nothing has come from {', '.join(sorted(missing))}",
+                "Can DDS use the loopback interface here? `ip link show lo` should say UP.",
+            )
+        pause.wait(REFRESH)

@@ -1,0 +1,256 @@
+"""Clouds and scans out of recordings: where their points belong, what is left out and why, and every kind of file."""
+
+import numpy as np
+import pytest
+import recordings
+from recordings import SECOND, START
+
+import coframe
+from coframe.bags import Clouds, write_clouds
+from coframe.messages import find, serialize
+
+CLOUD, SCAN = "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan"
+DATATYPES = {"<f4": 7, "<f8": 8, "<u4": 6, "<u2": 4}
+SWEEP = SECOND // 10
+KINDS = ("ouster", "velodyne", "hesai", "livox")
+WALL = np.array([[5.0, 0.1, 1.0], [4.0, 2.0, 1.0], [3.0, -1.0, 0.5], [2.5, 0.5, 0.2]])
+
+
+def cloud_message(points, stamp, frame="lidar"):
+    message = find(CLOUD)()
+    message.header.frame_id = frame
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, SECOND)
+    message.height, message.width = 1, len(points)
+    for name in points.dtype.names:
+        kind, offset = points.dtype.fields[name][:2]
+        message.fields.append(
+            find("sensor_msgs/msg/PointField")(name=name, offset=offset, datatype=DATATYPES[kind.str], count=1)
+        )
+    message.point_step, message.row_step = points.itemsize, points.nbytes
+    message.data = points.tobytes()
+    return serialize(message)
+
+
+def truth():
+    """The robot drives at a metre a second and turns meanwhile."""
+    buffer = coframe.Buffer(None)
+    for i in range(41):
+        at = START + i * SECOND // 20
+        buffer.set("map", "base", coframe.Transform.from_rpy([i / 20, 0, 0], [0, 0, i / 30]), at)
+    buffer.set("base", "lidar", coframe.Transform.from_rpy([0.1, 0, 0.3], [0, 0, 0.5]), static=True)
+    return buffer
+
+
+def seen(times, walls=WALL):
+    """What the lidar measures of the wall at these times."""
+    poses = truth().lookup_many("lidar", "map", times)
+    return np.stack([poses[i] @ walls[i % len(walls)] for i in range(len(times))])
+
+
+def sweep(stamp, kind):
+    """A cloud whose points were measured one after the other."""
+    offsets = np.arange(len(WALL)) * SWEEP // len(WALL)
+    times = {
+        "ouster": ("t", "<u4", offsets),
+        "velodyne": ("time", "<f4", offsets / SECOND),
+        "hesai": ("timestamp", "<f8", (stamp + offsets) / SECOND),
+        "livox": ("timestamp", "<f8", (stamp + offsets).astype(float)),
+    }
+    name, dtype, values = times.get(kind, ("ring", "<f4", np.zeros(len(WALL))))
+    points = np.zeros(len(WALL) + 1, [(a, "<f4") for a in "xyz"] + [("intensity", "<u2"), (name, dtype)])
+    for axis, column in zip("xyz", seen(stamp + offsets).T, strict=True):
+        points[axis][:-1] = column
+    points["intensity"] = np.arange(len(points))
+    points[name][:-1] = values
+    points[name][-1] = values[0]
+    points["x"][-1] = np.nan
+    return cloud_message(points, stamp)
+
+
+@pytest.fixture
+def path(tmp_path):
+    """Transforms from START on for two seconds; clouds from half a second before to half a second after."""
+    rows, buffer = [], truth()
+    for i in range(41):
+        at = START + i * SECOND // 20
+        rows.append(("/tf", at, recordings.cdr("map", "base", buffer.lookup("map", "base", at), at)))
+    rows.append(("/tf_static", START, recordings.cdr("base", "lidar", buffer.lookup("base", "lidar"), START)))
+    for i in range(2, 18):
+        stamp = START + i * SWEEP
+        rows += [(f"/points_{kind}", stamp, sweep(stamp, kind)) for kind in KINDS]
+        rows += [("/points", stamp, sweep(stamp, "ring"))]
+    for stamp in (START - SECOND, START + 3 * SECOND):
+        rows.append(("/points_ouster", stamp, cloud_message(np.ones(3, [(a, "<f4") for a in "xyz"]), stamp)))
+    rows.append(("/points_ouster", START + SECOND, cloud_message(np.ones(3, [("x", "<f4")]), START + SECOND)))
+    rows.append(("/points_ouster", START + SECOND + 1, b"\0\1\0\0 no cloud"))
+    rows.append(
+        ("/points_ouster", START + SECOND, cloud_message(np.ones(3, [(a, "<f4") for a in "xyz"]), START, "attic"))
+    )
+    types = {topic: (CLOUD, "ros2msg", b"", "cdr") for topic in {row[0] for row in rows} if "points" in topic}
+    return recordings.write_mcap(tmp_path / "run.mcap", rows=rows, types=types)
+
+
+def xyz(points):
+    return np.stack([points[axis] for axis in "xyz"], axis=1)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_points_of_a_moving_sensor_fall_on_the_wall(path, kind):
+    with coframe.open_bag(path) as recording:
+        for cloud in Clouds(recording, f"points_{kind}", "map", start=START + 2 * SWEEP, stop=START + SECOND):
+            assert cloud.deskewed
+            np.testing.assert_allclose(xyz(cloud.points), WALL, rtol=0, atol=1e-6)
+            assert cloud.points["intensity"].tolist() == [0, 1, 2, 3]
+            assert (cloud.frame, cloud.points.dtype["x"]) == ("map", np.float64)
+        smeared = next(iter(Clouds(recording, f"points_{kind}", "map", start=START + 2 * SWEEP, deskew="off")))
+        assert not smeared.deskewed
+        assert 0.03 < np.abs(xyz(smeared.points) - WALL).max() < 0.5
+
+
+def test_a_frame_that_moves_needs_one_that_does_not(path):
+    with coframe.open_bag(path) as recording:
+        stamp = START + 5 * SWEEP
+        (cloud,) = Clouds(recording, "/points_ouster", "base", fixed="map", at=stamp)
+        expected = recording.buffer.lookup("base", "map", stamp) @ WALL
+        np.testing.assert_allclose(xyz(cloud.points), expected, rtol=0, atol=1e-6)
+
+
+def test_what_cannot_be_transformed_is_counted_with_its_reason(path):
+    with coframe.open_bag(path) as recording:
+        clouds = Clouds(recording, "/points_ouster", "map")
+        good = list(clouds)
+        assert (clouds.total, len(good), clouds.messages) == (21, 16, 16)
+        assert clouds.points == 16 * len(WALL) == sum(len(cloud.points) for cloud in good)
+        reasons = sorted(clouds.left_out)
+        assert sum(clouds.left_out.values()) == 5
+        assert [reason.partition(":")[0] for reason in reasons] == [
+            "ExtrapolationException",
+            "LookupException",
+            "cannot be read",
+            "cannot be read",
+        ]
+        assert clouds.left_out[reasons[0]] == 2
+        assert clouds.points_left_out == {"measured nothing (not a number)": 16}
+
+
+def test_points_beyond_the_last_transform_are_left_out_one_by_one(tmp_path):
+    stamp = START + 40 * SECOND // 20 - SWEEP // 2
+    rows = [
+        ("/tf", START + i, recordings.cdr("map", "lidar", coframe.Transform(), at))
+        for i, at in enumerate((START, START + 2 * SECOND))
+    ]
+    points = np.ones(4, [(a, "<f4") for a in "xyz"] + [("t", "<u4")])
+    points["t"] = np.arange(4) * SWEEP // 4
+    rows.append(("/points", stamp, cloud_message(points, stamp)))
+    path = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/points": (CLOUD, "ros2msg", b"", "cdr")})
+    with coframe.open_bag(path) as recording:
+        clouds = Clouds(recording, "/points", "map")
+        (cloud,) = clouds
+        assert len(cloud.points) == 3
+        assert clouds.points_left_out == {"have no transform at their own time": 1}
+
+
+def read_ply(data):
+    head, _, body = data.partition(b"end_header\n")
+    lines = head.decode().split("\n")
+    assert lines[:2] == ["ply", "format binary_little_endian 1.0"]
+    (count,) = [int(line.split()[2]) for line in lines if line.startswith("element vertex")]
+    kinds = {"double": "<f8", "float": "<f4", "ushort": "<u2", "uint": "<u4", "int": "<i4"}
+    dtype = [(line.split()[2], kinds[line.split()[1]]) for line in lines if line.startswith("property")]
+    points = np.frombuffer(body, dtype)
+    assert len(points) == count
+    return points
+
+
+def read_pcd(data):
+    head, _, body = data.partition(b"DATA binary\n")
+    facts = dict(line.split(" ", 1) for line in head.decode().splitlines() if not line.startswith("#"))
+    kinds = [f"<{kind.lower()}{size}" for kind, size in zip(facts["TYPE"].split(), facts["SIZE"].split(), strict=True)]
+    points = np.frombuffer(body, list(zip(facts["FIELDS"].split(), kinds, strict=True)))
+    assert len(points) == int(facts["POINTS"]) == int(facts["WIDTH"]) * int(facts["HEIGHT"])
+    return points
+
+
+@pytest.mark.parametrize("kind", ["ply", "pcd", "npy", "npz", "mcap", "folder"])
+def test_every_kind_of_file_has_all_points(path, tmp_path, kind):
+    target = tmp_path / ("out" if kind == "folder" else f"out.{kind}")
+    with coframe.open_bag(path) as recording:
+        clouds = Clouds(recording, "/points", "map", deskew="off")
+        assert write_clouds(clouds, target) == clouds.points == 16 * len(WALL)
+        expected = [cloud.points for cloud in clouds]
+        stamps = [cloud.stamp for cloud in clouds]
+    if kind == "mcap":
+        with coframe.open_bag(target) as written:
+            messages = [message.message for message in written.messages("/points")]
+            assert written.stamps("/points").tolist() == stamps
+            assert {message.header.frame_id for message in messages} == {"map"}
+            again = [next(iter(Clouds(written, "/points", "map", at=stamp))).points for stamp in stamps]
+    elif kind == "folder":
+        files = sorted(target.iterdir())
+        assert [file.name for file in files] == [f"points_{stamp}.ply" for stamp in stamps]
+        again = [read_ply(file.read_bytes()) for file in files]
+    elif kind == "npz":
+        columns = np.load(target)
+        again = [{name: columns[name] for name in columns}]
+        assert sorted(columns) == sorted(expected[0].dtype.names)
+    else:
+        read = {"ply": read_ply, "pcd": read_pcd, "npy": lambda _: np.load(target)}[kind]
+        again = [read(target.read_bytes())]
+    for name in ("x", "y", "z", "intensity"):
+        ours = np.concatenate([points[name] for points in again])
+        theirs = np.concatenate([points[name] for points in expected])
+        np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-6 if kind in {"pcd", "mcap"} else 0)
+
+
+def test_voxels_keep_one_point_each(path, tmp_path):
+    with coframe.open_bag(path) as recording:
+        clouds = Clouds(recording, "/points_ouster", "map", fields=[])
+        cloud = clouds.accumulated(0.29)
+        assert cloud.points.dtype.names == ("x", "y", "z")
+        np.testing.assert_allclose(xyz(cloud.points), WALL, rtol=0, atol=1e-5)
+        assert write_clouds(clouds, tmp_path / "a.ply", voxel=0.29) == len(WALL)
+        with pytest.raises(ValueError, match="take larger ones"):
+            clouds.accumulated(1e-9)
+
+
+def test_other_topics_and_other_fields_are_refused_kindly(path, tmp_path):
+    with coframe.open_bag(path) as recording:
+        with pytest.raises(
+            coframe.RecordingError, match="/tf has messages of the type tf2_msgs/msg/TFMessage"
+        ) as caught:
+            Clouds(recording, "tf", "map")
+        assert "/points_ouster" in caught.value.hint
+        with pytest.raises(coframe.RecordingError, match="has no topic 'nothing'"):
+            Clouds(recording, "nothing", "map")
+        with pytest.raises(coframe.RecordingError, match="nothing of /points could be seen from attic: LookupExc"):
+            write_clouds(Clouds(recording, "/points", "attic"), tmp_path / "a.ply")
+        clouds = Clouds(recording, "/points", "map", fields=["colour"])
+        assert list(clouds) == []
+        assert "the points have no field 'colour'" in next(iter(clouds.left_out))
+    assert not list(tmp_path.glob("*a.ply*"))
+
+
+def test_scans_hit_the_wall_that_they_were_measured_at(tmp_path):
+    """Beside projecting each beam by hand."""
+    buffer, stamp, beams = truth(), START + SECOND // 2, 60
+    scan = find(SCAN)(angle_min=-1.0, angle_increment=2.0 / beams, time_increment=0.05 / beams, range_max=20.0)
+    scan.header.frame_id = "/lidar"
+    scan.header.stamp.sec, scan.header.stamp.nanosec = divmod(stamp, SECOND)
+    scan.ranges = [float(np.float32(3 + i % 7)) if i % 10 else float("inf") for i in range(beams)]
+    rows = [("/scan", stamp, serialize(scan))]
+    for i in range(41):
+        at = START + i * SECOND // 20
+        rows.append(("/tf", at, recordings.cdr("map", "base", buffer.lookup("map", "base", at), at)))
+    rows.append(("/tf_static", START, recordings.cdr("base", "lidar", buffer.lookup("base", "lidar"), START)))
+    path = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/scan": (SCAN, "ros2msg", b"", "cdr")})
+    expected = []
+    for i in range(beams):
+        if i % 10:
+            angle, at = -1.0 + i * scan.angle_increment, stamp + round(i * scan.time_increment * 1e9)
+            point = scan.ranges[i] * np.array([np.cos(angle), np.sin(angle), 0])
+            expected.append(buffer.lookup("map", "lidar", at) @ point)
+    with coframe.open_bag(path) as recording:
+        clouds = Clouds(recording, "/scan", "map")
+        (cloud,) = clouds
+        np.testing.assert_allclose(xyz(cloud.points), np.array(expected), rtol=0, atol=1e-5)  # the message has float32
+        assert clouds.points_left_out == {"measured nothing (out of range)": 6}

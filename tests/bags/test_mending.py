@@ -1,0 +1,157 @@
+"""Recordings written anew: what was wrong with them is told, and is no longer so."""
+
+import shutil
+
+import numpy as np
+import pytest
+import recordings
+from recordings import COUNT, SECOND, START
+from rosbags.rosbag2 import Reader
+from typer.testing import CliRunner
+
+import coframe
+from coframe.bags import mend
+from coframe.cli.app import app
+from coframe.messages import find, serialize
+
+ODOMETRY = "nav_msgs/msg/Odometry"
+
+
+def fix(*arguments):
+    result = CliRunner().invoke(app, ["bag", "fix", *map(str, arguments)])
+    return result.exit_code, result.output
+
+
+def assert_clean(path):
+    """That nobody has anything to complain of."""
+    result = CliRunner().invoke(app, ["bag", "info", str(path)])
+    assert (result.exit_code, result.stderr) == (0, "")
+    with Reader(path) as reader:
+        return list(reader.messages())
+
+
+def test_a_recording_that_breaks_off(tmp_path):
+    cut = recordings.write_mcap(tmp_path / "cut.mcap", finish=False)
+    cut.write_bytes(cut.read_bytes()[:3000])
+    code, output = fix(cut, tmp_path / "new")
+    assert code == 0
+    assert "found: cut.mcap: it breaks off at byte 3000 of 3000" in output
+    messages = assert_clean(tmp_path / "new")
+    assert 20 < len(messages) < COUNT
+    assert f"mended: {len(messages)} messages of 2 topics written anew, with an index and metadata.yaml" in output
+    assert [bytes(data) for *_, data in messages] == [data for *_, data in recordings.messages()[: len(messages)]]
+
+
+def test_metadata_that_name_other_files(shared, tmp_path):
+    code, output = fix(shared / "recordings" / "broken" / "db3_renamed_metadata_stale", tmp_path / "new")
+    assert code == 0
+    assert "found: metadata.yaml names rosbag2_2023_11_29-19_52_49_0.db3, which is not there" in output
+    assert len(assert_clean(tmp_path / "new")) == 191
+
+
+@pytest.mark.parametrize(
+    "name", ["tilt_laser.bag", "turtlesim_tf_demo_lz4.bag", "tb3_tf_missing_static", "world_talk_1hz"]
+)
+def test_real_recordings_give_the_same_answers(shared, tmp_path, name):
+    mend(shared / "recordings" / name, tmp_path / "new")
+    assert_clean(tmp_path / "new")
+    with coframe.open_bag(shared / "recordings" / name) as old, coframe.open_bag(tmp_path / "new") as new:
+        assert new.problems == []
+        for before, after in zip(old.buffer.edges(), new.buffer.edges(), strict=True):
+            assert before[:3] == after[:3]
+            if before.parent:
+                poses = [b.trajectory(before.parent, before.child).matrix for b in (old.buffer, new.buffer)]
+                np.testing.assert_array_equal(*poses)
+
+
+def test_slashes_in_front_of_names(shared, tmp_path):
+    mended = mend(shared / "recordings" / "tilt_laser.bag", tmp_path / "new")
+    assert "/tf: 1422 names of frames freed of '/' in front" in mended.done
+    assert "/scan: 178 names of frames freed of '/' in front" in mended.done
+    assert any("/temperature: 712 messages left out: ROS 2 has no such type" in sentence for sentence in mended.done)
+    with coframe.open_bag(tmp_path / "new") as bag:
+        assert {m.message.header.frame_id for m in bag.messages("/scan")} == {"laser"}
+
+
+def messages_with_odometry():
+    odometry = find(ODOMETRY)()
+    odometry.header.frame_id, odometry.child_frame_id = "odom", "/base"
+    return [*recordings.messages(), ("/odom", START + 3 * SECOND, serialize(odometry))]
+
+
+def test_prefixes(tmp_path):
+    source = recordings.write_mcap(
+        tmp_path / "a.mcap", rows=messages_with_odometry(), types={"/odom": (ODOMETRY, "ros2msg", b"", "cdr")}
+    )
+    code, output = fix(source, tmp_path / "new", "--prefix", "r1/", "--keep", "odom")
+    assert code == 0
+    assert "mended: /odom: 1 names of frames put under 'r1/'" in output
+    assert_clean(tmp_path / "new")
+    with coframe.open_bag(tmp_path / "new") as bag:
+        poses = bag.buffer.trajectory("odom", "r1/lidar").matrix
+        np.testing.assert_allclose(poses, recordings.expected().trajectory("odom", "lidar").matrix, rtol=0, atol=1e-15)
+        odometry = next(bag.messages("/odom")).message
+        assert (odometry.header.frame_id, odometry.child_frame_id) == ("odom", "r1/base")
+
+
+def test_statics_come_first_and_from_another_recording(tmp_path):
+    static, *moving = recordings.messages()
+    late = recordings.write_mcap(tmp_path / "late.mcap", rows=[*moving, ("/tf_static", START + 9 * SECOND, static[2])])
+    mended = mend(late, tmp_path / "first")
+    assert "/tf_static: 1 static transforms put in front, which came later" in mended.done
+    (first, _, data), *_ = assert_clean(tmp_path / "first")
+    assert (first.topic, bytes(data)) == ("/tf_static", static[2])
+    assert len(mend(tmp_path / "first", tmp_path / "again").done) == 1
+
+    without = recordings.write_mcap(tmp_path / "without.mcap", rows=moving)
+    code, output = fix(without, tmp_path / "new", "--statics", late)
+    assert code == 0
+    assert "mended: /tf_static: 1 static transforms added" in output
+    assert_clean(tmp_path / "new")
+    with coframe.open_bag(tmp_path / "new") as bag:
+        recordings.assert_same(bag.buffer)
+    code, output = fix(without, tmp_path / "other", "--statics", without)
+    assert code == 1
+    assert "has no static transforms to add" in output
+
+
+def test_what_tf2_refuses_and_damaged_messages_go(tmp_path):
+    nan = recordings.cdr("odom", "base", coframe.Transform(), START)[:-8] + b"\0" * 6 + b"\xf8\x7f"
+    both = recordings.cdr("odom", "base", coframe.Transform(), START)
+    rows = [*recordings.messages(), ("/tf", START, nan), ("/tf", START, b"\0\1\0\0cut"), ("/tf_static", START, both)]
+    source = recordings.write_mcap(tmp_path / "a.mcap", rows=rows)
+    with coframe.open_bag(source) as bag:
+        assert len(bag.problems) == 3
+    mended = mend(source, tmp_path / "new")
+    assert len(mended.found) == 3
+    assert mended.left == []
+    assert "/tf: 1 transforms left out that tf2 refuses" in mended.done
+    assert "/tf: 1 damaged messages left out" in mended.done
+    assert "/tf_static: 1 static transforms left out of frames that also move" in mended.done
+    with coframe.open_bag(tmp_path / "new") as bag:
+        recordings.assert_same(bag.buffer)
+
+
+def test_what_cannot_be_mended_is_told(tmp_path):
+    rows = [*recordings.messages(), ("/odd", START, b"\0\1\0\0abcd")]
+    source = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/odd": ("my_pkg/msg/Odd", "", b"", "cdr")})
+    code, output = fix(source, tmp_path / "new")
+    assert code == 0
+    assert "still odd: /odd: messages of the type my_pkg/msg/Odd are given as bytes" in output
+    with coframe.open_bag(tmp_path / "new") as bag:
+        assert next(bag.messages("/odd")).data == b"\0\1\0\0abcd"
+
+
+def test_nothing_is_overwritten(tmp_path):
+    source = recordings.write_mcap(tmp_path / "a.mcap")
+    before = source.read_bytes()
+    shutil.copy(source, tmp_path / "b.mcap")
+    assert fix(source, tmp_path)[0] == 1
+    code, output = fix(source, tmp_path / "b.mcap")
+    assert code == 1
+    assert "is there already, and nothing is overwritten" in output
+    code, output = fix(tmp_path / "gone", tmp_path / "new")
+    assert code == 1
+    assert not (tmp_path / "new").exists()
+    assert fix(source, tmp_path / "new", "--compression", "zip")[0] == 2
+    assert source.read_bytes() == (tmp_path / "b.mcap").read_bytes() == before

@@ -1,0 +1,229 @@
+"""Recordings as coframe writes them, read by programs that others wrote."""
+
+import errno
+import json
+import os
+import shutil
+import subprocess
+import sys
+import textwrap
+
+import pytest
+import recordings
+from mcap.reader import make_reader
+from mcap.stream_reader import StreamReader
+from recordings import COUNT, SECOND, START, TF
+from rosbags.interfaces import QosDurability
+from rosbags.rosbag2 import Reader
+
+import coframe
+from coframe.bags import OfferedQos, Writer, from_yaml
+from coframe.bags.mcap_writer import McapWriter
+from coframe.bags.offered_qos import to_yaml
+
+COMPRESSIONS = ("none", "zstd", "lz4")
+
+
+def write_walk(path, *, close=True, flush_every=10, **options):
+    """The walk; without the end, as a recorder leaves it that is killed."""
+    writer = Writer(path, **options)
+    topics = {name: writer.add_topic(name, TF) for name in ("/tf_static", "/tf")}
+    for i, (topic, at, data) in enumerate(recordings.messages()):
+        writer.write(topics[topic], data, at)
+        if i % flush_every == 0:
+            writer.flush()
+    writer.flush()
+    if not close:
+        shutil.copytree(path, path.with_name("killed"))
+    writer.close()
+    return writer
+
+
+def read_by_rosbags(path):
+    with Reader(path) as reader:
+        return [(connection.topic, at, bytes(data)) for connection, at, data in reader.messages()]
+
+
+def read_by_mcap(file):
+    """Every message, with all checksums looked at."""
+    with file.open("rb") as stream:
+        list(StreamReader(stream, validate_crcs=True).records)
+        stream.seek(0)
+        found = [
+            (channel.topic, message.log_time, message.data)
+            for _, channel, message in make_reader(stream).iter_messages()
+        ]
+        stream.seek(0)
+        return found, make_reader(stream).get_summary()
+
+
+@pytest.mark.parametrize("compression", COMPRESSIONS)
+@pytest.mark.parametrize("close", [True, False])
+def test_other_programs_open_it_finished_or_not(tmp_path, compression, close):
+    write_walk(tmp_path / "run", compression=compression, close=close)
+    folder = tmp_path / ("run" if close else "killed")
+    assert read_by_rosbags(folder) == recordings.messages()
+    found, summary = read_by_mcap(folder / "run_0.mcap")
+    assert found == recordings.messages()
+    assert (summary is not None) == close
+    with coframe.open_bag(folder) as bag:
+        assert bag.problems == []
+        recordings.assert_same(bag.buffer)
+
+
+def test_the_index_says_what_is_there(tmp_path):
+    writer = write_walk(tmp_path / "run")
+    _, summary = read_by_mcap(tmp_path / "run" / "run_0.mcap")
+    counts = {
+        summary.channels[number].topic: count for number, count in summary.statistics.channel_message_counts.items()
+    }
+    assert counts == {"/tf": COUNT, "/tf_static": 1}
+    assert summary.statistics.message_start_time == START + 1000
+    assert len(summary.chunk_indexes) == summary.statistics.chunk_count > 3
+    assert writer.messages == COUNT + 1
+    assert writer.size == (tmp_path / "run" / "run_0.mcap").stat().st_size
+
+
+def test_types_are_described_and_latched_topics_known_as_such(tmp_path):
+    with Writer(tmp_path / "run") as writer:
+        writer.write(writer.add_topic("/tf_static", TF), recordings.messages()[0][2], START)
+        writer.write(writer.add_topic("/odd", "my_pkg/msg/Odd"), b"\0\1\0\0abcd", START)
+        qos = [OfferedQos(3, reliable=False, transient_local=True, keep_all=True)]
+        writer.write(writer.add_topic("/map", "nav_msgs/msg/OccupancyGrid", offered_qos=qos), b"\0\1\0\0", START)
+    assert writer.undescribed == ["my_pkg/msg/Odd"]
+    with Reader(tmp_path / "run") as reader:
+        by_topic = {connection.topic: connection for connection in reader.connections}
+        assert "string child_frame_id" in by_topic["/tf_static"].msgdef.data
+        assert by_topic["/tf_static"].ext.offered_qos_profiles[0].durability is QosDurability.TRANSIENT_LOCAL
+        assert by_topic["/odd"].msgdef.data == ""
+        assert len(list(reader.messages())) == 3
+    with coframe.open_bag(tmp_path / "run") as bag:
+        offered = {channel.topic: from_yaml(channel.offered_qos) for channel in bag.channels()}
+    assert offered == {"/tf_static": (OfferedQos(1, transient_local=True),), "/odd": (), "/map": tuple(qos)}
+
+
+@pytest.mark.parametrize("limit", [{"max_duration": "1s"}, {"max_size": 4000, "compression": "none"}])
+def test_every_file_begins_with_the_statics(tmp_path, limit):
+    writer = write_walk(tmp_path / "run", **limit)
+    files = sorted((tmp_path / "run").glob("*.mcap"))
+    assert writer.files == len(files) >= 3
+    for file in files:
+        (topic, at, data), *rest = read_by_mcap(file)[0]
+        assert (topic, data) == ("/tf_static", recordings.messages()[0][2])
+        assert at <= rest[0][1]
+        with coframe.open_bag(file) as alone:
+            assert alone.buffer.lookup("odom", "lidar").target == "odom"
+    with coframe.open_bag(tmp_path / "run") as bag:
+        recordings.assert_same(bag.buffer)
+        assert bag.topics["/tf"].messages == COUNT
+    assert [row for row in read_by_rosbags(tmp_path / "run") if row[0] == "/tf"] == recordings.messages()[1:]
+
+
+def test_latched_messages_are_those_that_still_hold(tmp_path):
+    def static(*children):
+        buffer = coframe.Buffer(None)
+        for child in children:
+            buffer.set("base", child, coframe.Transform(), START, static=True)
+        return buffer.encode(static=True)
+
+    with Writer(tmp_path / "run", max_duration="1s") as writer:
+        tf, text = (
+            writer.add_topic("/tf_static", TF),
+            writer.add_topic(
+                "/robot_description", "std_msgs/msg/String", offered_qos=[OfferedQos(1, transient_local=True)]
+            ),
+        )
+        for data in (static("a"), static("b"), static("a", "c"), b"\0\1\0\0cut"):
+            writer.write(tf, data, START)
+        for publisher, data in ((1, b"\0\1\0\0old"), (2, b"\0\1\0\0two"), (1, b"\0\1\0\0new")):
+            writer.write(text, data, START, publisher=publisher)
+        writer.write(writer.add_topic("/tf", TF), static("x"), START + SECOND)
+    second = [data for topic, _, data in read_by_mcap(tmp_path / "run" / "run_1.mcap")[0] if topic != "/tf"]
+    assert second == [static("b"), static("a", "c"), b"\0\1\0\0cut", b"\0\1\0\0two", b"\0\1\0\0new"]
+
+
+def test_what_a_killed_writer_leaves_can_be_read_wherever_it_was_killed(tmp_path):
+    """Not only between two writes: the operating system may have done a part of one."""
+    file = tmp_path / "a.mcap"
+    writer = McapWriter(file)
+    channel = writer.add_channel("/tf", TF, encoding="cdr", definition="", definition_format="", about={})
+    rows = recordings.messages()[1:]
+    for _, at, data in rows[:30]:
+        writer.write(channel, data, at, at)
+    writer.flush()
+    before = file.read_bytes()
+    for _, at, data in rows[30:]:
+        writer.write(channel, data, at, at)
+    writer.flush()
+    after = file.read_bytes()
+    writer.close()
+    assert read_by_mcap(file)[0] == [("/tf", at, data) for _, at, data in rows]
+    for done in range(len(before) - 50, len(after), 97):
+        torn = tmp_path / "torn.mcap"
+        torn.write_bytes(after[:done] + before[done:])
+        with coframe.open_bag(torn) as bag:
+            assert bag.topics["/tf"].messages >= 30
+            assert next(bag.messages("/tf")).data == rows[0][2]
+
+
+def test_a_folder_that_is_there_is_refused(tmp_path):
+    (tmp_path / "run").mkdir()
+    with pytest.raises(coframe.RecordingError, match="is there already, and nothing is overwritten"):
+        Writer(tmp_path / "run")
+    with pytest.raises(coframe.RecordingError, match="cannot be written: "):
+        Writer("/proc/run")
+    with pytest.raises(ValueError, match="there is no compression 'zip'"):
+        Writer(tmp_path / "other", compression="zip")
+
+
+def test_a_full_disk_ends_it_with_a_sentence_and_leaves_what_was_written(tmp_path):
+    """The operating system refuses to let the child's files grow, as a full disk does."""
+    pytest.importorskip("resource")
+    code = f"""
+        import resource, sys
+        sys.path.insert(0, {str(recordings.__file__.rsplit("/", 1)[0])!r})
+        import recordings, coframe
+        from coframe.bags import Writer
+        resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+        writer = Writer({str(tmp_path / "run")!r}, compression="none")
+        tf = writer.add_topic("/tf", recordings.TF)
+        try:
+            for time in range(100):
+                for topic, at, data in recordings.messages():
+                    writer.write(tf, data, at + time * 10**10)
+                writer.flush()
+        except coframe.RecordingError as error:
+            print(error)
+        try:
+            writer.close()
+        except coframe.RecordingError as error:
+            print(error)
+        print(writer.messages)
+    """
+    result = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, check=True)
+    first, *_, count = result.stdout.splitlines()
+    assert first == f"{tmp_path / 'run'} cannot be written: {os.strerror(errno.EFBIG)}"
+    assert int(count) == 2 * (COUNT + 1)
+    found, _ = read_by_mcap(tmp_path / "run" / "run_0.mcap")
+    assert [data for *_, data in found] == 2 * [data for *_, data in recordings.messages()]
+    assert len(read_by_rosbags(tmp_path / "run")) == 2 * (COUNT + 1)
+
+
+def test_times_of_sending_that_are_none_do_no_harm(tmp_path):
+    """Publishers may say anything, and DDS has numbers for "invalid" and "for ever"."""
+    with Writer(tmp_path / "run") as writer:
+        topic = writer.add_topic("/words", "std_msgs/msg/String")
+        for published in (-(2**63), -1, 2**63 - 1, 2**64):
+            writer.write(topic, b"\0\1\0\0", START, published=published)
+    with (tmp_path / "run" / "run_0.mcap").open("rb") as stream:
+        told = [message.publish_time for *_, message in make_reader(stream).iter_messages()]
+    assert told == [START, START, 2**63 - 1, START]
+
+
+def test_quality_of_service_of_every_version():
+    profiles = (OfferedQos(), OfferedQos(7, reliable=False, transient_local=True), OfferedQos(keep_all=True))
+    assert from_yaml(to_yaml(profiles)) == profiles
+    words = [{"history": "keep_last", "depth": 7, "reliability": "best_effort", "durability": "transient_local"}]
+    assert from_yaml(json.dumps(words)) == (OfferedQos(7, reliable=False, transient_local=True),)
+    for damaged in ("", "[", "{}", "- 1", "- {history: 1}", "- {history: 1, depth: x, reliability: 1, durability: 1}"):
+        assert from_yaml(damaged) == ()

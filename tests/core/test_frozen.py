@@ -1,0 +1,225 @@
+"""Buffers as files: what comes back is what was saved, and no byte of a file does harm."""
+
+import concurrent.futures
+import multiprocessing
+import pickle
+import random
+import struct
+import zlib
+
+import numpy as np
+import pytest
+
+import coframe
+from coframe import frozen
+
+SECOND = 1_000_000_000
+SPAN = (SECOND, 20 * SECOND)
+
+
+def filled():
+    """Moving and static frames, one that changed its parent, one that was only mentioned, one that was removed."""
+    buffer = coframe.Buffer(None)
+    for i in range(1, 1001):
+        at = i * SECOND // 50
+        moved = coframe.Transform.from_rpy([i / 100, np.sin(i / 50), 0], [0, 0, i / 90])
+        buffer.set("odom", "base", moved, at, authority="wheels")
+        buffer.set("map", "odom", coframe.Transform([0, 0, i / 1000]), at, authority="slam")
+    buffer.set("base", "lidar", coframe.Transform.from_rpy([0.1, 0, 0.3], [0, 0, 1]), static=True)
+    for i, parent in enumerate(["map", "map", "base", "base"]):
+        buffer.set(parent, "box", coframe.Transform([i, 0, 0]), (i + 1) * SECOND)
+    buffer.set("map", "gone", coframe.Transform(), SECOND)
+    buffer.remove_frame("gone")
+    return buffer
+
+
+@pytest.fixture
+def path(tmp_path):
+    path = tmp_path / "run.cfz"
+    filled().save(path)
+    return path
+
+
+def test_answers_are_those_of_the_buffer(path):
+    buffer, loaded = filled(), coframe.load(path, verify=True)
+    stamps = np.random.default_rng(3).integers(*SPAN, 2000)
+    for pair in (("map", "lidar"), ("lidar", "map"), ("odom", "base")):
+        assert loaded.lookup_many(*pair, stamps) == buffer.lookup_many(*pair, stamps)
+        assert loaded.lookup(*pair) == buffer.lookup(*pair)
+        assert loaded.lookup(*pair, int(stamps[0])) == buffer.lookup(*pair, int(stamps[0]))
+        assert loaded.trajectory(*pair) == buffer.trajectory(*pair)
+    for second in (1, 2, 3, 4):  # over the change of the parent
+        assert loaded.lookup("map", "box", second * SECOND) == buffer.lookup("map", "box", second * SECOND)
+    assert loaded.edges(now=0) == buffer.edges(now=0)
+    assert loaded.frames() == buffer.frames()
+    assert "gone" not in loaded
+    assert loaded.cache_ns == buffer.cache_ns
+    for name in ("map", "nobody"):
+        with pytest.raises(coframe.TransformException) as expected:
+            buffer.lookup("base", name, 3600 * SECOND)
+        with pytest.raises(type(expected.value)) as found:
+            loaded.lookup("base", name, 3600 * SECOND)
+        assert (str(found.value), found.value.hint) == (str(expected.value), expected.value.hint)
+
+
+def test_samples_of_a_cache_that_has_forgotten_and_of_late_ones(tmp_path):
+    """Their first chunk does not begin with the first sample."""
+    buffer = coframe.Buffer("5s")
+    for i in [*range(1, 900), *range(850, 800, -1)]:
+        buffer.set("map", "base", coframe.Transform([i, 0, 0]), i * SECOND // 50 + i % 2)
+    buffer.save(tmp_path / "a.cfz")
+    loaded = coframe.load(tmp_path / "a.cfz")
+    assert loaded.trajectory("map", "base") == buffer.trajectory("map", "base")
+
+
+def test_an_empty_buffer(tmp_path):
+    coframe.Buffer().save(tmp_path / "a.cfz")
+    assert coframe.load(tmp_path / "a.cfz", verify=True).frames() == []
+
+
+def test_it_only_answers(path):
+    loaded = coframe.load(path)
+    with pytest.raises(coframe.InvalidArgumentException, match="frozen") as caught:
+        loaded.set("map", "base", coframe.Transform(), SECOND)
+    assert "loaded file" in caught.value.hint
+    loaded.clear()
+    assert not loaded.remove_frame("lidar")
+    assert loaded.lookup("map", "lidar")
+
+
+def test_what_comes_of_it_outlives_it(path):
+    """Snapshots share its memory, and errors tell of it later."""
+    loaded = coframe.load(path)
+    snapshot = loaded.snapshot()
+    with pytest.raises(coframe.ExtrapolationException) as caught:
+        loaded.lookup("map", "base", 3600 * SECOND)
+    del loaded
+    path.unlink()
+    assert snapshot.lookup("map", "lidar") == filled().lookup("map", "lidar")
+    snapshot.save(path)
+    assert coframe.load(path).trajectory("map", "lidar") == filled().trajectory("map", "lidar")
+    assert "extrapolation" in str(caught.value)
+
+
+def ask(buffer, stamp):
+    return buffer.lookup("map", "lidar", stamp).translation.tolist()
+
+
+def test_worker_processes_open_the_file_themselves(path):
+    loaded = coframe.load(path)
+    assert len(pickle.dumps(loaded)) < len(str(path)) + 100
+    with concurrent.futures.ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
+        assert pool.submit(ask, loaded, 7 * SECOND).result() == ask(loaded, 7 * SECOND)
+
+
+def test_a_file_appears_whole_or_not_at_all(path, monkeypatch):
+    before = path.read_bytes()
+    monkeypatch.setattr(frozen._core, "frozen_chunks", lambda *_: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        filled().save(path)
+    assert path.read_bytes() == before
+    assert list(path.parent.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (lambda _data: b"", "is no frozen buffer"),
+        (lambda data: b"SQLite format 3\0" + data[16:], "is no frozen buffer"),
+        (lambda data: data[:20], "is damaged: it is cut off"),
+        (lambda data: data[:-1], "is damaged: it is cut off"),
+        (lambda data: data[:8] + b"\x07" + data[9:], "has the version 7 of the format"),
+        (lambda data: data[:30] + b"\x07" + data[31:], "the checksum of its header differs"),
+        (lambda data: data[:-3] + b"\x07" + data[-2:], "the checksum of its table differs"),
+    ],
+)
+def test_damaged_files_are_refused_in_one_sentence(path, change, says):
+    path.write_bytes(change(path.read_bytes()))
+    with pytest.raises(coframe.FrozenFileError, match=says) as caught:
+        coframe.load(path)
+    assert "\n" not in str(caught.value)
+    assert caught.value.hint
+
+
+def test_a_flipped_bit_among_the_samples_is_found_when_asked_for(path):
+    data = bytearray(path.read_bytes())
+    data[4096 + 5000] ^= 1
+    path.write_bytes(data)
+    coframe.load(path)
+    with pytest.raises(coframe.FrozenFileError, match="the checksum of its samples differs"):
+        coframe.load(path, verify=True)
+
+
+@pytest.mark.parametrize("where", ["nowhere/run.cfz", "."])
+def test_a_place_that_cannot_be_written_or_read(tmp_path, where):
+    with pytest.raises(coframe.FrozenFileError, match="cannot be written"):
+        filled().save(tmp_path / where)
+    with pytest.raises(coframe.FrozenFileError, match="cannot be opened"):
+        coframe.load(tmp_path / where)
+
+
+def sealed(data):
+    """With checksums that fit whatever is in there."""
+    header = frozen._Header(*frozen._HEADER.unpack_from(data))
+    table = data[header.table : header.table + header.table_size]
+    data[: frozen._HEADER.size] = frozen._HEADER.pack(*header._replace(table_crc=zlib.crc32(table)))
+    data[frozen._HEADER.size : frozen._HEADER.size + 4] = struct.pack("<I", zlib.crc32(data[: frozen._HEADER.size]))
+    return data
+
+
+def mutated(rng, whole):
+    """Changed in its numbers, in its table, among its samples; then sealed."""
+    data = bytearray(whole)
+    header = frozen._Header(*frozen._HEADER.unpack_from(data))
+    for _ in range(rng.choice([1, 2, 8])):
+        start, end = rng.choice([(16, frozen._HEADER.size), (header.table, len(data)), (4096, header.table)])
+        where = rng.randrange(start, end)
+        piece = rng.choice([b"\xff", b"\0", b"\x7f", b"\xff" * 8, bytes(8), rng.randbytes(4), rng.randbytes(8)])
+        data[where : where + len(piece)] = piece
+    data = data[: len(whole)]
+    return bytes(sealed(data)) if rng.random() < 0.9 else bytes(data)
+
+
+def survives(path):
+    """Whether it was opened; then all is asked of it that reads samples."""
+    try:
+        loaded = coframe.load(path)
+    except coframe.FrozenFileError:
+        return False
+    stamps = np.array([0, *range(SECOND, 20 * SECOND, SECOND // 3), 2**63 - 1, -(2**63)])
+    loaded.edges()
+    loaded.encode(static=False)
+    loaded.all_frames_as_yaml()
+    loaded.all_frames_as_dot()
+    names = [*loaded.frame_names(), "map", "lidar"]
+    for target in names[:4]:
+        for source in names[-4:]:
+            try:
+                loaded.lookup_many(target, source, stamps, on_error="nan", twist=True)
+                loaded.lookup_many(target, source, stamps, on_error="nan", extrapolate="1s")
+                for stamp in stamps[:20].tolist():
+                    loaded.can_transform(target, source, stamp)
+                loaded.trajectory(target, source, SECOND, 3 * SECOND)
+            except (coframe.TransformException, ValueError):
+                continue
+    return True
+
+
+def fuzz(path, cases, seed):
+    whole, rng, opened = path.read_bytes(), random.Random(seed), 0
+    for i in range(cases):
+        target = path.with_name(f"{i % 2}.cfz")
+        target.unlink(missing_ok=True)
+        target.write_bytes(mutated(rng, whole))
+        opened += survives(target)
+    assert 0 < opened < cases
+
+
+def test_mutated_files_are_survived(path):
+    fuzz(path, 150, 5)
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(1200)
+def test_ten_thousand_mutated_files_are_survived(path):
+    fuzz(path, 10_000, np.random.SeedSequence().entropy)

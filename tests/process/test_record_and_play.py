@@ -1,0 +1,212 @@
+"""`coframe record` and `coframe play` as a user runs them, killed, starved of disk and steered by keys."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from mcap.reader import make_reader
+from rosbags.rosbag2 import Reader
+
+import coframe
+
+TREE = ("python", "-m", "coframe.lab.complete_tf_tree")
+CLI = ("python", "-m", "coframe.cli")
+STATIC_CHILDREN = {"camera_link", "gripper_link", "imu_link", "lidar_link", "map"}
+
+
+LISTENER = """
+import coframe, numpy as np, time
+with coframe.connect("listener", cache=None) as ros:
+    print("ready", flush=True)
+    while not ros.buffer.can_transform("world", "camera_link", {last}):
+        time.sleep(0.05)
+    stamps = {first} + np.linspace(0, {last} - {first}, 500).astype(np.int64)
+    np.save({file!r}, ros.buffer.lookup_many("world", "camera_link", stamps).matrix)
+"""
+
+
+def eventually(condition, what, patience=40.0):
+    deadline = time.monotonic() + patience
+    while not condition():
+        assert time.monotonic() < deadline, f"waited in vain: {what()}"
+        time.sleep(0.05)
+
+
+def count(path):
+    """How many messages of /tf other programs find in a folder that is being written."""
+    if not (path / "metadata.yaml").exists():
+        return 0
+    with Reader(path) as reader:
+        return sum(connection.topic == "/tf" for connection, *_ in reader.messages())
+
+
+def start_recording(processes, path, *options, messages=100):
+    processes.start("record", *CLI, "record", "-o", path, *options)
+    eventually(lambda: count(path) >= messages, lambda: processes.text("record") + processes.text("tree"))
+
+
+def assert_others_open_it(path):
+    """That the libraries of others read it to its end: the number of messages."""
+    with Reader(path) as reader:
+        by_rosbags = len(list(reader.messages()))
+    by_mcap = 0
+    for file in sorted(path.glob("*.mcap")):
+        with file.open("rb") as stream:
+            by_mcap += len(list(make_reader(stream, validate_crcs=True).iter_messages()))
+    assert by_rosbags == by_mcap
+    return by_mcap
+
+
+def statics(bag):
+    return {edge.child for edge in bag.buffer.edges() if edge.static}
+
+
+def test_a_killed_recorder_loses_the_last_second_at_most(processes, tmp_path):
+    processes.start("tree", *TREE)
+    start_recording(processes, tmp_path / "run", messages=150)
+    killed = time.time_ns()
+    processes.end("record", signal.SIGKILL)
+    assert assert_others_open_it(tmp_path / "run") > 150
+    with coframe.open_bag(tmp_path / "run") as bag:
+        assert bag.problems == []
+        assert statics(bag) == STATIC_CHILDREN
+        assert killed - bag.end < 1_000_000_000
+        moving = next(edge for edge in bag.buffer.edges() if edge.child == "link1")
+        assert moving.samples > 100
+        assert moving.longest_gap < 1_000_000_000
+
+
+def test_ctrl_c_ends_it_with_an_index_and_a_sentence(processes, tmp_path):
+    processes.start("tree", *TREE)
+    start_recording(processes, tmp_path / "run", "/tf", "/gone", messages=20)
+    code, text = processes.end("record")
+    assert code == 0
+    assert f"{tmp_path / 'run'}: " in text
+    assert " messages of 1 topics, " in text
+    assert "coframe: nobody published on /gone" in text
+    assert "Traceback" not in text
+    with (tmp_path / "run" / "run_0.mcap").open("rb") as stream:
+        assert make_reader(stream).get_summary().statistics.message_count == assert_others_open_it(tmp_path / "run")
+    processes.start("again", *CLI, "record", "-o", tmp_path / "run")
+    eventually(lambda: not processes.running("again"), lambda: processes.text("again"))
+    assert processes.text("again").startswith(
+        f"coframe: {tmp_path / 'run'} is there already, and nothing is overwritten"
+    )
+
+
+def test_a_full_disk_ends_it_with_a_sentence(processes, tmp_path):
+    processes.start("tree", *TREE)
+    record = f"{sys.executable} -m coframe.cli record -o {tmp_path / 'run'} --compression none"
+    processes.start("record", "sh", "-c", f"ulimit -f 80; exec {record}")
+    eventually(lambda: not processes.running("record"), lambda: processes.text("record"))
+    code, text = processes.end("record")
+    assert code == 1
+    assert f"coframe: {tmp_path / 'run'} cannot be written: " in text
+    assert "What was written before can be read." in text
+    assert "Traceback" not in text
+    assert assert_others_open_it(tmp_path / "run") > 10
+    with coframe.open_bag(tmp_path / "run") as bag:
+        assert bag.problems == []
+        assert statics(bag) == STATIC_CHILDREN
+
+
+@pytest.mark.usefixtures("domain_id")
+def test_keys_steer_what_is_played(network, shared):
+    pty = pytest.importorskip("pty")
+    master, terminal = pty.openpty()
+    bag = shared / "recordings" / "world_talk_1hz"
+    command = [sys.executable, "-m", "coframe.cli", "play", str(bag), "--start-paused", "--delay", "10ms", "--clock"]
+    player = subprocess.Popen(network.command(*command), stdin=terminal, stdout=terminal, stderr=terminal)
+    os.close(terminal)
+    shown = bytearray()
+
+    def read_until(words):
+        eventually(
+            lambda: shown.extend(os.read(master, 1000)) or words in shown, lambda: shown.decode(errors="replace")
+        )
+
+    try:
+        read_until(b"0 messages, paused")
+        os.write(master, b"\x1b[C")
+        read_until(b"1 messages, paused")
+        os.write(master, b"\x1b[A")
+        os.write(master, b" ")
+        read_until(b"rate 1.1")
+        player.send_signal(signal.SIGINT)
+        assert player.wait(20) == 0
+    finally:
+        player.kill()
+        player.wait()
+        os.close(master)
+    assert b"Traceback" not in shown
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "reason"),
+    [
+        (("record", "--max-size", "big"), 2, "--max-size: 'big' is no amount of bytes"),
+        (("record", "--compression", "zip"), 2, "there is no compression 'zip'"),
+        (("record", "-a", "/tf"), 2, "exclude each other"),
+        (("record", "-e", "["), 2, "is no regular expression"),
+        (("play", "gone"), 1, "gone cannot be read"),
+        (("play", "gone", "--rate", "0"), 2, "above 0"),
+        (("play", "gone", "--remap", "/tf"), 2, "is no renaming"),
+    ],
+)
+def test_wrong_usage_is_told(arguments, code, reason, tmp_path, monkeypatch):
+    from typer.testing import CliRunner
+
+    from coframe.cli.app import app
+
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(app, arguments)
+    assert (result.exit_code, list(tmp_path.iterdir())) == (code, [])
+    assert reason in result.output
+
+
+@pytest.mark.slow
+def test_an_independent_program_hears_what_is_played(processes, shared):
+    bag = shared / "recordings" / "tb3_gazebo_walker"
+    processes.start("play", *CLI, "play", bag, "--rate", "4", "--delay", "5s")
+    topics = ("/tf:tf2_msgs/msg/TFMessage:volatile", "/tf_static:tf2_msgs/msg/TFMessage:transient_local")
+    heard = processes.observe(8.0, *topics)
+    with coframe.open_bag(bag) as recording:
+        children = {
+            transform["child_frame_id"] for _, message in heard["/tf_static"] for transform in message["transforms"]
+        }
+        assert children == statics(recording)
+        assert len(heard["/tf"]) == recording.topics["/tf"].messages
+    code, text = processes.end("play")
+    assert code == 0, text
+
+
+@pytest.mark.slow
+def test_the_demo_recorded_killed_and_played_gives_the_same_answers(processes, tmp_path):
+    processes.start("demo", *CLI, "demo", "--no-browser", "--port", "0")
+    processes.start("record", *CLI, "record", "-o", tmp_path / "run")
+    eventually(lambda: count(tmp_path / "run") >= 500, lambda: processes.text("record"))  # 5 s at 100 Hz
+    killed = time.time_ns()
+    processes.end("record", signal.SIGKILL)
+    processes.end("demo")
+    assert_others_open_it(tmp_path / "run")
+    with coframe.open_bag(tmp_path / "run") as bag:
+        assert bag.problems == []
+        assert killed - bag.end < 1_000_000_000
+        assert bag.end - bag.start > 4_000_000_000
+        assert len(statics(bag)) == len(STATIC_CHILDREN)
+        assert {"/scan", "/scan_base_frame", "/tf", "/tf_static"} <= set(bag.topics)
+        edges = [edge for edge in bag.buffer.edges() if edge.parent and not edge.static]
+        first, last = max(edge.oldest for edge in edges), min(edge.newest for edge in edges)
+        stamps = first + np.linspace(0, last - first, 500).astype(np.int64)
+        original = bag.buffer.lookup_many("world", "camera_link", stamps).matrix
+    listening = LISTENER.format(first=int(first), last=int(last), file=str(tmp_path / "heard.npy"))
+    processes.start("listener", "python", "-c", listening)
+    eventually(lambda: "ready" in processes.text("listener"), lambda: processes.text("listener"))
+    processes.start("play", *CLI, "play", tmp_path / "run", "--delay", "3s")
+    eventually(lambda: not processes.running("listener"), lambda: processes.text("listener"))
+    heard = np.load(tmp_path / "heard.npy")
+    np.testing.assert_allclose(heard, original, rtol=0, atol=1e-12)

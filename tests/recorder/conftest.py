@@ -1,0 +1,21 @@
+"""A participant that publishes and listens, beside the recorder or the player."""
+
+from collections.abc import Iterator
+
+import pytest
+
+pytest.importorskip("cyclonedds", reason="recording and playing need the wire")
+
+from coframe.wire import GraphNode, Participant
+
+
+@pytest.fixture
+def participant(domain_id: int) -> Iterator[Participant]:
+    joined = Participant.get(domain_id)
+    yield joined
+    joined.close()
+
+
+@pytest.fixture
+def node(participant: Participant) -> GraphNode:
+    return participant.add_node("/", "tester")

@@ -1,0 +1,240 @@
+"""What a graph hears of a recording that is played."""
+
+import time
+
+import numpy as np
+import pytest
+import recordings
+from recordings import COUNT, SECOND, START, TF
+
+import coframe
+from coframe.bags import OfferedQos, Writer
+from coframe.messages import deserialize, find, serialize
+from coframe.recorder.playback import PlaybackClock
+from coframe.wire import QoS
+
+STRING, CLOCK = "std_msgs/msg/String", "rosgraph_msgs/msg/Clock"
+LATCHED = OfferedQos(1, transient_local=True)
+DEEP = QoS(depth=1000)
+SETTLED = "200ms"
+
+
+def text(words):
+    return serialize(find(STRING)(data=words))
+
+
+@pytest.fixture
+def bag(tmp_path):
+    """The walk with words at 20 Hz, and descriptions at 0 s, 1 s and 2 s."""
+    rows = [(topic, TF, at, data, ()) for topic, at, data in recordings.messages()]
+    rows += [("/words", STRING, START + 5000 + i * SECOND // 20, text(f"{i}"), ()) for i in range(COUNT)]
+    rows += [("/robot", STRING, START + 7000 + i * SECOND, text(f"robot {i}"), (LATCHED,)) for i in range(3)]
+    with Writer(tmp_path / "run") as writer:
+        for topic, ros_type, at, data, qos in sorted(rows, key=lambda row: row[2]):
+            writer.write(writer.add_topic(topic, ros_type, offered_qos=qos), data, at)
+    return tmp_path / "run"
+
+
+@pytest.fixture
+def hear(participant, node):
+    """Subscribes: a function that gives the samples so far."""
+
+    def subscribe(topic, ros_type=STRING, qos=DEEP):
+        subscription = participant.raw_subscription(node, topic, ros_type, qos)
+        heard = []
+
+        def samples():
+            heard.extend(subscription.take(1000))
+            return heard
+
+        return samples
+
+    return subscribe
+
+
+def words(samples):
+    return [deserialize(sample.data, find(STRING)).data for sample in samples]
+
+
+def test_order_and_pace(bag, hear):
+    said, moved = hear("/words"), hear("/tf", TF)
+    with coframe.play(bag, delay=SETTLED, rate=3.0) as player:
+        assert player.wait(20)
+        assert player.played == 1 + 2 * COUNT + 3
+        assert player.problems == []
+    assert words(said()) == [f"{i}" for i in range(COUNT)]
+    assert [sample.data for sample in moved()] == [data for topic, _, data in recordings.messages() if topic == "/tf"]
+    sent = {
+        topic: np.array([s.source_timestamp for s in samples]) for topic, samples in (("w", said()), ("t", moved()))
+    }
+    # As they were recorded: a transform, then the words 4 us later, then the next transform.
+    assert (sent["t"] < sent["w"]).all()
+    assert (sent["w"][:-1] < sent["t"][1:]).all()
+    late = (sent["w"] - sent["w"][0]) - np.arange(COUNT) * SECOND / 20 / 3
+    assert np.median(np.abs(late)) < 0.02 * SECOND
+    assert late.min() > -0.02 * SECOND
+
+
+@pytest.mark.usefixtures("participant")
+def test_a_listener_gets_the_answers_of_the_original_also_from_the_middle(bag):
+    for start, first in (("0s", 0), ("1500ms", 30)):
+        with (
+            coframe.connect("listener", cache=None) as ros,
+            coframe.play(bag, delay=SETTLED, rate=10, start_offset=start) as player,
+        ):
+            assert player.wait(20)
+            stamps = START + np.linspace((first + 1) * SECOND // 20 + 100, (COUNT - 1) * SECOND // 20, 200).astype(
+                np.int64
+            )
+            heard = ros.buffer.lookup_many("odom", "lidar", stamps).matrix
+            np.testing.assert_allclose(
+                heard, recordings.expected().lookup_many("odom", "lidar", stamps).matrix, rtol=0, atol=1e-14
+            )
+
+
+def test_what_is_latched_comes_first_and_to_those_who_come_late(bag, hear, eventually):
+    with coframe.play(bag, delay=SETTLED, start_offset="1500ms", paused=True, rate=4.0) as player:
+        late = QoS(depth=10, transient_local=True)
+        statics, robot, said = hear("/tf_static", TF, late), hear("/robot", STRING, late), hear("/words")
+        eventually(lambda: statics() and robot())
+        (transform,) = deserialize(statics()[0].data, find(TF)).transforms
+        assert (transform.header.frame_id, transform.child_frame_id) == ("base", "lidar")
+        assert words(robot()) == ["robot 1"]
+        assert said() == []
+        player.resume()
+        assert player.wait(20)
+        assert words(robot()) == ["robot 1", "robot 2"]
+        assert words(said()) == [f"{i}" for i in range(30, COUNT)]
+
+
+def test_statics_have_the_values_that_held_at_the_start(tmp_path, hear):
+    def static(**frames):
+        buffer = coframe.Buffer(None)
+        for child, x in frames.items():
+            buffer.set("base", child, coframe.Transform([x, 0, 0]), START, static=True)
+        return buffer.encode(static=True)
+
+    with Writer(tmp_path / "run") as writer:
+        topic = writer.add_topic("/tf_static", TF)
+        for i, data in enumerate([static(a=1.0), static(b=1.0), static(a=2.0), static(a=3.0, c=1.0)]):
+            writer.write(topic, data, START + i * SECOND)
+    heard = hear("/tf_static", TF)
+    with coframe.play(tmp_path / "run", delay=SETTLED, rate=20, start_offset="2500ms") as player:
+        assert player.wait(20)
+    told = [
+        {t.child_frame_id: t.transform.translation.x for t in deserialize(sample.data, find(TF)).transforms}
+        for sample in heard()
+    ]
+    assert told == [{"a": 2.0, "b": 1.0, "c": 1.0}, {"a": 3.0, "b": 1.0, "c": 1.0}]
+
+
+def test_pause_step_and_rate(bag, hear, eventually):
+    said = hear("/words")
+    with coframe.play(bag, topics=["words"], delay=SETTLED, paused=True) as player:
+        player.step()
+        player.step()
+        eventually(lambda: len(said()) == 2)
+        assert words(said()) == ["0", "1"]
+        assert player.clock.paused
+        assert player.is_playing
+        player.set_rate(100)
+        player.resume()
+        begun = time.monotonic()
+        assert player.wait(20)
+        assert time.monotonic() - begun < 2.0
+        assert len(words(said())) == COUNT
+        with pytest.raises(ValueError, match="above 0 and up to 1000"):
+            player.set_rate(0)
+
+
+def test_loop_and_clock(bag, hear, eventually):
+    said, ticks = hear("/words"), hear("/clock", CLOCK)
+    with coframe.play(bag, topics=["/words", "/tf_static"], delay=SETTLED, rate=30, loop=True, clock=200) as player:
+        eventually(lambda: len(said()) > 2 * COUNT + 10)
+        assert player.is_playing
+    assert words(said())[: 2 * COUNT] == 2 * [f"{i}" for i in range(COUNT)]
+    told = [deserialize(sample.data, find(CLOCK)).clock for sample in ticks()]
+    times = np.array([clock.sec * SECOND + clock.nanosec for clock in told])
+    assert times[0] == START + 1000
+    assert times.max() <= START + 3 * SECOND
+    jumps = np.diff(times)
+    assert 1 <= np.count_nonzero(jumps < 0) <= 3
+    assert np.median(jumps[jumps > 0]) == pytest.approx(30 * SECOND / 200, rel=0.5)
+
+
+def test_other_names(bag, hear):
+    said, nothing = hear("/robot1/words"), hear("/words")
+    with coframe.play(bag, delay=SETTLED, rate=50, remap={"words": "/robot1/words"}) as player:
+        assert player.wait(20)
+    assert len(said()) == COUNT
+    assert nothing() == []
+
+
+def test_a_bag_of_ros_1(shared, hear):
+    moved, scans = hear("/tf", TF), hear("/scan", "sensor_msgs/msg/LaserScan")
+    with coframe.play(shared / "recordings" / "tilt_laser.bag", delay=SETTLED, rate=30) as player:
+        assert player.wait(20)
+        assert [problem.partition(" ")[0] for problem in player.problems] == ["/info_gps", "/temperature"]
+    assert len(moved()) == 711
+    assert deserialize(scans()[0].data, find("sensor_msgs/msg/LaserScan")).header.frame_id == "/laser"
+
+
+def test_damaged_messages_are_left_out_and_told_of(tmp_path, hear):
+    with Writer(tmp_path / "run") as writer:
+        topics = [writer.add_topic("/words", STRING), writer.add_topic("/tf_static", TF)]
+        for i, data in enumerate((text("a"), b"", b"xy", text("b"))):
+            for topic in topics:
+                writer.write(topic, data, START + i)
+    said = hear("/words")
+    with coframe.play(tmp_path / "run", delay=SETTLED) as player:
+        assert player.wait(20)
+        assert len(player.problems) == 2
+        assert all("damaged messages, which are left out" in problem for problem in player.problems)
+    assert words(said()) == ["a", "b"]
+
+
+def test_names_that_dds_does_not_take_are_left_out_and_told_of(tmp_path, hear):
+    with Writer(tmp_path / "run") as writer:
+        for topic in ("words", "", "/words", "/a b\x1b[2J"):
+            writer.write(writer.add_topic(topic, STRING), text(topic), START)
+        writer.write(writer.add_topic("/typeless", ""), text("x"), START)
+    said = hear("/words")
+    with coframe.play(tmp_path / "run", delay=SETTLED) as player:
+        assert player.wait(20)
+        assert [problem.partition(" is not played")[0] for problem in player.problems[:2]] == ["words", ""]
+    assert words(said()) == ["/words"]
+
+
+@pytest.mark.parametrize(
+    ("options", "reason"),
+    [
+        ({"topics": ["/gone"]}, "has no topic /gone"),
+        ({"start_offset": "1h"}, "lasts 2.950 s: it cannot start at 3600.000 s"),
+        ({"start_offset": -SECOND}, "cannot start at -1.000 s"),
+        ({"rate": 0.0}, "above 0 and up to 1000"),
+        ({"rate": float("nan")}, "above 0 and up to 1000"),
+        ({"clock": 1e9}, "up to 1000 times a second"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(bag, options, reason):
+    with pytest.raises(ValueError, match=reason):
+        coframe.play(bag, **options)
+
+
+def test_recorded_time_stands_still_goes_on_and_jumps():
+    clock = PlaybackClock(100, 2.0, paused=False)
+    assert clock.now == 100  # not yet begun
+    clock.jump(1000)
+    assert clock.wait_until(20_000_000)
+    assert clock.now >= 20_000_000
+    clock.set_paused(True)
+    held = clock.now
+    assert not clock.stopped
+    assert clock.sleep(0.01)
+    assert clock.now == held
+    clock.step()
+    assert clock.wait_until(held + SECOND)
+    assert clock.now == held + SECOND
+    clock.stop()
+    assert not clock.wait_until(held + 2 * SECOND)
+    assert not clock.sleep(100)

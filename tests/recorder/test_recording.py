@@ -1,0 +1,186 @@
+"""What is said on a graph, and what of it is on the disk."""
+
+import time
+
+import numpy as np
+import pytest
+import recordings
+
+import coframe
+from coframe.bags import Writer, from_yaml
+from coframe.messages import find, serialize
+from coframe.recorder import Recorder
+from coframe.recorder.subscriptions import Wanted
+from coframe.wire import QoS
+
+STRING, TF_MESSAGE = find("std_msgs/msg/String"), find("tf2_msgs/msg/TFMessage")
+STAMP = 1_700_000_000_000_000_000
+
+
+def text(words):
+    return serialize(STRING(data=words))
+
+
+def static(child, x=0.0):
+    buffer = coframe.Buffer(None)
+    buffer.set("base", child, coframe.Transform([x, 0, 0]), STAMP, static=True)
+    return buffer.encode(static=True)
+
+
+def data_by_topic(path):
+    with coframe.open_bag(path) as bag:
+        assert bag.problems == []
+        return {name: [message.data for message in bag.messages(name)] for name in bag.topics}
+
+
+def test_messages_of_any_type_are_there_as_they_were_sent(participant, node, eventually, tmp_path):
+    early = participant.publisher(node, "/words", STRING, QoS(depth=50))
+    odd = participant.raw_publisher(node, "/odd", "my_pkg/msg/Odd", QoS(depth=3, reliable=False))
+    hidden = participant.publisher(node, "/fibonacci/_action/status", STRING, QoS())
+    statics = participant.raw_publisher(node, "/tf_static", TF_MESSAGE.ROS_TYPE, QoS(depth=1, transient_local=True))
+    statics.write(static("lidar"))
+    started = time.time_ns()
+    told = []
+    with coframe.record(tmp_path / "run", on_topic=lambda *topic: told.append(topic)) as recorder:
+        eventually(lambda: early.matched and odd.matched and statics.matched)
+        late = participant.publisher(node, "/later", STRING, QoS())
+        eventually(lambda: late.matched)
+        for i in range(20):
+            for publisher in (early, late, hidden):
+                publisher.write(text(f"{i}"))
+            odd.write(b"\0\1\0\0" + bytes([i, 2, 3, 4]))
+        eventually(lambda: recorder.statistics.messages == 61)
+        told_of = recorder.statistics
+    assert (told_of.topics, told_of.dropped, told_of.missing) == (4, {}, [])
+    assert ("/odd", "my_pkg/msg/Odd") in told
+    assert recorder.writer.undescribed == ["my_pkg/msg/Odd"]
+    data = data_by_topic(tmp_path / "run")
+    assert data["/words"] == data["/later"] == [text(f"{i}") for i in range(20)]
+    assert data["/odd"] == [b"\0\1\0\0" + bytes([i, 2, 3, 4]) for i in range(20)]
+    assert data["/tf_static"] == [static("lidar")]
+    assert "/fibonacci/_action/status" not in data
+    with coframe.open_bag(tmp_path / "run") as bag:
+        offered = {channel.topic: from_yaml(channel.offered_qos)[0] for channel in bag.channels()}
+        assert started < bag.start < bag.end < time.time_ns()
+    assert offered["/tf_static"].transient_local
+    assert offered["/tf_static"].reliable
+    assert not offered["/odd"].reliable
+
+
+def test_publishers_that_offer_different_things_are_each_heard_once(participant, node, eventually, tmp_path):
+    qualities = [QoS(1, transient_local=True), QoS(10), QoS(10, reliable=False)]
+    publishers = [participant.raw_publisher(node, "/tf_static", TF_MESSAGE.ROS_TYPE, qos) for qos in qualities]
+    publishers[0].write(static("before"))
+    with coframe.record(tmp_path / "run") as recorder:
+        # The one that offers most is heard by those that ask for less, too.
+        eventually(lambda: [publisher.matched for publisher in publishers] == [3, 2, 1])
+        for i, publisher in enumerate(publishers):
+            publisher.write(static(f"frame{i}"))
+        eventually(lambda: recorder.statistics.messages >= 4)
+    expected = [static(name) for name in ("before", "frame0", "frame1", "frame2")]
+    assert sorted(data_by_topic(tmp_path / "run")["/tf_static"]) == sorted(expected)
+
+
+def test_topics_that_are_not_ros_harm_nothing(participant, node, eventually, tmp_path):
+    from coframe import _core
+    from coframe.wire import types
+
+    entity = participant._native.entity
+    topic = types.create_unchecked_topic(entity, "rt/odd", "NotOfRos")
+    foreign = _core.Writer(entity, topic, _core.QosProfile(1, True, True, False), "")
+    publisher = participant.publisher(node, "/words", STRING, QoS())
+    with coframe.record(tmp_path / "run") as recorder:
+        eventually(lambda: publisher.matched)
+        publisher.write(text("hello"))
+        foreign.forward(b"\0\1\0\0abcd")
+        eventually(lambda: recorder.statistics.messages == 1)
+        assert recorder.statistics.refused == ["/odd"]
+    foreign.close()
+    assert data_by_topic(tmp_path / "run") == {"/words": [text("hello")]}
+
+
+@pytest.mark.parametrize(
+    ("choice", "chosen"),
+    [
+        ((None, None, None), {"/tf", "/tf_static", "/scan"}),
+        ((["tf", "/gone"], None, None), {"/tf"}),
+        ((None, "/tf.*", None), {"/tf", "/tf_static"}),
+        ((["/scan"], "/tf", None), {"/scan", "/tf"}),
+        ((None, None, "/tf.*"), {"/scan"}),
+        ((None, ".*", "/scan"), {"/tf", "/tf_static", "/a/_action/feedback"}),
+    ],
+)
+def test_which_topics_are_wanted(choice, chosen):
+    wanted = Wanted(*choice)
+    assert {topic for topic in ("/tf", "/tf_static", "/scan", "/a/_action/feedback") if wanted(topic)} == chosen
+
+
+def test_topics_that_nobody_publishes_on_are_told_of():
+    assert Wanted(["/tf", "gone"], None, None).missing({"/tf"}) == ["/gone"]
+    with pytest.raises(ValueError, match="is no regular expression"):
+        Wanted(None, "(", None)
+
+
+class SlowDisk(Writer):
+    """A writer that takes its time."""
+
+    def write(self, *arguments, **options):
+        time.sleep(0.01)
+        super().write(*arguments, **options)
+
+
+def test_a_slow_disk_costs_the_oldest_messages_but_no_statics(participant, node, eventually, tmp_path):
+    count, size = 300, 10_000
+    publisher = participant.publisher(node, "/words", STRING, QoS(depth=count))
+    statics = participant.raw_publisher(node, "/tf_static", TF_MESSAGE.ROS_TYPE, QoS(depth=1, transient_local=True))
+    recorder = Recorder(
+        SlowDisk(tmp_path / "run"), Wanted(None, None, None), domain=None, backlog=50 * size, on_topic=lambda *_: None
+    )
+    with recorder:
+        eventually(lambda: publisher.matched and statics.matched)
+        for i in range(count):
+            publisher.write(text(f"{i:{size}}"))
+            if i == 5:
+                statics.write(static("lidar"))
+        eventually(lambda: recorder.statistics.messages + sum(recorder.statistics.dropped.values()) == count + 1)
+    dropped = recorder.statistics.dropped["/words"]
+    assert dropped > 50
+    data = data_by_topic(tmp_path / "run")
+    assert data["/tf_static"] == [static("lidar")]
+    assert len(data["/words"]) == count - dropped
+    # The newest are there.
+    assert data["/words"][-40:] == [text(f"{i:{size}}") for i in range(count - 40, count)]
+
+
+def test_what_cannot_be_started_leaves_nothing_behind(participant, tmp_path):
+    (tmp_path / "run").mkdir()
+    with pytest.raises(coframe.RecordingError, match="is there already"):
+        coframe.record(tmp_path / "run")
+    with pytest.raises(ValueError, match="no regular expression"):
+        coframe.record(tmp_path / "other", regex="[")
+    with pytest.raises(coframe.WireError):
+        coframe.record(tmp_path / "third", domain=1000)
+    assert [path.name for path in tmp_path.iterdir()] == ["run"]
+    assert [name for _, name in participant.nodes()] == []
+
+
+def test_a_recorded_walk_gives_the_same_answers(participant, node, eventually, tmp_path):
+    publishers = {
+        "/tf": participant.raw_publisher(node, "/tf", TF_MESSAGE.ROS_TYPE, QoS(100)),
+        "/tf_static": participant.raw_publisher(node, "/tf_static", TF_MESSAGE.ROS_TYPE, QoS(1, transient_local=True)),
+    }
+    walk = recordings.messages()
+    with coframe.record(tmp_path / "run", max_size=3000, compression="none") as recorder:
+        eventually(lambda: all(publisher.matched for publisher in publishers.values()))
+        for topic, _, data in walk:
+            publishers[topic].write(data)
+            if topic == "/tf_static":
+                eventually(lambda: recorder.statistics.messages)
+        eventually(lambda: recorder.statistics.messages >= len(walk))
+    assert recorder.writer.files >= 3
+    with coframe.open_bag(tmp_path / "run") as bag:
+        assert bag.problems == []
+        recordings.assert_same(bag.buffer)
+    for file in (tmp_path / "run").glob("*.mcap"):
+        with coframe.open_bag(file) as bag:
+            assert not np.isnan(bag.buffer.lookup("odom", "lidar").translation).any()

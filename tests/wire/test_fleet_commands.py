@@ -1,0 +1,123 @@
+"""Many robots as a user types them: the demo, the relay, prefixes."""
+
+import os
+import re
+import signal
+import subprocess
+
+import pytest
+from typer.testing import CliRunner
+
+import coframe
+from coframe.cli.app import app
+
+COMMAND = """
+    import sys
+    from coframe.cli import main
+    sys.argv = ["coframe", *{arguments!r}]
+    main()
+"""
+
+
+@pytest.fixture
+def command(child):
+    """Starts a command in a process of its own."""
+    return lambda *arguments: child(COMMAND.format(arguments=arguments), PYTHONUNBUFFERED="1", COLUMNS="200")
+
+
+@pytest.fixture
+def ros(domain_id):
+    """What a listener on /tf hears."""
+    with coframe.connect("listener", domain=domain_id) as connection:
+        yield connection
+
+
+def interrupted(process):
+    """Ctrl-C: the exit code, and what was written to stdout and stderr."""
+    process.process.send_signal(signal.SIGINT)
+    out, errors = process.process.communicate(timeout=20)
+    return process.process.returncode, out, errors
+
+
+def kill_robot(demo, name):
+    """Ends one robot of the demo as a crash does."""
+    parent = str(demo.process.pid)
+    found = subprocess.run(["pgrep", "-P", parent, "-f", f"__ns:=/{name} "], capture_output=True, text=True, check=True)
+    [process] = found.stdout.split()
+    os.kill(int(process), signal.SIGKILL)
+
+
+@pytest.mark.parametrize("own_topics", [False, pytest.param(True, marks=pytest.mark.slow)])
+def test_a_fleet_of_which_one_dies(command, ros, eventually, own_topics):
+    options = ["--own-topics"] if own_topics else []
+    demo = command("demo", "--robots", "2", "--no-browser", "--port", "0", *options)
+
+    def newest(name):
+        return next((frame.newest for frame in ros.buffer.frames() if frame.name == f"{name}/base_link"), 0)
+
+    # One tree with a base here and a base there.
+    eventually(lambda: ros.buffer.can_transform("robot1/base_link", "robot2/base_link"))
+    assert abs(ros.buffer.lookup("robot1/base_link", "robot2/base_link").translation[0]) > 1.5
+    assert ros.buffer.can_transform("map", "robot1/camera_link")
+    kill_robot(demo, "robot2")
+    killed = newest("robot2")
+    eventually(lambda: newest("robot1") > killed + 2 * 10**9)
+    assert newest("robot2") < killed + 10**9
+    code, text, errors = interrupted(demo)
+    assert code == 0, errors
+    assert "robot2 has gone: its process ended with exit code -9, its frames are stale" in text
+    states = dict(re.findall(r"^(robot\d) +(\w+) +9 ", text, re.MULTILINE))
+    assert states == {"robot1": "live", "robot2": "stale"}, text
+    assert ("relay: robot2" in text) == own_topics
+    at_end = newest("robot1")
+    eventually(lambda: not any(one.present for one in ros.publishers()))
+    assert newest("robot1") - at_end < 10**9
+
+
+def test_prefixes_and_a_relay_as_they_are_typed(command, ros, eventually):
+    own = ["--tf-static-topic", "/robot1/tf_static"]
+    mount = ["--frame-id", "map", "--child-frame-id", "odom"]
+    command("static", "--x", "2", *mount, *own)
+    command("static", "--x", "3", *mount, "--prefix", "robot2/", "--keep", "map")
+    relay = command("relay", "--robots", "robot1,robot3", "--prefix-each", "--keep", "map,world", "--status")
+    named = command("echo", "map", "r1odom", "-l", "1", "--prefix", "r1", "--keep", "map", *own)
+    # By way of the relay, as it was published, and as a listener names it.
+    for name, x in (("robot1", 2.0), ("robot2", 3.0)):
+        eventually(lambda name=name: ros.buffer.can_transform("map", f"{name}/odom"))
+        assert ros.buffer.lookup("map", f"{name}/odom").translation[0] == x
+    out, errors = named.process.communicate(timeout=20)
+    assert "- Translation: [2.000, 0.000, 0.000]" in out
+    assert "the prefix 'r1' makes 'r1base_link' of 'base_link': write 'r1/'" in errors
+    row = relay.read()
+    while "map -> robot1/odom" not in row:
+        row = relay.read()
+    pattern = r"map -> robot1/odom +robot1 +/robot1/tf_static +/static_transform_publisher_\w+ +/tf_static +static"
+    assert re.search(pattern, row), row
+    code, _, errors = interrupted(relay)
+    assert code == 0, errors
+    assert "/robot1/tf -> /tf, with robot1/" in errors
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (["relay"], "a relay needs robots"),
+        (["relay", "--robots", "a", "--to", "/a/tf"], "/a/tf would be read and written"),
+        (["relay", "--robots", "a", "--split", "--from", "/tf=a/"], "--split reads one topic"),
+        (["relay", "--from", "/a/tf=/a/"], "the prefix '/a/' begins with a slash"),
+        (["echo", "a", "b", "--prefix", "/robot1/"], "the prefix '/robot1/' begins with a slash"),
+        (["demo", "--robots", "2", "--own-topics", "--tf-static-topic", "/else"], "/tf_static"),
+        (["static", "--frame-id", "a", "--child-frame-id", "b", "--prefix", "/r/"], "the prefix '/r/' begins"),
+    ],
+)
+def test_wrong_usage(arguments, text):
+    result = CliRunner().invoke(app, arguments)
+    assert result.exit_code == 2
+    assert text in result.stderr
+
+
+@pytest.mark.parametrize("words", ["echo", "view", "lookup", "trajectory", "bag info", "static", "robot", "demo"])
+def test_every_command_takes_a_prefix(words):
+    told = re.sub(r"\x1b\[[0-9;]*m", "", CliRunner().invoke(app, [*words.split(), "--help"]).stdout)
+    assert "--prefix" in told
+    assert "--keep" in told

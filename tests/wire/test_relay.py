@@ -1,0 +1,213 @@
+"""Relays between real processes: what arrives, from whom, and what is told of."""
+
+import re
+
+import pytest
+
+import coframe
+from coframe.wire import Participant
+
+# A robot: odom and base on its own topic, a mount on the static one, until it is told to end.
+ROBOT = """
+    import sys, time
+    import coframe
+    from coframe.messages import find
+    from coframe.wire.qos import TF, TF_STATIC_WRITER
+    name, offset, kind = {name!r}, {offset!r}, find("tf2_msgs/msg/TFMessage")
+    def stamped(parent, child, x):
+        message = find("geometry_msgs/msg/TransformStamped")()
+        message.header.frame_id, message.child_frame_id = parent, child
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(time.time_ns() + offset, 10**9)
+        message.transform.translation.x, message.transform.rotation.w = x, 1.0
+        return message
+    participant = coframe.wire.Participant.get()
+    node = participant.add_node("/" + name, "driver")
+    tf = participant.publisher(node, f"/{{name}}/tf", kind, TF)
+    participant.static_broadcaster(node, f"/{{name}}/tf_static").send([stamped("base", "lidar", {x})])
+    print("ready", flush=True)
+    while True:
+        from coframe.messages import codec
+        tf.write(codec.serialize(kind(transforms=[stamped("map", "odom", {x}), stamped("odom", "base", 0.0)])))
+        time.sleep(0.02)
+"""
+
+
+@pytest.fixture
+def robot(child):
+    """Starts a robot in a process of its own."""
+
+    def start(name, x=1.0, *, offset=0):
+        process = child(ROBOT.format(name=name, x=x, offset=offset))
+        assert process.read() == "ready"
+        return process
+
+    return start
+
+
+@pytest.fixture
+def fleet(domain_id):
+    """Makes relays and listeners, and ends them."""
+    opened = []
+
+    def make(what, *arguments, **options):
+        opened.append(what(*arguments, domain=domain_id, **options))
+        return opened[-1]
+
+    yield make
+    for thing in reversed(opened):
+        thing.close()
+
+
+def test_two_robots_one_tree_and_what_becomes_of_it(robot, fleet, eventually):
+    """Late listeners get all; one robot's end leaves the other alone; a clock that is off is named."""
+    warned = []
+    relay = fleet(coframe.relay, "robot1,robot2", prefix_each=True, keep="map,world", warn=warned.append)
+    first, _ = robot("robot1", 1.0), robot("robot2", 2.0, offset=10**9)
+    eventually(lambda: [one.state for one in relay.robots] == ["live", "live"])
+
+    ros = fleet(coframe.connect, "late")
+    for name, x in (("robot1", 2.0), ("robot2", 4.0)):
+        eventually(lambda name=name: ros.buffer.can_transform("map", f"{name}/lidar"))
+        assert ros.buffer.lookup("map", f"{name}/lidar").translation[0] == x
+    assert "odom" not in ros.buffer
+
+    edges = {edge.child: edge for edge in relay.edges()}
+    assert set(edges) == {f"{name}/{frame}" for name in ("robot1", "robot2") for frame in ("odom", "base", "lidar")}
+    for name in ("robot1", "robot2"):
+        assert edges[f"{name}/odom"][:7] == (
+            "map",
+            f"{name}/odom",
+            False,
+            name,
+            f"/{name}/tf",
+            f"/{name}/driver",
+            "/tf",
+        )
+        assert edges[f"{name}/lidar"].target == "/tf_static"
+        assert not edges[f"{name}/odom"].rival
+
+    named = re.compile(r"robot2: the clock of /robot2/driver on /robot2/tf is (1\.0|0\.[6-9])\d s ahead")
+    eventually(lambda: any(map(named.match, warned)))
+    assert not any("/robot1/driver" in text for text in warned)
+
+    first.kill()
+    eventually(lambda: relay.robots[0].state in {"silent", "gone"})
+    assert relay.robots[1].state == "live"
+    at = ros.buffer.lookup("map", "robot2/base").stamp
+    eventually(lambda: ros.buffer.lookup("map", "robot2/base").stamp > at)
+    frames = {frame.name: frame for frame in ros.buffer.frames()}
+    assert frames["robot1/base"].newest < frames["robot2/base"].newest - 10**9
+    eventually(lambda: any(text.startswith(("robot1 is silent", "robot1 has gone")) for text in warned))
+    assert not any(text.startswith(("robot2 is silent", "robot2 has gone")) for text in warned)
+
+
+def test_one_frame_of_two_robots_is_named_and_the_first_ones(robot, fleet, eventually):
+    warned = []
+    relay = fleet(coframe.relay, ["robot1", "robot2"], warn=warned.append)  # without prefixes
+    robot("robot1", 1.0)
+    ros = fleet(coframe.connect, "listener")
+    eventually(lambda: ros.buffer.can_transform("map", "base"))
+    robot("robot2", 2.0)
+    eventually(lambda: {edge.child for edge in relay.edges() if edge.rival == "robot2"} >= {"odom", "base", "lidar"})
+    eventually(lambda: any("robot1 and robot2 both tell where 'odom' is" in text for text in warned))
+    assert ros.buffer.lookup("map", "odom").translation[0] == 1.0
+
+
+def test_what_relays_write_is_not_relayed_again(robot, fleet, eventually):
+    """A merge and a split of it again, which would go round for ever."""
+    warned = []
+    merge = fleet(coframe.relay, "robot1", prefix_each=True, keep="map", node_name="merge")
+    split = fleet(coframe.relay, "robot1", split=True, keep="map", node_name="split", warn=warned.append)
+    robot("robot1")
+    eventually(lambda: any("/merge on /tf is a relay" in text for text in warned))
+    assert split.edges() == []
+    assert {edge.node for edge in merge.edges()} == {"/robot1/driver"}
+
+
+def test_splitting_gives_each_robot_its_own_names(fleet, eventually):
+    with coframe.connect("talker", tf_topic="/elsewhere") as talker:
+        statics = talker.participant.static_broadcaster(talker.node, "/tf_static")
+        fleet(coframe.relay, "robot1,robot2", split=True, keep="map")
+        from coframe.messages.conversions import to_transform_stamped
+
+        edges = [("map", "robot1/odom", 1.0), ("robot1/odom", "robot1/base", 1.0), ("map", "robot2/odom", 5.0)]
+        for parent, child, x in edges:
+            statics.send([to_transform_stamped(parent, child, coframe.Transform([x, 0, 0]), 0)])
+        for name, frame, x in (("robot1", "base", 2.0), ("robot2", "odom", 5.0)):
+            topics = {"tf_topic": f"/{name}/tf", "tf_static_topic": f"/{name}/tf_static"}
+            ros = fleet(coframe.connect, f"listener_{name}", **topics)
+            eventually(lambda ros=ros, frame=frame: ros.buffer.can_transform("map", frame))
+            assert ros.buffer.lookup("map", frame).translation[0] == x
+            assert not any("/" in known for known in ros.buffer.frame_names())
+
+
+def test_a_listener_with_a_prefix(robot, fleet, eventually):
+    """Without a relay: the listener gives the names."""
+    robot("robot1", 3.0, offset=-(10**9))
+    topics = {"tf_topic": "/robot1/tf", "tf_static_topic": "/robot1/tf_static"}
+    ros = fleet(coframe.connect, "listener", **topics, prefix="robot1/", keep=["map"])
+    eventually(lambda: ros.buffer.can_transform("map", "robot1/lidar"))
+    assert sorted(ros.buffer.frame_names()) == ["map", "robot1/base", "robot1/lidar", "robot1/odom"]
+    eventually(lambda: any(publisher.clock_problem() for publisher in ros.publishers()))
+    [moving] = [publisher for publisher in ros.publishers() if not publisher.static]
+    assert moving.node == "/robot1/driver"
+    assert re.search(r"is 1\.\d\d s behind this machine's", moving.clock_problem())
+
+
+def test_odd_names_are_told_of_once(participant: Participant, node, eventually):
+    warned = []
+    participant.on_warning(warned.append)
+    from coframe.frame_names import renaming
+    from coframe.messages.conversions import to_transform_stamped
+
+    readers = [
+        participant.tf_reader(
+            node, "/tf_static", coframe.Buffer(), static=True, authority=None, renaming=renaming("robot1/")
+        )
+        for _ in range(2)
+    ]
+    statics = participant.static_broadcaster(participant.add_node("/", "talker"), "/tf_static")
+    for parent, child in (("/map", "odom"), ("robot1/odom", "base")):
+        statics.send([to_transform_stamped(parent, child, coframe.Transform(), 0)])
+    eventually(lambda: len(warned) >= 2)
+    assert [text for text in warned if "'/map', with a slash in front" in text and "/talker on /tf_static" in text]
+    assert [text for text in warned if "half a prefix: 'robot1/odom' beside 'map'" in text]
+    assert len(warned) == len(set(warned)) == 2
+    assert all(reader.matched for reader in readers)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "options", "text"),
+    [
+        ([], {}, "needs robots"),
+        (["robot1"], {"common": "/robot1/tf"}, "would be read and written"),
+        ([], {"sources": ["/tf"]}, "would be read and written"),
+        ([], {"sources": ["/other"], "prefix_each": True}, "no namespace that could name a robot"),
+        ([], {"sources": {"/robot1/tf": "/robot1/"}}, "begins with a slash"),
+        (["robot1"], {"rate": 0.0}, "above 0 Hz"),
+    ],
+)
+def test_what_makes_no_relay_is_said_before_anything_is_joined(arguments, options, text):
+    with pytest.raises(ValueError, match=text):
+        coframe.relay(*arguments, **options)
+
+
+def test_sources_may_have_prefixes_of_their_own(robot, fleet, eventually):
+    relay = fleet(coframe.relay, sources={"/robot1/tf": "r1_"}, keep="map", rate=10.0)
+    robot("robot1")
+    eventually(lambda: any(edge.thinned > 20 for edge in relay.edges()))
+    edges = {edge.child: edge for edge in relay.edges()}
+    assert set(edges) == {"r1_odom", "r1_base", "r1_lidar"}
+    total = edges["r1_odom"].passed + edges["r1_odom"].thinned
+    assert 0.1 < edges["r1_odom"].passed / total < 0.4  # 10 of 50 Hz
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("domain_id")
+def test_ten_robots_through_one_relay_lose_nothing():
+    """10 robots x 20 frames x 50 Hz, each robot a process, into one buffer: what the requirement says."""
+    from benchmarks.fleet import measure
+
+    outcomes = [measure(10, 20, 50.0, 10.0) for _ in range(2)]  # the machine may be busy with something else
+    assert [(outcome.sent, outcome.lost) for outcome in outcomes] == [(100_000, 0)] * 2
+    assert min(outcome.cpu for outcome in outcomes) < 10.0, outcomes
