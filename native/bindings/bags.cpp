@@ -11,6 +11,7 @@
 #include "bindings/arguments.hpp"
 #include "bindings/bindings.hpp"
 #include "core/cdr.hpp"
+#include "core/ros1.hpp"
 
 namespace coframe::bindings {
 
@@ -64,8 +65,11 @@ nb::tuple ingest_slices(nb::handle buffer, nb::handle data, nb::handle starts, n
 // The transforms of many messages, a row each, as columns; names become numbers in the order in which they come up.
 class TransformColumns {
  public:
+  explicit TransformColumns(bool is_ros1) : is_ros1_(is_ros1) {}
+
   void add(const std::uint8_t* data, std::size_t size, std::uint32_t message) {
-    const DecodeFailure failure = decode_tf_message(data, size, views_);
+    const DecodeFailure failure =
+        is_ros1_ ? decode_ros1_tf_message(data, size, views_) : decode_tf_message(data, size, views_);
     if (failure.reason) {
       if (damaged_++ == 0) reason_ = failure.reason;
       return;
@@ -97,6 +101,7 @@ class TransformColumns {
     return found->second;
   }
 
+  const bool is_ros1_;
   std::vector<TransformView> views_;
   std::vector<std::uint32_t> messages_, parents_, children_;
   std::vector<Stamp> stamps_;
@@ -107,11 +112,11 @@ class TransformColumns {
   const char* reason_ = "";
 };
 
-nb::tuple transform_columns(nb::handle data, nb::handle starts, nb::handle ends) {
+nb::tuple transform_columns(nb::handle data, nb::handle starts, nb::handle ends, std::string_view encoding) {
   const Memory bytes(data, PyBUF_SIMPLE), first(starts, PyBUF_SIMPLE), last(ends, PyBUF_SIMPLE);
   const std::size_t count = first.size() / sizeof(std::uint64_t);
   if (first.size() != last.size()) throw nb::value_error("as many ends as starts are wanted");
-  TransformColumns columns;
+  TransformColumns columns(encoding == "ros1");
   {
     const WithoutGil release;
     for (std::size_t i = 0; i < count; ++i) {
@@ -133,7 +138,7 @@ void define_bags(nb::module_& module) {
   module.def("ingest_slices", &ingest_slices, arg("buffer"), arg("data"), arg("starts"), arg("ends"), arg("static"),
              arg("authority"), arg("encoding") = "cdr", arg("renaming") = nb::none(),
              "Buffer.ingest() of many parts of `data`, which uint64 arrays tell: how many are damaged, and why the first.");
-  module.def("transform_columns", &transform_columns, arg("data"), arg("starts"), arg("ends"),
+  module.def("transform_columns", &transform_columns, arg("data"), arg("starts"), arg("ends"), arg("encoding") = "cdr",
              "The transforms of many TFMessages as they were sent, as columns.");
 }
 

@@ -414,7 +414,7 @@ def ingest_slices(
     """
 
 def transform_columns(
-    data: Any, starts: Any, ends: Any
+    data: Any, starts: Any, ends: Any, encoding: str = "cdr"
 ) -> tuple[bytes, bytes, bytes, bytes, bytes, list[str], int, str]:
     """The transforms of many TFMessages as they were sent, whatever a buffer would make of them.
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from coframe.bags.storage import Channel, Slices
     from coframe.buffer import Buffer
 
-__all__ = ["Columns", "Ingest", "cdr_columns", "ingest_for", "is_static"]
+__all__ = ["Columns", "Ingest", "ingest_for", "is_static", "tf_columns"]
 
 _SECOND = 1_000_000_000
 # Behind the count, the stamp and the name's length, and in ROS 1 the number, in CDR the header.
@@ -58,9 +58,9 @@ class Columns(NamedTuple):
     damaged: int
 
 
-def cdr_columns(messages: Slices) -> Columns:
-    """Of TFMessages as ROS 2 sends them."""
-    *columns, names, damaged, _ = _core.transform_columns(messages.data, messages.starts, messages.ends)
+def tf_columns(messages: Slices, encoding: str = "cdr") -> Columns:
+    """Of TFMessages as ROS 2 sends them, or as ROS 1 does (``ros1``)."""
+    *columns, names, damaged, _ = _core.transform_columns(messages.data, messages.starts, messages.ends, encoding)
     kinds = (np.uint32, np.int64, np.uint32, np.uint32, np.float64)
     message, stamp, parent, child, values = (
         np.frombuffer(column, dtype=kind) for column, kind in zip(columns, kinds, strict=True)
@@ -123,14 +123,13 @@ class Ingest:
 
     def columns(self, messages: Slices) -> Columns:
         """The same messages as columns."""
-        if self._decode == "cdr":
-            return cdr_columns(messages)
-        decode = _ros1 if isinstance(self._decode, str) else self._decode
+        if isinstance(self._decode, str):
+            return tf_columns(messages, self._decode)
         rows: list[tuple[int, _Stamped]] = []
         damaged = 0
         for number, message in enumerate(messages.each()):
             try:
-                rows += [(number, transform) for transform in list(decode(message))]
+                rows += [(number, transform) for transform in list(self._decode(message))]
             except _DAMAGE:
                 damaged += 1
         numbers: dict[str, int] = {}
@@ -163,24 +162,6 @@ def ingest_for(channel: Channel, renaming: _core.Renaming | None = None) -> Inge
     if kind not in _DECODINGS:
         return None
     return Ingest(_DECODINGS[kind], is_static(channel.topic), channel.topic, renaming)
-
-
-def _ros1(data: bytes | memoryview) -> Iterator[_Stamped]:
-    """tf2_msgs/TFMessage and tf/tfMessage of ROS 1, where their columns are wanted."""
-    (count,) = struct.unpack_from("<I", data)
-    position = 4
-    for _ in range(count):
-        _, seconds, nanoseconds = struct.unpack_from("<III", data, position)
-        position, names = position + 12, []
-        for _ in range(2):
-            (length,) = struct.unpack_from("<I", data, position)
-            if position + 4 + length > len(data):
-                raise ValueError("a text is longer than the message")
-            names.append(str(data[position + 4 : position + 4 + length], "utf-8"))
-            position += 4 + length
-        values = struct.unpack_from("<7d", data, position)
-        yield _Stamped(names[0], names[1], seconds * _SECOND + nanoseconds, values)
-        position += 56
 
 
 def _foxglove_cdr(data: bytes | memoryview) -> Iterator[_Stamped]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from coframe.bags.header_stamps import opens_with_header
 from coframe.bags.storage import Slices
-from coframe.bags.transforms import cdr_columns
+from coframe.bags.transforms import tf_columns
 from coframe.doctor.collector import Collector
 from coframe.doctor.heads import HEAD, header_of
 from coframe.doctor.joints import joint_states
@@ -194,7 +194,7 @@ class Listening:
     def _take_transforms(self, topic: str, messages: list[TappedMessage], static: bool) -> None:
         if not messages:
             return
-        columns = cdr_columns(Slices.joined([message.data for message in messages]))
+        columns = tf_columns(Slices.joined([message.data for message in messages]))
         arrived = np.array([message.arrived for message in messages], dtype=np.int64)
         publishers = [self._names.get(message.writer, "") for message in messages]
         self._collector.add(topic, static, columns, arrived, publishers)
