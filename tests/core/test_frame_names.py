@@ -190,7 +190,7 @@ def test_names_of_a_buffer_are_renamed_as_bytes_come_in():
     names = frame_names.renaming("robot1/", keep=["map"])
     message = cdr(stamped("map", "odom"), stamped("/odom", "base", x=1.0))
     for _ in range(2):
-        _core.ingest_slices(buffer, message, array(0), array(len(message)), False, "bag", names)
+        _core.ingest_slices(buffer, message, array(0), array(len(message)), False, "bag", renaming=names)
     assert sorted(buffer.frame_names()) == ["map", "robot1/base", "robot1/odom"]
     assert buffer.lookup("map", "robot1/base").translation[0] == 1.0
 

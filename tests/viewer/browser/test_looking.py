@@ -30,10 +30,20 @@ def position(page, frame):
 
 
 def click_on(page, frame):
-    """Clicks where a frame is on the canvas."""
-    x, y = page.ask("frame => coframe.pixel(coframe.frames[frame].position)", frame)
+    """Clicks where a frame is on the canvas, once the camera stands still."""
+    before = None
+    while before != (before := page.ask("frame => coframe.pixel(coframe.frames[frame].position)", frame)):
+        page.raw.wait_for_timeout(200)
+    x, y = before[:2]
     box = page.raw.locator("#canvas").bounding_box()
     page.raw.mouse.click(box["x"] + x, box["y"] + y)
+
+
+def go(page, part):
+    """To a part of the timeline, and waits until base is where it was then."""
+    page.scrub(part)
+    page.until("x => Math.abs(coframe.frames.base.position[0] - x) < 0.2", 10 * part)
+    page.settle()
 
 
 def test_two_clicks_measure_what_the_buffer_says(page):
@@ -69,15 +79,13 @@ def test_the_camera_keeps_its_distance_to_a_frame_that_it_follows(page):
 
     before, began = away(), position(page, "arm")
     for part in (0.5, 0.1):
-        page.scrub(part)
-        page.settle()
+        go(page, part)
         np.testing.assert_allclose(away(), before, atol=1e-3)
     assert np.linalg.norm(position(page, "arm") - began) > 5.0
     page.key("f")
     page.wait(lambda: not page.raw.locator("#overlay .hint:visible").count(), "its end")
     stays = page.ask("coframe.camera.position")
-    page.scrub(0.9)
-    page.settle()
+    go(page, 0.9)
     assert page.ask("coframe.camera.position") == stays
 
 
