@@ -106,6 +106,7 @@ every(0.1, query)
     assert "timeout=Duration(seconds=0.1)" in finding["fix"]
 
 
+@pytest.mark.slow
 def test_volatile_statics_on_both_sides(start, inside):
     start("robot", ROBOT)
     start("own_publisher", 'p = node.create_publisher(TFMessage, "/tf_static", 10)')
@@ -118,6 +119,7 @@ def test_volatile_statics_on_both_sides(start, inside):
     pytest.fail(f"{findings}")
 
 
+@pytest.mark.slow
 def test_statics_that_one_process_overwrites(start, only):
     start("robot", ROBOT)
     body = """

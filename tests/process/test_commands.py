@@ -122,6 +122,7 @@ def test_demo_shows_the_whole_tree_and_ends_its_nodes(processes):
     assert re.search(r"/scan_base_frame: \d+\.\d Hz, \d+ points in base_link", text)
 
 
+@pytest.mark.slow
 def test_demo_from_a_description_shows_the_same_tree(processes):
     pytest.importorskip("xacro", reason="the lab's robot is described in xacro")
     processes.start("demo", "python", "-m", "coframe.cli", "demo", "--urdf", "--duration", "6", "--no-browser")
@@ -136,7 +137,9 @@ def test_demo_from_a_description_shows_the_same_tree(processes):
     assert "not connected" not in text
 
 
-@pytest.mark.parametrize(("how", "code"), [(signal.SIGHUP, 0), (signal.SIGKILL, -signal.SIGKILL)])
+@pytest.mark.parametrize(
+    ("how", "code"), [pytest.param(signal.SIGHUP, 0, marks=pytest.mark.slow), (signal.SIGKILL, -signal.SIGKILL)]
+)
 def test_no_node_outlives_the_demo(processes, how, code, tmp_path, monkeypatch):
     """A closed terminal or a kill must not leave a second arm behind for the next demo."""
     monkeypatch.setenv("TMPDIR", str(tmp_path))  # who is killed leaves the nodes' logs behind

@@ -101,7 +101,14 @@ def describe(ros, text):
     return publisher
 
 
-@pytest.mark.parametrize("mesh", ["package://crane/../../secret.stl", "file:///etc/passwd", "../../secret.stl"])
+@pytest.mark.parametrize(
+    "mesh",
+    [
+        "package://crane/../../secret.stl",
+        pytest.param("file:///etc/passwd", marks=pytest.mark.slow),
+        pytest.param("../../secret.stl", marks=pytest.mark.slow),
+    ],
+)
 def test_meshes_from_elsewhere_are_refused_in_a_sentence(domain_id, tmp_path, view, open_page, mesh):
     pytest.importorskip("cyclonedds", reason="robot descriptions come over DDS")
     (tmp_path / "a" / "crane").mkdir(parents=True)
@@ -131,7 +138,11 @@ def test_an_xml_bomb_is_a_sentence(domain_id, view, open_page):
 
 
 @pytest.mark.parametrize(
-    ("size", "sentence"), [(210 << 20, "larger than the 200 MB"), (300 << 20, "up to 256 MB are served")]
+    ("size", "sentence"),
+    [
+        (210 << 20, "larger than the 200 MB"),
+        pytest.param(300 << 20, "up to 256 MB are served", marks=pytest.mark.slow),
+    ],
 )
 def test_a_mesh_of_hundreds_of_megabytes_is_refused(tmp_path, view, open_page, size, sentence):
     with (tmp_path / "huge.stl").open("wb") as file:
