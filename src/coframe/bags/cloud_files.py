@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import importlib
 import tempfile
+from contextlib import closing
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
 
 import numpy as np
 
+from coframe.bags.definitions import definition_of
+from coframe.bags.mcap_writer import McapWriter
 from coframe.errors import RecordingError
 from coframe.messages import find, serialize
 from coframe.sensors.thinning import thinned
@@ -112,9 +114,14 @@ def _write_folder(told: _Told, folder: Path, kind: str, voxel: float | None) -> 
 def _write_one(path: Path, kind: str, clouds: Iterable[Cloud], told: _Told) -> int:
     """All clouds in one file, which is there in the end only if it is whole."""
     temporary = path.with_name(f".{path.name}.part")
+    temporary.unlink(missing_ok=True)  # of somebody who was killed
     try:
-        with temporary.open("wb") as stream:
-            written = _fill(_NewBag(stream, told.clouds.topic) if kind == "mcap" else _WRITERS[kind](stream), clouds)
+        if kind == "mcap":
+            with closing(McapWriter(temporary)) as bag:
+                written = _fill(_NewBag(bag, told.clouds.topic), clouds)
+        else:
+            with temporary.open("wb") as stream:
+                written = _fill(_WRITERS[kind](stream), clouds)
         told.check_some()
         temporary.replace(path)
     finally:
@@ -258,30 +265,26 @@ class _Npz:
 
 
 class _NewBag:
-    """A recording with one topic of PointCloud2; the one place where this module knows how recordings are written."""
+    """A topic of PointCloud2 in a new recording, which is somebody else's to close."""
 
-    def __init__(self, stream: BinaryIO, topic: str) -> None:
-        try:
-            writer: Any = importlib.import_module("mcap.writer")
-            typesys: Any = importlib.import_module("rosbags.typesys")
-        except ModuleNotFoundError as error:
-            raise RecordingError(
-                f"a new recording needs the package {error.name}", hint="pip install 'coframe[bags]'"
-            ) from None
-        store = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
-        definition, _ = store.generate_msgdef(_TYPE, ros_version=2)
-        self._writer = writer.Writer(stream)
-        self._writer.start(profile="ros2", library="coframe")
-        schema = self._writer.register_schema(_TYPE, "ros2msg", definition.encode())
-        self._channel = self._writer.register_channel(topic, "cdr", schema)
+    def __init__(self, writer: McapWriter, topic: str) -> None:
+        self._writer = writer
+        self._channel = writer.add_channel(
+            topic,
+            _TYPE,
+            encoding="cdr",
+            definition=definition_of(_TYPE),
+            definition_format="ros2msg",
+            about={},
+        )
 
     def add(self, cloud: Cloud) -> None:
-        """One message, received at its own stamp."""
-        self._writer.add_message(self._channel, cloud.stamp, serialize(message_of(cloud)), cloud.stamp)
+        """One message, received at its own stamp, and a chunk of its own: clouds are large."""
+        self._writer.write(self._channel, serialize(message_of(cloud)), cloud.stamp, cloud.stamp)
+        self._writer.flush()
 
     def finish(self) -> None:
-        """Writes the index."""
-        self._writer.finish()
+        """There is nothing left to write."""
 
 
 # By their names in numpy.
