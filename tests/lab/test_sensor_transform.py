@@ -82,7 +82,12 @@ def expected_points(scan, reference, target):
 
 
 @pytest.mark.parametrize(
-    ("frame", "target"), [("lidar_link", "base_link"), ("lidar_link", "odom"), ("gripper_link", "base_link")]
+    ("frame", "target"),
+    [
+        pytest.param("lidar_link", "base_link", marks=pytest.mark.slow),
+        pytest.param("lidar_link", "odom", marks=pytest.mark.slow),
+        ("gripper_link", "base_link"),
+    ],
 )
 def test_every_scan_arrives_where_it_belongs_while_everything_moves(start, run, frame, target):
     observer = start()

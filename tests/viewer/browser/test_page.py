@@ -21,6 +21,7 @@ def counted_buffer():
     return buffer
 
 
+@pytest.mark.slow
 def test_a_replay_plays_from_disk_without_a_network(view, open_page, tmp_path):
     page = open_page(view(counted_buffer(), fixed="map").url).drawn()
     replay = open_page(page.save_replay(tmp_path / "replay.html", 8), offline=True).drawn()
