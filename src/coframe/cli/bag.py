@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["bag"]
 
-bag = typer.Typer(help="What is in recordings.", no_args_is_help=True)
+bag = typer.Typer(help="What recordings hold, and how to mend them.", no_args_is_help=True)
 
 
 @bag.callback()
