@@ -71,9 +71,9 @@ void transform(const Affine& affine, std::size_t n, Points points) {
   double *__restrict xs = points.x, *__restrict ys = points.y, *__restrict zs = points.z;
   for (std::size_t i = 0; i < n; ++i) {
     const double x = xs[i], y = ys[i], z = zs[i];
-    xs[i] = m[0][0] * x + m[0][1] * y + m[0][2] * z + m[0][3];
-    ys[i] = m[1][0] * x + m[1][1] * y + m[1][2] * z + m[1][3];
-    zs[i] = m[2][0] * x + m[2][1] * y + m[2][2] * z + m[2][3];
+    xs[i] = m[0][3] + m[0][0] * x + m[0][1] * y + m[0][2] * z;
+    ys[i] = m[1][3] + m[1][0] * x + m[1][1] * y + m[1][2] * z;
+    zs[i] = m[2][3] + m[2][0] * x + m[2][1] * y + m[2][2] * z;
   }
 }
 

@@ -22,8 +22,12 @@ Triple: TypeAlias = "tuple[NDArray[Any], NDArray[Any], NDArray[Any]]"
 
 _POSITION = ("x", "y", "z")
 NORMALS = (("normal_x", "normal_y", "normal_z"), ("nx", "ny", "nz"))
-# By PointField's constants.
-_DTYPES = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
+# By PointField's constants, for both byte orders.
+_KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
+_DTYPES = {
+    is_bigendian: {number: np.dtype(order + kind) for number, kind in _KINDS.items()}
+    for is_bigendian, order in ((False, "<"), (True, ">"))
+}
 
 
 def is_message(points: Any) -> bool:
@@ -189,9 +193,9 @@ def _message_field(cloud: Any, name: str) -> NDArray[Any]:
     field = next((field for field in cloud.fields if field.name == name), None)
     if field is None:
         raise _no_field(name, [field.name for field in cloud.fields])
-    if field.datatype not in _DTYPES:
+    dtype = _DTYPES[bool(cloud.is_bigendian)].get(field.datatype)
+    if dtype is None:
         raise ValueError(f"the field {name!r} has the datatype {field.datatype}, which PointField does not know")
-    dtype = np.dtype((">" if cloud.is_bigendian else "<") + _DTYPES[field.datatype])
     rows, columns, step = cloud.height, cloud.width, cloud.point_step
     # Where there is one row only, publishers do not care for its length.
     row_step = cloud.row_step if rows > 1 and cloud.row_step else columns * step
