@@ -31,9 +31,9 @@ $(VENV)/.oracle: pyproject.toml | $(STAMP)
 		echo "test-slow: Pinocchio could not be installed from the package index; the tests beside it are skipped"
 
 test-slow: $(STAMP) $(VENV)/.oracle ## the tests that take minutes
-	$(BIN)/python -m pytest -m slow $(ARGS)
+	$(BIN)/python -m pytest -m "slow and not long" $(ARGS)
 
-test-long: $(STAMP) ## ten million random operations beside the real tf2, a new seed each time
+test-long: $(STAMP) ## ten million random operations beside the real tf2, a new seed each time; ten minutes of a stuck tab
 	$(BIN)/python -m pytest -m long -rP $(ARGS)
 
 sanitize: ## the native core under ThreadSanitizer for a minute, and under AddressSanitizer, also with damaged messages

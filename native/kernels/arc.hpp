@@ -47,6 +47,31 @@ struct Series {
     const T y = cosine - 1.0;
     return angle_series<K>(y);
   }
+
+  // The same weight for many shares of one angle: the terms, multiplied out once to a polynomial in t^2.
+  class WeightAt {
+   public:
+    COFRAME_INLINE explicit WeightAt(double cosine) {
+      const double y = cosine - 1.0;
+      factors_[0] = 1.0;
+      for (int j = K; j >= 1; --j) {
+        const double u = y / (j * (2.0 * j + 1.0)), v = y * j / (2.0 * j + 1.0);
+        factors_[K - j + 1] = u * factors_[K - j];
+        for (int i = K - j; i >= 1; --i) factors_[i] = u * factors_[i - 1] - v * factors_[i];
+        factors_[0] = 1.0 - v * factors_[0];
+      }
+    }
+    template <class T>
+    COFRAME_INLINE T operator()(const T& t) const {
+      const T t2 = t * t;
+      T sum = t2 * factors_[K] + factors_[K - 1];
+      for (int i = K - 2; i >= 0; --i) sum = sum * t2 + factors_[i];
+      return t * sum;
+    }
+
+   private:
+    double factors_[K + 1];
+  };
 };
 struct Nearest : Series<2> {
   static constexpr double kLeast = 1.0 - 1.7e-5;
@@ -70,6 +95,18 @@ struct Far {
     const T half = root(T(0.5 + 0.5 * cosine));
     return Series<18>::angle_by_sine(half) / half;
   }
+
+  class WeightAt {
+   public:
+    COFRAME_INLINE explicit WeightAt(double cosine) : cosine_(cosine) {}
+    template <class T>
+    COFRAME_INLINE T operator()(const T& t) const {
+      return weight(t, cosine_);
+    }
+
+   private:
+    double cosine_;
+  };
 };
 
 // Calls `loop` with the shortest way that is good for all of these cosines.

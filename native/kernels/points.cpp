@@ -11,21 +11,36 @@ struct Vector {
   double x, y, z;
 };
 
-// v + 2 w (u x v) + 2 u x (u x v), u the vector part.
+// v + 2 w (u x v) + 2 u x (u x v), u the vector part. Sums are in such an order that each product is added by the same
+// instruction that makes it; so below.
 COFRAME_INLINE Vector rotated(double qx, double qy, double qz, double qw, const Vector& v) {
   const double tx = 2.0 * (qy * v.z - qz * v.y);
   const double ty = 2.0 * (qz * v.x - qx * v.z);
   const double tz = 2.0 * (qx * v.y - qy * v.x);
-  return {v.x + qw * tx + (qy * tz - qz * ty), v.y + qw * ty + (qz * tx - qx * tz),
-          v.z + qw * tz + (qx * ty - qy * tx)};
+  return {v.x + qw * tx + qy * tz - qz * ty, v.y + qw * ty + qz * tx - qx * tz, v.z + qw * tz + qx * ty - qy * tx};
 }
 
-// One point seen from the other end of a link whose pose is q, p.
-template <bool kInverse>
-COFRAME_INLINE Vector seen(double qx, double qy, double qz, double qw, double px, double py, double pz, const Vector& v) {
-  if constexpr (kInverse) return rotated(-qx, -qy, -qz, qw, {v.x - px, v.y - py, v.z - pz});
+// Where a frame is, and where it is on the way between two places.
+struct Place {
+  const double* p;
+  COFRAME_INLINE double add_to(double number, int k) const { return number + p[k]; }
+  COFRAME_INLINE double take_from(double number, int k) const { return number - p[k]; }
+};
+struct Between {
+  double first, second;  // what each is weighed by
+  const double *ap, *bp;
+  COFRAME_INLINE double add_to(double number, int k) const { return number + first * ap[k] + second * bp[k]; }
+  COFRAME_INLINE double take_from(double number, int k) const { return number - first * ap[k] - second * bp[k]; }
+};
+
+// One point seen from the other end of a link that is turned by q.
+template <bool kInverse, class Offset>
+COFRAME_INLINE Vector seen(double qx, double qy, double qz, double qw, const Offset& offset, const Vector& v) {
+  if constexpr (kInverse) {
+    return rotated(-qx, -qy, -qz, qw, {offset.take_from(v.x, 0), offset.take_from(v.y, 1), offset.take_from(v.z, 2)});
+  }
   const Vector turned = rotated(qx, qy, qz, qw, v);
-  return {turned.x + px, turned.y + py, turned.z + pz};
+  return {offset.add_to(turned.x, 0), offset.add_to(turned.y, 1), offset.add_to(turned.z, 2)};
 }
 
 template <bool kInverse, class Way>
@@ -36,15 +51,14 @@ void transform_moving_by(const Motion& motion, const Arc& between, const double*
   std::memcpy(ap, motion.older.p, sizeof(ap));
   std::memcpy(bp, motion.newer.p, sizeof(bp));
   for (int k = 0; k < 4; ++k) bq[k] = between.sign * motion.newer.q[k];
-  const double cosine = between.cosine;
+  const typename Way::WeightAt weight(between.cosine);
   double *__restrict xs = points.x, *__restrict ys = points.y, *__restrict zs = points.z;
   for (std::size_t i = 0; i < n; ++i) {
     const double t = shares[i], rest = 1.0 - t;
-    const double a = Way::weight(rest, cosine), b = Way::weight(t, cosine);
+    const double a = weight(rest), b = weight(t);
     const Vector point =
         seen<kInverse>(a * aq[0] + b * bq[0], a * aq[1] + b * bq[1], a * aq[2] + b * bq[2], a * aq[3] + b * bq[3],
-                       rest * ap[0] + t * bp[0], rest * ap[1] + t * bp[1], rest * ap[2] + t * bp[2],
-                       {xs[i], ys[i], zs[i]});
+                       Between{rest, t, ap, bp}, {xs[i], ys[i], zs[i]});
     xs[i] = point.x;
     ys[i] = point.y;
     zs[i] = point.z;
@@ -55,8 +69,8 @@ template <bool kInverse>
 void transform_each_by(const Pose* poses, std::size_t n, const Points& points) {
   double *__restrict xs = points.x, *__restrict ys = points.y, *__restrict zs = points.z;
   for (std::size_t i = 0; i < n; ++i) {
-    const double *q = poses[i].q, *p = poses[i].p;
-    const Vector point = seen<kInverse>(q[0], q[1], q[2], q[3], p[0], p[1], p[2], {xs[i], ys[i], zs[i]});
+    const double* q = poses[i].q;
+    const Vector point = seen<kInverse>(q[0], q[1], q[2], q[3], Place{poses[i].p}, {xs[i], ys[i], zs[i]});
     xs[i] = point.x;
     ys[i] = point.y;
     zs[i] = point.z;

@@ -19,6 +19,19 @@ std::size_t changes(const std::int64_t* times, std::size_t n) {
   return count;
 }
 
+std::size_t leading(const std::int64_t* times, std::size_t n, std::int64_t start, std::uint64_t length) {
+  const auto origin = static_cast<std::uint64_t>(start);
+  constexpr std::size_t kTogether = 16;
+  std::size_t i = 0;
+  for (; i + kTogether <= n; i += kTogether) {
+    bool all = true;
+    for (std::size_t k = 0; k < kTogether; ++k) all &= static_cast<std::uint64_t>(times[i + k]) - origin < length;
+    if (!all) break;
+  }
+  while (i < n && static_cast<std::uint64_t>(times[i]) - origin < length) ++i;
+  return i;
+}
+
 void shares(const std::int64_t* times, std::int64_t start, std::int64_t end, std::size_t n, double* out) {
   const auto origin = static_cast<std::uint64_t>(start);
   const std::uint64_t whole = static_cast<std::uint64_t>(end) - origin;

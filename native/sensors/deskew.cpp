@@ -120,12 +120,12 @@ class Worker {
     std::size_t n = 0;
     for (std::size_t i = 0; i < count; ++n) {
       hint = link.interval(times_[i], hint);
-      const auto start = static_cast<std::uint64_t>(link.start(hint));
-      const std::uint64_t length = static_cast<std::uint64_t>(link.stamps[hint + 1]) - start;
-      stretches[n] = {i, hint};
-      do ++i;
-      while (i < count && static_cast<std::uint64_t>(times_[i]) - start < length);
-      const std::size_t begin = stretches[n].begin;
+      const Stamp start = link.start(hint);
+      const std::uint64_t length = distance(start, link.stamps[hint + 1]);
+      const std::size_t begin = i;
+      stretches[n] = {begin, hint};
+      ++i;
+      i += kernels_.leading(times_ + i, count - i, start, length);
       link.shares(kernels_, hint, times_ + begin, i - begin, shares_ + begin);
     }
     stretches[n].begin = count;

@@ -80,15 +80,16 @@ void Trajectory::copy_link(const PathCache::Step& step, const History::View& sam
 
 void Trajectory::continue_to(const Pose& pose) { append_still(pose, false); }
 
-// Links that stand still one behind the other are one.
+// Links that stand still one behind the other are one. And one that stands still goes into the samples of a moving one
+// before it: what is between two samples turns and shifts with them.
 void Trajectory::append_still(Pose pose, bool inverse) {
   if (inverse) {
     const Pose step = pose;
     pose = Pose{};
     compose_inverse(step, pose);
   }
-  if (!links_.empty() && links_.back().stands_still()) {
-    compose(pose, links_.back().poses.front());
+  if (!links_.empty() && !links_.back().inverse) {
+    for (Pose& sample : links_.back().poses) compose(pose, sample);
     return;
   }
   links_.emplace_back().poses.push_back(pose);
