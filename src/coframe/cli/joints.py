@@ -15,7 +15,18 @@ from rich.text import Text
 
 import coframe
 from coframe.cli.keys import keys
-from coframe.cli.session import DomainOption, fail, node_errors, session
+from coframe.cli.session import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
+    DomainOption,
+    KeepOption,
+    PrefixOption,
+    TfStaticTopicOption,
+    TfTopicOption,
+    fail,
+    node_errors,
+    session,
+)
 from coframe.cli.sliders import HELP, Sliders
 from coframe.cli.view import NoBrowserOption, PortOption, announce
 from coframe.robots import RobotDescriptionError, load
@@ -51,11 +62,17 @@ def joints(
     port: PortOption = None,
     no_browser: NoBrowserOption = False,
     domain: DomainOption = None,
+    tf_topic: TfTopicOption = TF_TOPIC,
+    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
 ) -> None:
     """Publish the joint states of the robot in FILE on /joint_states, as joint_state_publisher does.
 
     Each joint that moves by itself has a slider: up and down choose, left and right move. Where standard input is no
     terminal, it only publishes. What follows --ros-args is the node's, such as -p dependent_joints.b.parent:=a.
+    Joint states name no frames: --tf-topic, --tf-static-topic, --prefix and --keep are for what the viewer of --gui
+    listens to.
 
     Example: coframe joints arm.urdf.xacro --zero joint1=0.5 --rate 30
     """
@@ -70,7 +87,9 @@ def joints(
         overrides = [Parameter(name, value=value) for name, value in values.items()]
         with node_errors(), _running(["coframe", *context.args], robot, domain, overrides) as running:
             if gui:
-                _show(running, file, port, domain, browser=not no_browser)
+                listening = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
+                with coframe.connect("coframe_joints", domain=domain, **listening) as ros:
+                    _show(running, file, ros, port, browser=not no_browser)
             elif sys.stdin.isatty() and sys.stdout.isatty():
                 _slide(running)
             else:
@@ -170,10 +189,7 @@ def _slide(running: Running) -> None:
             live.refresh()
 
 
-def _show(running: Running, file: Path, port: int | None, domain: int | None, *, browser: bool) -> None:
-    with (
-        coframe.connect("coframe_joints", domain=domain) as ros,
-        coframe.show(ros, robot=file, port=port, joint_states=SLIDERS) as viewer,
-    ):
+def _show(running: Running, file: Path, ros: coframe.Connection, port: int | None, *, browser: bool) -> None:
+    with coframe.show(ros, robot=file, port=port, joint_states=SLIDERS) as viewer:
         announce(viewer, browser=browser)
         running.wait()

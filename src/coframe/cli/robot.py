@@ -8,6 +8,8 @@ from typing import Annotated
 import typer
 
 from coframe.cli.session import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
     DomainOption,
     KeepOption,
     PrefixOption,
@@ -34,8 +36,8 @@ def robot(
         bool, typer.Option("--ignore-timestamp", help="Tell of every joint state, however close together.")
     ] = False,
     domain: DomainOption = None,
-    tf_topic: TfTopicOption = "/tf",
-    tf_static_topic: TfStaticTopicOption = "/tf_static",
+    tf_topic: TfTopicOption = TF_TOPIC,
+    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
 ) -> None:
     """Publish the transforms of the robot in FILE from its joint states, as robot_state_publisher does.
 
