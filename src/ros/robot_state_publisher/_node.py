@@ -1,23 +1,19 @@
 """The node: upstream's parameters, topics, QoS and texts."""
 
-import sys
 from collections.abc import Sequence
 from typing import Any
 
-import rclpy
 from coframe.frame_names import kept
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
 from coframe.robots.publishing import StatePublisher
 from coframe.transform import Transform
 from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
-from rclpy.exceptions import NameValidationException, ParameterException, RCLError
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from rclpy.time import Time
-from rclpy.utilities import remove_ros_args
+from robot_state_publisher._program import program, spin_until_ended
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
@@ -141,19 +137,9 @@ def run(args: list[str], file: str | None = None, *, domain_id: int | None = Non
     Raises:
         RobotDescriptionError: As of the node.
     """
-    try:
-        with rclpy.init(args=args, domain_id=domain_id):
-            rclpy.spin(RobotStatePublisher(file, **options))
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
+    spin_until_ended(lambda: RobotStatePublisher(file, **options), args, domain_id)
 
 
 def main(args: list[str] | None = None) -> None:
     """The console script: a file's name, then `--ros-args`."""
-    words = sys.argv if args is None else ["robot_state_publisher", *args]
-    files = remove_ros_args(words)[1:]
-    try:
-        run(words, files[0] if files else None)
-    except (RobotDescriptionError, NameValidationException, ParameterException, RCLError) as error:
-        hint = getattr(error, "hint", "")
-        sys.exit(f"robot_state_publisher: {error}" + (f"\n  {hint}" if hint else ""))
+    program("robot_state_publisher", args, lambda words, files: run(words, files[0] if files else None))
