@@ -94,14 +94,17 @@ def test_the_command(context, heard, wait_until, tmp_path):
     listener, found = heard
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(listener)
-    (tmp_path / "arm.urdf").write_text(URDF)
-    command = [sys.executable, "-m", "coframe.cli", "robot", str(tmp_path / "arm.urdf"), "--prefix", "x/"]
+    argument = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="reach" default="1"/>'
+    text = URDF.replace('<robot name="arm">', argument).replace('xyz="1 0 0"', 'xyz="$(arg reach) 0 0"')
+    (tmp_path / "arm.xacro").write_text(text)
+    command = [sys.executable, "-m", "coframe.cli", "robot", str(tmp_path / "arm.xacro"), "--prefix", "x/", "reach:=2"]
     process = subprocess.Popen(
         [*command, "--ros-args", "-r", "__node:=publisher_of_x"], stderr=subprocess.PIPE, text=True
     )
     try:
         wait_until(lambda: found["/tf_static"], lambda: executor.spin_once(timeout_sec=0.05), timeout=30.0)
         assert frames(found["/tf_static"]) == [("x/upper", "x/tool")]
+        assert found["/tf_static"][0].transforms[0].transform.translation.x == 2.0
         wait_until(lambda: "publisher_of_x" in [name for name, _ in listener.get_node_names_and_namespaces()])
     finally:
         process.terminate()

@@ -5,6 +5,7 @@ import os
 import re
 import signal
 import subprocess
+from pathlib import Path
 
 import pytest
 import typer
@@ -15,6 +16,7 @@ from coframe.cli.app import app
 from coframe.messages import find
 from coframe.wire.qos import TF_STATIC_WRITER
 
+ARM = str(Path(coframe.__file__).with_name("lab") / "two_link_arm.urdf.xacro")
 COMMAND = """
     import sys
     from coframe.cli import main
@@ -111,6 +113,8 @@ def test_prefixes_and_a_relay_as_they_are_typed(command, ros, eventually):
         (["relay", "--from", "/a/tf=/a/"], "the prefix '/a/' begins with a slash"),
         (["echo", "a", "b", "--prefix", "/robot1/"], "the prefix '/robot1/' begins with a slash"),
         (["relay", "--robots", "a", "--tf-static-topic", "a/tf_static"], "/a/tf_static would be read and written"),
+        (["robot", ARM, "--prefx", "robot1/"], "there is no option or argument '--prefx'"),
+        (["joints", ARM, "first_length:=0.5", "surplus"], "there is no option or argument 'surplus'"),
         (["record", "--tf-topic", "/robot1/tf"], "say whose frames get the prefix"),
         (["static", "--frame-id", "a", "--child-frame-id", "b", "--prefix", "/r/"], "the prefix '/r/' begins"),
     ],

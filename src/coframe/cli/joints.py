@@ -26,6 +26,7 @@ from coframe.cli.session import (
     fail,
     node_errors,
     session,
+    xacro_arguments,
 )
 from coframe.cli.sliders import HELP, Sliders
 from coframe.cli.view import NoBrowserOption, PortOption, announce
@@ -77,7 +78,7 @@ def joints(
     Example: coframe joints arm.urdf.xacro --zero joint1=0.5 --rate 30
     """
     with session():
-        robot = load(file)
+        robot = load(file, arguments=xacro_arguments(context.args))
         from rclpy.parameter import Parameter  # noqa: PLC0415 - a file that cannot be read needs no graph
 
         values: dict[str, Any] = {"rate": rate, "delta": delta, **_zeros(robot, zero or [])}
@@ -89,7 +90,7 @@ def joints(
             if gui:
                 listening = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
                 with coframe.connect("coframe_joints", domain=domain, **listening) as ros:
-                    _show(running, file, ros, port, browser=not no_browser)
+                    _show(running, robot, ros, port, browser=not no_browser)
             elif sys.stdin.isatty() and sys.stdout.isatty():
                 _slide(running)
             else:
@@ -189,7 +190,7 @@ def _slide(running: Running) -> None:
             live.refresh()
 
 
-def _show(running: Running, file: Path, ros: coframe.Connection, port: int | None, *, browser: bool) -> None:
-    with coframe.show(ros, robot=file, port=port, joint_states=SLIDERS) as viewer:
+def _show(running: Running, robot: Robot, ros: coframe.Connection, port: int | None, *, browser: bool) -> None:
+    with coframe.show(ros, robot=robot, port=port, joint_states=SLIDERS) as viewer:
         announce(viewer, browser=browser)
         running.wait()

@@ -17,6 +17,7 @@ from coframe.cli.session import (
     TfTopicOption,
     node_errors,
     session,
+    xacro_arguments,
 )
 from coframe.robots import load
 
@@ -41,13 +42,13 @@ def robot(
 ) -> None:
     """Publish the transforms of the robot in FILE from its joint states, as robot_state_publisher does.
 
-    What follows --ros-args is the node's.
+    NAME:=VALUE gives a xacro file its arguments; what follows --ros-args is the node's.
 
     Example: coframe robot arm.urdf.xacro --prefix robot1/ --ros-args -r joint_states:=arm/joint_states
     """
     with session():
         parameters = {
-            "robot_description": load(file).text,
+            "robot_description": load(file, arguments=xacro_arguments(context.args)).text,
             "frame_prefix": prefix,
             "frame_prefix_keep": keep,
             "publish_frequency": frequency,

@@ -43,6 +43,7 @@ __all__ = [
     "qualified",
     "recorded_tf_topics",
     "session",
+    "xacro_arguments",
 ]
 
 DomainOption = Annotated[
@@ -150,6 +151,24 @@ def node_errors() -> Iterator[None]:
         yield
     except (NameValidationException, ParameterException, RCLError) as error:
         fail(str(error), code=2)
+
+
+def xacro_arguments(words: list[str]) -> dict[str, str]:
+    """The arguments of a xacro file, NAME:=VALUE, of what the command itself did not know; the node's are left alone.
+
+    Anything else, such as a misspelt option, ends the command.
+    """
+    from rclpy.utilities import remove_ros_args  # noqa: PLC0415 - few need it
+
+    own = remove_ros_args(["coframe", *words])[1:]
+    for word in own:
+        if ":=" not in word or word.startswith("-"):
+            fail(
+                f"there is no option or argument {word!r}",
+                "NAME:=VALUE is an argument of a xacro file; what follows --ros-args is the node's.",
+                code=2,
+            )
+    return dict(word.split(":=", 1) for word in own)
 
 
 _OURS = (

@@ -449,7 +449,7 @@ def relay(
         raise ValueError("a relay needs robots: their names, or topics such as '/robot1/tf'")
     for robot in members:
         renaming(robot.prefix, keep)  # what is wrong with it is said before anything is joined
-        for topic in {robot.topic, f"{robot.topic}_static"} & {common, common_static}:
+        for topic in sorted({robot.topic, f"{robot.topic}_static"} & {common, common_static}):
             raise ValueError(f"{topic} would be read and written, and go round for ever: choose another topic")
     return Relay(
         members,
