@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from coframe.frame_names import kept
+from coframe.frame_names import kept, prefix_advice
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
 from coframe.robots.publishing import StatePublisher
 from coframe.transform import Transform
@@ -43,6 +43,7 @@ class RobotStatePublisher(Node):
         self._prefix = self.declare_parameter("frame_prefix", "").value
         # Not upstream's: the links that are shared and get no prefix, such as "map,world".
         self._kept = set(kept(self.declare_parameter("frame_prefix_keep", "").value))
+        self._advise()
         ignore_stamps = self.declare_parameter("ignore_timestamp", False).value
         robot = self._first_robot(description, file)
         self._states = StatePublisher(robot, frequency, ignore_stamps=ignore_stamps)
@@ -69,10 +70,15 @@ class RobotStatePublisher(Node):
     def _publish_robot(self) -> None:
         for link in self._states.robot.links:
             self.get_logger().info(f"got segment {link}")
+        for warning in self._states.robot.warnings:
+            self.get_logger().warning(warning)
         self._description.publish(String(data=self._states.robot.text))
         now = self.get_clock().now().nanoseconds
         fixed = [self._message(transform, now) for transform in self._states.fixed()]
-        if fixed:
+        told = self._static_broadcaster.net_message
+        # Unlike upstream's, which goes on to tell of links that a robot before this one had.
+        told.transforms, before = [], told.transforms
+        if fixed or before:
             self._static_broadcaster.sendTransform(fixed)
 
     def _take(self, state: JointState) -> None:
@@ -104,6 +110,14 @@ class RobotStatePublisher(Node):
     def _frame(self, link: str) -> str:
         return link if link in self._kept else f"{self._prefix}{link}"
 
+    def _advise(self) -> None:
+        if self._prefix.startswith("/"):
+            self.get_logger().warning(
+                f"The frame_prefix {self._prefix!r} begins with a slash, as no frame of tf2 does: it is left off"
+            )
+        elif advice := prefix_advice(self._prefix):
+            self.get_logger().warning(f"The frame_prefix is put in front as it is: {advice}")
+
     def _set_parameters(self, parameters: Sequence[Parameter[Any]]) -> SetParametersResult:
         """Takes changes over, or refuses all of them."""
         given = {parameter.name: parameter.value for parameter in parameters}
@@ -111,7 +125,11 @@ class RobotStatePublisher(Node):
             robot = self._new_robot(given["robot_description"]) if "robot_description" in given else None
         except RobotDescriptionError as error:
             return SetParametersResult(successful=False, reason=str(error))
-        self._prefix = given.get("frame_prefix", self._prefix)
+        if "frame_prefix" in given:
+            self._prefix = given["frame_prefix"]
+            self._advise()
+        if "frame_prefix_keep" in given:
+            self._kept = set(kept(given["frame_prefix_keep"]))
         self._states.frequency = given.get("publish_frequency", self._states.frequency)
         self._states.ignore_stamps = given.get("ignore_timestamp", self._states.ignore_stamps)
         if robot is not None:
