@@ -12,6 +12,7 @@ from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParam
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.time import Time
 from robot_state_publisher._program import program, spin_until_ended
 from sensor_msgs.msg import JointState
@@ -52,7 +53,10 @@ class RobotStatePublisher(Node):
         self._description = self.create_publisher(String, "robot_description", _LATCHED)
         self._publish_robot()
         self.add_on_set_parameters_callback(self._set_parameters)
-        self.create_subscription(JointState, "joint_states", self._take, qos_profile_sensor_data)
+        overrides = QoSOverridingOptions.with_default_policies()
+        self.create_subscription(
+            JointState, "joint_states", self._take, qos_profile_sensor_data, qos_overriding_options=overrides
+        )
 
     def _first_robot(self, description: str, file: str | None) -> Robot:
         if description:
