@@ -105,11 +105,13 @@ def test_the_command(context, heard, wait_until, tmp_path):
     (tmp_path / "arm.xacro").write_text(text)
     command = [sys.executable, "-m", "coframe.cli", "robot", str(tmp_path / "arm.xacro"), "--prefix", "x/", "reach:=2"]
     process = subprocess.Popen(
-        [*command, "--ros-args", "-r", "__node:=publisher_of_x"], stderr=subprocess.PIPE, text=True
+        [*command, "--ros-args", "-r", "__node:=publisher_of_x", "-p", "frame_prefix_keep:=tool"],
+        stderr=subprocess.PIPE,
+        text=True,
     )
     try:
         wait_until(lambda: found["/tf_static"], lambda: executor.spin_once(timeout_sec=0.05), timeout=30.0)
-        assert frames(found["/tf_static"]) == [("x/upper", "x/tool")]
+        assert frames(found["/tf_static"]) == [("x/upper", "tool")]
         assert found["/tf_static"][0].transforms[0].transform.translation.x == 2.0
         wait_until(lambda: "publisher_of_x" in [name for name, _ in listener.get_node_names_and_namespaces()])
     finally:

@@ -49,7 +49,9 @@ SLIDERS = "/coframe_joints/sliders"
 def joints(
     context: typer.Context,
     file: Annotated[Path, typer.Argument(help="URDF, or xacro.")],
-    rate: Annotated[float, typer.Option(min=0.001, max=1000.0, help="How often a second to publish.")] = 10.0,
+    rate: Annotated[
+        float | None, typer.Option(min=0.001, max=1000.0, help="How often a second to publish.", show_default="10.0")
+    ] = None,
     source: Annotated[
         list[str] | None,
         typer.Option(metavar="TOPIC", help="Take joint states from there, too; may be given several times."),
@@ -58,7 +60,10 @@ def joints(
         list[str] | None,
         typer.Option(metavar="JOINT=VALUE", help="Where a joint rests; may be given several times."),
     ] = None,
-    delta: Annotated[float, typer.Option(min=0.0, help="Move all joints to and fro, by so much each time.")] = 0.0,
+    delta: Annotated[
+        float | None,
+        typer.Option(min=0.0, help="Move all joints to and fro, by so much each time.", show_default="0.0"),
+    ] = None,
     gui: Annotated[bool, typer.Option("--gui", help="The sliders of the viewer instead of the terminal's.")] = False,
     port: PortOption = None,
     no_browser: NoBrowserOption = False,
@@ -81,7 +86,10 @@ def joints(
         robot = load(file, arguments=xacro_arguments(context.args))
         from rclpy.parameter import Parameter  # noqa: PLC0415 - a file that cannot be read needs no graph
 
-        values: dict[str, Any] = {"rate": rate, "delta": delta, **_zeros(robot, zero or [])}
+        # What is not given is left to the node's own parameters, of -p and --params-file.
+        given = {"rate": rate, "delta": delta}
+        values: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+        values |= _zeros(robot, zero or [])
         sources = [*(source or []), *([SLIDERS] if gui else [])]
         if sources:
             values["source_list"] = sources

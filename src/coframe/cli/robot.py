@@ -30,9 +30,16 @@ def robot(
     prefix: PrefixOption = "",
     keep: KeepOption = "",
     frequency: Annotated[
-        float,
-        typer.Option("--frequency", "-f", min=0.0, max=1000.0, help="How often at most a joint is told of, in Hz."),
-    ] = 20.0,
+        float | None,
+        typer.Option(
+            "--frequency",
+            "-f",
+            min=0.0,
+            max=1000.0,
+            help="How often at most a joint is told of, in Hz.",
+            show_default="20.0",
+        ),
+    ] = None,
     ignore_timestamp: Annotated[
         bool, typer.Option("--ignore-timestamp", help="Tell of every joint state, however close together.")
     ] = False,
@@ -47,13 +54,15 @@ def robot(
     Example: coframe robot arm.urdf.xacro --prefix robot1/ --ros-args -r joint_states:=arm/joint_states
     """
     with session():
-        parameters = {
-            "robot_description": load(file, arguments=xacro_arguments(context.args)).text,
-            "frame_prefix": prefix,
-            "frame_prefix_keep": keep,
+        description = load(file, arguments=xacro_arguments(context.args)).text
+        given = {
+            "frame_prefix": prefix or None,
+            "frame_prefix_keep": keep or None,
             "publish_frequency": frequency,
-            "ignore_timestamp": ignore_timestamp,
+            "ignore_timestamp": ignore_timestamp or None,
         }
+        # What was not given is left to the node's own parameters, of -p and --params-file.
+        parameters = {"robot_description": description} | {n: value for n, value in given.items() if value is not None}
         from rclpy.parameter import Parameter  # noqa: PLC0415 - a file that cannot be read needs no graph
         from robot_state_publisher import run  # noqa: PLC0415
 
