@@ -22,7 +22,7 @@ from coframe import _core
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["kept", "oddities", "prefix_advice", "renaming"]
+__all__ = ["belongs", "kept", "oddities", "prefix_advice", "renaming"]
 
 
 def renaming(prefix: str = "", keep: Iterable[str] = ()) -> _core.Renaming | None:
@@ -58,6 +58,18 @@ def kept(keep: Iterable[str]) -> list[str]:
     """
     names = keep.split(",") if isinstance(keep, str) else keep
     return [bare for name in names if (bare := name.strip().removeprefix("/"))]
+
+
+def belongs(topic: str, tf_topic: str, tf_static_topic: str) -> bool:
+    """Whether a topic is of the robot whose transforms are on these two: one of them, or in the first one's namespace.
+
+    Example:
+        >>> belongs("/robot1/scan", "/robot1/tf", "/tf_static"), belongs("/robot2/scan", "/robot1/tf", "/tf_static")
+        (True, False)
+        >>> belongs("/robot2/scan", "/tf", "/tf_static")
+        True
+    """
+    return topic in {tf_topic, tf_static_topic} or topic.startswith(f"{tf_topic.rpartition('/')[0]}/")
 
 
 def prefix_advice(prefix: str) -> str:

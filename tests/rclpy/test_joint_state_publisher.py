@@ -134,12 +134,18 @@ def test_the_command_where_there_is_no_terminal(context, heard, wait_until, tmp_
     (tmp_path / "arm.urdf").write_text(URDF)
     command = [sys.executable, "-m", "coframe.cli", "joints", str(tmp_path / "arm.urdf"), "--zero", "turn=-0.5"]
     process = subprocess.Popen(
-        [*command, "--rate", "50"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        [*command, "--rate", "50", "--ros-args", "-p", "publish_default_velocities:=true", "-p", "delta:=1e-9"],
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
     )
+    told = found["/joint_states"]
     try:
-        wait_until(lambda: found["/joint_states"], lambda: executor.spin_once(timeout_sec=0.05), timeout=30.0)
-        expected = {"turn": -0.5, "lift": 0.4, "follow": 0.9}
-        assert positions(found["/joint_states"][-1]) == pytest.approx(expected)
+        wait_until(lambda: len(told) > 1, lambda: executor.spin_once(timeout_sec=0.05), timeout=30.0)
+        assert positions(told[0]) == pytest.approx({"turn": -0.5, "lift": 0.4, "follow": 0.9}, abs=1e-6)
+        assert positions(told[1])["turn"] > positions(told[0])["turn"], "a parameter that no option says otherwise of"
+        assert told[0].velocity.tolist() == [0.0, 0.0, 0.0]
     finally:
         process.send_signal(signal.SIGINT)
         output, errors = process.communicate(timeout=20)

@@ -2,7 +2,9 @@
 
 import pytest
 
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.duration import Duration
+from rclpy.parameter import Parameter
 from rclpy.qos import (
     DurabilityPolicy,
     HistoryPolicy,
@@ -12,6 +14,7 @@ from rclpy.qos import (
     QoSDurabilityPolicy,
     QoSHistoryPolicy,
     QoSLivelinessPolicy,
+    QoSPolicyKind,
     QoSPresetProfiles,
     QoSProfile,
     QoSReliabilityPolicy,
@@ -21,6 +24,8 @@ from rclpy.qos import (
     qos_profile_sensor_data,
     qos_profile_system_default,
 )
+from rclpy.qos_overriding_options import InvalidQosOverridesError, QoSOverridingOptions
+from std_msgs.msg import String
 
 
 def test_depth_alone_is_keep_last_reliable_volatile():
@@ -90,3 +95,31 @@ def test_compatibility():
     verdict, reason = qos_check_compatible(best_effort, reliable)
     assert verdict is QoSCompatibility.ERROR
     assert "Best effort publisher and reliable subscription" in reason
+
+
+def test_parameters_override_what_a_node_lets_them(make_node):
+    given = {
+        "qos_overrides./words.subscription.reliability": "reliable",
+        "qos_overrides./words.subscription.depth": 9,
+        "qos_overrides./words.subscription.durability": "transient_local",  # which is not asked for
+        "qos_overrides./words.publisher_late.lifespan": 2_000_000_000,
+        "qos_overrides./wrong.publisher.reliability": "sometimes",
+    }
+    node = make_node(parameter_overrides=[Parameter(name, value=value) for name, value in given.items()])
+    usual = QoSOverridingOptions.with_default_policies()
+    heard = node.create_subscription(String, "words", print, qos_profile_sensor_data, qos_overriding_options=usual)
+    profile = heard.qos_profile
+    assert (profile.reliability, profile.depth) == (ReliabilityPolicy.RELIABLE, 9)
+    assert (profile.history, profile.durability) == (HistoryPolicy.KEEP_LAST, DurabilityPolicy.VOLATILE)
+    assert qos_profile_sensor_data.depth == 5
+    name = "qos_overrides./words.subscription.history"
+    assert node.get_parameter(name).value == "keep_last"
+    assert not node.set_parameters([Parameter(name, value="keep_all")])[0].successful
+    late = QoSOverridingOptions([QoSPolicyKind.LIFESPAN], entity_id="late")
+    publisher = node.create_publisher(String, "words", 10, qos_overriding_options=late)
+    assert publisher.qos_profile.lifespan == Duration(seconds=2)
+    with pytest.raises(InvalidQosOverridesError, match=r"'sometimes' is no reliability, which are .*best_effort"):
+        node.create_publisher(String, "wrong", 10, qos_overriding_options=usual)
+    never = QoSOverridingOptions([], callback=lambda _: SetParametersResult(successful=False, reason="not so"))
+    with pytest.raises(InvalidQosOverridesError, match="not so"):
+        node.create_publisher(String, "refused", 10, qos_overriding_options=never)

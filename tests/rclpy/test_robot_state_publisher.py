@@ -75,17 +75,23 @@ def test_the_node(context, heard, wait_until):
         other = URDF.replace("tool", "gripper")
         (result,) = node.set_parameters([Parameter("robot_description", value=other)])
         assert result.successful
-        wait_until(lambda: ("r1/upper", "r1/gripper") in frames(found["/tf_static"]), spin)
+        # Those who come late are told of this robot alone.
+        wait_until(lambda: frames(found["/tf_static"][-1:]) == [("r1/upper", "r1/gripper")], spin)
         wait_until(lambda: found["/robot_description"][-1].data == other, spin)
 
-        changes = {"frame_prefix": "r2/", "ignore_timestamp": True, "publish_frequency": 1.0}
+        changes = {
+            "frame_prefix": "r2/",
+            "frame_prefix_keep": "base",
+            "ignore_timestamp": True,
+            "publish_frequency": 1.0,
+        }
         results = node.set_parameters([Parameter(name, value=value) for name, value in changes.items()])
         assert all(result.successful for result in results)
         found["/tf"].clear()
         for _ in range(3):  # the same stamp again and again, which would be told once
             states.publish(state)
         wait_until(lambda: len(found["/tf"]) == 3, spin)
-        assert frames(found["/tf"]) == [("r2/base", "r2/upper")] * 3
+        assert frames(found["/tf"]) == [("base", "r2/upper")] * 3
     finally:
         node.destroy_node()
 
@@ -94,14 +100,19 @@ def test_the_command(context, heard, wait_until, tmp_path):
     listener, found = heard
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(listener)
-    (tmp_path / "arm.urdf").write_text(URDF)
-    command = [sys.executable, "-m", "coframe.cli", "robot", str(tmp_path / "arm.urdf"), "--prefix", "x/"]
+    argument = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="reach" default="1"/>'
+    text = URDF.replace('<robot name="arm">', argument).replace('xyz="1 0 0"', 'xyz="$(arg reach) 0 0"')
+    (tmp_path / "arm.xacro").write_text(text)
+    command = [sys.executable, "-m", "coframe.cli", "robot", str(tmp_path / "arm.xacro"), "--prefix", "x/", "reach:=2"]
     process = subprocess.Popen(
-        [*command, "--ros-args", "-r", "__node:=publisher_of_x"], stderr=subprocess.PIPE, text=True
+        [*command, "--ros-args", "-r", "__node:=publisher_of_x", "-p", "frame_prefix_keep:=tool"],
+        stderr=subprocess.PIPE,
+        text=True,
     )
     try:
         wait_until(lambda: found["/tf_static"], lambda: executor.spin_once(timeout_sec=0.05), timeout=30.0)
-        assert frames(found["/tf_static"]) == [("x/upper", "x/tool")]
+        assert frames(found["/tf_static"]) == [("x/upper", "tool")]
+        assert found["/tf_static"][0].transforms[0].transform.translation.x == 2.0
         wait_until(lambda: "publisher_of_x" in [name for name, _ in listener.get_node_names_and_namespaces()])
     finally:
         process.terminate()

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 import recordings
 from recordings import COUNT, SECOND, START, TF
+from typer.testing import CliRunner
 
 import coframe
 from coframe.bags import OfferedQos, Writer
+from coframe.cli.app import app
 from coframe.messages import deserialize, find, serialize
 from coframe.recorder.playback import PlaybackClock
 from coframe.wire import QoS
@@ -73,6 +75,35 @@ def test_order_and_pace(bag, hear):
     late = (sent["w"] - sent["w"][0]) - np.arange(COUNT) * SECOND / 20 / 3
     assert np.median(np.abs(late)) < 0.02 * SECOND
     assert late.min() > -0.02 * SECOND
+
+
+def test_a_recording_is_played_as_one_robot_of_many(hear, tmp_path):
+    odometry = find("nav_msgs/msg/Odometry")()
+    odometry.header.frame_id, odometry.child_frame_id = "odom", "base"
+    with Writer(tmp_path / "run") as writer:
+        for topic, at, data in recordings.messages():
+            writer.write(writer.add_topic(topic, TF), data, at)
+        writer.write(writer.add_topic("/odom", type(odometry).ROS_TYPE), serialize(odometry), START + SECOND)
+    said, unprefixed = hear("/odom", type(odometry).ROS_TYPE), hear("/tf", TF)
+    words = [
+        "--tf-topic",
+        "/robot1/tf",
+        "--tf-static-topic",
+        "robot1/tf_static",
+        "--prefix",
+        "robot1/",
+        "--keep",
+        "odom",
+    ]
+    pace = ["--rate", "100", "--delay", SETTLED]
+    with coframe.connect("listener", tf_topic="/robot1/tf", tf_static_topic="/robot1/tf_static", cache=None) as ros:
+        result = CliRunner().invoke(app, ["play", str(tmp_path / "run"), *words, *pace])
+    assert (result.exit_code, result.stdout) == (0, f"played {COUNT + 2} messages\n")
+    poses = ros.buffer.trajectory("odom", "robot1/lidar").matrix
+    np.testing.assert_allclose(poses, recordings.expected().trajectory("odom", "lidar").matrix, rtol=0, atol=1e-14)
+    assert not unprefixed()
+    [heard] = [deserialize(sample.data, type(odometry)) for sample in said()]
+    assert (heard.header.frame_id, heard.child_frame_id) == ("odom", "robot1/base")
 
 
 @pytest.mark.usefixtures("participant")

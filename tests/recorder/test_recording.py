@@ -164,6 +164,33 @@ def test_what_cannot_be_started_leaves_nothing_behind(participant, tmp_path):
     assert [name for _, name in participant.nodes()] == []
 
 
+def test_one_robot_is_recorded_under_a_prefix(participant, node, eventually, tmp_path):
+    scan = find("sensor_msgs/msg/LaserScan")()
+    scan.header.frame_id = "lidar"
+    latched = QoS(depth=1, transient_local=True)
+    statics = participant.raw_publisher(node, "/robot1/tf_static", TF_MESSAGE.ROS_TYPE, latched)
+    statics.write(static("lidar"))
+    kind = type(scan).ROS_TYPE
+    scans = [participant.raw_publisher(node, f"/{name}/scan", kind, QoS(10)) for name in ("robot1", "robot2")]
+    odd = participant.raw_publisher(node, "/robot1/odd", "my_pkg/msg/Odd", QoS(3))
+    robot = {"tf_topic": "/robot1/tf", "tf_static_topic": "/robot1/tf_static", "prefix": "robot1/", "keep": ["base"]}
+    with coframe.record(tmp_path / "run", **robot) as recorder:
+        eventually(lambda: odd.matched and all(publisher.matched for publisher in scans))
+        for publisher in scans:
+            publisher.write(serialize(scan))
+        scans[0].write(b"\0\1\0\0cut off")
+        odd.write(b"\0\1\0\0bytes")
+        eventually(lambda: recorder.statistics.messages == 5)
+        assert recorder.statistics.not_renamed == ["/robot1/odd"]
+    with coframe.open_bag(tmp_path / "run") as bag:
+        assert bag.buffer.lookup("base", "robot1/lidar").translation.tolist() == [0, 0, 0]
+        first, cut = bag.messages("/robot1/scan")
+        assert first.message.header.frame_id == "robot1/lidar"
+        assert cut.data == b"\0\1\0\0cut off"
+        assert [one.message.header.frame_id for one in bag.messages("/robot2/scan")] == ["lidar"]
+        assert [one.data for one in bag.messages("/robot1/odd")] == [b"\0\1\0\0bytes"]
+
+
 def test_a_recorded_walk_gives_the_same_answers(participant, node, eventually, tmp_path):
     publishers = {
         "/tf": participant.raw_publisher(node, "/tf", TF_MESSAGE.ROS_TYPE, QoS(100)),

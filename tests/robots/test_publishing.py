@@ -47,6 +47,12 @@ def test_joints_are_not_told_of_too_often(robot):
     assert publisher.moving(SECOND + 101_000_001, ["turn"], [0.1])
 
 
+def test_joints_of_another_robot_count_for_nothing(robot):
+    publisher = StatePublisher(robot, 20.0)
+    told = [bool(publisher.moving(SECOND + i * 10_000_000, ["turn", f"other{i}"], [0.1, 0.1])) for i in range(11)]
+    assert told == [i % 5 == 0 for i in range(11)]
+
+
 def test_a_clock_that_was_set_back_begins_anew(robot):
     publisher = StatePublisher(robot)
     assert not publisher.turned_back(5 * SECOND)

@@ -55,6 +55,15 @@ LIMIT = "<limit lower='-1' upper='1' effort='1' velocity='1'/>"
 TREE = [joint("ab", "a", "b", LIMIT, "revolute"), joint("bc", "b", "c", LIMIT, "revolute")]
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "iso-8859-1"])
+def test_what_is_kept_can_be_read_again_whatever_the_file_was_encoded_in(encoding):
+    text = f"<?xml version='1.0' encoding='{encoding}'?><robot name='Käfer'><link name='/Fühler'/></robot>"
+    robot = parse_urdf(text.encode(encoding))
+    again = parse_urdf(robot.text.encode())
+    assert (robot.name, list(robot.links)) == (again.name, list(again.links)) == ("Käfer", ["/Fühler"])
+    assert robot.warnings == ("line 1: link '/Fühler' begins with a slash, which tf2 leaves off",)
+
+
 def test_everything_that_is_described_is_kept():
     robot = parse_urdf(ARM)
     assert (robot.name, robot.root, list(robot.links)) == ("arm", "base", ["base", "upper", "lower"])
@@ -151,7 +160,9 @@ def test_a_locked_joint_that_mimics_is_a_warning():
         (robot_of("<link name='d'><visual/></link>", *TREE), 5, "<visual> has no <geometry>"),
         (robot_of("<link name='d'><visual><geometry><cone/></geometry></visual></link>"), 5, "<cone> is no shape"),
         (robot_of("<link name='d'><inertial><mass value='1'/></inertial></link>"), 5, "<inertial> has no <inertia>"),
-        (b"<?xml version='1.0' encoding='klingon'?><robot name='r'/>", None, "unknown encoding"),
+        (b"<?xml version='1.0' encoding='klingon'?><robot name='r'/>", 1, "unknown encoding 'klingon'"),
+        (b"<?xml version='1.0' encoding='punycode'?><robot name='r'/>", 1, "unknown encoding 'punycode'"),
+        (b"<robot name='\xff'><link name='a'/></robot>", None, "cannot be decoded: 'utf-8' codec"),
         ("<robot name='\ud800'/>", None, "cannot be decoded"),
     ],
 )

@@ -65,6 +65,17 @@ def test_a_bag_of_ros_1_with_slashes_before_its_names(shared, view, open_tab):
     assert tab.last["display"]["state"] == "ok"
 
 
+def test_scans_are_drawn_in_the_tree_that_was_given_a_prefix(shared, view, open_tab):
+    with coframe.open_bag(shared / "recordings" / "tb3_gazebo_walker", prefix="r1/", keep=["odom"]) as bag:
+        tab = open_tab(view(bag, fixed="odom"))
+        first, last = tab.wait("hello")["span"]
+        tab.send("subscribe", id=1, topic="/scan", display="LaserScan", options={})
+        tab.send("time", mode="at", at=(first + last) / 2)
+        tick = tab.tick(lambda tick: tick.displays)
+        assert np.isfinite(tab.world(tick, "r1/base_scan")).all()
+        assert tab.last["display"]["state"] == "ok"
+
+
 def test_what_is_no_recording_is_a_sentence(tmp_path):
     (tmp_path / "x.mcap").write_bytes(b"nothing")
     with pytest.raises(coframe.RecordingError):

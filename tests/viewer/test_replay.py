@@ -224,6 +224,9 @@ class AtHand:
         self.type = message.ROS_TYPE
         self._sighting = Sighting(1, BEGIN, lambda: message)
 
+    def frame(self, name):
+        return name
+
     def at(self, time):
         return self._sighting if time == 0 or time >= BEGIN else None
 

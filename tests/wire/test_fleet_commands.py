@@ -1,16 +1,22 @@
 """Many robots as a user types them: the demo, the relay, prefixes."""
 
+import json
 import os
 import re
 import signal
 import subprocess
+from pathlib import Path
 
 import pytest
+import typer
 from typer.testing import CliRunner
 
 import coframe
 from coframe.cli.app import app
+from coframe.messages import find
+from coframe.wire.qos import TF_STATIC_WRITER
 
+ARM = str(Path(coframe.__file__).with_name("lab") / "two_link_arm.urdf.xacro")
 COMMAND = """
     import sys
     from coframe.cli import main
@@ -106,7 +112,10 @@ def test_prefixes_and_a_relay_as_they_are_typed(command, ros, eventually):
         (["relay", "--robots", "a", "--split", "--from", "/tf=a/"], "--split reads one topic"),
         (["relay", "--from", "/a/tf=/a/"], "the prefix '/a/' begins with a slash"),
         (["echo", "a", "b", "--prefix", "/robot1/"], "the prefix '/robot1/' begins with a slash"),
-        (["demo", "--robots", "2", "--own-topics", "--tf-static-topic", "/else"], "/tf_static"),
+        (["relay", "--robots", "a", "--tf-static-topic", "a/tf_static"], "/a/tf_static would be read and written"),
+        (["robot", ARM, "--prefx", "robot1/"], "there is no option or argument '--prefx'"),
+        (["joints", ARM, "first_length:=0.5", "surplus"], "there is no option or argument 'surplus'"),
+        (["record", "--tf-topic", "/robot1/tf"], "say whose frames get the prefix"),
         (["static", "--frame-id", "a", "--child-frame-id", "b", "--prefix", "/r/"], "the prefix '/r/' begins"),
     ],
 )
@@ -116,8 +125,40 @@ def test_wrong_usage(arguments, text):
     assert text in result.stderr
 
 
-@pytest.mark.parametrize("words", ["echo", "view", "lookup", "trajectory", "bag info", "static", "robot", "demo"])
-def test_every_command_takes_a_prefix(words):
-    told = re.sub(r"\x1b\[[0-9;]*m", "", CliRunner().invoke(app, [*words.split(), "--help"]).stdout)
-    assert "--prefix" in told
-    assert "--keep" in told
+def options():
+    """By command: its options; `static` reads its own and tells of them in its help."""
+    found = {"static": set(re.findall(r"--[a-z-]+", CliRunner().invoke(app, ["static", "--help"]).stdout))}
+    groups = [("", typer.main.get_command(app))]
+    for name, command in groups:
+        groups += [(f"{name} {inner}".strip(), each) for inner, each in getattr(command, "commands", {}).items()]
+        if not hasattr(command, "commands"):
+            found.setdefault(name, {option for parameter in command.params for option in parameter.opts})
+    return found
+
+
+@pytest.mark.parametrize(("command", "taken"), options().items())
+def test_every_command_takes_topics_and_a_prefix(command, taken):
+    assert {"--tf-topic", "--tf-static-topic", "--prefix", "--keep"} - taken == set(), command
+
+
+def test_what_is_monitored_is_renamed(participant, node):
+    publisher = participant.publisher(node, "/robot1/tf_static", find("tf2_msgs/msg/TFMessage"), TF_STATIC_WRITER)
+    mounts = coframe.Buffer(None)
+    mounts.set("map", "odom", coframe.Transform(), static=True)
+    mounts.set("odom", "base_link", coframe.Transform(), static=True)
+    publisher.write(mounts.encode(static=True))
+    robot1 = [
+        "--tf-topic",
+        "/robot1/tf",
+        "--tf-static-topic",
+        "/robot1/tf_static",
+        "--prefix",
+        "robot1/",
+        "--keep",
+        "map",
+    ]
+    told = CliRunner().invoke(app, ["monitor", "--once", "--json", "--duration", "500ms", *robot1]).stdout
+    assert [(link["parent"], link["child"]) for link in json.loads(told)["links"]] == [
+        ("map", "robot1/odom"),
+        ("robot1/odom", "robot1/base_link"),
+    ]

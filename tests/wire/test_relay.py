@@ -5,7 +5,9 @@ import re
 import pytest
 
 import coframe
+from coframe.messages import find
 from coframe.wire import Participant
+from coframe.wire.qos import TF_STATIC_WRITER
 
 # A robot: odom and base on its own topic, a mount on the static one, until it is told to end.
 ROBOT = """
@@ -99,6 +101,22 @@ def test_two_robots_one_tree_and_what_becomes_of_it(robot, fleet, eventually):
     assert frames["robot1/base"].newest < frames["robot2/base"].newest - 10**9
     eventually(lambda: any(text.startswith(("robot1 is silent", "robot1 has gone")) for text in warned))
     assert not any(text.startswith(("robot2 is silent", "robot2 has gone")) for text in warned)
+
+
+def test_a_prefix_in_front_of_all_and_a_static_topic_of_any_name(participant, node, fleet, eventually):
+    common = {"common": "/fleet/tf", "common_static": "/fleet/still", "prefix": "fleet/", "keep": "map"}
+    there = fleet(coframe.relay, "robot1", prefix_each=True, **common)
+    back = fleet(coframe.relay, "robot2", split=True, **common)
+    assert "/robot1/tf_static -> /fleet/still, with fleet/robot1/" in there.routes
+    assert "/fleet/still -> /robot2/tf_static, without fleet/robot2/" in back.routes
+    kind = find("tf2_msgs/msg/TFMessage")
+    for topic, child in (("/robot1/tf_static", "odom"), ("/fleet/still", "fleet/robot2/odom")):
+        mount = coframe.Buffer(None)
+        mount.set("map", child, coframe.Transform(), static=True)
+        participant.publisher(node, topic, kind, TF_STATIC_WRITER).write(mount.encode(static=True))
+    for topic, frame in (("/fleet/still", "fleet/robot1/odom"), ("/robot2/tf_static", "odom")):
+        ros = fleet(coframe.connect, "listener", tf_static_topic=topic)
+        eventually(lambda ros=ros, frame=frame: ros.buffer.can_transform("map", frame))
 
 
 def test_one_frame_of_two_robots_is_named_and_the_first_ones(robot, fleet, eventually):

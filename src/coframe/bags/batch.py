@@ -127,7 +127,8 @@ def _answer(bag: str, question: Question, folder: Path) -> Answer:
     part = folder / f"{Path(bag).stem}-{hashlib.sha256(bag.encode()).hexdigest()[:12]}.parquet"
     if (poses := _rows_there(part, about)) is not None:
         return Answer(bag, poses, kept=True)
-    with open_bag(bag, namespace=question.namespace, prefix=question.prefix, keep=question.keep) as recording:
+    chosen: Any = {"namespace": question.namespace, "tf_topics": question.tf_topics}
+    with open_bag(bag, **chosen, prefix=question.prefix, keep=question.keep) as recording:
         found, missing = question.ask(recording)
         problems = tuple(recording.problems)
     _write(part, bag, found, about)

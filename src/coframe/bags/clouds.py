@@ -161,7 +161,7 @@ class Clouds:
     def _cloud(self, recorded: RecordedMessage) -> Cloud | None:
         try:
             message = recorded.message
-            frame = str(message.header.frame_id).removeprefix("/")  # as tf2 does with those of transforms
+            frame = self._recording.frame(str(message.header.frame_id))
             points, times = self._scan(message) if self._type == _SCAN else self._points(message, recorded.stamp)
             finite = np.isfinite(points["x"]) & np.isfinite(points["y"]) & np.isfinite(points["z"])
             self._note(self.points_left_out, "measured nothing (not a number)", np.count_nonzero(~finite))

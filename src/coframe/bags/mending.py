@@ -16,7 +16,7 @@ from coframe.bags.transforms import is_static
 from coframe.bags.writer import Writer
 from coframe.buffer import Buffer
 from coframe.errors import RecordingError
-from coframe.frame_names import renaming
+from coframe.frame_names import belongs, renaming
 from coframe.messages import deserialize, find, serialize
 from coframe.messages.conversions import to_transform_stamped
 
@@ -56,6 +56,8 @@ def mend(
     target: str | os.PathLike[str],
     *,
     statics: str | os.PathLike[str] | None = None,
+    tf_topic: str = "/tf",
+    tf_static_topic: str = "/tf_static",
     prefix: str = "",
     keep: Iterable[str] = (),
     compression: str = "zstd",
@@ -69,6 +71,9 @@ def mend(
         source: A file, or a folder of rosbag2.
         target: The new folder, which must not be there yet.
         statics: Another recording, whose static transforms are added as far as this one says nothing of their children.
+        tf_topic: Where the transforms of the robot are that `prefix` is for; the other topics of its namespace are
+            that robot's, too: of ``/tf`` all.
+        tf_static_topic: Where its static transforms are.
         prefix: Is put before all names of frames, such as "robot1/".
         keep: Names that get no prefix, such as "map"; a text is one name, or several behind commas.
         compression: ``zstd``, ``lz4`` or ``none``.
@@ -77,7 +82,7 @@ def mend(
         RecordingError: Nothing can be read, or the new one cannot be written.
         ValueError: The prefix begins with a slash.
     """
-    rename = _Renaming(prefix, keep)
+    rename = _Renaming(prefix, keep, tf_topic, tf_static_topic)
     with open_bag(source) as recording:
         added = [] if statics is None else _statics_of(statics)
         found = recording.problems
@@ -93,9 +98,14 @@ def mend(
 class _Renaming:
     """A frame's new name: without slashes in front, and with the prefix where one is wanted."""
 
-    def __init__(self, prefix: str, keep: Iterable[str]) -> None:
+    def __init__(self, prefix: str, keep: Iterable[str], *robot: str) -> None:
         self._renamed = renaming(prefix, keep)
+        self._robot = robot
         self.what = f"put under {prefix!r}" if prefix else "freed of '/' in front"
+
+    def on(self, topic: str) -> _Renaming:
+        """That of the messages of a topic: only those of the robot get the prefix."""
+        return self if self._renamed is None or belongs(topic, *self._robot) else _Renaming("", (), *self._robot)
 
     @property
     def has_prefix(self) -> bool:
@@ -200,10 +210,11 @@ class _Mending:
         """A message of ROS 2 without what tf2 refuses, and with the new names of frames."""
         if route.transforms:
             message = self._without_refused(channel, message)
-        if route.names is not None and (self._rename.has_prefix or b"/" in message):
-            message, changed = route.names.renamed(message, self._rename)
+        rename = self._rename.on(channel.topic)
+        if route.names is not None and (rename.has_prefix or b"/" in message):
+            message, changed = route.names.renamed(message, rename)
             if changed:
-                self._note(channel, f"names of frames {self._rename.what}", changed)
+                self._note(channel, f"names of frames {rename.what}", changed)
         return message
 
     def _without_refused(self, channel: Channel, data: bytes) -> bytes:

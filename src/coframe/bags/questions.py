@@ -34,7 +34,8 @@ class Question:
         stamps_of: At the stamps of this topic's messages instead.
         start: From when on: nanoseconds, or text as :func:`coframe.bags.parse_instant` reads it for each recording.
         stop: Until when.
-        namespace: As of :func:`coframe.open_bag`, like the two that follow.
+        namespace: As of :func:`coframe.open_bag`, like the three that follow.
+        tf_topics: Only their transforms.
         prefix: Goes in front of the names of frames.
         keep: Frames without it.
 
@@ -49,6 +50,7 @@ class Question:
     start: int | str | None = None
     stop: int | str | None = None
     namespace: str | None = None
+    tf_topics: tuple[str, ...] | None = None
     prefix: str = ""
     keep: str = ""
 

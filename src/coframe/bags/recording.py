@@ -126,6 +126,7 @@ def open_bag(
     path: str | os.PathLike[str],
     *,
     namespace: str | None = None,
+    tf_topics: Iterable[str] | None = None,
     prefix: str = "",
     keep: Iterable[str] = (),
     progress: Callable[[int, int], object] | None = None,
@@ -136,6 +137,7 @@ def open_bag(
     Args:
         path: A file, or a folder of rosbag2, with or without its metadata.
         namespace: Only transforms of this one, such as ``/robot1`` for ``/robot1/tf``; None: all.
+        tf_topics: Only transforms of these topics, such as ``["/robot1/tf", "/tf_static"]``; None: all.
         prefix: Goes in front of the names of frames in the buffers, as it is: ``robot1/`` makes ``robot1/base_link``.
         keep: The frames that get no prefix, as they are shared: ``["map"]``.
         progress: Called now and then with the bytes that are read and the bytes that there are.
@@ -158,7 +160,8 @@ def open_bag(
     recording = Recording(Path(path))
     recording._renaming = renaming(prefix, keep)  # noqa: SLF001 - the other half of __init__
     try:
-        recording._scan(namespace, progress or (lambda _done, _total: None), heard)  # noqa: SLF001 - likewise
+        wanted = tree.Wanted(namespace, tf_topics)
+        recording._scan(wanted, progress or (lambda _done, _total: None), heard)  # noqa: SLF001 - likewise
     except BaseException:
         recording.close()
         raise
@@ -194,14 +197,14 @@ class Recording:
 
     def _scan(
         self,
-        namespace: str | None,
+        wanted: tree.Wanted,
         progress: Callable[[int, int], object],
         heard: Callable[[Channel, NDArray[np.int64], Slices], object] | None,
     ) -> None:
         storages = open_files(self.path, self._problems, self._closing)
         total = sum(storage.size for storage in storages)
         done = 0
-        collected = tree.Transforms(self._problems, namespace, self._renaming, heard)
+        collected = tree.Transforms(self._problems, wanted, self._renaming, heard)
         for storage in storages:
             self._scan_file(storage, collected, lambda bytes_, before=done: progress(before + bytes_, total))  # type: ignore[misc]
             done += storage.size

@@ -18,9 +18,27 @@ if TYPE_CHECKING:
     from coframe.bags.storage import Channel, Slices
     from coframe.buffer import EdgeInfo
 
-__all__ = ["Transforms", "report", "span"]
+__all__ = ["Transforms", "Wanted", "report", "span"]
 
 _HOUR = 3_600_000_000_000
+
+
+class Wanted:
+    """Which topics' transforms are read.
+
+    Args:
+        namespace: Only those in this one; None: all.
+        topics: Only these; None: all.
+    """
+
+    def __init__(self, namespace: str | None = None, topics: Iterable[str] | None = None) -> None:
+        self._namespace = None if namespace is None else _bare(namespace)
+        self._topics = None if topics is None else {_bare(topic) for topic in topics}
+
+    def __call__(self, topic: str) -> bool:
+        """Whether this topic's are."""
+        in_namespace = self._namespace in {None, _namespace(topic)}
+        return in_namespace and (self._topics is None or _bare(topic) in self._topics)
 
 
 class _Tree:
@@ -56,7 +74,7 @@ class Transforms:
 
     Args:
         problems: Gets what is damaged or odd.
-        namespace: Only topics in this one; None: all.
+        wanted: Which topics'.
         renaming: What the frames are called in the buffers; None: as they come.
         heard: Is told of all of them, too.
     """
@@ -64,21 +82,21 @@ class Transforms:
     def __init__(
         self,
         problems: Problems,
-        namespace: str | None,
+        wanted: Wanted,
         renaming: _core.Renaming | None = None,
         heard: Callable[[Channel, NDArray[np.int64], Slices], object] | None = None,
     ) -> None:
         self._renaming = renaming
         self._problems = problems
         self._heard = heard
-        self._namespace = None if namespace is None else _bare(namespace)
+        self._wanted = wanted
         self._trees: dict[str, _Tree] = {}
 
     def ingest(self, channel: Channel) -> Callable[[NDArray[np.int64], Slices], None] | None:
         """What takes in a channel's messages with the times of their receipt; None if they are not wanted."""
         namespace = _namespace(channel.topic)
         take = ingest_for(channel, self._renaming)
-        if take is None or self._namespace not in {None, namespace}:
+        if take is None or not self._wanted(channel.topic):
             return None
         tree = self._trees.setdefault(namespace, _Tree())
         buffer = tree.static if take.static else tree.moving
@@ -127,7 +145,7 @@ class Transforms:
         tree = _Tree()
         for channel, slices in messages:
             take = ingest_for(channel, self._renaming)
-            if take is not None and self._namespace in {None, _namespace(channel.topic)}:
+            if take is not None and self._wanted(channel.topic):
                 take(tree.static if take.static else tree.moving, slices)
         return tree.joined(self._problems)
 

@@ -14,7 +14,19 @@ from rich.text import Text
 
 from coframe.bags import COMPRESSIONS, mend, summarize
 from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, seconds
-from coframe.cli.session import KeepOption, PrefixOption, fail, printable, session
+from coframe.cli.session import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
+    KeepOption,
+    PrefixOption,
+    RecordedTfStaticTopicOption,
+    RecordedTfTopicOption,
+    TfStaticTopicOption,
+    TfTopicOption,
+    fail,
+    printable,
+    session,
+)
 
 if TYPE_CHECKING:
     from coframe.bags import Summary
@@ -33,6 +45,8 @@ def _bag() -> None:
 def info(
     bag: BagArgument,
     namespace: NamespaceOption = None,
+    tf_topic: RecordedTfTopicOption = None,
+    tf_static_topic: RecordedTfStaticTopicOption = None,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
     as_json: Annotated[bool, typer.Option("--json", help="As JSON, with all digits.")] = False,
@@ -41,7 +55,7 @@ def info(
 
     Example: coframe bag info run.mcap
     """
-    with session(), opened(bag, namespace, prefix, keep) as recording:
+    with session(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         summary = summarize(recording)
         if as_json:
             print(json.dumps(_plain(summary), indent=2))
@@ -56,6 +70,8 @@ def fix(
     statics: Annotated[
         Path | None, typer.Option(help="A recording whose static transforms are added where BAG has none.")
     ] = None,
+    tf_topic: TfTopicOption = TF_TOPIC,
+    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
     compression: Annotated[str, typer.Option(help="none, zstd or lz4.")] = "zstd",
@@ -63,13 +79,16 @@ def fix(
     """Write the recording BAG anew into the folder OUT, as far as it can be read, and tell what was mended.
 
     OUT has an index, metadata, its static transforms in front and no names that begin with a slash; BAG stays as it is.
+    --prefix goes in front of the frames that any message names; with --tf-topic /robot1/tf, any of the topics in
+    /robot1.
 
     Example: coframe bag fix broken.mcap mended
     """
     if compression not in COMPRESSIONS:
         fail(f"--compression: there is no {compression!r}: it is one of {', '.join(COMPRESSIONS)}", code=2)
     with session():
-        mended = mend(bag, output, statics=statics, prefix=prefix, keep=keep, compression=compression)
+        robot: dict[str, str] = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
+        mended = mend(bag, output, statics=statics, **robot, prefix=prefix, keep=keep, compression=compression)
         for title, sentences in (("found", mended.found), ("mended", mended.done), ("still odd", mended.left)):
             for sentence in sentences:
                 print(printable(f"{title}: {sentence}"))

@@ -13,7 +13,16 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from coframe.bags import Question, answer_all
 from coframe.bags.batch import ENGINES
 from coframe.cli.recordings import NamespaceOption  # noqa: TC001 - typer reads the annotations
-from coframe.cli.session import KeepOption, PrefixOption, fail, printable, session
+from coframe.cli.session import (
+    KeepOption,
+    PrefixOption,
+    RecordedTfStaticTopicOption,
+    RecordedTfTopicOption,
+    fail,
+    printable,
+    recorded_tf_topics,
+    session,
+)
 
 if TYPE_CHECKING:
     from coframe.bags import Answer
@@ -35,6 +44,8 @@ def batch(
     on: Annotated[str, typer.Option(help=f"What runs it: {', '.join(ENGINES)}.")] = "processes",
     workers: Annotated[int | None, typer.Option("--workers", "-j", min=1, help="How many at once.")] = None,
     namespace: NamespaceOption = None,
+    tf_topic: RecordedTfTopicOption = None,
+    tf_static_topic: RecordedTfStaticTopicOption = None,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
@@ -45,7 +56,8 @@ def batch(
     Example: coframe batch map base_link runs/*.mcap -o poses
     """
     try:
-        question = Question(target, source, rate, stamps_of, start, stop, namespace, prefix, keep)
+        topics = recorded_tf_topics(tf_topic, tf_static_topic)
+        question = Question(target, source, rate, stamps_of, start, stop, namespace, topics, prefix, keep)
     except ValueError as error:
         fail(str(error), code=2)
     if on not in ENGINES:

@@ -12,7 +12,15 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from coframe.bags import Clouds, write_clouds
 from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened
-from coframe.cli.session import KeepOption, PrefixOption, fail, printable, session
+from coframe.cli.session import (
+    KeepOption,
+    PrefixOption,
+    RecordedTfStaticTopicOption,
+    RecordedTfTopicOption,
+    fail,
+    printable,
+    session,
+)
 
 if TYPE_CHECKING:
     from coframe.bags import Recording
@@ -43,6 +51,8 @@ def cloud(
     fields: Annotated[str | None, typer.Option(help="Keep these besides x,y,z.", show_default="all")] = None,
     voxel: Annotated[float | None, typer.Option(help="Keep one point in each cube of so many metres.")] = None,
     namespace: NamespaceOption = None,
+    tf_topic: RecordedTfTopicOption = None,
+    tf_static_topic: RecordedTfStaticTopicOption = None,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
@@ -56,7 +66,7 @@ def cloud(
         fail(f"--voxel must be above 0 m, not {voxel:g}", code=2)
     if at is not None and (start is not None or stop is not None):
         fail("--at excludes --start and --stop", code=2)
-    with session(), opened(bag, namespace, prefix, keep) as recording:
+    with session(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         when = {"at": at, "start": start, "stop": stop}
         clouds = Clouds(
             recording,

@@ -16,6 +16,8 @@ import coframe
 from coframe.cli.fleet import fleet
 from coframe.cli.live import tree_table
 from coframe.cli.session import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
     DomainOption,
     KeepOption,
     PrefixOption,
@@ -75,8 +77,8 @@ def demo(
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Stay in the terminal.")] = False,
     port: PortOption = None,
     domain: DomainOption = None,
-    tf_topic: TfTopicOption = "/tf",
-    tf_static_topic: TfStaticTopicOption = "/tf_static",
+    tf_topic: TfTopicOption = TF_TOPIC,
+    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:

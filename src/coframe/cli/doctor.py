@@ -14,7 +14,19 @@ from rich.markdown import Markdown
 from rich.text import Text
 
 from coframe.cli.recordings import NamespaceOption, reading
-from coframe.cli.session import DomainOption, TfStaticTopicOption, TfTopicOption, fail, printable, session
+from coframe.cli.session import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
+    DomainOption,
+    KeepOption,
+    PrefixOption,
+    RecordedTfStaticTopicOption,
+    RecordedTfTopicOption,
+    fail,
+    printable,
+    recorded_tf_topics,
+    session,
+)
 from coframe.doctor import codes, diagnose, observe_recording, page
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.sarif import as_sarif
@@ -46,8 +58,10 @@ def doctor(
     cache: Annotated[str, typer.Option(help="How far back the listeners' buffers reach.")] = "10s",
     namespace: NamespaceOption = None,
     domain: DomainOption = None,
-    tf_topic: TfTopicOption = "/tf",
-    tf_static_topic: TfStaticTopicOption = "/tf_static",
+    tf_topic: RecordedTfTopicOption = None,
+    tf_static_topic: RecordedTfStaticTopicOption = None,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
 ) -> None:
     """Tell what is wrong with the transforms, why it matters, and what to do: live, or in the recording BAG.
 
@@ -62,18 +76,18 @@ def doctor(
     window, buffers = _length("--duration", duration), _length("--cache", cache)
     if (as_json and sarif) or (watch and (sarif or bag is not None)):
         fail("--json and --sarif, --watch and --sarif, and --watch and a recording exclude each other", code=2)
+    shared: Any = {"cache": buffers, "prefix": prefix, "keep": keep}
     with session():
         if bag is not None:
+            topics = recorded_tf_topics(tf_topic, tf_static_topic)
             with reading() as progress:
-                seen = observe_recording(bag, namespace=namespace, cache=buffers, progress=progress)
+                seen = observe_recording(bag, namespace=namespace, tf_topics=topics, progress=progress, **shared)
             reports = {name: diagnose(one, ignore=unwanted) for name, one in seen.items()}
             _finish(reports, as_json, sarif, str(bag))
         from coframe.wire.observing import Listening  # noqa: PLC0415 - recordings need no DDS
 
-        kept = window if watch else None
-        with Listening(
-            domain, cache=buffers, window=kept, tf_topic=tf_topic, tf_static_topic=tf_static_topic
-        ) as listening:
+        shared |= {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
+        with Listening(domain, window=window if watch else None, **shared) as listening:
             if watch:
                 _watch(listening, unwanted, as_json)
                 return

@@ -11,6 +11,8 @@ import typer
 
 import coframe
 from coframe.cli.session import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
     DomainOption,
     KeepOption,
     PrefixOption,
@@ -51,8 +53,8 @@ def echo(
     limit: Annotated[int | None, typer.Option("--limit", "-l", help="Leave after so many answers.")] = None,
     precision: Annotated[int, typer.Option("--precision", "-p", help="Digits after the point.")] = 3,
     domain: DomainOption = None,
-    tf_topic: TfTopicOption = "/tf",
-    tf_static_topic: TfStaticTopicOption = "/tf_static",
+    tf_topic: TfTopicOption = TF_TOPIC,
+    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:

@@ -69,15 +69,13 @@ def fleet(
     names = [f"robot{number}" for number in range(1, count + 1)]
     shown = renaming(prefix, keep) or str
     listening = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
-    if own_topics and tf_static_topic != f"{tf_topic}_static":
-        fail(f"with --own-topics the static transforms go to {tf_topic}_static", code=2)
     topics = None if own_topics else (tf_topic, tf_static_topic)
     commands = tuple(_command(name, number, count, topics) for number, name in enumerate(names))
     warnings: list[str] = []
     with (
         session(),
         coframe.connect("coframe_demo", domain=domain, **listening) as ros,
-        _relay(names, tf_topic, domain, warnings.append, wanted=own_topics) as relay,
+        _relay(names, tf_topic, tf_static_topic, domain, warnings.append, wanted=own_topics) as relay,
         Launcher(commands, domain=domain) as nodes,
         viewer_beside(ros, port, browser=browser),
     ):
@@ -95,11 +93,19 @@ def fleet(
 
 
 def _relay(
-    names: list[str], common: str, domain: int | None, warn: Callable[[str], None], *, wanted: bool
+    names: list[str],
+    common: str,
+    common_static: str,
+    domain: int | None,
+    warn: Callable[[str], None],
+    *,
+    wanted: bool,
 ) -> contextlib.AbstractContextManager[Relay | None]:
     if not wanted:
         return contextlib.nullcontext()
-    return coframe.relay(names, common=common, prefix_each=True, keep=SHARED, domain=domain, warn=warn)
+    return coframe.relay(
+        names, common=common, common_static=common_static, prefix_each=True, keep=SHARED, domain=domain, warn=warn
+    )
 
 
 def _command(name: str, number: int, count: int, topics: tuple[str, str] | None) -> NodeCommand:

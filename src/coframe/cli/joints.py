@@ -15,7 +15,19 @@ from rich.text import Text
 
 import coframe
 from coframe.cli.keys import keys
-from coframe.cli.session import DomainOption, fail, node_errors, session
+from coframe.cli.session import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
+    DomainOption,
+    KeepOption,
+    PrefixOption,
+    TfStaticTopicOption,
+    TfTopicOption,
+    fail,
+    node_errors,
+    session,
+    xacro_arguments,
+)
 from coframe.cli.sliders import HELP, Sliders
 from coframe.cli.view import NoBrowserOption, PortOption, announce
 from coframe.robots import RobotDescriptionError, load
@@ -37,7 +49,9 @@ SLIDERS = "/coframe_joints/sliders"
 def joints(
     context: typer.Context,
     file: Annotated[Path, typer.Argument(help="URDF, or xacro.")],
-    rate: Annotated[float, typer.Option(min=0.001, max=1000.0, help="How often a second to publish.")] = 10.0,
+    rate: Annotated[
+        float | None, typer.Option(min=0.001, max=1000.0, help="How often a second to publish.", show_default="10.0")
+    ] = None,
     source: Annotated[
         list[str] | None,
         typer.Option(metavar="TOPIC", help="Take joint states from there, too; may be given several times."),
@@ -46,31 +60,45 @@ def joints(
         list[str] | None,
         typer.Option(metavar="JOINT=VALUE", help="Where a joint rests; may be given several times."),
     ] = None,
-    delta: Annotated[float, typer.Option(min=0.0, help="Move all joints to and fro, by so much each time.")] = 0.0,
+    delta: Annotated[
+        float | None,
+        typer.Option(min=0.0, help="Move all joints to and fro, by so much each time.", show_default="0.0"),
+    ] = None,
     gui: Annotated[bool, typer.Option("--gui", help="The sliders of the viewer instead of the terminal's.")] = False,
     port: PortOption = None,
     no_browser: NoBrowserOption = False,
     domain: DomainOption = None,
+    tf_topic: TfTopicOption = TF_TOPIC,
+    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
 ) -> None:
     """Publish the joint states of the robot in FILE on /joint_states, as joint_state_publisher does.
 
     Each joint that moves by itself has a slider: up and down choose, left and right move. Where standard input is no
     terminal, it only publishes. What follows --ros-args is the node's, such as -p dependent_joints.b.parent:=a.
+    Joint states name no frames: --tf-topic, --tf-static-topic, --prefix and --keep are for what the viewer of --gui
+    listens to.
 
     Example: coframe joints arm.urdf.xacro --zero joint1=0.5 --rate 30
     """
     with session():
-        robot = load(file)
+        robot = load(file, arguments=xacro_arguments(context.args))
         from rclpy.parameter import Parameter  # noqa: PLC0415 - a file that cannot be read needs no graph
 
-        values: dict[str, Any] = {"rate": rate, "delta": delta, **_zeros(robot, zero or [])}
+        # What is not given is left to the node's own parameters, of -p and --params-file.
+        given = {"rate": rate, "delta": delta}
+        values: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+        values |= _zeros(robot, zero or [])
         sources = [*(source or []), *([SLIDERS] if gui else [])]
         if sources:
             values["source_list"] = sources
         overrides = [Parameter(name, value=value) for name, value in values.items()]
         with node_errors(), _running(["coframe", *context.args], robot, domain, overrides) as running:
             if gui:
-                _show(running, file, port, domain, browser=not no_browser)
+                listening = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
+                with coframe.connect("coframe_joints", domain=domain, **listening) as ros:
+                    _show(running, robot, ros, port, browser=not no_browser)
             elif sys.stdin.isatty() and sys.stdout.isatty():
                 _slide(running)
             else:
@@ -170,10 +198,7 @@ def _slide(running: Running) -> None:
             live.refresh()
 
 
-def _show(running: Running, file: Path, port: int | None, domain: int | None, *, browser: bool) -> None:
-    with (
-        coframe.connect("coframe_joints", domain=domain) as ros,
-        coframe.show(ros, robot=file, port=port, joint_states=SLIDERS) as viewer,
-    ):
+def _show(running: Running, robot: Robot, ros: coframe.Connection, port: int | None, *, browser: bool) -> None:
+    with coframe.show(ros, robot=robot, port=port, joint_states=SLIDERS) as viewer:
         announce(viewer, browser=browser)
         running.wait()

@@ -9,7 +9,14 @@ import typer
 
 from coframe.cli.echo import MOST_DIGITS, format_transform
 from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened
-from coframe.cli.session import KeepOption, PrefixOption, fail, session
+from coframe.cli.session import (
+    KeepOption,
+    PrefixOption,
+    RecordedTfStaticTopicOption,
+    RecordedTfTopicOption,
+    fail,
+    session,
+)
 
 if TYPE_CHECKING:
     from coframe import Transform
@@ -33,6 +40,8 @@ def lookup(
         str | None, typer.Option(help="Time travel: the source as it was then, told in the target as of --at.")
     ] = None,
     namespace: NamespaceOption = None,
+    tf_topic: RecordedTfTopicOption = None,
+    tf_static_topic: RecordedTfStaticTopicOption = None,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
     precision: Annotated[int, typer.Option("--precision", "-p", min=0, max=MOST_DIGITS, help="Digits.")] = 6,
@@ -44,7 +53,7 @@ def lookup(
     """
     if (fixed is None) != (source_time is None):
         fail("time travel takes both --fixed and --source-time", code=2)
-    with session(), opened(bag, namespace, prefix, keep) as recording:
+    with session(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         when = 0 if at is None else instant("--at", at, recording)
         buffer = recording.buffer
         if fixed is None or source_time is None:

@@ -11,7 +11,18 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-from coframe.cli.session import DomainOption, TfStaticTopicOption, TfTopicOption, fail, printable, session
+from coframe.cli.session import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
+    DomainOption,
+    KeepOption,
+    PrefixOption,
+    TfStaticTopicOption,
+    TfTopicOption,
+    fail,
+    printable,
+    session,
+)
 from coframe.doctor.figures import chain_figures, link_figures, publisher_figures
 from coframe.time import duration_ns
 
@@ -39,8 +50,10 @@ def monitor(
     classic: Annotated[bool, typer.Option("--classic", help="In the format of ROS 2's tf2_monitor.")] = False,
     duration: Annotated[str, typer.Option(help="Over how much time the figures are taken.")] = "10s",
     domain: DomainOption = None,
-    tf_topic: TfTopicOption = "/tf",
-    tf_static_topic: TfStaticTopicOption = "/tf_static",
+    tf_topic: TfTopicOption = TF_TOPIC,
+    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
 ) -> None:
     """Tell of each link and publisher its rate, jitter, delay and age; of two frames, which link limits them.
 
@@ -56,7 +69,13 @@ def monitor(
         from coframe.wire.observing import Listening  # noqa: PLC0415 - 100 ms
 
         with Listening(
-            domain, window=window, tf_topic=tf_topic, tf_static_topic=tf_static_topic, node_name="coframe_monitor"
+            domain,
+            window=window,
+            tf_topic=tf_topic,
+            tf_static_topic=tf_static_topic,
+            node_name="coframe_monitor",
+            prefix=prefix,
+            keep=keep,
         ) as listening:
             if classic:
                 what = " -> ".join(pair) if pair else "all frames"

@@ -15,7 +15,18 @@ from typer.core import TyperCommand
 import coframe
 from coframe.cli.keys import keys
 from coframe.cli.recordings import SECOND, BagArgument
-from coframe.cli.session import DomainOption, fail, printable, session
+from coframe.cli.session import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
+    DomainOption,
+    KeepOption,
+    PrefixOption,
+    TfStaticTopicOption,
+    TfTopicOption,
+    fail,
+    printable,
+    session,
+)
 from coframe.recorder import FASTEST
 from coframe.recorder import play as start_playing
 
@@ -67,10 +78,15 @@ def play(
     ] = None,
     delay: Annotated[str, typer.Option(help="How long to wait for subscribers at first.")] = "1s",
     domain: DomainOption = None,
+    tf_topic: TfTopicOption = TF_TOPIC,
+    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
 ) -> None:
     """Say the recording BAG again on the graph, in its order and at its pace. Static transforms come first.
 
-    In a terminal, space pauses, right says the next message, up and down change the rate.
+    In a terminal, space pauses, right says the next message, up and down change the rate. --prefix goes in front of the
+    frames that any message names, sensors' too; --tf-topic is where what was recorded on /tf goes.
 
     Example: coframe play run --rate 2 --clock
     """
@@ -79,7 +95,7 @@ def play(
             player = start_playing(
                 bag,
                 topics=topics or None,
-                remap=dict(map(_renaming, remap or [])),
+                remap={TF_TOPIC: tf_topic, TF_STATIC_TOPIC: tf_static_topic, **dict(map(_renaming, remap or []))},
                 rate=rate,
                 loop=loop,
                 start_offset=f"{start_offset}s" if _is_number([start_offset]) else start_offset,
@@ -87,6 +103,8 @@ def play(
                 clock=clock,
                 delay=f"{delay}s" if _is_number([delay]) else delay,
                 domain=domain,
+                prefix=prefix,
+                keep=keep,
             )
         except coframe.RecordingError:
             raise

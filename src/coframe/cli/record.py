@@ -14,7 +14,18 @@ from rich.live import Live
 from rich.text import Text
 
 import coframe
-from coframe.cli.session import DomainOption, fail, printable, session
+from coframe.cli.session import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
+    DomainOption,
+    KeepOption,
+    PrefixOption,
+    TfStaticTopicOption,
+    TfTopicOption,
+    fail,
+    printable,
+    session,
+)
 from coframe.recorder import record as start_recording
 
 if TYPE_CHECKING:
@@ -41,13 +52,20 @@ def record(
     duration: Annotated[float | None, typer.Option(min=0.0, help="Leave after so many seconds.")] = None,
     backlog: Annotated[str, typer.Option(help="How much may wait for a slow disk.")] = "128MB",
     domain: DomainOption = None,
+    tf_topic: TfTopicOption = TF_TOPIC,
+    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
 ) -> None:
     """Record TOPICS, or all of them, as MCAP in the layout of rosbag2. Ctrl-C ends it.
 
-    Topics that appear later are recorded, too. If it is killed, at most the last second is missing.
+    Topics that appear later are recorded, too. If it is killed, at most the last second is missing. --prefix goes in
+    front of the frames that any message names, sensors' too; with --tf-topic /robot1/tf, any of the topics in /robot1.
 
     Example: coframe record -o run --max-duration 10min
     """
+    if not prefix and (tf_topic, tf_static_topic) != (TF_TOPIC, TF_STATIC_TOPIC):
+        fail("--tf-topic and --tf-static-topic say whose frames get the prefix", "Give --prefix, or TOPICS.", code=2)
     if everything and (topics or regex):
         fail("--all and a choice of topics exclude each other", code=2)
     with session():
@@ -63,6 +81,10 @@ def record(
                 max_duration=max_duration,
                 backlog=_bytes("--backlog", backlog),
                 on_topic=_tell_topic,
+                tf_topic=tf_topic,
+                tf_static_topic=tf_static_topic,
+                prefix=prefix,
+                keep=keep,
             )
         except coframe.RecordingError:
             raise
@@ -140,6 +162,8 @@ def _finish(recorder: Recorder) -> None:
             _warn(f"nobody published on {', '.join(told.missing)}")
         if told.refused:
             _warn(f"not recorded, because they are not ROS's or there are too many: {', '.join(told.refused)}")
+        if told.not_renamed:
+            _warn(f"frames keep their names, because the types are not known: {', '.join(told.not_renamed)}")
         if recorder.writer.undescribed:
             types = ", ".join(recorder.writer.undescribed)
             _warn(f"recorded without a description, which readers will need: {types}")

@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.progress import BarColumn, DownloadColumn, Progress, TextColumn, TimeRemainingColumn
 
 from coframe.bags import open_bag, parse_instant
-from coframe.cli.session import fail
+from coframe.cli.session import fail, recorded_tf_topics
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -40,10 +40,13 @@ def reading() -> Iterator[Callable[[int, int], object]]:
 
 
 @contextmanager
-def opened(path: Path, namespace: str | None, prefix: str, keep: str) -> Iterator[Recording]:
+def opened(
+    path: Path, namespace: str | None, tf_topic: str | None, tf_static_topic: str | None, prefix: str, keep: str
+) -> Iterator[Recording]:
     """The recording, read with a progress bar if that takes long; what could not be read goes to stderr."""
+    topics = recorded_tf_topics(tf_topic, tf_static_topic)
     with reading() as progress:
-        recording = open_bag(path, namespace=namespace, prefix=prefix, keep=keep, progress=progress)
+        recording = open_bag(path, namespace=namespace, tf_topics=topics, prefix=prefix, keep=keep, progress=progress)
     with recording:
         told = recording.problems
         for problem in told:

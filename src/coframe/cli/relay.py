@@ -14,7 +14,18 @@ from rich.table import Table
 from rich.text import Text
 
 import coframe
-from coframe.cli.session import DomainOption, KeepOption, check_prefix, fail, log, printable, session
+from coframe.cli.session import (
+    TF_TOPIC,
+    DomainOption,
+    KeepOption,
+    PrefixOption,
+    check_prefix,
+    fail,
+    log,
+    printable,
+    qualified,
+    session,
+)
 
 if TYPE_CHECKING:
     from coframe.wire.relay import Relay, RelayedEdge
@@ -35,7 +46,15 @@ def relay(
             help="A robot's topic, or with --split the one where all are; the static ones are on TOPIC_static.",
         ),
     ] = None,
-    to: Annotated[str, typer.Option("--to", help="Where all are written; not with --split.")] = "/tf",
+    tf_topic: Annotated[
+        str,
+        typer.Option("--to", "--tf-topic", help="Where all are written, or read with --split.", callback=qualified),
+    ] = TF_TOPIC,
+    tf_static_topic: Annotated[
+        str | None,
+        typer.Option(help="The static ones likewise.", callback=qualified, show_default="as --to, with _static"),
+    ] = None,
+    prefix: PrefixOption = "",
     prefix_each: Annotated[
         bool, typer.Option("--prefix-each", help="Put each robot's name and a slash in front of its frames.")
     ] = False,
@@ -57,9 +76,9 @@ def relay(
     Example: coframe relay --robots robot1,robot2 --prefix-each --keep map,world
     """
     prefixes = _prefixes(sources or [])
-    common = to
+    common = tf_topic
     if split:
-        common = next(iter(prefixes), "/tf")
+        common = next(iter(prefixes), tf_topic)
         if len(prefixes) > 1 or any(prefixes.values()):
             fail("--split reads one topic, and names the robots by --robots", code=2)
         prefixes = {}
@@ -69,6 +88,8 @@ def relay(
                 robots,
                 sources=prefixes,
                 common=common,
+                common_static=tf_static_topic,
+                prefix=prefix,
                 prefix_each=prefix_each,
                 keep=keep,
                 rate=rate,

@@ -8,6 +8,8 @@ from typing import Annotated
 import typer
 
 from coframe.cli.session import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
     DomainOption,
     KeepOption,
     PrefixOption,
@@ -15,6 +17,7 @@ from coframe.cli.session import (
     TfTopicOption,
     node_errors,
     session,
+    xacro_arguments,
 )
 from coframe.robots import load
 
@@ -27,30 +30,39 @@ def robot(
     prefix: PrefixOption = "",
     keep: KeepOption = "",
     frequency: Annotated[
-        float,
-        typer.Option("--frequency", "-f", min=0.0, max=1000.0, help="How often at most a joint is told of, in Hz."),
-    ] = 20.0,
+        float | None,
+        typer.Option(
+            "--frequency",
+            "-f",
+            min=0.0,
+            max=1000.0,
+            help="How often at most a joint is told of, in Hz.",
+            show_default="20.0",
+        ),
+    ] = None,
     ignore_timestamp: Annotated[
         bool, typer.Option("--ignore-timestamp", help="Tell of every joint state, however close together.")
     ] = False,
     domain: DomainOption = None,
-    tf_topic: TfTopicOption = "/tf",
-    tf_static_topic: TfStaticTopicOption = "/tf_static",
+    tf_topic: TfTopicOption = TF_TOPIC,
+    tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
 ) -> None:
     """Publish the transforms of the robot in FILE from its joint states, as robot_state_publisher does.
 
-    What follows --ros-args is the node's.
+    NAME:=VALUE gives a xacro file its arguments; what follows --ros-args is the node's.
 
     Example: coframe robot arm.urdf.xacro --prefix robot1/ --ros-args -r joint_states:=arm/joint_states
     """
     with session():
-        parameters = {
-            "robot_description": load(file).text,
-            "frame_prefix": prefix,
-            "frame_prefix_keep": keep,
+        description = load(file, arguments=xacro_arguments(context.args)).text
+        given = {
+            "frame_prefix": prefix or None,
+            "frame_prefix_keep": keep or None,
             "publish_frequency": frequency,
-            "ignore_timestamp": ignore_timestamp,
+            "ignore_timestamp": ignore_timestamp or None,
         }
+        # What was not given is left to the node's own parameters, of -p and --params-file.
+        parameters = {"robot_description": description} | {n: value for n, value in given.items() if value is not None}
         from rclpy.parameter import Parameter  # noqa: PLC0415 - a file that cannot be read needs no graph
         from robot_state_publisher import run  # noqa: PLC0415
 

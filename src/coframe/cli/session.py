@@ -26,9 +26,13 @@ if TYPE_CHECKING:
     from types import FrameType
 
 __all__ = [
+    "TF_STATIC_TOPIC",
+    "TF_TOPIC",
     "DomainOption",
     "KeepOption",
     "PrefixOption",
+    "RecordedTfStaticTopicOption",
+    "RecordedTfTopicOption",
     "TfStaticTopicOption",
     "TfTopicOption",
     "check_prefix",
@@ -36,7 +40,10 @@ __all__ = [
     "log",
     "node_errors",
     "printable",
+    "qualified",
+    "recorded_tf_topics",
     "session",
+    "xacro_arguments",
 ]
 
 DomainOption = Annotated[
@@ -44,12 +51,39 @@ DomainOption = Annotated[
 ]
 
 
-def _qualified(topic: str) -> str:
-    return topic if topic.startswith("/") else f"/{topic}"
+TF_TOPIC, TF_STATIC_TOPIC = "/tf", "/tf_static"
 
 
-TfTopicOption = Annotated[str, typer.Option(help="Where transforms are sent, such as /robot1/tf.", callback=_qualified)]
-TfStaticTopicOption = Annotated[str, typer.Option(help="Where static transforms are sent.", callback=_qualified)]
+def qualified(topic: str | None) -> str | None:
+    """A topic's name with its slash."""
+    return topic if topic is None or topic.startswith("/") else f"/{topic}"
+
+
+TfTopicOption = Annotated[str, typer.Option(help="Where transforms are sent, such as /robot1/tf.", callback=qualified)]
+TfStaticTopicOption = Annotated[str, typer.Option(help="Where static transforms are sent.", callback=qualified)]
+RecordedTfTopicOption = Annotated[
+    str | None,
+    typer.Option(
+        help="Where transforms are sent, such as /robot1/tf.",
+        callback=qualified,
+        show_default="/tf; in a recording all of them",
+    ),
+]
+RecordedTfStaticTopicOption = Annotated[
+    str | None,
+    typer.Option(
+        help="Where static transforms are sent.",
+        callback=qualified,
+        show_default="/tf_static; in a recording all of them",
+    ),
+]
+
+
+def recorded_tf_topics(tf_topic: str | None, tf_static_topic: str | None) -> tuple[str, str] | None:
+    """The topics whose transforms of a recording are read; None: all, as nobody has chosen."""
+    if tf_topic is None and tf_static_topic is None:
+        return None
+    return tf_topic or TF_TOPIC, tf_static_topic or TF_STATIC_TOPIC
 
 
 def check_prefix(prefix: str) -> str:
@@ -117,6 +151,24 @@ def node_errors() -> Iterator[None]:
         yield
     except (NameValidationException, ParameterException, RCLError) as error:
         fail(str(error), code=2)
+
+
+def xacro_arguments(words: list[str]) -> dict[str, str]:
+    """The arguments of a xacro file, NAME:=VALUE, of what the command itself did not know; the node's are left alone.
+
+    Anything else, such as a misspelt option, ends the command.
+    """
+    from rclpy.utilities import remove_ros_args  # noqa: PLC0415 - few need it
+
+    own = remove_ros_args(["coframe", *words])[1:]
+    for word in own:
+        if ":=" not in word or word.startswith("-"):
+            fail(
+                f"there is no option or argument {word!r}",
+                "NAME:=VALUE is an argument of a xacro file; what follows --ros-args is the node's.",
+                code=2,
+            )
+    return dict(word.split(":=", 1) for word in own)
 
 
 _OURS = (

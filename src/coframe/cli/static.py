@@ -20,7 +20,7 @@ __all__ = ["static"]
 USAGE = """\
 Usage: coframe static [--x X] [--y Y] [--z Z] [--qx QX --qy QY --qz QZ --qw QW | --roll R --pitch P --yaw Y]
                       --frame-id FRAME --child-frame-id CHILD [--domain ID] [--tf-static-topic TOPIC]
-                      [--prefix robot1/] [--keep map,world]
+                      [--prefix robot1/] [--keep map,world]   (--tf-topic is taken, too: nothing is sent there)
        coframe static X Y Z YAW PITCH ROLL FRAME CHILD      (the old order)
        coframe static X Y Z QX QY QZ QW FRAME CHILD         (the old order)
 

@@ -17,7 +17,7 @@ TRANSLATION = ("--x", "--y", "--z")
 QUATERNION = ("--qx", "--qy", "--qz", "--qw")
 EULER = ("--roll", "--pitch", "--yaw")
 NUMBERS = (*TRANSLATION, *QUATERNION, *EULER)
-NAMES = ("--frame-id", "--child-frame-id", "--domain", "--tf-static-topic", "--prefix", "--keep")
+NAMES = ("--frame-id", "--child-frame-id", "--domain", "--tf-topic", "--tf-static-topic", "--prefix", "--keep")
 
 
 class ArgumentError(ValueError):

@@ -10,7 +10,14 @@ import typer
 
 from coframe.bags import FORMATS, Question, format_of, write_trajectory
 from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, seconds
-from coframe.cli.session import KeepOption, PrefixOption, fail, session
+from coframe.cli.session import (
+    KeepOption,
+    PrefixOption,
+    RecordedTfStaticTopicOption,
+    RecordedTfTopicOption,
+    fail,
+    session,
+)
 
 __all__ = ["trajectory"]
 
@@ -34,6 +41,8 @@ def trajectory(
     start: Annotated[str | None, typer.Option(help="From when on, as --at of coframe lookup.")] = None,
     stop: Annotated[str | None, typer.Option(help="Until when.")] = None,
     namespace: NamespaceOption = None,
+    tf_topic: RecordedTfTopicOption = None,
+    tf_static_topic: RecordedTfStaticTopicOption = None,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
@@ -46,7 +55,7 @@ def trajectory(
         question = Question(target, source, rate, stamps_of, start, stop)
     except ValueError as error:
         fail(str(error), code=2)
-    with session(), opened(bag, namespace, prefix, keep) as recording:
+    with session(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         for text in filter(None, (start, stop)):
             instant("--start/--stop", text, recording)
         poses, missing = question.ask(recording)

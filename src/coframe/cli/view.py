@@ -8,12 +8,22 @@ import threading
 import time
 import webbrowser
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 import coframe
-from coframe.cli.session import DomainOption, KeepOption, PrefixOption, TfStaticTopicOption, TfTopicOption, session
+from coframe.cli.session import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
+    DomainOption,
+    KeepOption,
+    PrefixOption,
+    RecordedTfStaticTopicOption,
+    RecordedTfTopicOption,
+    recorded_tf_topics,
+    session,
+)
 from coframe.viewer import expect
 from coframe.wire import dds
 
@@ -47,8 +57,8 @@ def view(
         list[Path] | None, typer.Option(help="A folder below which meshes may lie; may be given several times.")
     ] = None,
     domain: DomainOption = None,
-    tf_topic: TfTopicOption = "/tf",
-    tf_static_topic: TfStaticTopicOption = "/tf_static",
+    tf_topic: RecordedTfTopicOption = None,
+    tf_static_topic: RecordedTfStaticTopicOption = None,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
@@ -74,14 +84,15 @@ def view(
             # The browser starts meanwhile.
             if live:
                 announce(viewer, browser=not no_browser)
-                topics = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
+                topics = {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
                 node = coframe.connect("coframe_view", domain=domain, **topics, prefix=prefix, keep=keep)
                 from coframe.viewer.live import LiveSource  # noqa: PLC0415 - who reads a recording needs no graph
 
                 viewer.show(LiveSource(node, own=True))
             else:
                 reading = _Reading(viewer, browser=not no_browser)
-                viewer.show(_read(Path(bag), reading, prefix=prefix, keep=keep))
+                chosen = recorded_tf_topics(tf_topic, tf_static_topic)
+                viewer.show(_read(Path(bag), reading, tf_topics=chosen, prefix=prefix, keep=keep))
             while True:  # until Ctrl-C, which an endless wait would not hear everywhere
                 time.sleep(60.0)
 
@@ -110,12 +121,10 @@ class _Reading:
             self._viewer.entitle(f"{name}: {100 * done // max(total, 1)} % read")
 
 
-def _read(bag: Path, reading: _Reading, *, prefix: str, keep: str) -> RecordedSource:
+def _read(bag: Path, reading: _Reading, **chosen: Any) -> RecordedSource:
     from coframe.viewer.recorded import RecordedSource  # noqa: PLC0415 - who looks at the graph needs no recordings
 
-    recording = coframe.open_bag(
-        bag, progress=lambda done, total: reading.tell(done, total, bag.name), prefix=prefix, keep=keep
-    )
+    recording = coframe.open_bag(bag, progress=lambda done, total: reading.tell(done, total, bag.name), **chosen)
     reading.announce()
     return RecordedSource(recording, own=True)
 

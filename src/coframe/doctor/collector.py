@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from coframe import _core
     from coframe.bags.transforms import Columns
 
 __all__ = ["Collector"]
@@ -34,13 +35,17 @@ class _Batch(NamedTuple):
 class Collector:
     """Gathers transforms; names and publishers become numbers.
 
+    Args:
+        renaming: What the frames are called from here on; None: as they come.
+
     Attributes:
         empty: How many messages held no transform.
         damaged: How many were no TFMessage.
         messages: How many there were, by topic.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, renaming: _core.Renaming | None = None) -> None:
+        self._renamed = renaming or str
         self.empty = 0
         self.damaged = 0
         self.messages: dict[str, int] = {}
@@ -65,7 +70,8 @@ class Collector:
         self.empty += len(arrived) - columns.damaged - len(np.unique(columns.message))
         if not len(columns.stamp) or len(self._names) > _MOST_NAMES:
             return
-        names = np.array([self._names.setdefault(name, len(self._names)) for name in columns.names], dtype=np.int64)
+        called = map(self._renamed, columns.names)
+        names = np.array([self._names.setdefault(name, len(self._names)) for name in called], dtype=np.int64)
         number = self._publishers.setdefault
         who = np.array([number(name, len(self._publishers)) for name in publishers], dtype=np.int64)
         self._batches.append(

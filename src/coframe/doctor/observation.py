@@ -14,6 +14,8 @@ import numpy as np
 from coframe.doctor.edge import Edge
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
 __all__ = ["NEVER", "Clock", "Endpoint", "JointStates", "LogLine", "Observation", "Sensor", "TopicFacts", "Transforms"]
@@ -212,6 +214,7 @@ class Observation:
         log: What nodes have said.
         cache: How far back a listener's buffer is taken to reach.
         unread: What could not be read of a recording, a sentence each.
+        link_name: What a link of the descriptions is called among the frames.
     """
 
     live: bool
@@ -229,6 +232,7 @@ class Observation:
     log: tuple[LogLine, ...] = ()
     cache: int = DEFAULT_CACHE
     unread: tuple[str, ...] = ()
+    link_name: Callable[[str], str] = str
 
     @property
     def duration(self) -> int:

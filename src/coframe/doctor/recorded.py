@@ -11,10 +11,11 @@ from coframe.doctor.collector import Collector
 from coframe.doctor.joints import joint_states
 from coframe.doctor.observation import DEFAULT_CACHE, Clock, JointStates, LogLine, Observation, Sensor, TopicFacts
 from coframe.errors import DecodeError
+from coframe.frame_names import renaming
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     import numpy as np
     from numpy.typing import NDArray
@@ -33,6 +34,9 @@ def observe_recording(
     path: str | os.PathLike[str],
     *,
     namespace: str | None = None,
+    tf_topics: Iterable[str] | None = None,
+    prefix: str = "",
+    keep: Iterable[str] = (),
     cache: int = DEFAULT_CACHE,
     progress: Callable[[int, int], object] | None = None,
 ) -> dict[str, Observation]:
@@ -41,21 +45,27 @@ def observe_recording(
     Args:
         path: A file, or a folder of rosbag2.
         namespace: Only transforms of this one; None: all.
+        tf_topics: Only transforms of these topics; None: all.
+        prefix: In front of the names of frames, as it is; those that sensors name, too.
+        keep: The frames that get no prefix, as they are shared.
         cache: How far back a listener's buffer is taken to reach, in nanoseconds.
         progress: Called now and then with the bytes that are read and the bytes that there are.
 
     Raises:
         RecordingError: Nothing of it can be read.
+        ValueError: The prefix begins with a slash.
     """
+    names = renaming(prefix, keep)
     collectors: dict[str, Collector] = {}
 
     def heard(channel: Channel, received: NDArray[np.int64], messages: Slices) -> None:
         take = ingest_for(channel)
         if take is not None:
-            collector = collectors.setdefault(channel.topic.rpartition("/")[0], Collector())
+            collector = collectors.setdefault(channel.topic.rpartition("/")[0], Collector(names))
             collector.add(channel.topic, take.static, take.columns(messages), received, [""] * len(received))
 
-    with open_bag(path, namespace=namespace, progress=progress, heard=heard) as recording:
+    chosen: Any = {"namespace": namespace, "tf_topics": tf_topics, "prefix": prefix, "keep": keep}
+    with open_bag(path, **chosen, progress=progress, heard=heard) as recording:
         facts = _Facts(recording)
         return {
             name: Observation(
@@ -73,6 +83,7 @@ def observe_recording(
                 log=facts.log,
                 cache=cache,
                 unread=tuple(recording.problems),
+                link_name=names or str,
             )
             for name, collector in sorted((collectors or {"": Collector()}).items())
         }
@@ -132,7 +143,7 @@ class _Facts:
         if not frame.lstrip("/") or facts.type == "sensor_msgs/msg/JointState":
             return None
         stamps, received = self._recording.stamps(topic), self._recording.received(topic)
-        return Sensor(topic, facts.type, frame.lstrip("/"), stamps, received)
+        return Sensor(topic, facts.type, self._recording.frame(frame.lstrip("/")), stamps, received)
 
     def _joints(self, topic: str) -> JointStates:
         messages = list(self._decoded(topic, _MOST_DECODED))

@@ -6,28 +6,23 @@ Try it:
 What stands before --ros-args are arguments of the xacro file; parameters are those of robot_state_publisher.
 """
 
-import sys
 from pathlib import Path
 
 from coframe.robots import load
-from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.parameter import Parameter
-from rclpy.utilities import remove_ros_args
-from robot_state_publisher import run
+from robot_state_publisher import program, run
 
 ARM = Path(__file__).with_name("two_link_arm.urdf.xacro")
 
 
 def main(args: list[str] | None = None) -> None:
     """Run the node until it is stopped."""
-    words = sys.argv if args is None else ["robot_state_publisher", *args]
-    arguments = dict(word.split(":=", 1) for word in remove_ros_args(words)[1:] if ":=" in word)
-    try:
-        robot = load(ARM, arguments=arguments)
+
+    def start(words: list[str], own: list[str]) -> None:
+        robot = load(ARM, arguments=dict(word.split(":=", 1) for word in own if ":=" in word))
         run(words, parameter_overrides=[Parameter("robot_description", value=robot.text)])
-    except (RuntimeError, NameValidationException, ParameterException, ValueError) as error:
-        hint = getattr(error, "hint", "")
-        sys.exit(f"robot_state_publisher: {error}" + (f"\n  {hint}" if hint else ""))
+
+    program("robot_state_publisher", args, start)
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.bags import from_yaml
 from coframe.bags.as_cdr import as_cdr, transforms_of
+from coframe.bags.message_frames import FrameNames
 from coframe.bags.transforms import is_static
 from coframe.errors import WireError
 from coframe.messages import deserialize, find
@@ -14,6 +15,7 @@ from coframe.wire import QoS
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from coframe import _core
     from coframe.bags import Recording
     from coframe.bags.storage import Channel
     from coframe.wire import GraphNode, Participant, Publisher, StaticWriter
@@ -42,6 +44,7 @@ class Outlets:
         recording: What is played.
         topics: Which topics of it.
         remap: Other names for some of them.
+        names: What the frames in the messages are called; None: as they were recorded.
 
     Attributes:
         topics: Those that are played.
@@ -55,6 +58,7 @@ class Outlets:
         recording: Recording,
         topics: set[str],
         remap: Mapping[str, str],
+        names: _core.Renaming | None,
     ) -> None:
         self.topics = topics
         self.problems: list[str] = []
@@ -62,6 +66,7 @@ class Outlets:
         self._node = node
         self._recording = recording
         self._remap = remap
+        self._names = names
         self._statics: dict[str, StaticWriter] = {}
         self._publishers: dict[tuple[str, str], Publisher] = {}
         self._outlets: dict[tuple[str, str], _Outlet | None] = {}
@@ -137,7 +142,7 @@ class Outlets:
                 f"{channel.topic} is not played: ROS 2 has no {channel.type} as it was recorded ({channel.encoding})"
             )
             return None
-        ros_type, convert = converted
+        ros_type, convert = converted[0], self._renamed(channel, *converted)
         topic = self._remap.get(channel.topic, channel.topic)
         if is_static(channel.topic) and ros_type == _TF:
             writer = self._participant.static_broadcaster(self._node, topic)
@@ -145,6 +150,17 @@ class Outlets:
             return _Outlet(_sending(writer), convert, latched=True)
         qos = _together(offered)
         return _Outlet(self.publisher(topic, ros_type, qos).write, convert, qos.transient_local)
+
+    def _renamed(self, channel: Channel, ros_type: str, convert: Callable[[bytes], bytes]) -> Callable[[bytes], bytes]:
+        """What converts a channel's messages, and gives the frames in them their names."""
+        if self._names is None:
+            return convert
+        frames = FrameNames.of(channel, ros_type)
+        if frames is None:
+            self.problems.append(f"{channel.topic}: frames keep their names, as nobody says what {ros_type} is made of")
+            return convert
+        rename = self._names
+        return (lambda data: frames.renamed(convert(data), rename)[0]) if frames.are_there else convert
 
     def publisher(self, topic: str, ros_type: str, qos: QoS) -> Publisher:
         """One for all channels that go there."""

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coframe.bags import RecordingError, open_bag
+from coframe.frame_names import renaming
 from coframe.messages import find, serialize
 from coframe.recorder.outlets import Outlets
 from coframe.recorder.playback import PlaybackClock
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
+    from coframe import _core
     from coframe.bags import Recording
     from coframe.wire import Publisher
 
@@ -55,6 +57,7 @@ class Player:
         clock: float | None,
         delay: float,
         domain: int | None,
+        names: _core.Renaming | None,
     ) -> None:
         self.recording = recording
         self.played = 0
@@ -69,7 +72,7 @@ class Player:
         self._participant = Participant.get(domain)
         try:
             self._node = self._participant.add_node("/", "coframe_play")
-            self._outlets = Outlets(self._participant, self._node, recording, topics, remap)
+            self._outlets = Outlets(self._participant, self._node, recording, topics, remap, names)
         except BaseException:
             self._participant.close()
             raise
@@ -210,6 +213,8 @@ def play(
     clock: float | None = None,
     delay: str | int | timedelta = "1s",
     domain: int | None = None,
+    prefix: str = "",
+    keep: Iterable[str] = (),
 ) -> Player:
     """Says a recording again on the graph, in the background, in its order and at its pace.
 
@@ -227,6 +232,8 @@ def play(
         clock: How often a second /clock is told, in place of what was recorded of it; None: as recorded.
         delay: How long it waits before the first message, so that subscribers miss nothing.
         domain: The ROS domain, 0 to 232; None: ROS_DOMAIN_ID, or 0.
+        prefix: In front of the names of frames in all messages, as it is: ``robot1/`` makes ``robot1/base_link``.
+        keep: The frames that get no prefix, as they are shared: ``["map"]``.
 
     Raises:
         RecordingError: Nothing of it can be read, it has no such topic, or ends before the start.
@@ -240,6 +247,7 @@ def play(
     _checked_rate(rate)
     if clock is not None and not 0.0 < clock <= _FASTEST_CLOCK:
         raise ValueError(f"/clock is told up to {_FASTEST_CLOCK:g} times a second, not {clock:g}")
+    names = renaming(prefix, keep)
     recording = open_bag(Path(path))
     try:
         chosen = _chosen(recording, topics)
@@ -254,6 +262,7 @@ def play(
             clock=clock,
             delay=duration_ns(delay) / _NS,
             domain=domain,
+            names=names,
         )
     except BaseException:
         recording.close()

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from coframe import _core
 from coframe.bags import OfferedQos, RecordingError, Writer
+from coframe.frame_names import renaming
 from coframe.recorder.backlog import Backlog, Received
+from coframe.recorder.frames import RobotFrames
 from coframe.recorder.subscriptions import Subscriptions, Wanted
 from coframe.wire import Participant
 
@@ -39,6 +41,7 @@ class RecorderStatistics(NamedTuple):
         dropped: Messages by topic that the disk was too slow for.
         missing: Topics that were asked for by name and that nobody publishes on yet.
         refused: Topics that cannot be joined: their type is not ROS's, or there are too many.
+        not_renamed: Topics whose frames get no prefix, as nobody says what their messages are made of.
     """
 
     messages: int
@@ -48,6 +51,7 @@ class RecorderStatistics(NamedTuple):
     dropped: dict[str, int]
     missing: list[str]
     refused: list[str]
+    not_renamed: list[str]
 
 
 class Recorder:
@@ -65,10 +69,12 @@ class Recorder:
         domain: int | None,
         backlog: int,
         on_topic: Callable[[str, str], None],
+        frames: RobotFrames | None,
     ) -> None:
         self.writer = writer
         self._wanted = wanted
         self._on_topic = on_topic
+        self._frames = frames
         self._backlog = Backlog(backlog)
         self._error: Exception | None = None
         self._ended = threading.Event()
@@ -104,6 +110,7 @@ class Recorder:
             dropped=dict(self._backlog.dropped),
             missing=self._wanted.missing(joined),
             refused=sorted(self._subscriptions.refused()),
+            not_renamed=[] if self._frames is None else sorted(self._frames.unknown),
         )
 
     def wait(self, timeout: float | None = None) -> bool:
@@ -189,9 +196,8 @@ class Recorder:
     def _put(self, message: Received) -> None:
         key = message.source[:2]
         topic = self.writer.add_topic(*key, offered_qos=self._qos.get(key, ()))
-        self.writer.write(
-            topic, message.data, message.received, published=message.published, publisher=message.publisher
-        )
+        data = message.data if self._frames is None else self._frames.renamed(message.source, message.data)
+        self.writer.write(topic, data, message.received, published=message.published, publisher=message.publisher)
 
 
 def record(
@@ -206,11 +212,16 @@ def record(
     max_duration: str | int | timedelta | None = None,
     backlog: int = DEFAULT_BACKLOG,
     on_topic: Callable[[str, str], None] | None = None,
+    tf_topic: str = "/tf",
+    tf_static_topic: str = "/tf_static",
+    prefix: str = "",
+    keep: Iterable[str] = (),
 ) -> Recorder:
     """Writes down what is said on the graph, in the background, until the recorder is closed.
 
-    The messages are written as the bytes that they came as, of any type. They are given to the operating system twice a
-    second: if the process is killed, at most the last second is missing, and the files are whole.
+    The messages are written as the bytes that they came as, of any type, unless their frames are to be renamed. They
+    are given to the operating system twice a second: if the process is killed, at most the last second is missing, and
+    the files are whole.
 
     Args:
         path: The folder, which must not be there yet; None: rosbag2_ and the time.
@@ -223,6 +234,12 @@ def record(
         max_duration: Time after which the next file begins, such as "10min"; None: never.
         backlog: Bytes that may wait for a slow disk; then the oldest messages make room and are counted.
         on_topic: Is called with the name and the type of each topic that is joined.
+        tf_topic: Where the transforms of the robot are sent that `prefix` is for; the other topics of its namespace
+            are that robot's, too: of ``/tf`` all.
+        tf_static_topic: Where its static transforms are sent.
+        prefix: In front of the names of frames in all messages of that robot, as it is: ``robot1/`` makes
+            ``robot1/base_link``.
+        keep: The frames that get no prefix, as they are shared: ``["map"]``.
 
     Raises:
         RecordingError: The folder is there already or cannot be made, or a package is missing.
@@ -234,11 +251,13 @@ def record(
         ...     recorder.wait(10.0)
     """
     wanted = Wanted(topics, regex, exclude)
+    names = renaming(prefix, keep)
+    frames = None if names is None else RobotFrames(names, tf_topic, tf_static_topic)
     folder = datetime.now().astimezone().strftime("rosbag2_%Y_%m_%d-%H_%M_%S") if path is None else path
     participant = Participant.get(domain)  # before there is a folder: this is what may fail
     try:
         writer = Writer(folder, compression=compression, max_size=max_size, max_duration=max_duration)
         tell = on_topic or (lambda _topic, _type: None)
-        return Recorder(writer, wanted, domain=domain, backlog=backlog, on_topic=tell)
+        return Recorder(writer, wanted, domain=domain, backlog=backlog, on_topic=tell, frames=frames)
     finally:
         participant.close()

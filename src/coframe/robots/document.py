@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import codecs
+import contextlib
 import math
 import re
 from typing import TYPE_CHECKING, NoReturn
@@ -12,11 +14,15 @@ from coframe.errors import RobotDescriptionError
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["Element", "parse"]
+__all__ = ["Element", "decoded", "parse"]
 
 LARGEST = 64 << 20  # bytes: a hundred times the largest robot we know
 DEEPEST = 64
 # Not float()'s idea of a number, which takes nan, 1_000 and the digits of every script.
+_DECLARATION = re.compile(r"""\A(\s*<\?xml\s[^>]*?)\sencoding\s*=\s*["']([\w.:-]+)["']""", re.ASCII)
+_LONGEST_DECLARATION = 200  # bytes
+# As Python calls them. Not all that it knows: some are no texts, and some take for ever.
+_ENCODINGS = {"ascii", "cp1252", "iso8859-1", "iso8859-15", "utf-8"}
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 
@@ -136,14 +142,42 @@ class _Builder:
         )
 
 
-def parse(text: str | bytes) -> Element:
+def decoded(text: str | bytes) -> str:
+    """The text of a document; of one that is no UTF-8 without the declaration's encoding, which is no longer true.
+
+    Raises:
+        RobotDescriptionError: It is larger than any robot, or not in its encoding, or that is none of the usual ones.
+    """
+    if len(text) > LARGEST:
+        raise RobotDescriptionError(f"{len(text)} bytes are no robot description: at most {LARGEST} are read")
+    if isinstance(text, str):
+        return text
+    encoding = _encoding(text)
+    try:
+        plain = text.decode(encoding)
+    except UnicodeError as error:
+        raise RobotDescriptionError(f"the text cannot be decoded: {error}", hint="Save it as UTF-8.") from None
+    return plain if encoding == "utf-8" else _DECLARATION.sub(r"\1", plain, count=1)
+
+
+def _encoding(text: bytes) -> str:
+    if text.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return "utf-16"
+    declaration = _DECLARATION.match(text[:_LONGEST_DECLARATION].decode("ascii", "replace"))
+    if declaration is None:
+        return "utf-8"
+    with contextlib.suppress(LookupError):
+        if (encoding := codecs.lookup(declaration[2]).name) in _ENCODINGS:
+            return encoding
+    raise RobotDescriptionError(f"unknown encoding {declaration[2]!r}", line=1, hint="Save it as UTF-8.")
+
+
+def parse(text: str) -> Element:
     """The outermost element of an XML document.
 
     Raises:
-        RobotDescriptionError: It is not well formed, defines entities, or is larger or deeper than any robot.
+        RobotDescriptionError: It is not well formed, defines entities, or is deeper than any robot.
     """
-    if len(text) > LARGEST:
-        raise RobotDescriptionError(f"{len(text)} characters are no robot description: at most {LARGEST} are read")
     parser = expat.ParserCreate()
     builder = _Builder(parser)
     try:
@@ -152,7 +186,7 @@ def parse(text: str | bytes) -> Element:
         raise RobotDescriptionError(
             f"not well-formed XML: {expat.errors.messages[error.code]}", line=error.lineno, hint=_advice(text)
         ) from None
-    except (UnicodeError, LookupError) as error:  # lone surrogates; encodings that Python does not know
+    except UnicodeError as error:  # lone surrogates
         raise RobotDescriptionError(f"the text cannot be decoded: {error}") from None
     if builder.root is None:
         raise RobotDescriptionError("the document is empty")
@@ -163,5 +197,5 @@ def _short(text: str) -> str:
     return text if len(text) <= 40 else f"{text[:40]}..."
 
 
-def _advice(text: str | bytes) -> str:
+def _advice(text: str) -> str:
     return "It is empty." if not text.strip() else "Is a tag left open, or is it another kind of file?"

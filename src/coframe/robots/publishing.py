@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     from coframe.robots.robot import Robot
     from coframe.transform import Transform
@@ -58,23 +58,21 @@ class StatePublisher:
         Raises:
             ValueError: A position is not finite.
         """
-        if not self._due(stamp, names):
-            return []
         joints = self.robot.joints
         pairs = zip(names, positions, strict=True)
         given = {name: position for name, position in pairs if name in joints and joints[name].size == 1}
-        self._told.update(dict.fromkeys(names, stamp))
-        if not given:
+        if not given or not self._due(stamp, given):
             return []
+        self._told.update(dict.fromkeys(given, stamp))
         transforms = self.robot.joint_transforms(given)
         return [transforms[name] for name in joints if name in given or self._follows(name, given)]
 
-    def _due(self, stamp: int, names: Sequence[str]) -> bool:
+    def _due(self, stamp: int, names: Collection[str]) -> bool:
         if self.ignore_stamps:
             return True
         if any(name not in self._told for name in names):
             return True
-        last = min((self._told[name] for name in names), default=stamp)
+        last = min(self._told[name] for name in names)
         return self.frequency > 0 and stamp >= last + int(1000 / self.frequency) * _MILLISECOND
 
     def _follows(self, name: str, given: dict[str, float]) -> bool:

@@ -48,11 +48,18 @@ def parse_urdf(text: str | bytes) -> Robot:
         >>> robot.frames({"turn": 1.5})["tip"].rpy.round(3).tolist()
         [0.0, 0.0, 1.5]
     """
+    text = document.decoded(text)
     root = document.parse(text)
     _check_kind(root)
     warnings: list[str] = []
     materials = Materials(root, warnings)
-    links = {name: parse_link(element, materials) for name, element in _named(root, "link").items()}
+    parts = _named(root, "link")
+    links = {name: parse_link(element, materials) for name, element in parts.items()}
+    warnings += [
+        f"line {element.line}: link {name!r} begins with a slash, which tf2 leaves off"
+        for name, element in parts.items()
+        if name.startswith("/")
+    ]
     if not links:
         root.refuse("the robot has no links", hint="A description needs one <link> at least.")
     elements = _named(root, "joint")
@@ -63,7 +70,7 @@ def parse_urdf(text: str | bytes) -> Robot:
         links=links,
         joints=ordered(links, joints, elements, root),
         materials=materials.defined,
-        text=text if isinstance(text, str) else text.decode("utf-8", "replace"),
+        text=text,
         warnings=tuple(warnings),
     )
 

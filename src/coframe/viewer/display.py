@@ -58,8 +58,9 @@ class _Drawn(NamedTuple):
 class _Entry:
     """A drawing with the pose of its frame in the fixed frame."""
 
-    def __init__(self, drawing: Drawing, sequence: int) -> None:
+    def __init__(self, drawing: Drawing, sequence: int, frame: str) -> None:
         self.drawing = drawing
+        self._frame = frame
         self.sequence = sequence
         self.sent = False
         self.pose: NDArray[np.float64] | None = None
@@ -75,12 +76,11 @@ class _Entry:
         if not drawing.placed:
             self.pose = _ANYWHERE
             return True
-        frame = drawing.frame.removeprefix("/")  # as in ROS 1; buffers take it off, too
         try:
             if drawing.locked:
-                found = buffer.lookup(fixed, frame, at, extrapolate=_HOLD, hold=True)
+                found = buffer.lookup(fixed, self._frame, at, extrapolate=_HOLD, hold=True)
             else:
-                found = buffer.lookup(fixed, frame, drawing.stamp)
+                found = buffer.lookup(fixed, self._frame, drawing.stamp)
         except TransformException as error:
             self.error = error
             return False
@@ -213,7 +213,7 @@ class Display:
         # Groups of markers that have not changed are there already.
         known = {id(entry.drawing): entry for entry in self._entries()}
         entries = [
-            known.get(id(drawing)) or _Entry(drawing, next(self._sequences))
+            known.get(id(drawing)) or _Entry(drawing, next(self._sequences), self.messages.frame(drawing.frame))
             for drawing in drawn.drawings[:_MOST_ENTRIES]
         ]
         self._incoming = _Layer(drawn.sighting.time, entries)

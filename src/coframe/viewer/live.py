@@ -70,7 +70,8 @@ class LiveSource:
         subscription = AdaptiveSubscription(offers, subscribe)
         self._subscriptions.add(subscription)
         keep = self.buffer.cache_ns
-        return LiveMessages(subscription, ros_type, keep if keep >= 0 else _KEEP_EVERYTHING)
+        keep = keep if keep >= 0 else _KEEP_EVERYTHING
+        return LiveMessages(subscription, ros_type, keep, self._connection.frame)
 
     def refresh(self) -> None:
         """Listens to publishers that have come since, too."""

@@ -43,6 +43,9 @@ class Messages(Protocol):
 
     type: str
 
+    def frame(self, name: str) -> str:
+        """What a frame that a message names is called among the transforms."""
+
     def pending(self) -> bool:
         """Whether messages have come that are yet to be taken: what is asked next may take a while."""
 
@@ -72,12 +75,15 @@ class LiveMessages:
         subscription: Where they come from.
         ros_type: Their type.
         keep: For how many nanoseconds they are kept, beside the newest.
+        frame: What a frame that a message names is called among the transforms.
     """
 
     MOST_BYTES = 64 << 20
     MOST = 4000
 
-    def __init__(self, subscription: AdaptiveSubscription, ros_type: str, keep: int) -> None:
+    def __init__(
+        self, subscription: AdaptiveSubscription, ros_type: str, keep: int, frame: Callable[[str], str]
+    ) -> None:
         from coframe.messages import deserialize, find  # noqa: PLC0415 - only who looks at messages needs them
 
         self.type = ros_type
@@ -85,11 +91,16 @@ class LiveMessages:
         self._class = find(ros_type)
         self._deserialize = deserialize
         self._keep = keep
+        self._frame = frame
         self._stored: deque[_Stored] = deque()
         self._bytes = 0
         self._keys = itertools.count(1)
         self._taking = threading.Lock()  # may last, as messages may be large
         self._lock = threading.Lock()
+
+    def frame(self, name: str) -> str:
+        """What a frame that a message names is called among the transforms."""
+        return self._frame(name)
 
     def pending(self) -> bool:
         """Whether messages have come that are yet to be taken: what is asked next may take a while."""

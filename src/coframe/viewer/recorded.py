@@ -75,6 +75,10 @@ class RecordedMessages:
         self._times = np.sort(recording.stamps(topic))
         self._reading = threading.Lock()
 
+    def frame(self, name: str) -> str:
+        """What a frame that a message names is called among the transforms."""
+        return self._recording.frame(name)
+
     def pending(self) -> bool:
         """Never: where all messages lie is known."""
         return False

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
+    from coframe.robots import Robot
     from coframe.viewer.sources import Mode, Source
 
 __all__ = ["Viewer", "expect", "show"]
@@ -88,7 +89,7 @@ def show(
     *,
     fixed: str = "",
     rviz: str | os.PathLike[str] | None = None,
-    robot: str | os.PathLike[str] | None = None,
+    robot: str | os.PathLike[str] | Robot | None = None,
     mesh_roots: Iterable[str | os.PathLike[str]] = (),
     host: str = "127.0.0.1",
     port: int | None = None,
@@ -102,7 +103,7 @@ def show(
         fixed: The frame that everything is seen from; by default that of the .rviz file, or the root of the largest
             tree.
         rviz: A configuration file of RViz 2 or RViz 1.
-        robot: A robot's URDF or xacro file; others come from the topic ``/robot_description``.
+        robot: A robot, or its URDF or xacro file; others come from the topic ``/robot_description``.
         mesh_roots: Folders below which meshes may be fetched, besides those of ROS packages that are named.
         host: The address to listen on. Others than this machine's own let everybody in who reaches it.
         port: The port; None takes 7676, or any other where that is taken; 0 takes any.
@@ -158,7 +159,7 @@ def _viewer(
     make_source: Callable[[], Source],
     fixed: str,
     rviz: str | os.PathLike[str] | None,
-    robot: str | os.PathLike[str] | None,
+    robot: str | os.PathLike[str] | Robot | None,
     mesh_roots: Iterable[str | os.PathLike[str]],
     host: str,
     port: int | None,
@@ -166,8 +167,8 @@ def _viewer(
 ) -> Viewer:
     config = None if rviz is None else _read_config(Path(rviz))
     roots = [Path(root) for root in mesh_roots]
-    description = None if robot is None else load(robot, packages=roots)
-    meshes = mesh_table(None if robot is None else Path(robot), roots)
+    description = load(robot, packages=roots) if isinstance(robot, str | os.PathLike) else robot
+    meshes = mesh_table(None if description is None else description.path, roots)
     stage = Stage(make_source(), fixed=fixed, rviz=config, robot=description, meshes=meshes, joint_states=joint_states)
     return Viewer(stage, host=host, port=port)
 

@@ -158,7 +158,7 @@ class Connection:
         prefix: str,
         keep: Iterable[str],
     ) -> None:
-        names = renaming(prefix, keep)
+        self._renaming = names = renaming(prefix, keep)
         self.buffer = Buffer(cache)
         self.participant = Participant.get(domain)
         self._closing = threading.Lock()
@@ -204,6 +204,10 @@ class Connection:
         subscription = MessageSubscription(native, message_type, event, callback)
         self._subscriptions.append(subscription)
         return subscription
+
+    def frame(self, name: str) -> str:
+        """What a frame that a message names is called in the buffer: with the prefix, if it was given one."""
+        return name.removeprefix("/") if self._renaming is None else self._renaming(name)
 
     def publishers(self) -> list[TfPublisher]:
         """Who has sent transforms: how long ago, by which clock, and whether it is still there."""

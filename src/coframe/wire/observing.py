@@ -25,13 +25,14 @@ from coframe.doctor.observation import (
     TopicFacts,
 )
 from coframe.errors import DecodeError
+from coframe.frame_names import renaming
 from coframe.messages import deserialize, find
 from coframe.wire.names import full_name
 from coframe.wire.participant import Participant
 from coframe.wire.qos import TF, TF_STATIC_READER, QoS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from typing_extensions import Self
 
@@ -81,8 +82,12 @@ class Listening:
         tf_static_topic: Where static transforms are sent.
         cache: How far back a listener's buffer is taken to reach, in nanoseconds.
         window: So much is kept, in nanoseconds; None: everything since the start.
+        node_name: As the others will see it.
+        prefix: In front of the names of frames, as it is; those that sensors name, too.
+        keep: The frames that get no prefix, as they are shared.
 
     Raises:
+        ValueError: The prefix begins with a slash.
         WireError: The graph cannot be joined.
     """
 
@@ -95,12 +100,16 @@ class Listening:
         cache: int = DEFAULT_CACHE,
         window: int | None = None,
         node_name: str = "coframe_doctor",
+        prefix: str = "",
+        keep: Iterable[str] = (),
     ) -> None:
+        names = renaming(prefix, keep)
+        self._renamed: Callable[[str], str] = names or str
         self.cache = cache
         self.window = window
         self.start = time.time_ns()
         self._participant = Participant.get(domain)
-        self._collector = Collector()
+        self._collector = Collector(names)
         self._names: dict[int, str] = {}
         self._processes: dict[str, list[bytes]] = {}
         self._travel: dict[str, deque[int]] = {}
@@ -161,7 +170,7 @@ class Listening:
             empty_messages=self._collector.empty,
             damaged_messages=self._collector.damaged,
             topics=self._facts(),
-            sensors=tuple(sensor for topic in self._topics.values() for sensor in _sensors(topic, start)),
+            sensors=tuple(s for topic in self._topics.values() for s in _sensors(topic, start, self._renamed)),
             descriptions=tuple(str(message.data) for _, message in self._decoded("std_msgs/msg/String")),
             joint_states=tuple(
                 _joints(topic, start) for topic in self._topics.values() if topic.type == "sensor_msgs/msg/JointState"
@@ -174,6 +183,7 @@ class Listening:
                 if arrived >= start
             ),
             cache=self.cache,
+            link_name=self._renamed,
         )
 
     def _tap(self, topic: str, ros_type: str, qos: QoS, head: int) -> Tap:
@@ -281,7 +291,7 @@ def _node(logger: str) -> str:
     return f"/{logger.replace('.', '/')}"
 
 
-def _sensors(topic: _Topic, start: int) -> list[Sensor]:
+def _sensors(topic: _Topic, start: int, renamed: Callable[[str], str]) -> list[Sensor]:
     """One a frame: several devices may share a topic."""
     by_frame: dict[str, list[_Head]] = {}
     for head in topic.heads:
@@ -291,7 +301,7 @@ def _sensors(topic: _Topic, start: int) -> list[Sensor]:
         Sensor(
             topic.name,
             topic.type,
-            frame,
+            renamed(frame),
             np.array([head.stamp for head in heads], dtype=np.int64),
             np.array([head.arrived for head in heads], dtype=np.int64),
             heads[-1].publisher,

@@ -129,7 +129,7 @@ class Relay:
         self,
         robots: list[_Robot],
         *,
-        common: str,
+        common: tuple[str, str],
         keep: Iterable[str],
         rate: float | None,
         split: bool,
@@ -153,7 +153,9 @@ class Relay:
         try:
             self.node = self.participant.add_node("/", node_name)
             self._inlets = [
-                inlet for static in (False, True) for inlet in self._connected(_topic(common, static=static), static)
+                inlet
+                for static, topic in zip((False, True), common, strict=True)
+                for inlet in self._connected(topic, static)
             ]
         except BaseException:
             self.participant.close()
@@ -392,6 +394,8 @@ def relay(
     *,
     sources: Iterable[str] | Mapping[str, str] = (),
     common: str = "/tf",
+    common_static: str | None = None,
+    prefix: str = "",
     prefix_each: bool = False,
     keep: Iterable[str] = (),
     rate: float | None = None,
@@ -411,6 +415,8 @@ def relay(
         sources: Topics of further robots, such as ``/robot1/tf``; as a mapping with the prefix of each: what it says,
             with its own slash.
         common: The topic where all robots are, that is written; or read where it is split.
+        common_static: Likewise of the static transforms; None: ``common`` with ``_static`` behind it.
+        prefix: In front of all names where all robots are, before each robot's own prefix.
         prefix_each: Each robot's frames get its name and a slash in front: ``robot1/``.
         keep: The frames that are shared and keep their names, such as ``["map", "world"]``.
         rate: Of each edge so many transforms a second at most; None: all. Static ones always pass.
@@ -434,17 +440,26 @@ def relay(
         raise ValueError(f"the rate must be above 0 Hz, not {rate!r}")
     prefixes = sources if isinstance(sources, Mapping) else dict.fromkeys(_texts(sources), "")
     topics = {f"/{name.strip('/')}/tf": "" for name in _texts(robots)}
-    topics |= {_qualified(topic): prefix for topic, prefix in prefixes.items()}
+    topics |= {_qualified(topic): own for topic, own in prefixes.items()}
     common = _qualified(common)
-    members = [_robot(topic, prefix, always=prefix_each or split) for topic, prefix in topics.items()]
+    common_static = _qualified(common_static or f"{common}_static")
+    members = [_robot(topic, own, always=prefix_each or split) for topic, own in topics.items()]
+    members = [robot._replace(prefix=f"{prefix}{robot.prefix}") for robot in members]
     if not members:
         raise ValueError("a relay needs robots: their names, or topics such as '/robot1/tf'")
     for robot in members:
         renaming(robot.prefix, keep)  # what is wrong with it is said before anything is joined
-        if robot.topic == common:
-            raise ValueError(f"{common} would be read and written, and go round for ever: choose another topic")
+        for topic in sorted({robot.topic, f"{robot.topic}_static"} & {common, common_static}):
+            raise ValueError(f"{topic} would be read and written, and go round for ever: choose another topic")
     return Relay(
-        members, common=common, keep=keep, rate=rate, split=split, domain=domain, node_name=node_name, warn=warn
+        members,
+        common=(common, common_static),
+        keep=keep,
+        rate=rate,
+        split=split,
+        domain=domain,
+        node_name=node_name,
+        warn=warn,
     )
 
 

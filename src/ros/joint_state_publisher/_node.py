@@ -1,25 +1,17 @@
 """The node: upstream's parameters, topics, QoS and texts."""
 
 import contextlib
-import sys
 import threading
 from collections.abc import Sequence
 from typing import Any
 
-import rclpy
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
 from coframe.robots.joint_states import JointStates
 from rcl_interfaces.msg import ParameterDescriptor
-from rclpy.exceptions import (
-    NameValidationException,
-    ParameterAlreadyDeclaredException,
-    ParameterException,
-    RCLError,
-)
-from rclpy.executors import ExternalShutdownException
+from rclpy.exceptions import ParameterAlreadyDeclaredException
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
-from rclpy.utilities import remove_ros_args
+from robot_state_publisher import program, spin_until_ended
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
@@ -185,19 +177,9 @@ def run(args: list[str], robot: Robot | None = None, *, domain_id: int | None = 
         RobotDescriptionError: As of the node, also for a description that arrives later.
         ValueError: As of the node.
     """
-    try:
-        with rclpy.init(args=args, domain_id=domain_id):
-            rclpy.spin(JointStatePublisher(robot, **options))
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
+    spin_until_ended(lambda: JointStatePublisher(robot, **options), args, domain_id)
 
 
 def main(args: list[str] | None = None) -> None:
     """The console script: maybe a file's name, then `--ros-args`."""
-    words = sys.argv if args is None else ["joint_state_publisher", *args]
-    files = remove_ros_args(words)[1:]
-    try:
-        run(words, load(files[0]) if files else None)
-    except (NameValidationException, ParameterException, RCLError, ValueError) as error:
-        hint = getattr(error, "hint", "")
-        sys.exit(f"joint_state_publisher: {error}" + (f"\n  {hint}" if hint else ""))
+    program("joint_state_publisher", args, lambda words, files: run(words, load(files[0]) if files else None))

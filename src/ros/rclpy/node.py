@@ -26,6 +26,7 @@ from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, qos_from, qos_profile_services_default
+from rclpy.qos_overriding_options import QoSOverridingOptions, overridden
 from rclpy.service import Service
 from rclpy.subscription import Subscription
 from rclpy.time_source import USE_SIM_TIME_NAME, TimeSource
@@ -233,6 +234,7 @@ class Node(NodeParameters, NodeGraph):
         qos_profile: QoSProfile | int,
         *,
         callback_group: CallbackGroup | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
     ) -> Publisher:
         """Makes a publisher.
 
@@ -241,8 +243,10 @@ class Node(NodeParameters, NodeGraph):
             topic: Name of the topic; expanded and remapped.
             qos_profile: A profile, or how many messages are kept for slow subscriptions.
             callback_group: Accepted for upstream's sake; publishers have no callbacks.
+            qos_overriding_options: Which policies parameters may override; None: none.
 
         Raises:
+            InvalidQosOverridesError: A parameter is no value of its policy.
             InvalidTopicNameException: The name breaks a rule.
             NoTypeSupportImportedException: `msg_type` is no message class.
         """
@@ -251,6 +255,8 @@ class Node(NodeParameters, NodeGraph):
         qos = qos_from(qos_profile)
         self.__check_alive()
         name = self.resolve_topic_name(topic)
+        if qos_overriding_options is not None:
+            qos = overridden(self, "publisher", name, qos, qos_overriding_options)
         wire = self._wire.publisher(self._graph_node, name, msg_type, qos._to_wire())
         return self.__add(Publisher(wire, msg_type, name, qos, self.context))
 
@@ -262,6 +268,7 @@ class Node(NodeParameters, NodeGraph):
         qos_profile: QoSProfile | int,
         *,
         callback_group: CallbackGroup | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
     ) -> Subscription:
         """Makes a subscription.
@@ -273,9 +280,11 @@ class Node(NodeParameters, NodeGraph):
                 coroutine function.
             qos_profile: A profile, or how many messages wait until an executor takes them.
             callback_group: None: the node's default group.
+            qos_overriding_options: Which policies parameters may override; None: none.
             raw: The callback gets the messages' bytes.
 
         Raises:
+            InvalidQosOverridesError: A parameter is no value of its policy.
             InvalidTopicNameException: The name breaks a rule.
             NoTypeSupportImportedException: `msg_type` is no message class.
         """
@@ -284,6 +293,8 @@ class Node(NodeParameters, NodeGraph):
         qos = qos_from(qos_profile)
         self.__check_alive()
         name = self.resolve_topic_name(topic)
+        if qos_overriding_options is not None:
+            qos = overridden(self, "subscription", name, qos, qos_overriding_options)
         wakeup = self.context._wakeup.event
         wire = self._wire.subscription(self._graph_node, name, msg_type, qos._to_wire(), on_data=wakeup)
         group = self.__group(callback_group)

@@ -1,23 +1,20 @@
 """The node: upstream's parameters, topics, QoS and texts."""
 
-import sys
 from collections.abc import Sequence
 from typing import Any
 
-import rclpy
-from coframe.frame_names import kept
+from coframe.frame_names import kept, prefix_advice
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
 from coframe.robots.publishing import StatePublisher
 from coframe.transform import Transform
 from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
-from rclpy.exceptions import NameValidationException, ParameterException, RCLError
-from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
+from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.time import Time
-from rclpy.utilities import remove_ros_args
+from robot_state_publisher._program import program, spin_until_ended
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
@@ -47,6 +44,7 @@ class RobotStatePublisher(Node):
         self._prefix = self.declare_parameter("frame_prefix", "").value
         # Not upstream's: the links that are shared and get no prefix, such as "map,world".
         self._kept = set(kept(self.declare_parameter("frame_prefix_keep", "").value))
+        self._advise()
         ignore_stamps = self.declare_parameter("ignore_timestamp", False).value
         robot = self._first_robot(description, file)
         self._states = StatePublisher(robot, frequency, ignore_stamps=ignore_stamps)
@@ -55,7 +53,10 @@ class RobotStatePublisher(Node):
         self._description = self.create_publisher(String, "robot_description", _LATCHED)
         self._publish_robot()
         self.add_on_set_parameters_callback(self._set_parameters)
-        self.create_subscription(JointState, "joint_states", self._take, qos_profile_sensor_data)
+        overrides = QoSOverridingOptions.with_default_policies()
+        self.create_subscription(
+            JointState, "joint_states", self._take, qos_profile_sensor_data, qos_overriding_options=overrides
+        )
 
     def _first_robot(self, description: str, file: str | None) -> Robot:
         if description:
@@ -73,10 +74,15 @@ class RobotStatePublisher(Node):
     def _publish_robot(self) -> None:
         for link in self._states.robot.links:
             self.get_logger().info(f"got segment {link}")
+        for warning in self._states.robot.warnings:
+            self.get_logger().warning(warning)
         self._description.publish(String(data=self._states.robot.text))
         now = self.get_clock().now().nanoseconds
         fixed = [self._message(transform, now) for transform in self._states.fixed()]
-        if fixed:
+        told = self._static_broadcaster.net_message
+        # Unlike upstream's, which goes on to tell of links that a robot before this one had.
+        told.transforms, before = [], told.transforms
+        if fixed or before:
             self._static_broadcaster.sendTransform(fixed)
 
     def _take(self, state: JointState) -> None:
@@ -108,6 +114,14 @@ class RobotStatePublisher(Node):
     def _frame(self, link: str) -> str:
         return link if link in self._kept else f"{self._prefix}{link}"
 
+    def _advise(self) -> None:
+        if self._prefix.startswith("/"):
+            self.get_logger().warning(
+                f"The frame_prefix {self._prefix!r} begins with a slash, as no frame of tf2 does: it is left off"
+            )
+        elif advice := prefix_advice(self._prefix):
+            self.get_logger().warning(f"The frame_prefix is put in front as it is: {advice}")
+
     def _set_parameters(self, parameters: Sequence[Parameter[Any]]) -> SetParametersResult:
         """Takes changes over, or refuses all of them."""
         given = {parameter.name: parameter.value for parameter in parameters}
@@ -115,7 +129,11 @@ class RobotStatePublisher(Node):
             robot = self._new_robot(given["robot_description"]) if "robot_description" in given else None
         except RobotDescriptionError as error:
             return SetParametersResult(successful=False, reason=str(error))
-        self._prefix = given.get("frame_prefix", self._prefix)
+        if "frame_prefix" in given:
+            self._prefix = given["frame_prefix"]
+            self._advise()
+        if "frame_prefix_keep" in given:
+            self._kept = set(kept(given["frame_prefix_keep"]))
         self._states.frequency = given.get("publish_frequency", self._states.frequency)
         self._states.ignore_stamps = given.get("ignore_timestamp", self._states.ignore_stamps)
         if robot is not None:
@@ -141,19 +159,9 @@ def run(args: list[str], file: str | None = None, *, domain_id: int | None = Non
     Raises:
         RobotDescriptionError: As of the node.
     """
-    try:
-        with rclpy.init(args=args, domain_id=domain_id):
-            rclpy.spin(RobotStatePublisher(file, **options))
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
+    spin_until_ended(lambda: RobotStatePublisher(file, **options), args, domain_id)
 
 
 def main(args: list[str] | None = None) -> None:
     """The console script: a file's name, then `--ros-args`."""
-    words = sys.argv if args is None else ["robot_state_publisher", *args]
-    files = remove_ros_args(words)[1:]
-    try:
-        run(words, files[0] if files else None)
-    except (RobotDescriptionError, NameValidationException, ParameterException, RCLError) as error:
-        hint = getattr(error, "hint", "")
-        sys.exit(f"robot_state_publisher: {error}" + (f"\n  {hint}" if hint else ""))
+    program("robot_state_publisher", args, lambda words, files: run(words, files[0] if files else None))

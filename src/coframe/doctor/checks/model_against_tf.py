@@ -41,7 +41,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         return
     by_key = {edge.key: edge for edge in observation.edges}
     for name, joint in robot.joints.items():
-        edge = by_key.get((joint.parent, joint.child))
+        edge = by_key.get((observation.link_name(joint.parent), observation.link_name(joint.child)))
         found = _difference(observation, robot, name, edge) if edge is not None else None
         if edge is None or found is None or (found.metres < _METRES and found.radians < _RADIANS):
             continue

@@ -1,0 +1,73 @@
+"""A recording of two robots with the same names, asked about one: as every command about recordings is typed."""
+
+import json
+import re
+
+import pytest
+from recordings import START
+from runs import MS, SECOND, Run
+from typer.testing import CliRunner
+
+import coframe
+from coframe.cli.app import app
+
+ROBOT1 = ["--tf-topic", "robot1/tf", "--tf-static-topic", "/robot1/tf_static", "--prefix", "robot1/", "--keep", "odom"]
+
+
+@pytest.fixture(scope="module")
+def bag(tmp_path_factory):
+    """Robot 1 is at x = 1 m, robot 2 at x = 2 m; each has a lidar."""
+    run = Run()
+    for x, name in enumerate(("robot1", "robot2"), 1):
+        run.tf("base", "lidar", START, (0.0, 0.0, 0.5), static=True, topic=f"/{name}/tf_static")
+        for i in range(50):
+            at = START + i * SECOND // 50
+            run.tf("odom", "base", at, (x, 0.0, 0.0), arrived=at + MS, topic=f"/{name}/tf")
+        run.scan(START + SECOND // 2, arrived=START + SECOND // 2 + MS, topic=f"/{name}/scan")
+    return run.write(tmp_path_factory.mktemp("bag"))
+
+
+def run(*arguments):
+    """What a command says, and its exit code."""
+    result = CliRunner().invoke(app, [str(argument) for argument in arguments])
+    assert "Traceback" not in result.output
+    return result.exit_code, result.stdout
+
+
+def test_lookup_and_trajectory(bag):
+    code, out = run("lookup", bag, "odom", "robot1/lidar", "--json", *ROBOT1)
+    assert (code, json.loads(out)["translation"]) == (0, [1.0, 0.0, 0.5])
+    robot2 = ["--tf-topic", "/robot2/tf", "--tf-static-topic", "/robot2/tf_static"]
+    code, out = run("trajectory", bag, "odom", "lidar", *robot2)
+    assert (code, {line.split()[1] for line in out.splitlines()}) == (0, {"2.0"})
+
+
+def test_info_and_doctor_tell_of_sensors_in_the_renamed_tree(bag):
+    code, out = run("bag", "info", bag, "--json", *ROBOT1)
+    told = json.loads(out)
+    assert (code, [tree["root"] for tree in told["trees"]]) == (0, ["odom"])
+    sensor = next(sensor for sensor in told["sensors"] if sensor["topic"] == "/robot1/scan")
+    assert (sensor["frame"], sensor["possible"]) == ("robot1/lidar", 1)
+    code, out = run("doctor", bag, "--json", *ROBOT1)
+    told = json.loads(out)["namespaces"]["/robot1"]
+    assert told["trees"] == {"odom": ["robot1/base", "robot1/lidar", "odom"]}
+    assert {(sensor["frame"], sensor["root"]) for sensor in told["sensors"]} == {("robot1/lidar", "odom")}
+
+
+def test_a_cloud_and_a_batch(bag, tmp_path):
+    pytest.importorskip("pyarrow")
+    code, out = run("cloud", bag, "/robot1/scan", "--frame", "robot1/base", "-o", tmp_path / "a.npz", *ROBOT1)
+    assert (code, "of 1 messages, in robot1/base" in out) == (0, True)
+    code, out = run("batch", "odom", "robot1/base", bag, "-o", tmp_path / "poses", *ROBOT1)
+    assert (code, "50 poses of 1 recordings" in out) == (0, True)
+
+
+def test_only_one_robot_is_mended_under_a_prefix(bag, tmp_path):
+    code, out = run("bag", "fix", bag, tmp_path / "new", *ROBOT1)
+    assert (code, re.findall(r"mended: (\S+): \d+ names of frames", out)) == (
+        0,
+        ["/robot1/tf_static", "/robot1/tf", "/robot1/scan"],
+    )
+    with coframe.open_bag(tmp_path / "new") as new:
+        for topic, frame in (("/robot1/scan", "robot1/lidar"), ("/robot2/scan", "lidar")):
+            assert [message.message.header.frame_id for message in new.messages(topic)] == [frame]
