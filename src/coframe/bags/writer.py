@@ -315,7 +315,8 @@ class Writer:
         return {
             "version": _VERSION,
             "storage_identifier": "mcap",
-            **_times(start, end),
+            "duration": {"nanoseconds": end - start},
+            "starting_time": {"nanoseconds_since_epoch": start},
             "message_count": sum(file.count for file in files),
             "topics_with_message_count": [
                 {
@@ -333,14 +334,15 @@ class Writer:
             "compression_mode": "",
             "relative_file_paths": [file.name for file in self._facts.files],
             "files": [
-                {"path": file.name, **_times(file.start, file.end), "message_count": file.count}
+                {
+                    "path": file.name,
+                    "starting_time": {"nanoseconds_since_epoch": file.start},
+                    "duration": {"nanoseconds": file.end - file.start},
+                    "message_count": file.count,
+                }
                 for file in self._facts.files
             ],
         }
-
-
-def _times(start: int, end: int) -> dict[str, Any]:
-    return {"duration": {"nanoseconds": end - start}, "starting_time": {"nanoseconds_since_epoch": start}}
 
 
 def _yaml_dump() -> Callable[[Any], str]:
