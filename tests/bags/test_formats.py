@@ -1,6 +1,7 @@
 """One walk in every format that there is gives the same answers."""
 
 import itertools
+import sys
 
 import numpy as np
 import pytest
@@ -238,6 +239,68 @@ def test_messages_without_a_header_are_on_the_clock_of_the_simulation(tmp_path):
 
 
 CLOCK = "rosgraph_msgs/msg/Clock"
+
+
+def described_by_protobuf():
+    """Foxglove's FrameTransform and what it is made of, the last one first, as a compiler may give them."""
+    from google.protobuf import descriptor_pb2, timestamp_pb2
+
+    found = descriptor_pb2.FileDescriptorSet()
+
+    def add(name, fields, *dependencies):
+        file = found.file.add(name=f"foxglove/{name}.proto", package="foxglove", syntax="proto3")
+        file.dependency.extend(dependencies)
+        message = file.message_type.add(name=name)
+        for number, (field, kind) in enumerate(fields.items(), start=1):
+            kinds = {"double": {"type": 1}, "string": {"type": 9}}
+            message.field.add(
+                name=field, number=number, label=1, **kinds.get(kind, {"type": 11, "type_name": f".{kind}"})
+            )
+
+    parts = {"timestamp": "google.protobuf.Timestamp", "parent_frame_id": "string", "child_frame_id": "string"}
+    parts |= {"translation": "foxglove.Vector3", "rotation": "foxglove.Quaternion"}
+    files = ("google/protobuf/timestamp.proto", "foxglove/Vector3.proto", "foxglove/Quaternion.proto")
+    add("FrameTransform", parts, *files)
+    add("Vector3", dict.fromkeys("xyz", "double"))
+    add("Quaternion", dict.fromkeys("xyzw", "double"))
+    timestamp_pb2.DESCRIPTOR.CopyToProto(found.file.add())
+    return found.SerializeToString()
+
+
+@pytest.mark.parametrize("damaged", [False, True])
+def test_protobuf_is_read_as_the_recording_describes_it(tmp_path, damaged):
+    pytest.importorskip("google.protobuf")
+    definition = described_by_protobuf()
+    types = {"/tf": ("foxglove.FrameTransform", "protobuf", definition[: -40 if damaged else None], "protobuf")}
+    rows = [("/tf", START, recordings.foxglove_protobuf("a", "b", coframe.Transform([1.0, 2.0, 3.0]), START + 5))]
+    rows.append(("/tf", START + 1, b"\x12\xffcut"))
+    recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types=types))
+    first, second = recording.messages("/tf")
+    if damaged:
+        assert first.message == rows[0][2]
+        assert "given as bytes: its definition cannot be used" in recording.problems[-1]
+        return
+    told = first.message
+    assert (told.parent_frame_id, told.translation.y, told.timestamp.nanos) == ("a", 2.0, 5)
+    with pytest.raises(coframe.DecodeError, match=r"foxglove\.FrameTransform: "):
+        _ = second.message
+
+
+def test_protobuf_without_its_package_stays_bytes(tmp_path, monkeypatch):
+    types = {"/tf": ("foxglove.FrameTransform", "protobuf", b"", "protobuf")}
+    rows = [("/tf", START, recordings.foxglove_protobuf("a", "b", coframe.Transform(), START))]
+    recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types=types))
+    monkeypatch.setitem(sys.modules, "google.protobuf", None)
+    assert next(recording.messages("/tf")).message == rows[0][2]
+    assert recording.problems[-1].endswith("the package protobuf is not installed (pip install 'coframe[protobuf]')")
+
+
+def test_json_is_read_as_it_is(tmp_path):
+    types = {"/tf": ("foxglove.FrameTransform", "jsonschema", b"{}", "json")}
+    rows = [("/tf", START, recordings.foxglove_json("a", "b", coframe.Transform(), START + 5))]
+    recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types=types))
+    message = next(recording.messages("/tf")).message
+    assert (message["parent_frame_id"], message["timestamp"]["nsec"]) == ("a", 5)
 
 
 def test_types_are_read_as_the_recording_describes_them(tmp_path):

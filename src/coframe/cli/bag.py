@@ -13,7 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from coframe.bags import COMPRESSIONS, mend, summarize
-from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, seconds
+from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, seconds, working
 from coframe.cli.session import KeepOption, PrefixOption, fail, printable, session
 
 if TYPE_CHECKING:
@@ -69,7 +69,10 @@ def fix(
     if compression not in COMPRESSIONS:
         fail(f"--compression: there is no {compression!r}: it is one of {', '.join(COMPRESSIONS)}", code=2)
     with session():
-        mended = mend(bag, output, statics=statics, prefix=prefix, keep=keep, compression=compression)
+        with working() as progress:
+            mended = mend(
+                bag, output, statics=statics, prefix=prefix, keep=keep, compression=compression, progress=progress
+            )
         for title, sentences in (("found", mended.found), ("mended", mended.done), ("still odd", mended.left)):
             for sentence in sentences:
                 print(printable(f"{title}: {sentence}"))

@@ -74,7 +74,8 @@ def _ask(bags: list[Path], question: Question, output: Path, on: str, workers: i
 
 def _tell(one: Answer) -> None:
     if one.error:
-        print(f"coframe: {printable(one.bag)}: {printable(one.error)}", file=sys.stderr)
+        whose = "" if one.bag in one.error else f"{one.bag}: "
+        print(f"coframe: {printable(whose + one.error)}", file=sys.stderr)
     if one.missing:
         print(f"coframe: {printable(one.bag)}: {one.missing} times have no transform, left out", file=sys.stderr)
     for problem in one.problems:

@@ -37,6 +37,12 @@ def cloud(
     start: Annotated[str | None, typer.Option(help="From when on, as --at of coframe lookup.")] = None,
     stop: Annotated[str | None, typer.Option(help="Until when.")] = None,
     deskew: Annotated[str, typer.Option(help="auto: each point by its own time, where it is told; or off.")] = "auto",
+    point_times: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FIELD[:UNIT]", help="What tells a point's time: time:us. Or s, ms, ns.", show_default="guessed"
+        ),
+    ] = None,
     fixed: Annotated[
         str | None, typer.Option(help="A frame that stands still during a sweep, where --frame moves.")
     ] = None,
@@ -58,15 +64,21 @@ def cloud(
         fail("--at excludes --start and --stop", code=2)
     with session(), opened(bag, namespace, prefix, keep) as recording:
         when = {"at": at, "start": start, "stop": stop}
-        clouds = Clouds(
-            recording,
-            topic,
-            frame,
-            **_instants(recording, when),
-            deskew=cast("Literal['auto', 'off']", deskew),
-            fixed=fixed,
-            fields=None if fields is None else [name for name in fields.split(",") if name],
-        )
+        try:
+            clouds = Clouds(
+                recording,
+                topic,
+                frame,
+                **_instants(recording, when),
+                deskew=cast("Literal['auto', 'off']", deskew),
+                point_times=point_times,
+                fixed=fixed,
+                fields=None if fields is None else [name for name in fields.split(",") if name],
+            )
+        except ValueError as error:
+            if hasattr(error, "hint"):
+                raise
+            fail(f"--point-times: {error}", code=2)
         try:
             points = _write(clouds, output, format_, voxel)
         except ValueError as error:
@@ -95,7 +107,9 @@ def _write(clouds: Clouds, output: Path, format_: str | None, voxel: float | Non
 
 
 def _tell(clouds: Clouds) -> None:
-    """What is not in the output, and why."""
+    """What was guessed, and what is not in the output, and why."""
+    for how, count in clouds.times_read.items():
+        print(f"coframe: points of {count} messages moved by their own times: {printable(how)}", file=sys.stderr)
     for reason, count in clouds.left_out.items():
         print(f"coframe: {count} messages of {clouds.topic} left out: {printable(reason)}", file=sys.stderr)
     for reason, count in clouds.points_left_out.items():

@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, DownloadColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    DownloadColumn,
+    Progress,
+    TaskID,
+    TaskProgressColumn,
+    TextColumn,
+    TimeRemainingColumn,
+)
 
 from coframe.bags import open_bag, parse_instant
 from coframe.cli.session import fail
@@ -19,7 +27,7 @@ if TYPE_CHECKING:
 
     from coframe.bags import Recording
 
-__all__ = ["BagArgument", "NamespaceOption", "instant", "opened", "reading", "seconds"]
+__all__ = ["BagArgument", "NamespaceOption", "instant", "opened", "reading", "seconds", "working"]
 
 SECOND = 1_000_000_000
 
@@ -37,6 +45,22 @@ def reading() -> Iterator[Callable[[int, int], object]]:
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("reading", total=None)
         yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+@contextmanager
+def working() -> Iterator[Callable[[str, int, int], object]]:
+    """Shows in a terminal what is under way, and how far it has come."""
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+        tasks: dict[str, TaskID] = {}
+
+        def show(what: str, done: int, total: int) -> None:
+            if what not in tasks:
+                tasks[what] = bar.add_task(what)
+            bar.update(tasks[what], completed=done, total=total)
+
+        yield show
 
 
 @contextmanager
