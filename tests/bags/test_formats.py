@@ -241,36 +241,10 @@ def test_messages_without_a_header_are_on_the_clock_of_the_simulation(tmp_path):
 CLOCK = "rosgraph_msgs/msg/Clock"
 
 
-def described_by_protobuf():
-    """Foxglove's FrameTransform and what it is made of, the last one first, as a compiler may give them."""
-    from google.protobuf import descriptor_pb2, timestamp_pb2
-
-    found = descriptor_pb2.FileDescriptorSet()
-
-    def add(name, fields, *dependencies):
-        file = found.file.add(name=f"foxglove/{name}.proto", package="foxglove", syntax="proto3")
-        file.dependency.extend(dependencies)
-        message = file.message_type.add(name=name)
-        for number, (field, kind) in enumerate(fields.items(), start=1):
-            kinds = {"double": {"type": 1}, "string": {"type": 9}}
-            message.field.add(
-                name=field, number=number, label=1, **kinds.get(kind, {"type": 11, "type_name": f".{kind}"})
-            )
-
-    parts = {"timestamp": "google.protobuf.Timestamp", "parent_frame_id": "string", "child_frame_id": "string"}
-    parts |= {"translation": "foxglove.Vector3", "rotation": "foxglove.Quaternion"}
-    files = ("google/protobuf/timestamp.proto", "foxglove/Vector3.proto", "foxglove/Quaternion.proto")
-    add("FrameTransform", parts, *files)
-    add("Vector3", dict.fromkeys("xyz", "double"))
-    add("Quaternion", dict.fromkeys("xyzw", "double"))
-    timestamp_pb2.DESCRIPTOR.CopyToProto(found.file.add())
-    return found.SerializeToString()
-
-
 @pytest.mark.parametrize("damaged", [False, True])
 def test_protobuf_is_read_as_the_recording_describes_it(tmp_path, damaged):
     pytest.importorskip("google.protobuf")
-    definition = described_by_protobuf()
+    definition = recordings.foxglove_protobuf_definition()
     types = {"/tf": ("foxglove.FrameTransform", "protobuf", definition[: -40 if damaged else None], "protobuf")}
     rows = [("/tf", START, recordings.foxglove_protobuf("a", "b", coframe.Transform([1.0, 2.0, 3.0]), START + 5))]
     rows.append(("/tf", START + 1, b"\x12\xffcut"))

@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import sys
+import threading
 import zlib
 from collections import Counter
 from pathlib import Path
@@ -267,6 +268,35 @@ def test_what_a_killed_writer_leaves_can_be_read_wherever_it_was_killed(tmp_path
         with coframe.open_bag(torn) as bag:
             assert bag.topics["/tf"].messages >= 30
             assert next(bag.messages("/tf")).data == rows[0][2]
+
+
+def test_it_can_be_read_while_it_is_written(tmp_path):
+    stopped = threading.Event()
+    with Writer(tmp_path / "run", compression="none") as writer:
+        tf = writer.add_topic("/tf", TF)
+        rows = recordings.messages()[1:]
+        for _, at, data in rows:
+            writer.write(tf, data, at)
+        writer.flush()
+
+        def write():
+            while not stopped.is_set():
+                for _, at, data in rows:
+                    writer.write(tf, data, at)
+                    writer.flush()
+
+        thread = threading.Thread(target=write)
+        thread.start()
+        counts = []
+        try:
+            for _ in range(30):
+                with coframe.open_bag(tmp_path / "run") as bag:
+                    counts.append(bag.topics["/tf"].messages)
+        finally:
+            stopped.set()
+            thread.join()
+    assert COUNT <= counts[0] < counts[-1]
+    assert counts == sorted(counts)
 
 
 def test_a_folder_that_is_there_is_refused(tmp_path):
