@@ -142,7 +142,27 @@ def test_the_command_says_how_times_were_read(path, tmp_path):
     assert told in ended.stderr
     for option in ("time:h", ":s"):
         ended = CliRunner().invoke(app, [*command, "--point-times", option])
-        assert (ended.exit_code, f"--point-times: '{option}' is no field" in ended.stderr) == (2, True)
+        assert (ended.exit_code, f"'{option}' is no field with a unit" in ended.stderr) == (2, True)
+
+
+def test_what_cannot_be_meant_is_refused(path, tmp_path):
+    def cloud(*options, frame="map", output="out.ply"):
+        ended = CliRunner().invoke(app, ["cloud", str(path), *options, "--frame", frame, "-o", str(tmp_path / output)])
+        return ended.exit_code, ended.stderr
+
+    code, text = cloud("/points", output="out.las")
+    assert (code, "there is no format 'las'" in text) == (2, True)
+    code, text = cloud("/points", frame="mapp")
+    assert (code, text.count("mapp"), "Did you mean 'map'?" in text) == (1, 2, True)
+    assert not list(tmp_path.glob("out*"))
+
+
+def test_scans_have_two_fields(shared):
+    with coframe.open_bag(shared / "recordings" / "tb3_gazebo_walker") as recording:
+        with pytest.raises(ValueError, match="scans have no field ring, only index, intensity"):
+            Clouds(recording, "/scan", "odom", fields=["ring"])
+        (cloud,) = Clouds(recording, "/scan", "odom", fields=["index"], at=recording.span[1])
+        assert cloud.points.dtype.names == ("x", "y", "z", "index")
 
 
 def test_a_frame_that_moves_needs_one_that_does_not(path):

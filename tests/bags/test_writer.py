@@ -303,7 +303,7 @@ def test_a_folder_that_is_there_is_refused(tmp_path):
     (tmp_path / "run").mkdir()
     with pytest.raises(coframe.RecordingError, match="is there already, and nothing is overwritten"):
         Writer(tmp_path / "run")
-    with pytest.raises(coframe.RecordingError, match="cannot be written: "):
+    with pytest.raises(coframe.RecordingError, match="cannot be made: "):
         Writer("/proc/run")
     with pytest.raises(ValueError, match="there is no compression 'zip'"):
         Writer(tmp_path / "other", compression="zip")

@@ -13,6 +13,7 @@ import json
 import multiprocessing
 import os
 import signal
+from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -191,7 +192,8 @@ def _in_pool(waiting: list[_Job], workers: int) -> Any:
         try:
             while waiting or running:
                 while waiting and len(running) < workers:
-                    running[pool.submit(answer, *waiting[-1])] = waiting[-1]
+                    with _interrupts_waiting():
+                        running[pool.submit(answer, *waiting[-1])] = waiting[-1]
                     waiting.pop()
                 done, _ = concurrent.futures.wait(running, return_when=concurrent.futures.FIRST_COMPLETED)
                 for future in done:
@@ -205,9 +207,24 @@ def _in_pool(waiting: list[_Job], workers: int) -> Any:
     return []
 
 
+@contextmanager
+def _interrupts_waiting() -> Iterator[None]:
+    """Ctrl-C has to wait until processes have been started: they inherit that, and say nothing while they load."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _end_at_interrupt() -> None:
     """At Ctrl-C without a word: the one who asks has one."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
 
 
 def _on_dask(jobs: list[_Job], workers: int | None) -> Iterator[Answer]:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["Cloud", "Clouds"]
 
 _CLOUD, _SCAN = "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan"
+_OF_SCANS = {"intensity", "index"}
 _LEAST_PENDING = 1_000_000  # points that are gathered before they are thinned
 
 
@@ -67,11 +68,12 @@ class Clouds:
         points: How many points.
         left_out: Messages that could not be transformed or read, by the reason.
         points_left_out: Single points that could not, by the reason.
+        hint: What to do about the first message that could not be transformed; "" if there is none.
         times_read: In how many messages points were moved by their own times, by how these were taken.
 
     Raises:
         RecordingError: There is no such topic, or it has other messages.
-        ValueError: ``deskew`` or ``point_times`` is not among what they may be.
+        ValueError: ``deskew``, ``point_times`` or the fields of a scan are not among what they may be.
     """
 
     def __init__(
@@ -106,6 +108,8 @@ class Clouds:
         self._time_field, self._time_unit = _field_and_unit(point_times)
         self._fixed = fixed
         self._fields = None if fields is None else [name for name in fields if name not in {"x", "y", "z"}]
+        if self._type == _SCAN and (unknown := set(self._fields or ()) - _OF_SCANS):
+            raise ValueError(f"scans have no field {', '.join(sorted(unknown))}, only {', '.join(sorted(_OF_SCANS))}")
         self._reset()
 
     def _reset(self) -> None:
@@ -113,6 +117,7 @@ class Clouds:
         self.left_out: dict[str, int] = {}
         self.points_left_out: dict[str, int] = {}
         self.times_read: dict[str, int] = {}
+        self.hint = ""
         self._reasons: dict[tuple[Any, ...], str] = {}
 
     @property
@@ -175,6 +180,7 @@ class Clouds:
             points, times = points[finite], times[finite] if times is not None else None
             deskewed = self._move(points, times, frame, recorded.stamp)
         except TransformException as error:
+            self.hint = self.hint or error.hint
             self._note(self.left_out, self._reason(error))
         except (DecodeError, ValueError, AttributeError) as error:
             self._note(self.left_out, f"cannot be read: {error}")

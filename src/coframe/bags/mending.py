@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from collections import Counter
 from functools import partial
 from pathlib import Path
@@ -86,9 +87,14 @@ def mend(
     with open_bag(source, progress=partial(progress, "reading")) as recording:
         added = [] if statics is None else _statics_of(statics)
         found = recording.problems
-        with Writer(target, compression=compression) as writer:
-            work = _Mending(recording, writer, rename)
-            work.run(added, partial(progress, "writing"))
+        writer = Writer(target, compression=compression)
+        work = _Mending(recording, writer, rename)
+        try:
+            with writer:
+                work.run(added, partial(progress, "writing"))
+        except KeyboardInterrupt:  # half a recording would look like a whole one
+            shutil.rmtree(writer.path, ignore_errors=True)
+            raise
         found = list(dict.fromkeys([*found, *recording.problems]))
     with open_bag(target, progress=partial(progress, "checking")) as anew:
         left = summarize(anew).problems

@@ -112,7 +112,6 @@ class Writer:
         self._closed = 0  # bytes of finished files
         self._first_size = 0  # bytes of the file before its own messages
         self._first_time: int | None = None
-        self._failed = False
         try:
             self.path.mkdir(parents=True)
         except FileExistsError:
@@ -120,7 +119,9 @@ class Writer:
                 f"{self.path} is there already, and nothing is overwritten", hint="Choose another folder."
             ) from None
         except OSError as error:
-            raise self._cannot_write(error) from None
+            raise RecordingError(
+                f"{self.path} cannot be made: {error.strerror or error}", hint="Name a folder where you may write."
+            ) from None
         self._mcap = self._writing(self._open)
         self._write_metadata()
 

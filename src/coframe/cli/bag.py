@@ -13,8 +13,8 @@ from rich.table import Table
 from rich.text import Text
 
 from coframe.bags import COMPRESSIONS, mend, summarize
-from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, seconds, working
-from coframe.cli.session import KeepOption, PrefixOption, fail, printable, session
+from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, seconds, work, working
+from coframe.cli.session import KeepOption, PrefixOption, fail, printable
 
 if TYPE_CHECKING:
     from coframe.bags import Summary
@@ -41,7 +41,7 @@ def info(
 
     Example: coframe bag info run.mcap
     """
-    with session(), opened(bag, namespace, prefix, keep) as recording:
+    with work(), opened(bag, namespace, prefix, keep) as recording:
         summary = summarize(recording)
         if as_json:
             print(json.dumps(_plain(summary), indent=2))
@@ -68,7 +68,7 @@ def fix(
     """
     if compression not in COMPRESSIONS:
         fail(f"--compression: there is no {compression!r}: it is one of {', '.join(COMPRESSIONS)}", code=2)
-    with session():
+    with work():
         with working() as progress:
             mended = mend(
                 bag, output, statics=statics, prefix=prefix, keep=keep, compression=compression, progress=progress

@@ -12,8 +12,8 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from coframe.bags import Question, answer_all
 from coframe.bags.batch import ENGINES
-from coframe.cli.recordings import NamespaceOption  # noqa: TC001 - typer reads the annotations
-from coframe.cli.session import KeepOption, PrefixOption, fail, printable, session
+from coframe.cli.recordings import NamespaceOption, work
+from coframe.cli.session import KeepOption, PrefixOption, fail, printable
 
 if TYPE_CHECKING:
     from coframe.bags import Answer
@@ -50,7 +50,7 @@ def batch(
         fail(str(error), code=2)
     if on not in ENGINES:
         fail(f"--on is one of {', '.join(ENGINES)}, not {on!r}", code=2)
-    with session():
+    with work():
         answers = _ask(bags, question, output, on, workers)
         bad = [one for one in answers if one.error]
         for one in answers:

@@ -11,8 +11,8 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from coframe.bags import Clouds, write_clouds
-from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened
-from coframe.cli.session import KeepOption, PrefixOption, fail, printable, session
+from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, work
+from coframe.cli.session import KeepOption, PrefixOption, fail, printable
 
 if TYPE_CHECKING:
     from coframe.bags import Recording
@@ -62,7 +62,7 @@ def cloud(
         fail(f"--voxel must be above 0 m, not {voxel:g}", code=2)
     if at is not None and (start is not None or stop is not None):
         fail("--at excludes --start and --stop", code=2)
-    with session(), opened(bag, namespace, prefix, keep) as recording:
+    with work(), opened(bag, namespace, prefix, keep) as recording:
         when = {"at": at, "start": start, "stop": stop}
         try:
             clouds = Clouds(
@@ -78,7 +78,7 @@ def cloud(
         except ValueError as error:
             if hasattr(error, "hint"):
                 raise
-            fail(f"--point-times: {error}", code=2)
+            fail(str(error), code=2)
         try:
             points = _write(clouds, output, format_, voxel)
         except ValueError as error:
@@ -86,9 +86,9 @@ def cloud(
                 raise
             fail(str(error), "--fields names the fields to keep." if "fields" in str(error) else "", code=2)
         except OSError as error:
-            fail(f"{output} cannot be written: {error.strerror or error}", "May you write there?")
-        finally:
-            _tell(clouds)
+            hint = "Does the folder exist, and may you write there?"
+            fail(f"{output} cannot be written: {error.strerror or error}", hint)
+        _tell(clouds)
         print(f"{printable(str(output))}: {points} points of {clouds.messages} messages, in {printable(frame)}")
 
 

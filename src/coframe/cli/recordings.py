@@ -20,14 +20,14 @@ from rich.progress import (
 )
 
 from coframe.bags import open_bag, parse_instant
-from coframe.cli.session import fail
+from coframe.cli.session import fail, session
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from coframe.bags import Recording
 
-__all__ = ["BagArgument", "NamespaceOption", "instant", "opened", "reading", "seconds", "working"]
+__all__ = ["BagArgument", "NamespaceOption", "instant", "opened", "reading", "seconds", "work", "working"]
 
 SECOND = 1_000_000_000
 
@@ -35,6 +35,16 @@ BagArgument = Annotated[Path, typer.Argument(metavar="BAG", help="A .mcap, .db3 
 NamespaceOption = Annotated[
     str | None, typer.Option(help="Only the transforms of this namespace, such as /robot1.", show_default=False)
 ]
+
+
+@contextmanager
+def work() -> Iterator[None]:
+    """A session with an end of its own: where Ctrl-C comes first, the work is not done, and the exit code is 130."""
+    with session():
+        try:
+            yield
+        except KeyboardInterrupt:
+            raise typer.Exit(130) from None
 
 
 @contextmanager
