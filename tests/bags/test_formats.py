@@ -6,6 +6,7 @@ import sys
 import numpy as np
 import pytest
 import recordings
+import yaml
 import zstandard
 from mcap.writer import CompressionType
 from recordings import COUNT, SECOND, START, cdr, humble, messages, ros1
@@ -13,6 +14,8 @@ from rosbags.rosbag1 import Writer as Rosbag1Writer
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 import coframe
+from coframe.bags import OfferedQos
+from coframe.bags.offered_qos import to_yaml
 
 RANGE_OF_IRON = b"""std_msgs/Header header
 uint8 radiation_type
@@ -60,6 +63,38 @@ def test_rosbag2_of_any_compression(tmp_path, plugin, compression):
         recordings.assert_same(recording.buffer)
         assert [m.message.transforms[0].child_frame_id for m in recording.messages("tf_static")] == ["lidar"]
         assert recording.message_at("/tf", START + SECOND).stamp == START + SECOND - SECOND // 20 + 19
+
+
+@pytest.mark.parametrize("version", range(4, 10))
+def test_metadata_of_every_version(tmp_path, version):
+    bag = recordings.write_rosbag2(tmp_path / "bag")
+    text = yaml.safe_load((bag / "metadata.yaml").read_text())
+    about = text["rosbag2_bagfile_information"]
+    about["version"] = version
+    for since, names in ((5, ("files",)), (6, ("custom_data",)), (8, ("ros_distro",))):
+        if version < since:
+            for name in names:
+                del about[name]
+    for topic in about["topics_with_message_count"]:
+        if version < 9:
+            topic["topic_metadata"]["offered_qos_profiles"] = to_yaml([OfferedQos()])
+        if version < 7:
+            del topic["topic_metadata"]["type_description_hash"]
+    (bag / "metadata.yaml").write_text(yaml.safe_dump(text))
+    with read(bag) as recording:
+        recordings.assert_same(recording.buffer)
+        assert recording.problems == []
+
+
+@pytest.mark.parametrize("plugin", [StoragePlugin.SQLITE3, StoragePlugin.MCAP])
+def test_a_closed_recording_has_its_transforms_only(tmp_path, plugin):
+    with read(recordings.write_rosbag2(tmp_path / "bag", plugin)) as recording:
+        messages = recording.messages("/tf")
+        next(messages)
+    recordings.assert_same(recording.buffer)
+    for late in (messages, recording.messages("/tf")):
+        with pytest.raises(coframe.RecordingError, match="is closed: only its transforms are left"):
+            next(late)
 
 
 def test_rosbag2_without_its_metadata_and_by_the_name_of_the_metadata(tmp_path):
