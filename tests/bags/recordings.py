@@ -208,6 +208,32 @@ def foxglove_protobuf_many(*facts):
     return _part(1, foxglove_protobuf(*facts))
 
 
+def foxglove_protobuf_definition():
+    """Foxglove's FrameTransform and what it is made of, the last one first, as a compiler may give them."""
+    from google.protobuf import descriptor_pb2, timestamp_pb2
+
+    found = descriptor_pb2.FileDescriptorSet()
+
+    def add(name, fields, *dependencies):
+        file = found.file.add(name=f"foxglove/{name}.proto", package="foxglove", syntax="proto3")
+        file.dependency.extend(dependencies)
+        message = file.message_type.add(name=name)
+        for number, (field, kind) in enumerate(fields.items(), start=1):
+            kinds = {"double": {"type": 1}, "string": {"type": 9}}
+            message.field.add(
+                name=field, number=number, label=1, **kinds.get(kind, {"type": 11, "type_name": f".{kind}"})
+            )
+
+    parts = {"timestamp": "google.protobuf.Timestamp", "parent_frame_id": "string", "child_frame_id": "string"}
+    parts |= {"translation": "foxglove.Vector3", "rotation": "foxglove.Quaternion"}
+    files = ("google/protobuf/timestamp.proto", "foxglove/Vector3.proto", "foxglove/Quaternion.proto")
+    add("FrameTransform", parts, *files)
+    add("Vector3", dict.fromkeys("xyz", "double"))
+    add("Quaternion", dict.fromkeys("xyzw", "double"))
+    timestamp_pb2.DESCRIPTOR.CopyToProto(found.file.add())
+    return found.SerializeToString()
+
+
 def foxglove_cdr(parent, child, transform, at):
     seconds, nanoseconds = divmod(at, SECOND)
     body = struct.pack("<iI", seconds, nanoseconds)

@@ -1,5 +1,11 @@
 """The same question to many recordings: one dataset, and none of them stops the others."""
 
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 import recordings
@@ -7,7 +13,7 @@ from deadly import DeadlyQuestion
 from typer.testing import CliRunner
 
 import coframe
-from coframe.bags import Question, answer, answer_all, batch
+from coframe.bags import Answer, Question, answer, answer_all, batch
 from coframe.cli.app import app
 
 arrow_dataset = pytest.importorskip("pyarrow.dataset")
@@ -95,20 +101,44 @@ def test_a_cluster_of_dask(bags, tmp_path):
     assert_complete(bags, answers, tmp_path / "out")
 
 
+RAY = """
+import json, sys
+from coframe.bags import answer_all
+from deadly import DeadlyQuestion
+
+folder, *bags = sys.argv[1:]
+answers = answer_all(bags, DeadlyQuestion("odom", "lidar", rate=10), folder, on="ray", workers=2)
+print(json.dumps(answers))
+"""
+
+
+@pytest.mark.slow
+def test_a_cluster_of_ray(bags, tmp_path, network):
+    """One that Ray makes for itself, on a network of its own; one of the recordings ends its worker's process."""
+    pytest.importorskip("ray", reason="Ray is not installed (pip install ray)")
+    deadly = recordings.write_mcap(bags[0].with_name("deadly.mcap"))
+    command = network.command(sys.executable, "-c", RAY, tmp_path / "out", *bags, deadly)
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent), "RAY_USAGE_STATS_ENABLED": "0"}
+    ended = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
+    assert ended.returncode == 0, ended.stderr
+    *answers, dead = (Answer(*values) for values in json.loads(ended.stdout.splitlines()[-1]))  # Ray talks, too
+    assert_complete(bags, answers, tmp_path / "out")
+    assert dead.error.startswith("Ray says: ")
+
+
 @pytest.mark.usefixtures("in_this_process")
 def test_the_command_lists_the_bad_ones_in_the_end(bags, tmp_path):
     command = ["batch", "odom", "lidar", *map(str, bags), "--rate", "10", "-o", str(tmp_path / "out")]
     ended = CliRunner().invoke(app, command)
     assert ended.exit_code == 1
     assert "poses of 3 recordings" in ended.stdout
-    assert f"{bags[1]}: " in ended.stderr
+    assert f"coframe: {bags[1]} is no recording: nothing.mcap: it is neither" in ended.stderr
+    assert ended.stderr.count(str(bags[1])) == 1
     assert ended.stderr.rstrip().endswith("2 of 5 recordings have no answer: see above")
     assert CliRunner().invoke(app, [*command, "--on", "abacus"]).exit_code == 2
 
 
 def test_what_is_not_installed_is_said_before_any_work(bags, tmp_path, monkeypatch):
-    import sys
-
     monkeypatch.setitem(sys.modules, "ray", None)
     with pytest.raises(coframe.RecordingError, match="Ray needs the package ray") as caught:
         answer_all(bags, WALK, tmp_path / "out", on="ray")

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 import recordings
 from recordings import SECOND, START
+from typer.testing import CliRunner
 
 import coframe
 from coframe.bags import Clouds, write_clouds
+from coframe.cli.app import app
 from coframe.messages import find, serialize
 
 CLOUD, SCAN = "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan"
@@ -55,6 +57,7 @@ def sweep(stamp, kind):
         "velodyne": ("time", "<f4", offsets / SECOND),
         "hesai": ("timestamp", "<f8", (stamp + offsets) / SECOND),
         "livox": ("timestamp", "<f8", (stamp + offsets).astype(float)),
+        "odd": ("us", "<u4", offsets // 1000),
     }
     name, dtype, values = times.get(kind, ("ring", "<f4", np.zeros(len(WALL))))
     points = np.zeros(len(WALL) + 1, [(a, "<f4") for a in "xyz"] + [("intensity", "<u2"), (name, dtype)])
@@ -77,7 +80,7 @@ def path(tmp_path):
     rows.append(("/tf_static", START, recordings.cdr("base", "lidar", buffer.lookup("base", "lidar"), START)))
     for i in range(2, 18):
         stamp = START + i * SWEEP
-        rows += [(f"/points_{kind}", stamp, sweep(stamp, kind)) for kind in KINDS]
+        rows += [(f"/points_{kind}", stamp, sweep(stamp, kind)) for kind in (*KINDS, "odd")]
         rows += [("/points", stamp, sweep(stamp, "ring"))]
     for stamp in (START - SECOND, START + 3 * SECOND):
         rows.append(("/points_ouster", stamp, cloud_message(np.ones(3, [(a, "<f4") for a in "xyz"]), stamp)))
@@ -105,6 +108,61 @@ def test_points_of_a_moving_sensor_fall_on_the_wall(path, kind):
         smeared = next(iter(Clouds(recording, f"points_{kind}", "map", start=START + 2 * SWEEP, deskew="off")))
         assert not smeared.deskewed
         assert 0.03 < np.abs(xyz(smeared.points) - WALL).max() < 0.5
+
+
+def test_a_time_that_cannot_be_guessed_is_named(path):
+    """The driver calls it `us`, and nobody knows that name."""
+    stamp = START + 5 * SWEEP
+    with coframe.open_bag(path) as recording:
+        (unknown,) = Clouds(recording, "/points_odd", "map", at=stamp)
+        assert not unknown.deskewed
+        clouds = Clouds(recording, "/points_odd", "map", at=stamp, point_times="us:us")
+        (cloud,) = clouds
+        assert clouds.times_read == {"the field us, taken for us from the message's stamp": 1}
+        np.testing.assert_allclose(xyz(cloud.points), WALL, rtol=0, atol=1e-6)
+        (guessed,) = Clouds(recording, "/points_odd", "map", at=stamp, point_times="us")
+        assert np.abs(xyz(guessed.points) - WALL).max() > 0.03  # integers are taken for nanoseconds
+        wrong = Clouds(recording, "/points_odd", "map", at=stamp, point_times="us:s")
+        assert list(wrong) == []
+        assert list(wrong.left_out) == ["cannot be read: the field 'us' in s is more than 10 s off the stamp"]
+        gone = Clouds(recording, "/points_odd", "map", at=stamp, point_times="time", fields=[])
+        assert list(gone) == []
+        assert "there is no field 'time' among" in next(iter(gone.left_out))
+        with pytest.raises(ValueError, match=r"'us:h' is no field with a unit: write time:us"):
+            Clouds(recording, "/points_odd", "map", point_times="us:h")
+
+
+def test_the_command_says_how_times_were_read(path, tmp_path):
+    command = ["cloud", str(path), "/points_velodyne", "--frame", "map", "-o", str(tmp_path / "out.ply")]
+    ended = CliRunner().invoke(app, command)
+    assert ended.exit_code == 0
+    told = (
+        "coframe: points of 16 messages moved by their own times: the field time, taken for s from the message's stamp"
+    )
+    assert told in ended.stderr
+    for option in ("time:h", ":s"):
+        ended = CliRunner().invoke(app, [*command, "--point-times", option])
+        assert (ended.exit_code, f"'{option}' is no field with a unit" in ended.stderr) == (2, True)
+
+
+def test_what_cannot_be_meant_is_refused(path, tmp_path):
+    def cloud(*options, frame="map", output="out.ply"):
+        ended = CliRunner().invoke(app, ["cloud", str(path), *options, "--frame", frame, "-o", str(tmp_path / output)])
+        return ended.exit_code, ended.stderr
+
+    code, text = cloud("/points", output="out.las")
+    assert (code, "there is no format 'las'" in text) == (2, True)
+    code, text = cloud("/points", frame="mapp")
+    assert (code, text.count("mapp"), "Did you mean 'map'?" in text) == (1, 2, True)
+    assert not list(tmp_path.glob("out*"))
+
+
+def test_scans_have_two_fields(shared):
+    with coframe.open_bag(shared / "recordings" / "tb3_gazebo_walker") as recording:
+        with pytest.raises(ValueError, match="scans have no field ring, only index, intensity"):
+            Clouds(recording, "/scan", "odom", fields=["ring"])
+        (cloud,) = Clouds(recording, "/scan", "odom", fields=["index"], at=recording.span[1])
+        assert cloud.points.dtype.names == ("x", "y", "z", "index")
 
 
 def test_a_frame_that_moves_needs_one_that_does_not(path):

@@ -91,7 +91,7 @@ def test_time_travel(bag):
     ("arguments", "reason", "hint"),
     [
         (("odom", "lider"), '"lider" passed to lookupTransform argument source_frame does not exist', "'lidar'"),
-        (("odom", "base", "--at", "1h"), "Lookup would require extrapolation into the future", "odom -> base"),
+        (("odom", "base", "--at", "1h"), "Lookup would require extrapolation into the future", "base, odom from"),
     ],
 )
 def test_what_cannot_be_looked_up_is_one_sentence_and_a_hint(bag, arguments, reason, hint):
@@ -100,6 +100,36 @@ def test_what_cannot_be_looked_up_is_one_sentence_and_a_hint(bag, arguments, rea
     assert reason in error
     assert hint in error
     assert len(error.splitlines()) == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "frames"),
+    [
+        (("odom", "lidar", "--at", "1h"), "lidar, odom"),
+        (("lidar", "base", "--at", "1s", "--fixed", "odom", "--source-time", "-1h"), "base, lidar, odom"),
+    ],
+)
+def test_a_time_outside_of_the_recording_tells_which_times_are_inside(bag, arguments, frames):
+    last = (COUNT - 1) * (SECOND // 20 + 1)
+    code, _, error = run("lookup", bag, *arguments)
+    assert code == 1
+    told = f"The recording tells of {frames} from 1700000000.000000000 to 1700000002.{last % SECOND:09d}"
+    assert f"{told}, which is 0s to 2.{last % SECOND:09d}s." in error
+    assert "wait for it" not in error
+
+
+def test_ctrl_c_ends_work_that_is_not_done_with_another_code(bag, tmp_path, monkeypatch):
+    from coframe.bags import mending, recording
+
+    def interrupted(*_arguments):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(mending._Mending, "_mended", interrupted)
+    assert run("bag", "fix", bag, tmp_path / "new")[0] == 130
+    assert list(tmp_path.iterdir()) == []
+    monkeypatch.setattr(recording.Recording, "_scan", interrupted)
+    for command in (("bag", "info", bag), ("lookup", bag, "odom", "base"), ("trajectory", bag, "odom", "base")):
+        assert run(*command) == (130, "", "")
 
 
 def test_a_recording_that_is_not_there(tmp_path):

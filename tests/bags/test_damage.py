@@ -3,6 +3,7 @@
 import itertools
 import random
 import sqlite3
+import sys
 import time
 
 import numpy as np
@@ -20,6 +21,7 @@ KINDS = [
     "lz4.mcap",
     "plain.mcap",
     "unchunked.mcap",
+    "protobuf.mcap",
     "plain.bag",
     "bz2.bag",
     "lz4.bag",
@@ -34,6 +36,11 @@ def write(folder, kind):
     path = folder / kind
     if suffix == "mcap":
         packed = {"zstd": CompressionType.ZSTD, "lz4": CompressionType.LZ4}.get(name, CompressionType.NONE)
+        if name == "protobuf":
+            pytest.importorskip("google.protobuf")
+            type_ = ("foxglove.FrameTransform", name, recordings.foxglove_protobuf_definition(), name)
+            rows, types = messages(recordings.foxglove_protobuf), dict.fromkeys(("/tf", "/tf_static"), type_)
+            return recordings.write_mcap(path, packed, rows=rows, types=types)
         return recordings.write_mcap(path, packed, chunked=name != "unchunked")
     if suffix == "bag":
         return recordings.write_rosbag1(path, {f.name.lower(): f for f in Rosbag1Writer.CompressionFormat}.get(name))
@@ -247,7 +254,14 @@ def mutated(rng, data):
     return bytes(out) or b"\0"
 
 
+def most_memory():
+    """Bytes that this process had at its worst."""
+    resource = pytest.importorskip("resource")
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
+
+
 def fuzz(folder, kind, cases, seed):
+    before = most_memory()
     whole = write(folder, kind).read_bytes()
     path = folder / f"mutated_{kind}"
     rng = random.Random(seed)
@@ -259,6 +273,7 @@ def fuzz(folder, kind, cases, seed):
         partly += count is not None and 0 < count < COUNT + 1
     assert refused < cases
     assert partly > 0
+    assert most_memory() - before < 1 << 30
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -1,10 +1,12 @@
 """One walk in every format that there is gives the same answers."""
 
 import itertools
+import sys
 
 import numpy as np
 import pytest
 import recordings
+import yaml
 import zstandard
 from mcap.writer import CompressionType
 from recordings import COUNT, SECOND, START, cdr, humble, messages, ros1
@@ -12,6 +14,8 @@ from rosbags.rosbag1 import Writer as Rosbag1Writer
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 import coframe
+from coframe.bags import OfferedQos
+from coframe.bags.offered_qos import to_yaml
 
 RANGE_OF_IRON = b"""std_msgs/Header header
 uint8 radiation_type
@@ -59,6 +63,38 @@ def test_rosbag2_of_any_compression(tmp_path, plugin, compression):
         recordings.assert_same(recording.buffer)
         assert [m.message.transforms[0].child_frame_id for m in recording.messages("tf_static")] == ["lidar"]
         assert recording.message_at("/tf", START + SECOND).stamp == START + SECOND - SECOND // 20 + 19
+
+
+@pytest.mark.parametrize("version", range(4, 10))
+def test_metadata_of_every_version(tmp_path, version):
+    bag = recordings.write_rosbag2(tmp_path / "bag")
+    text = yaml.safe_load((bag / "metadata.yaml").read_text())
+    about = text["rosbag2_bagfile_information"]
+    about["version"] = version
+    for since, names in ((5, ("files",)), (6, ("custom_data",)), (8, ("ros_distro",))):
+        if version < since:
+            for name in names:
+                del about[name]
+    for topic in about["topics_with_message_count"]:
+        if version < 9:
+            topic["topic_metadata"]["offered_qos_profiles"] = to_yaml([OfferedQos()])
+        if version < 7:
+            del topic["topic_metadata"]["type_description_hash"]
+    (bag / "metadata.yaml").write_text(yaml.safe_dump(text))
+    with read(bag) as recording:
+        recordings.assert_same(recording.buffer)
+        assert recording.problems == []
+
+
+@pytest.mark.parametrize("plugin", [StoragePlugin.SQLITE3, StoragePlugin.MCAP])
+def test_a_closed_recording_has_its_transforms_only(tmp_path, plugin):
+    with read(recordings.write_rosbag2(tmp_path / "bag", plugin)) as recording:
+        messages = recording.messages("/tf")
+        next(messages)
+    recordings.assert_same(recording.buffer)
+    for late in (messages, recording.messages("/tf")):
+        with pytest.raises(coframe.RecordingError, match="is closed: only its transforms are left"):
+            next(late)
 
 
 def test_rosbag2_without_its_metadata_and_by_the_name_of_the_metadata(tmp_path):
@@ -238,6 +274,42 @@ def test_messages_without_a_header_are_on_the_clock_of_the_simulation(tmp_path):
 
 
 CLOCK = "rosgraph_msgs/msg/Clock"
+
+
+@pytest.mark.parametrize("damaged", [False, True])
+def test_protobuf_is_read_as_the_recording_describes_it(tmp_path, damaged):
+    pytest.importorskip("google.protobuf")
+    definition = recordings.foxglove_protobuf_definition()
+    types = {"/tf": ("foxglove.FrameTransform", "protobuf", definition[: -40 if damaged else None], "protobuf")}
+    rows = [("/tf", START, recordings.foxglove_protobuf("a", "b", coframe.Transform([1.0, 2.0, 3.0]), START + 5))]
+    rows.append(("/tf", START + 1, b"\x12\xffcut"))
+    recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types=types))
+    first, second = recording.messages("/tf")
+    if damaged:
+        assert first.message == rows[0][2]
+        assert "given as bytes: its definition cannot be used" in recording.problems[-1]
+        return
+    told = first.message
+    assert (told.parent_frame_id, told.translation.y, told.timestamp.nanos) == ("a", 2.0, 5)
+    with pytest.raises(coframe.DecodeError, match=r"foxglove\.FrameTransform: "):
+        _ = second.message
+
+
+def test_protobuf_without_its_package_stays_bytes(tmp_path, monkeypatch):
+    types = {"/tf": ("foxglove.FrameTransform", "protobuf", b"", "protobuf")}
+    rows = [("/tf", START, recordings.foxglove_protobuf("a", "b", coframe.Transform(), START))]
+    recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types=types))
+    monkeypatch.setitem(sys.modules, "google.protobuf", None)
+    assert next(recording.messages("/tf")).message == rows[0][2]
+    assert recording.problems[-1].endswith("the package protobuf is not installed (pip install 'coframe[protobuf]')")
+
+
+def test_json_is_read_as_it_is(tmp_path):
+    types = {"/tf": ("foxglove.FrameTransform", "jsonschema", b"{}", "json")}
+    rows = [("/tf", START, recordings.foxglove_json("a", "b", coframe.Transform(), START + 5))]
+    recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types=types))
+    message = next(recording.messages("/tf")).message
+    assert (message["parent_frame_id"], message["timestamp"]["nsec"]) == ("a", 5)
 
 
 def test_types_are_read_as_the_recording_describes_them(tmp_path):

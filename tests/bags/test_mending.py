@@ -42,6 +42,15 @@ def test_a_recording_that_breaks_off(tmp_path):
     assert [bytes(data) for *_, data in messages] == [data for *_, data in recordings.messages()[: len(messages)]]
 
 
+def test_how_far_it_is_is_told(tmp_path):
+    told = []
+    mend(recordings.write_mcap(tmp_path / "a.mcap"), tmp_path / "new", progress=lambda *step: told.append(step))
+    assert list(dict.fromkeys(what for what, *_ in told)) == ["reading", "writing", "checking"]
+    last = {what: (done, total) for what, done, total in told}
+    assert last["writing"] == (COUNT + 1, COUNT + 1)
+    assert all(done == total > 0 for done, total in last.values())
+
+
 def test_metadata_that_name_other_files(shared, tmp_path):
     code, output = fix(shared / "recordings" / "broken" / "db3_renamed_metadata_stale", tmp_path / "new")
     assert code == 0

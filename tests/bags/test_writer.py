@@ -1,23 +1,31 @@
 """Recordings as coframe writes them, read by programs that others wrote."""
 
 import errno
+import io
 import json
 import os
 import shutil
 import subprocess
 import sys
-import textwrap
+import threading
+import zlib
+from collections import Counter
+from pathlib import Path
 
 import pytest
 import recordings
+import yaml
+import zstandard
+from mcap.opcode import Opcode
 from mcap.reader import make_reader
-from mcap.stream_reader import StreamReader
+from mcap.records import Channel, Chunk, ChunkIndex, Message, Schema, Statistics, SummaryOffset
+from mcap.stream_reader import StreamReader, breakup_chunk
 from recordings import COUNT, SECOND, START, TF
 from rosbags.interfaces import QosDurability
 from rosbags.rosbag2 import Reader
 
 import coframe
-from coframe.bags import OfferedQos, Writer, from_yaml
+from coframe.bags import OfferedQos, Writer, from_yaml, mcap_writer
 from coframe.bags.mcap_writer import McapWriter
 from coframe.bags.offered_qos import to_yaml
 
@@ -58,14 +66,17 @@ def read_by_mcap(file):
 
 
 @pytest.mark.parametrize("compression", COMPRESSIONS)
-@pytest.mark.parametrize("close", [True, False])
-def test_other_programs_open_it_finished_or_not(tmp_path, compression, close):
+@pytest.mark.parametrize(("close", "has_index"), [(True, True), (False, True), (False, False)])
+def test_other_programs_open_it_finished_or_not(tmp_path, monkeypatch, compression, close, has_index):
+    """Whose recorder was killed has an index, too, unless that is so large that each chunk cannot bring it."""
+    if not has_index:
+        monkeypatch.setattr(mcap_writer, "_LARGEST_INDEX", 700)  # some chunks have one before it is too large
     write_walk(tmp_path / "run", compression=compression, close=close)
     folder = tmp_path / ("run" if close else "killed")
     assert read_by_rosbags(folder) == recordings.messages()
     found, summary = read_by_mcap(folder / "run_0.mcap")
     assert found == recordings.messages()
-    assert (summary is not None) == close
+    assert (summary is not None) == has_index
     with coframe.open_bag(folder) as bag:
         assert bag.problems == []
         recordings.assert_same(bag.buffer)
@@ -82,6 +93,99 @@ def test_the_index_says_what_is_there(tmp_path):
     assert len(summary.chunk_indexes) == summary.statistics.chunk_count > 3
     assert writer.messages == COUNT + 1
     assert writer.size == (tmp_path / "run" / "run_0.mcap").stat().st_size
+
+
+@pytest.mark.parametrize("close", [True, False])
+def test_every_record_agrees_with_the_others(tmp_path, close):
+    """What `mcap doctor` looks at: order, times, counts, offsets and checksums."""
+    write_walk(tmp_path / "run", close=close)
+    data = (tmp_path / ("run" if close else "killed") / "run_0.mcap").read_bytes()
+    records = list(StreamReader(io.BytesIO(data), emit_chunks=True, validate_crcs=True).records)
+    header, footer = records[0], records[-1]
+    assert (header.profile, bool(header.library)) == ("ros2", True)
+    chunks = {index.chunk_start_offset: index for index in records if isinstance(index, ChunkIndex)}
+    assert len(chunks) == sum(isinstance(record, Chunk) for record in records) > 3
+    schemas, channels, latest, counts = {0}, {}, 0, Counter()
+    for offset, index in sorted(chunks.items()):
+        chunk = record_at(data, offset)
+        assert offset + index.chunk_length == min(index.message_index_offsets.values())
+        assert (len(chunk.data), chunk.uncompressed_size) == (index.compressed_size, index.uncompressed_size)
+        inside = breakup_chunk(chunk)
+        messages = [record for record in inside if isinstance(record, Message)]
+        schemas |= {record.id for record in inside if isinstance(record, Schema)}
+        channels |= {record.id: record for record in inside if isinstance(record, Channel)}
+        assert schemas >= {channel.schema_id for channel in channels.values()}
+        times = [message.log_time for message in messages]
+        assert times == sorted(times)
+        assert latest <= times[0] == chunk.message_start_time == index.message_start_time
+        latest = times[-1]
+        assert latest == chunk.message_end_time == index.message_end_time
+        counts.update(channels[message.channel_id].topic for message in messages)
+        for channel, where in index.message_index_offsets.items():
+            entries = record_at(data, where)
+            assert entries.channel_id == channel
+            assert entries.records == [
+                (message.log_time, place) for place, message in placed(chunk) if message.channel_id == channel
+            ]
+    assert counts == {"/tf": COUNT, "/tf_static": 1}
+    (statistics,) = (record for record in records if isinstance(record, Statistics))
+    assert (statistics.message_count, statistics.chunk_count) == (COUNT + 1, len(chunks))
+    assert (statistics.message_start_time, statistics.message_end_time) == (START + 1000, latest)
+    for group in (record for record in records if isinstance(record, SummaryOffset)):
+        assert data[group.group_start] == group.group_opcode
+    assert zlib.crc32(data[footer.summary_start : -4 - 8]) == footer.summary_crc
+
+
+def record_at(data, offset):
+    return next(StreamReader(io.BytesIO(data[offset:]), skip_magic=True, emit_chunks=True).records)
+
+
+def placed(chunk):
+    """Each message of a chunk, and where its record begins."""
+    data, place = zstandard.decompress(chunk.data), 0
+    while place < len(data):
+        if data[place] == Opcode.MESSAGE:
+            yield place, record_at(data, place)
+        place += 9 + int.from_bytes(data[place + 1 : place + 9], "little")
+
+
+def shape(value):
+    """The names in it, in their order, and of what kind their values are; of many alike the first."""
+    if isinstance(value, dict):
+        return [(name, shape(part)) for name, part in value.items()]
+    return [shape(part) for part in value[:1]] if isinstance(value, list) else type(value)
+
+
+def test_metadata_have_what_rosbag2_writes_in_its_order(tmp_path, shared):
+    offered = [OfferedQos(1, transient_local=True)]
+    with Writer(tmp_path / "run") as writer:
+        writer.write(writer.add_topic("/tf_static", TF, offered_qos=offered), recordings.messages()[0][2], START)
+    ours, theirs = (
+        yaml.safe_load((folder / "metadata.yaml").read_text())
+        for folder in (tmp_path / "run", shared / "recordings" / "tb3_gazebo_walker")
+    )
+    assert shape(ours) == shape(theirs)
+    profiles = (
+        text["rosbag2_bagfile_information"]["topics_with_message_count"][0]["topic_metadata"]["offered_qos_profiles"]
+        for text in (ours, theirs)
+    )
+    assert len({str(shape(yaml.safe_load(profile))) for profile in profiles}) == 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("folder", ["run", "killed"])
+def test_rerun_opens_it(tmp_path, folder):
+    """By the program of `pip install rerun-sdk`, where that is installed: it is a hundred megabytes."""
+    rerun = shutil.which("rerun", path=os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]]))
+    if rerun is None:
+        pytest.skip("Rerun is not installed (pip install rerun-sdk)")
+    write_walk(tmp_path / "run", close=False)
+    file, out = tmp_path / folder / "run_0.mcap", tmp_path / "out.rrd"
+    for command in (["check", file], ["convert", file, "-o", out]):
+        ended = subprocess.run([rerun, "mcap", *command], capture_output=True, text=True, check=False)
+        assert ended.returncode == 0, ended.stderr
+        assert "error" not in ended.stderr.lower()
+    assert out.stat().st_size > 10_000
 
 
 def test_types_are_described_and_latched_topics_known_as_such(tmp_path):
@@ -166,47 +270,105 @@ def test_what_a_killed_writer_leaves_can_be_read_wherever_it_was_killed(tmp_path
             assert next(bag.messages("/tf")).data == rows[0][2]
 
 
+def test_it_can_be_read_while_it_is_written(tmp_path):
+    stopped = threading.Event()
+    with Writer(tmp_path / "run", compression="none") as writer:
+        tf = writer.add_topic("/tf", TF)
+        rows = recordings.messages()[1:]
+        for _, at, data in rows:
+            writer.write(tf, data, at)
+        writer.flush()
+
+        def write():
+            while not stopped.is_set():
+                for _, at, data in rows:
+                    writer.write(tf, data, at)
+                    writer.flush()
+
+        thread = threading.Thread(target=write)
+        thread.start()
+        counts = []
+        try:
+            for _ in range(30):
+                with coframe.open_bag(tmp_path / "run") as bag:
+                    counts.append(bag.topics["/tf"].messages)
+        finally:
+            stopped.set()
+            thread.join()
+    assert COUNT <= counts[0] < counts[-1]
+    assert counts == sorted(counts)
+
+
 def test_a_folder_that_is_there_is_refused(tmp_path):
     (tmp_path / "run").mkdir()
     with pytest.raises(coframe.RecordingError, match="is there already, and nothing is overwritten"):
         Writer(tmp_path / "run")
-    with pytest.raises(coframe.RecordingError, match="cannot be written: "):
+    with pytest.raises(coframe.RecordingError, match="cannot be made: "):
         Writer("/proc/run")
     with pytest.raises(ValueError, match="there is no compression 'zip'"):
         Writer(tmp_path / "other", compression="zip")
 
 
-def test_a_full_disk_ends_it_with_a_sentence_and_leaves_what_was_written(tmp_path):
-    """The operating system refuses to let the child's files grow, as a full disk does."""
+FILLING = """
+import sys
+sys.path.insert(0, sys.argv[2])
+import coframe, recordings
+from coframe.bags import Writer
+if len(sys.argv) > 3:
+    import resource
+    resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[3]), int(sys.argv[3])))
+writer = Writer(sys.argv[1], compression="none")
+tf = writer.add_topic("/tf", recordings.TF)
+try:
+    for time in range(100):
+        for topic, at, data in recordings.messages():
+            writer.write(tf, data, at + time * 10**10)
+        writer.flush()
+except coframe.RecordingError as error:
+    print(error)
+try:
+    writer.close()
+except coframe.RecordingError as error:
+    print(error)
+print(writer.messages)
+"""
+
+
+def fill_a_limited_file(path):
+    """The operating system refuses to let the child's files grow: what it says, and how the child ends."""
     pytest.importorskip("resource")
-    code = f"""
-        import resource, sys
-        sys.path.insert(0, {str(recordings.__file__.rsplit("/", 1)[0])!r})
-        import recordings, coframe
-        from coframe.bags import Writer
-        resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
-        writer = Writer({str(tmp_path / "run")!r}, compression="none")
-        tf = writer.add_topic("/tf", recordings.TF)
-        try:
-            for time in range(100):
-                for topic, at, data in recordings.messages():
-                    writer.write(tf, data, at + time * 10**10)
-                writer.flush()
-        except coframe.RecordingError as error:
-            print(error)
-        try:
-            writer.close()
-        except coframe.RecordingError as error:
-            print(error)
-        print(writer.messages)
-    """
-    result = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, check=True)
-    first, *_, count = result.stdout.splitlines()
-    assert first == f"{tmp_path / 'run'} cannot be written: {os.strerror(errno.EFBIG)}"
-    assert int(count) == 2 * (COUNT + 1)
-    found, _ = read_by_mcap(tmp_path / "run" / "run_0.mcap")
-    assert [data for *_, data in found] == 2 * [data for *_, data in recordings.messages()]
-    assert len(read_by_rosbags(tmp_path / "run")) == 2 * (COUNT + 1)
+    command = [sys.executable, "-c", FILLING, path, Path(recordings.__file__).parent, "30000"]
+    return errno.EFBIG, subprocess.run(command, capture_output=True, text=True, check=True).stdout
+
+
+def fill_a_small_disk(path):
+    """A disk of the child's own, in a namespace that goes with it."""
+    in_namespace = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c"]
+    mount = 'mkdir "$0" && mount -t tmpfs -o size=32k small "$0"'
+    if not shutil.which("unshare") or subprocess.run([*in_namespace, mount, path], check=False).returncode != 0:
+        pytest.skip("no small disk can be mounted here (unshare --user --mount)")
+    path.rmdir()
+    script = f'{mount} && "$@" && cp -r "$0/run" "$0.copy"'
+    filling = [sys.executable, "-c", FILLING, path / "run", Path(recordings.__file__).parent]
+    text = subprocess.run([*in_namespace, script, path, *filling], capture_output=True, text=True, check=True).stdout
+    path.with_name(f"{path.name}.copy").rename(path.with_name("run"))
+    return errno.ENOSPC, text.replace(str(path / "run"), str(path.with_name("run")))
+
+
+@pytest.mark.parametrize("disk", ["limited file", "small disk"])
+def test_a_full_disk_ends_it_with_a_sentence_and_leaves_what_was_written(tmp_path, disk):
+    if disk == "limited file":
+        reason, text = fill_a_limited_file(tmp_path / "run")
+    else:
+        reason, text = fill_a_small_disk(tmp_path / "disk")
+    first, *_, count = text.splitlines()
+    assert first == f"{tmp_path / 'run'} cannot be written: {os.strerror(reason)}"
+    walks, rest = divmod(int(count), COUNT + 1)
+    assert (walks > 0, rest) == (True, 0)  # what was flushed, a walk at a time
+    found, summary = read_by_mcap(tmp_path / "run" / "run_0.mcap")
+    assert [data for *_, data in found] == walks * [data for *_, data in recordings.messages()]
+    assert summary.statistics.message_count == int(count)
+    assert len(read_by_rosbags(tmp_path / "run")) == int(count)
 
 
 def test_times_of_sending_that_are_none_do_no_harm(tmp_path):

@@ -13,6 +13,7 @@ import json
 import multiprocessing
 import os
 import signal
+from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -70,9 +71,8 @@ def answer(bag: str, question: Question, folder: str) -> Answer:
     try:
         return _answer(bag, question, Path(folder))
     except Exception as error:  # noqa: BLE001 - one recording must never stop the others
-        hint = getattr(error, "hint", "")
-        text = " ".join(f"{str(error) or type(error).__name__} {hint}".split())
-        return Answer(bag, error=text)
+        parts = (str(error) or type(error).__name__, getattr(error, "hint", ""))
+        return Answer(bag, error=". ".join(" ".join(part.split()).rstrip(".") for part in parts if part) + ".")
 
 
 def answer_all(
@@ -92,9 +92,9 @@ def answer_all(
         folder: The dataset: a Parquet file for each recording, which pyarrow (``pyarrow.dataset.dataset(folder)``),
             pandas, Dask and DuckDB read as one.
         on: ``"processes"`` of this machine; ``"dask"``, the cluster that ``DASK_SCHEDULER_ADDRESS`` or Dask's
-            configuration names, or one of its own on this machine; ``"ray"`` likewise. With these, bags and folder
-            must be where the workers find them.
-        workers: How many processes; by default as many as processors, with Dask and Ray what they take.
+            configuration names, or one of its own on this machine; ``"ray"`` likewise, with ``RAY_ADDRESS``. With
+            these, bags and folder must be where the workers find them, and coframe must be installed there.
+        workers: How many at once; by default as many as processors, with Dask and Ray what they take.
         progress: Told of each answer as it comes.
 
     Returns:
@@ -193,7 +193,8 @@ def _in_pool(waiting: list[_Job], workers: int) -> Any:
         try:
             while waiting or running:
                 while waiting and len(running) < workers:
-                    running[pool.submit(answer, *waiting[-1])] = waiting[-1]
+                    with _interrupts_waiting():
+                        running[pool.submit(answer, *waiting[-1])] = waiting[-1]
                     waiting.pop()
                 done, _ = concurrent.futures.wait(running, return_when=concurrent.futures.FIRST_COMPLETED)
                 for future in done:
@@ -207,9 +208,24 @@ def _in_pool(waiting: list[_Job], workers: int) -> Any:
     return []
 
 
+@contextmanager
+def _interrupts_waiting() -> Iterator[None]:
+    """Ctrl-C has to wait until processes have been started: they inherit that, and say nothing while they load."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _end_at_interrupt() -> None:
     """At Ctrl-C without a word: the one who asks has one."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
 
 
 def _on_dask(jobs: list[_Job], workers: int | None) -> Iterator[Answer]:
@@ -224,18 +240,26 @@ def _on_dask(jobs: list[_Job], workers: int | None) -> Iterator[Answer]:
 
 def _on_ray(jobs: list[_Job], workers: int | None) -> Iterator[Answer]:
     ray = _module("ray", "Ray", "ray")
-    if not ray.is_initialized():
-        ray.init(num_cpus=workers)
-    remote = ray.remote(answer)
-    waiting = {remote.remote(*job): job[0] for job in jobs}
-    while waiting:
-        (reference,), _ = ray.wait(list(waiting), num_returns=1)
-        bag = waiting.pop(reference)
-        try:
-            found = ray.get(reference)
-        except Exception as error:  # noqa: BLE001 - Ray's own: a worker that died, a node that is gone
-            found = Answer(bag, error=f"Ray says: {' '.join(str(error).split())[:300]}")
-        yield found
+    is_ours = not ray.is_initialized()
+    if is_ours:
+        ray.init(log_to_driver=False, logging_level="ERROR")
+    try:
+        remote = ray.remote(max_retries=0)(answer)  # what ended one process would end the next
+        left, waiting = list(reversed(jobs)), dict[Any, str]()
+        while left or waiting:
+            while left and (workers is None or len(waiting) < workers):
+                job = left.pop()
+                waiting[remote.remote(*job)] = job[0]
+            (reference,), _ = ray.wait(list(waiting), num_returns=1)
+            bag = waiting.pop(reference)
+            try:
+                found = ray.get(reference)
+            except Exception as error:  # noqa: BLE001 - Ray's own: a worker that died, a node that is gone
+                found = Answer(bag, error=f"Ray says: {' '.join(str(error).split())[:300]}")
+            yield found
+    finally:
+        if is_ours:
+            ray.shutdown()
 
 
 def _module(name: str, what: str, package: str) -> Any:

@@ -62,6 +62,10 @@ def write_clouds(
     suffix = path.suffix.lower().removeprefix(".")
     is_folder = suffix not in CLOUD_FORMATS or path.is_dir()
     kind = (format_ or "ply") if is_folder else suffix
+    if is_folder and suffix and format_ is None and not path.is_dir():
+        raise ValueError(
+            f"there is no format {suffix!r}: files end with one of {', '.join(CLOUD_FORMATS)}, folders with none"
+        )
     if kind not in CLOUD_FORMATS or (is_folder and kind == "mcap"):
         raise ValueError(f"there is no format {kind!r} for a folder: it is one of {', '.join(CLOUD_FORMATS[:-1])}")
     told = _Told(clouds, progress)
@@ -95,7 +99,7 @@ class _Told:
             reasons = "; ".join(self.clouds.left_out) or "there is no message in that time"
             raise RecordingError(
                 f"nothing of {self.clouds.topic} could be seen from {self.clouds.frame}: {reasons}",
-                hint="`coframe bag info` tells which sensors can be transformed.",
+                hint=self.clouds.hint or "`coframe bag info` tells which sensors can be transformed.",
             )
 
 

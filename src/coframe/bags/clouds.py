@@ -10,7 +10,7 @@ from coframe import time
 from coframe.errors import DecodeError, RecordingError, TransformException
 from coframe.sensors import deskew, project_scan, transform_cloud
 from coframe.sensors.layout import field_of
-from coframe.sensors.point_times import TIME_FIELDS, times_in
+from coframe.sensors.point_times import TIME_FIELDS, UNITS, times_in
 from coframe.sensors.thinning import thinned
 
 if TYPE_CHECKING:
@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 __all__ = ["Cloud", "Clouds"]
 
 _CLOUD, _SCAN = "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan"
+_OF_SCANS = {"intensity", "index"}
 _LEAST_PENDING = 1_000_000  # points that are gathered before they are thinned
 
 
@@ -56,6 +57,8 @@ class Clouds:
         at: Only the newest message that is no newer than this.
         deskew: ``"auto"`` moves each point by its own time where the message tells it (a field such as ``t``, ``time``
             or ``timestamp``; a scan's ``time_increment``), ``"off"`` all by the message's stamp.
+        point_times: The field of a cloud that tells each point's time, and its unit (s, ms, us, ns) behind a colon:
+            ``"time:us"``. Without a unit, or without both, that is guessed from the values: see ``times_read``.
         fixed: A frame that stands still during a sweep, where ``frame`` moves with the sensor.
         fields: The fields to keep besides x, y, z; None: all that have one number a point.
 
@@ -65,9 +68,12 @@ class Clouds:
         points: How many points.
         left_out: Messages that could not be transformed or read, by the reason.
         points_left_out: Single points that could not, by the reason.
+        hint: What to do about the first message that could not be transformed; "" if there is none.
+        times_read: In how many messages points were moved by their own times, by how these were taken.
 
     Raises:
         RecordingError: There is no such topic, or it has other messages.
+        ValueError: ``deskew``, ``point_times`` or the fields of a scan are not among what they may be.
     """
 
     def __init__(
@@ -80,6 +86,7 @@ class Clouds:
         stop: StampLike | None = None,
         at: StampLike | None = None,
         deskew: Literal["auto", "off"] = "auto",
+        point_times: str | None = None,
         fixed: str | None = None,
         fields: Sequence[str] | None = None,
     ) -> None:
@@ -98,14 +105,19 @@ class Clouds:
         self.frame = frame
         self._start, self._stop, self._at = start, stop, at
         self._deskews = deskew == "auto"
+        self._time_field, self._time_unit = _field_and_unit(point_times)
         self._fixed = fixed
         self._fields = None if fields is None else [name for name in fields if name not in {"x", "y", "z"}]
+        if self._type == _SCAN and (unknown := set(self._fields or ()) - _OF_SCANS):
+            raise ValueError(f"scans have no field {', '.join(sorted(unknown))}, only {', '.join(sorted(_OF_SCANS))}")
         self._reset()
 
     def _reset(self) -> None:
         self.messages = self.points = 0
         self.left_out: dict[str, int] = {}
         self.points_left_out: dict[str, int] = {}
+        self.times_read: dict[str, int] = {}
+        self.hint = ""
         self._reasons: dict[tuple[Any, ...], str] = {}
 
     @property
@@ -168,6 +180,7 @@ class Clouds:
             points, times = points[finite], times[finite] if times is not None else None
             deskewed = self._move(points, times, frame, recorded.stamp)
         except TransformException as error:
+            self.hint = self.hint or error.hint
             self._note(self.left_out, self._reason(error))
         except (DecodeError, ValueError, AttributeError) as error:
             self._note(self.left_out, f"cannot be read: {error}")
@@ -194,14 +207,18 @@ class Clouds:
     def _points(self, message: Any, stamp: int) -> tuple[NDArray[Any], NDArray[np.int64] | None]:
         names = [field.name for field in message.fields if field.count <= 1 and field.name not in {"x", "y", "z"}]
         if self._fields is not None:
-            needed = [name for name in TIME_FIELDS if name in names] if self._deskews else []
+            times_of = TIME_FIELDS if self._time_field is None else (self._time_field,)
+            needed = [name for name in times_of if name in names] if self._deskews else []
             names = list(dict.fromkeys([*self._fields, *needed]))
         columns = {name: field_of(message, name).reshape(-1) for name in ("x", "y", "z", *names)}
         points = _structured(columns)
-        times = times_in(points, stamp) if self._deskews else None
+        times = times_in(points, stamp, self._time_field, self._time_unit) if self._deskews else None
+        if times is not None:
+            since = "as stamps" if times.absolute else "from the message's stamp"
+            self._note(self.times_read, f"the field {times.field}, taken for {times.unit} {since}")
         if self._fields is not None and names != self._fields:
             points = _structured({name: points[name] for name in ("x", "y", "z", *self._fields)})
-        return points, times
+        return points, None if times is None else times.times
 
     def _scan(self, message: Any) -> tuple[NDArray[Any], NDArray[np.int64] | None]:
         hits = project_scan(message)
@@ -220,6 +237,14 @@ class Clouds:
     def _note(counts: dict[str, int], reason: str, times: int | np.integer[Any] = 1) -> None:
         if times:
             counts[reason] = counts.get(reason, 0) + int(times)
+
+
+def _field_and_unit(text: str | None) -> tuple[str | None, str | None]:
+    """Of ``FIELD:UNIT`` or ``FIELD``."""
+    field, colon, unit = (text or "").partition(":")
+    if (text is not None and not field) or (colon and unit not in UNITS):
+        raise ValueError(f"{text!r} is no field with a unit: write time:us, with one of {', '.join(UNITS)}")
+    return field or None, unit or None
 
 
 def _structured(columns: dict[str, NDArray[Any]]) -> NDArray[Any]:

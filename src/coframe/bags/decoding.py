@@ -41,19 +41,20 @@ def decoder(channel: Channel, problems: Problems) -> Callable[[bytes], Any]:
     """What turns a channel's bytes into messages.
 
     Messages of types that coframe has, as the recording describes them, are coframe's; others are classes that are
-    made from the recording's definitions; JSON is what ``json`` makes of it. Bytes stay bytes where nothing says what
-    they mean; then there is a problem more.
+    made from the recording's definitions, those of protobuf included; JSON is what ``json`` makes of it. Bytes stay
+    bytes where nothing says what they mean; then there is a problem more.
 
     Raises:
         DecodeError: (What is returned, when it is called.) The bytes are damaged.
     """
     if channel.encoding == "json":
         return functools.partial(_guarded, json.loads, channel.type)
-    if channel.encoding not in {"cdr", "ros1"}:
+    makers = {"cdr": _ros_decoder, "ros1": _ros_decoder, "protobuf": _protobuf_decoder}
+    if channel.encoding not in makers:
         problems.add(f"{channel.topic}: messages encoded as {channel.encoding!r} are given as bytes")
         return bytes
     try:
-        return _ros_decoder(channel)
+        return makers[channel.encoding](channel)
     except UnknownTypeError as error:
         problems.add(f"{channel.topic}: messages of the type {channel.type} are given as bytes: {error}")
         return bytes
@@ -72,16 +73,48 @@ def _ros_decoder(channel: Channel) -> Callable[[bytes], Any]:
     if channel.encoding == "cdr":
         if own is not None:
             return lambda data: deserialize(data, own)
-        return functools.partial(_guarded, store.deserialize_cdr, channel.type)
+        return functools.partial(_guarded, lambda data: store.deserialize_cdr(data, channel.type), channel.type)
     if own is not None:
-        return functools.partial(_guarded, _deserialize_ros1, channel.type)
-    return functools.partial(_guarded, store.deserialize_ros1, channel.type)
+        return functools.partial(_guarded, lambda data: _deserialize_ros1(data, channel.type), channel.type)
+    return functools.partial(_guarded, lambda data: store.deserialize_ros1(data, channel.type), channel.type)
 
 
-def _guarded(decode: Callable[..., Any], name: str, data: bytes) -> Any:
+def _protobuf_decoder(channel: Channel) -> Callable[[bytes], Any]:
+    """By the descriptions of messages (a FileDescriptorSet) that the recording has."""
+    try:
+        from google.protobuf import descriptor_pb2, descriptor_pool, message_factory  # noqa: PLC0415 - optional
+    except ModuleNotFoundError:
+        raise UnknownTypeError("the package protobuf is not installed (pip install 'coframe[protobuf]')") from None
+    if not channel.definition or len(channel.definition) > _LONGEST_DEFINITION:
+        raise UnknownTypeError("the recording does not say what they are made of, or takes too long to say it")
+    pool = descriptor_pool.DescriptorPool()
+    try:
+        found = descriptor_pb2.FileDescriptorSet.FromString(channel.definition).file
+        _add_all({file.name: file for file in found}, pool)
+        kind = message_factory.GetMessageClass(pool.FindMessageTypeByName(channel.type))
+    except Exception as error:  # noqa: BLE001 - the library has several ways to say that a description is damaged
+        reason = " ".join(str(error).split())[:200]
+        raise UnknownTypeError(f"its definition cannot be used ({reason or type(error).__name__})") from None
+    return functools.partial(_guarded, kind.FromString, channel.type)
+
+
+def _add_all(files: dict[str, Any], pool: Any) -> None:
+    """Adds descriptions to a pool, each after those that it builds upon."""
+
+    def add(name: str) -> None:
+        if (file := files.pop(name, None)) is not None:
+            for other in file.dependency:
+                add(other)
+            pool.Add(file)
+
+    while files:
+        add(next(iter(files)))
+
+
+def _guarded(decode: Callable[[bytes], Any], name: str, data: bytes) -> Any:
     """The libraries have many ways to say that bytes are damaged."""
     try:
-        return decode(data) if decode is json.loads else decode(data, name)
+        return decode(data)
     except Exception as error:  # noqa: BLE001
         raise DecodeError(
             f"{name}: {str(error) or type(error).__name__}",

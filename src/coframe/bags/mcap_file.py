@@ -29,6 +29,7 @@ _MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence,
 _CHUNK_HEAD = struct.Struct("<QQQI")  # first and last log time, unpacked size, its CRC or 0
 _BLOCK = 4 << 20  # bytes of records that are in no chunk are read together
 _FOOTER_RECORD = struct.Struct("<BQQQI")  # opcode, length, start of the summary, of its offsets, CRC
+_CRC_AND_MAGIC = 4 + len(MAGIC)  # bytes behind what the CRC is of
 
 
 class McapStorage(ChunkedStorage):
@@ -81,10 +82,12 @@ class McapStorage(ChunkedStorage):
         tail = self.bytes_at(self.size - _FOOTER_RECORD.size - len(MAGIC), _FOOTER_RECORD.size)
         if len(tail) < _FOOTER_RECORD.size:
             return []
-        opcode, _, start, *_ = _FOOTER_RECORD.unpack(tail)
+        opcode, _, start, _, crc = _FOOTER_RECORD.unpack(tail)
         if opcode != _FOOTER or not 0 < start < self.size or self.size - start > LARGEST:
             return []
         summary = self.bytes_at(start, self.size - start)
+        if crc and zlib.crc32(summary[:-_CRC_AND_MAGIC]) != crc:  # a recorder was killed as it wrote over it, perhaps
+            return []
         chunks, position = [], 0
         while position + _RECORD.size <= len(summary):
             opcode, length = _RECORD.unpack_from(summary, position)

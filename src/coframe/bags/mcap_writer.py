@@ -1,7 +1,8 @@
 """One MCAP file that is whole at any moment; the format is described at https://mcap.dev/spec.
 
-What was written is followed by a file's end of 50 bytes, and each next chunk goes over that end and brings its own. So
-a recorder that is killed leaves a file that any reader opens; only the index is missing, which `close` writes.
+What was written is followed by a file's end, and each next chunk goes over that end and brings its own. So a recorder
+that is killed leaves a file that any reader opens. The end has the index of all chunks as long as that is small, since
+there are readers that want one (Rerun's); then only `close` writes it.
 """
 
 from __future__ import annotations
@@ -31,6 +32,7 @@ _RECORD = struct.Struct("<BQ")  # opcode, length
 _MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log time, publish time
 _MESSAGE = 0x05
 _MESSAGE_HEAD = _MESSAGE_RECORD.size - _RECORD.size
+_LARGEST_INDEX = 1 << 20  # bytes that are written with each chunk: those of half an hour or more
 _ZSTD_LEVEL = 1  # a recorder is to be light: level 3 takes half as long again for some percent
 
 
@@ -64,10 +66,12 @@ class McapWriter:
         self._first, self._last = 0, 0  # log times of what is pending
         self._chunks: list[bytes] = []
         self._end = 0  # where the next chunk goes
+        self._tail = _END  # what follows there
+        self._index_size = 0  # bytes of the chunks' indices
         self.counts: list[int] = []
         self.start = 0
         self.end = 0
-        self._append(_MAGIC + _record(_HEADER, _text("ros2") + _text("coframe")))
+        self._append(_MAGIC + _record(_HEADER, _text("ros2") + _text("coframe")), _END)
 
     @property
     def size(self) -> int:  # noqa: D102 - described above
@@ -140,14 +144,13 @@ class McapWriter:
         about += (
             struct.pack("<Q", len(indices)) + self._compression + struct.pack("<QQ", len(packed), len(self._pending))
         )
-        flushed, self._index = self._index, {}
-        self._pending.clear()
-        self._append(chunk + indices)
-        self._chunks.append(_record(_CHUNK_INDEX, about))
-        self.start = min(self.start, self._first) if self.count else self._first
-        self.end = max(self.end, self._last)
-        for channel, entries in flushed.items():
-            self.counts[channel] += len(entries) // 2
+        before = self._noted()
+        self._note(_record(_CHUNK_INDEX, about))
+        try:
+            self._append(chunk + indices, self._tail_at(self._end + len(chunk) + len(indices)))
+        except OSError:
+            self._forget(before)
+            raise
 
     def close(self) -> None:
         """Writes the rest and the index, and waits until the disk has it all.
@@ -157,12 +160,37 @@ class McapWriter:
         """
         try:
             self.flush()
-            summary = self._summary()
-            self._append(b"", summary)
+            summary = self._summary(self._end)
+            if self._tail != summary:
+                self._append(b"", summary)
             self._end += len(summary)
             os.fsync(self._file.fileno())
         finally:
             self._file.close()
+
+    def _note(self, chunk_index: bytes) -> None:
+        """Counts what is pending as written."""
+        self.start = min(self.start, self._first) if self.count else self._first
+        self.end = max(self.end, self._last)
+        for channel, entries in self._index.items():
+            self.counts[channel] += len(entries) // 2
+        self._chunks.append(chunk_index)
+        self._index_size += len(chunk_index)
+        self._index = {}
+        self._pending.clear()
+
+    def _noted(self) -> tuple[int, int, list[int]]:
+        return self.start, self.end, self.counts.copy()
+
+    def _forget(self, before: tuple[int, int, list[int]]) -> None:
+        """Undoes the last `_note`."""
+        self.start, self.end, self.counts = before
+        self._index_size -= len(self._chunks.pop())
+
+    def _tail_at(self, offset: int) -> bytes:
+        """The end of the file behind a chunk that ends there."""
+        small = self._index_size + len(self._definitions) <= _LARGEST_INDEX
+        return self._summary(offset) if small else _END
 
     def _define(self, record: bytes) -> None:
         self._definitions += record
@@ -177,8 +205,8 @@ class McapWriter:
             records += _record(_MESSAGE_INDEX, struct.pack("<HI", channel, len(packed)) + packed)
         return bytes(records), bytes(offsets)
 
-    def _summary(self) -> bytes:
-        """The end of a file with an index."""
+    def _summary(self, offset: int) -> bytes:
+        """The end of a file with an index, which begins there."""
         counts = b"".join(struct.pack("<HQ", *pair) for pair in enumerate(self.counts))
         statistics = struct.pack(
             "<QHIIIIQQ",
@@ -187,7 +215,7 @@ class McapWriter:
         groups = [*self._definition_groups(), (_CHUNK_INDEX, b"".join(self._chunks))]
         groups.append((_STATISTICS, _record(_STATISTICS, statistics + struct.pack("<I", len(counts)) + counts)))
         data_end = _record(_DATA_END, bytes(4))
-        start = self._end + len(data_end)
+        start = offset + len(data_end)
         summary, offsets = bytearray(), bytearray()
         for opcode, records in groups:
             if records:
@@ -209,16 +237,20 @@ class McapWriter:
             position = end
         return [(opcode, bytes(records)) for opcode, records in groups.items()]
 
-    def _append(self, data: bytes, end: bytes | None = None) -> None:
+    def _append(self, data: bytes, tail: bytes) -> None:
         """Puts data and an end of the file behind what is there, or leaves the file as it was."""
         try:
-            self._write_at(self._end, data + (_END if end is None else end))
+            self._write_at(self._end, data + tail)
+            self._file.truncate()
         except OSError:
-            with suppress(OSError):
-                self._file.truncate(self._end)
-                self._write_at(self._end, _END)
+            for old in (self._tail, _END):  # somebody else may have taken the room meanwhile
+                with suppress(OSError):
+                    self._file.truncate(self._end)
+                    self._write_at(self._end, old)
+                    break
             raise
         self._end += len(data)
+        self._tail = tail
 
     def _write_at(self, offset: int, data: bytes) -> None:
         self._file.seek(offset)

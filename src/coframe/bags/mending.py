@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
 from collections import Counter
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
 __all__ = ["Mended", "mend"]
 
 _TF = "tf2_msgs/msg/TFMessage"
+_STEP = 1000  # messages between two reports of progress
 _STATIC_QOS = OfferedQos(1, transient_local=True)
 
 
@@ -61,6 +64,7 @@ def mend(
     prefix: str = "",
     keep: Iterable[str] = (),
     compression: str = "zstd",
+    progress: Callable[[str, int, int], object] = lambda _what, _done, _total: None,
 ) -> Mended:
     """Writes a recording anew, as far as it can be read: the old one stays as it is.
 
@@ -77,20 +81,27 @@ def mend(
         prefix: Is put before all names of frames, such as "robot1/".
         keep: Names that get no prefix, such as "map"; a text is one name, or several behind commas.
         compression: ``zstd``, ``lz4`` or ``none``.
+        progress: Called now and then with what is under way (``reading``, ``writing``, ``checking``), how far it is,
+            and how far it will be: bytes, or messages that are written.
 
     Raises:
         RecordingError: Nothing can be read, or the new one cannot be written.
         ValueError: The prefix begins with a slash.
     """
     rename = _Renaming(prefix, keep, tf_topic, tf_static_topic)
-    with open_bag(source) as recording:
+    with open_bag(source, progress=partial(progress, "reading")) as recording:
         added = [] if statics is None else _statics_of(statics)
         found = recording.problems
-        with Writer(target, compression=compression) as writer:
-            work = _Mending(recording, writer, rename)
-            work.run(added)
+        writer = Writer(target, compression=compression)
+        work = _Mending(recording, writer, rename)
+        try:
+            with writer:
+                work.run(added, partial(progress, "writing"))
+        except KeyboardInterrupt:  # half a recording would look like a whole one
+            shutil.rmtree(writer.path, ignore_errors=True)
+            raise
         found = list(dict.fromkeys([*found, *recording.problems]))
-    with open_bag(target) as anew:
+    with open_bag(target, progress=partial(progress, "checking")) as anew:
         left = summarize(anew).problems
         return Mended(Path(target), writer.messages, found, work.done(), left)
 
@@ -140,10 +151,13 @@ class _Mending:
             for name, buffer in recording.buffers.items()
         }
 
-    def run(self, added: list[TransformStamped]) -> None:
+    def run(self, added: list[TransformStamped], progress: Callable[[int, int], object]) -> None:
         """Copies everything, the static transforms first."""
         self._put_statics_first(added)
-        for channel, received, data in self._recording.in_order():
+        total = sum(topic.messages for topic in self._recording.topics.values())
+        for number, (channel, received, data) in enumerate(self._recording.in_order()):
+            if number % _STEP == 0:
+                progress(number, total)
             route = self._route(channel)
             if route is None:
                 self._note(channel, "messages left out: ROS 2 has no such type as ROS 1 recorded it")
@@ -152,6 +166,7 @@ class _Mending:
             elif (message := self._mended(channel, route, data)) is not None:
                 self._writer.write(route.topic, message, received)
                 self._copied += 1
+        progress(total, total)
 
     def done(self) -> list[str]:
         """What is different, in sentences."""

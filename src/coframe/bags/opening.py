@@ -84,8 +84,11 @@ def _candidates(folder: Path, metadata: dict[str, Any], problems: Problems) -> l
 
 
 def _is_candidate(file: Path) -> bool:
-    with file.open("rb") as opened:
-        start = opened.read(16)
+    try:
+        with file.open("rb") as opened:
+            start = opened.read(16)
+    except FileNotFoundError:  # gone since it was listed: a recorder at work renames its new metadata
+        return False
     suffixes = [suffix for suffix in file.suffixes if suffix != ".zstd"]
     return any(start.startswith(magic) for magic in _KINDS) or bool(suffixes and suffixes[-1] in _SUFFIXES)
 

@@ -188,6 +188,7 @@ class Recording:
         self._problems = Problems()
         self._renaming: _core.Renaming | None = None
         self._closing = ExitStack()
+        self._closed = False
         weakref.finalize(self, self._closing.close)  # for those who never close()
         self._tracks: dict[str, list[_Track]] = {}
         self._indices: dict[str, _Index] = {}
@@ -424,6 +425,7 @@ class Recording:
         return RecordedMessage(name, track.channel.type, stamp, received, data, self._decoders[key])
 
     def _bytes(self, track: _Track, position: int) -> bytes | None:
+        self._check_open()
         try:
             return track.storage.read(position)
         except (DamagedError, OSError) as error:
@@ -436,6 +438,7 @@ class Recording:
             return self._on_stamps_clock(received)
         if len(track.stamps) == len(track.received):
             return _numbers(track.stamps)
+        self._check_open()
         return track.place.stamps(Slices.joined([_head(track, position) for position in track.positions]), received)
 
     def _on_stamps_clock(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -477,7 +480,15 @@ class Recording:
 
     def close(self) -> None:
         """Lets go of the files; the transforms stay."""
+        self._closed = True
         self._closing.close()
+
+    def _check_open(self) -> None:
+        if self._closed:
+            raise RecordingError(
+                f"{self.path} is closed: only its transforms are left",
+                hint="Read messages before close(), inside `with`.",
+            )
 
     def __enter__(self) -> Self:
         return self

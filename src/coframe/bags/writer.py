@@ -112,7 +112,6 @@ class Writer:
         self._closed = 0  # bytes of finished files
         self._first_size = 0  # bytes of the file before its own messages
         self._first_time: int | None = None
-        self._failed = False
         try:
             self.path.mkdir(parents=True)
         except FileExistsError:
@@ -120,7 +119,9 @@ class Writer:
                 f"{self.path} is there already, and nothing is overwritten", hint="Choose another folder."
             ) from None
         except OSError as error:
-            raise self._cannot_write(error) from None
+            raise RecordingError(
+                f"{self.path} cannot be made: {error.strerror or error}", hint="Name a folder where you may write."
+            ) from None
         self._mcap = self._writing(self._open)
         self._write_metadata()
 
@@ -315,7 +316,8 @@ class Writer:
         return {
             "version": _VERSION,
             "storage_identifier": "mcap",
-            **_times(start, end),
+            "duration": {"nanoseconds": end - start},
+            "starting_time": {"nanoseconds_since_epoch": start},
             "message_count": sum(file.count for file in files),
             "topics_with_message_count": [
                 {
@@ -333,14 +335,15 @@ class Writer:
             "compression_mode": "",
             "relative_file_paths": [file.name for file in self._facts.files],
             "files": [
-                {"path": file.name, **_times(file.start, file.end), "message_count": file.count}
+                {
+                    "path": file.name,
+                    "starting_time": {"nanoseconds_since_epoch": file.start},
+                    "duration": {"nanoseconds": file.end - file.start},
+                    "message_count": file.count,
+                }
                 for file in self._facts.files
             ],
         }
-
-
-def _times(start: int, end: int) -> dict[str, Any]:
-    return {"duration": {"nanoseconds": end - start}, "starting_time": {"nanoseconds_since_epoch": start}}
 
 
 def _yaml_dump() -> Callable[[Any], str]:

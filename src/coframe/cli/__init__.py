@@ -19,14 +19,13 @@ _ALONE = ("view",)
 def main() -> None:
     """The console script ``coframe``."""
     try:
-        app = _app(sys.argv[1] if len(sys.argv) > 1 else "")
+        _app(sys.argv[1] if len(sys.argv) > 1 else "")()
     except ModuleNotFoundError as error:
         if error.name not in {"typer", "rich"}:
             raise
         sys.exit(f"coframe: the command line needs the package {error.name}: pip install 'coframe[all]'")
     except KeyboardInterrupt:  # while everything is being loaded
         sys.exit(130)
-    app()
 
 
 def _app(name: str) -> typer.Typer:

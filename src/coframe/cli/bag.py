@@ -13,7 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from coframe.bags import COMPRESSIONS, mend, summarize
-from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, seconds
+from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, seconds, work, working
 from coframe.cli.session import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
@@ -25,7 +25,6 @@ from coframe.cli.session import (
     TfTopicOption,
     fail,
     printable,
-    session,
 )
 
 if TYPE_CHECKING:
@@ -55,7 +54,7 @@ def info(
 
     Example: coframe bag info run.mcap
     """
-    with session(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+    with work(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         summary = summarize(recording)
         if as_json:
             print(json.dumps(_plain(summary), indent=2))
@@ -86,9 +85,19 @@ def fix(
     """
     if compression not in COMPRESSIONS:
         fail(f"--compression: there is no {compression!r}: it is one of {', '.join(COMPRESSIONS)}", code=2)
-    with session():
+    with work():
         robot: dict[str, str] = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
-        mended = mend(bag, output, statics=statics, **robot, prefix=prefix, keep=keep, compression=compression)
+        with working() as progress:
+            mended = mend(
+                bag,
+                output,
+                statics=statics,
+                **robot,
+                prefix=prefix,
+                keep=keep,
+                compression=compression,
+                progress=progress,
+            )
         for title, sentences in (("found", mended.found), ("mended", mended.done), ("still odd", mended.left)):
             for sentence in sentences:
                 print(printable(f"{title}: {sentence}"))

@@ -12,7 +12,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from coframe.bags import Question, answer_all
 from coframe.bags.batch import ENGINES
-from coframe.cli.recordings import NamespaceOption  # noqa: TC001 - typer reads the annotations
+from coframe.cli.recordings import NamespaceOption, work
 from coframe.cli.session import (
     KeepOption,
     PrefixOption,
@@ -21,7 +21,6 @@ from coframe.cli.session import (
     fail,
     printable,
     recorded_tf_topics,
-    session,
 )
 
 if TYPE_CHECKING:
@@ -62,7 +61,7 @@ def batch(
         fail(str(error), code=2)
     if on not in ENGINES:
         fail(f"--on is one of {', '.join(ENGINES)}, not {on!r}", code=2)
-    with session():
+    with work():
         answers = _ask(bags, question, output, on, workers)
         bad = [one for one in answers if one.error]
         for one in answers:
@@ -86,7 +85,8 @@ def _ask(bags: list[Path], question: Question, output: Path, on: str, workers: i
 
 def _tell(one: Answer) -> None:
     if one.error:
-        print(f"coframe: {printable(one.bag)}: {printable(one.error)}", file=sys.stderr)
+        whose = "" if one.bag in one.error else f"{one.bag}: "
+        print(f"coframe: {printable(whose + one.error)}", file=sys.stderr)
     if one.missing:
         print(f"coframe: {printable(one.bag)}: {one.missing} times have no transform, left out", file=sys.stderr)
     for problem in one.problems:

@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from coframe.bags import Clouds, write_clouds
-from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened
+from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, work
 from coframe.cli.session import (
     KeepOption,
     PrefixOption,
@@ -19,7 +19,6 @@ from coframe.cli.session import (
     RecordedTfTopicOption,
     fail,
     printable,
-    session,
 )
 
 if TYPE_CHECKING:
@@ -45,6 +44,12 @@ def cloud(
     start: Annotated[str | None, typer.Option(help="From when on, as --at of coframe lookup.")] = None,
     stop: Annotated[str | None, typer.Option(help="Until when.")] = None,
     deskew: Annotated[str, typer.Option(help="auto: each point by its own time, where it is told; or off.")] = "auto",
+    point_times: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FIELD[:UNIT]", help="What tells a point's time: time:us. Or s, ms, ns.", show_default="guessed"
+        ),
+    ] = None,
     fixed: Annotated[
         str | None, typer.Option(help="A frame that stands still during a sweep, where --frame moves.")
     ] = None,
@@ -66,17 +71,23 @@ def cloud(
         fail(f"--voxel must be above 0 m, not {voxel:g}", code=2)
     if at is not None and (start is not None or stop is not None):
         fail("--at excludes --start and --stop", code=2)
-    with session(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+    with work(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         when = {"at": at, "start": start, "stop": stop}
-        clouds = Clouds(
-            recording,
-            topic,
-            frame,
-            **_instants(recording, when),
-            deskew=cast("Literal['auto', 'off']", deskew),
-            fixed=fixed,
-            fields=None if fields is None else [name for name in fields.split(",") if name],
-        )
+        try:
+            clouds = Clouds(
+                recording,
+                topic,
+                frame,
+                **_instants(recording, when),
+                deskew=cast("Literal['auto', 'off']", deskew),
+                point_times=point_times,
+                fixed=fixed,
+                fields=None if fields is None else [name for name in fields.split(",") if name],
+            )
+        except ValueError as error:
+            if hasattr(error, "hint"):
+                raise
+            fail(str(error), code=2)
         try:
             points = _write(clouds, output, format_, voxel)
         except ValueError as error:
@@ -84,9 +95,9 @@ def cloud(
                 raise
             fail(str(error), "--fields names the fields to keep." if "fields" in str(error) else "", code=2)
         except OSError as error:
-            fail(f"{output} cannot be written: {error.strerror or error}", "May you write there?")
-        finally:
-            _tell(clouds)
+            hint = "Does the folder exist, and may you write there?"
+            fail(f"{output} cannot be written: {error.strerror or error}", hint)
+        _tell(clouds)
         print(f"{printable(str(output))}: {points} points of {clouds.messages} messages, in {printable(frame)}")
 
 
@@ -105,7 +116,9 @@ def _write(clouds: Clouds, output: Path, format_: str | None, voxel: float | Non
 
 
 def _tell(clouds: Clouds) -> None:
-    """What is not in the output, and why."""
+    """What was guessed, and what is not in the output, and why."""
+    for how, count in clouds.times_read.items():
+        print(f"coframe: points of {count} messages moved by their own times: {printable(how)}", file=sys.stderr)
     for reason, count in clouds.left_out.items():
         print(f"coframe: {count} messages of {clouds.topic} left out: {printable(reason)}", file=sys.stderr)
     for reason, count in clouds.points_left_out.items():

@@ -8,21 +8,23 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from coframe.cli.echo import MOST_DIGITS, format_transform
-from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened
+from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, seconds, work
 from coframe.cli.session import (
     KeepOption,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
     fail,
-    session,
 )
+from coframe.errors import ExtrapolationException
 
 if TYPE_CHECKING:
     from coframe import Transform
+    from coframe.bags import Recording
 
 __all__ = ["lookup"]
 
+_ALWAYS = (0, 0)  # when static transforms hold
 _WHEN = "1666859837.363141536, 10s (from the start), -2s (from the end), 2022-10-27T08:43:57Z, start or end."
 
 
@@ -53,14 +55,30 @@ def lookup(
     """
     if (fixed is None) != (source_time is None):
         fail("time travel takes both --fixed and --source-time", code=2)
-    with session(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+    with work(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         when = 0 if at is None else instant("--at", at, recording)
         buffer = recording.buffer
-        if fixed is None or source_time is None:
-            found = buffer.lookup(target, source, when)
-        else:
-            found = buffer.lookup_full(target, when, source, instant("--source-time", source_time, recording), fixed)
+        try:
+            if fixed is None or source_time is None:
+                found = buffer.lookup(target, source, when)
+            else:
+                then = instant("--source-time", source_time, recording)
+                found = buffer.lookup_full(target, when, source, then, fixed)
+        except ExtrapolationException as error:
+            fail(str(error), _what_there_is(recording, {target, source, fixed or source}))
         print(_json(found) if as_json else format_transform(found, precision))
+
+
+def _what_there_is(recording: Recording, frames: set[str]) -> str:
+    """From when to when the recording tells how frames lie to each other."""
+    one, *others = sorted(frames)
+    spans = [span for other in others if (span := recording.buffer.span(one, other)) != _ALWAYS]
+    first, last = max(first for first, _ in spans), min(last for _, last in spans)
+    offsets = [seconds(stamp - recording.span[0]).rstrip("0").rstrip(".") + "s" for stamp in (first, last)]
+    return (
+        f"The recording tells of {', '.join([one, *others])} from {seconds(first)} to {seconds(last)}, "
+        f"which is {offsets[0]} to {offsets[1]}."
+    )
 
 
 def _json(transform: Transform) -> str:

@@ -9,17 +9,25 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
-from rich.progress import BarColumn, DownloadColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.progress import (
+    BarColumn,
+    DownloadColumn,
+    Progress,
+    TaskID,
+    TaskProgressColumn,
+    TextColumn,
+    TimeRemainingColumn,
+)
 
 from coframe.bags import open_bag, parse_instant
-from coframe.cli.session import fail, recorded_tf_topics
+from coframe.cli.session import fail, recorded_tf_topics, session
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from coframe.bags import Recording
 
-__all__ = ["BagArgument", "NamespaceOption", "instant", "opened", "reading", "seconds"]
+__all__ = ["BagArgument", "NamespaceOption", "instant", "opened", "reading", "seconds", "work", "working"]
 
 SECOND = 1_000_000_000
 
@@ -30,6 +38,16 @@ NamespaceOption = Annotated[
 
 
 @contextmanager
+def work() -> Iterator[None]:
+    """A session with an end of its own: where Ctrl-C comes first, the work is not done, and the exit code is 130."""
+    with session():
+        try:
+            yield
+        except KeyboardInterrupt:
+            raise typer.Exit(130) from None
+
+
+@contextmanager
 def reading() -> Iterator[Callable[[int, int], object]]:
     """Shows how far the reading has come, in a terminal: what :func:`open_bag` takes as ``progress``."""
     console = Console(stderr=True)
@@ -37,6 +55,22 @@ def reading() -> Iterator[Callable[[int, int], object]]:
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("reading", total=None)
         yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+@contextmanager
+def working() -> Iterator[Callable[[str, int, int], object]]:
+    """Shows in a terminal what is under way, and how far it has come."""
+    console = Console(stderr=True)
+    columns = (TextColumn("{task.description}"), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+        tasks: dict[str, TaskID] = {}
+
+        def show(what: str, done: int, total: int) -> None:
+            if what not in tasks:
+                tasks[what] = bar.add_task(what)
+            bar.update(tasks[what], completed=done, total=total)
+
+        yield show
 
 
 @contextmanager

@@ -9,14 +9,13 @@ from typing import Annotated
 import typer
 
 from coframe.bags import FORMATS, Question, format_of, write_trajectory
-from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, seconds
+from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, seconds, work
 from coframe.cli.session import (
     KeepOption,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
     fail,
-    session,
 )
 
 __all__ = ["trajectory"]
@@ -55,7 +54,7 @@ def trajectory(
         question = Question(target, source, rate, stamps_of, start, stop)
     except ValueError as error:
         fail(str(error), code=2)
-    with session(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+    with work(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         for text in filter(None, (start, stop)):
             instant("--start/--stop", text, recording)
         poses, missing = question.ask(recording)

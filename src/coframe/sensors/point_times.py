@@ -1,18 +1,23 @@
-"""When each point of a cloud was measured, as the drivers of lidars write it."""
+"""When each point of a cloud was measured, as the drivers of lidars write it.
+
+Messages name a field and its type, but no unit. So that is guessed from the values: integers are nanoseconds; floats
+are seconds, or nanoseconds where they could not be seconds. Who knows better says so.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["TIME_FIELDS", "times_in"]
+__all__ = ["TIME_FIELDS", "UNITS", "PointTimes", "times_in"]
 
 # Ouster; Velodyne; Hesai, RoboSense and Livox; Livox.
 TIME_FIELDS = ("t", "time", "timestamp", "offset_time")
+UNITS = {"s": 1_000_000_000, "ms": 1_000_000, "us": 1000, "ns": 1}
 
 _LONGEST_SWEEP = 10_000_000_000  # ns: what is further from the message's stamp is no time of a point of it
 _SECOND = 1_000_000_000
@@ -20,33 +25,61 @@ _DAYS = 100_000_000  # more seconds than any sweep has, fewer than the system's 
 _END = 2.0**62  # ns, in the year 2116
 
 
-def times_in(points: NDArray[Any], stamp: int) -> NDArray[np.int64] | None:
-    """The points' own times in nanoseconds, (N,); None where they have none, or all have the same.
+class PointTimes(NamedTuple):
+    """When the points of a message were measured.
 
-    Integers are nanoseconds; floats are seconds, or nanoseconds where they could not be. Small ones count from the
-    stamp, large ones are absolute.
+    Attributes:
+        times: (N,) nanoseconds.
+        field: That tells it.
+        unit: That its values are taken for, one of `UNITS`.
+        absolute: Whether they are stamps themselves; if not, they count from the message's.
+    """
+
+    times: NDArray[np.int64]
+    field: str
+    unit: str
+    absolute: bool
+
+
+def times_in(points: NDArray[Any], stamp: int, field: str | None = None, unit: str | None = None) -> PointTimes | None:
+    """The points' own times; None where they have none, or all have the same.
+
+    Values of more than three years are absolute, others count from the stamp.
 
     Args:
         points: A structured array.
-        stamp: That of their message.
+        stamp: That of their message, in nanoseconds.
+        field: That tells the times; None: the first of `TIME_FIELDS` that is there.
+        unit: Of its values, one of `UNITS`; None: as it is guessed.
+
+    Raises:
+        ValueError: There is no such field; or in that unit its values are no times of a sweep.
     """
-    name = next((name for name in TIME_FIELDS if name in (points.dtype.names or ())), None)
+    names = points.dtype.names or ()
+    name = next((name for name in TIME_FIELDS if name in names), None) if field is None else field
     if name is None or not points.size:
         return None
-    times = _absolute(points[name], stamp)
-    if times is None or np.abs(times - stamp).max() > _LONGEST_SWEEP or (times == times[0]).all():
+    if name not in names:
+        raise ValueError(f"there is no field {name!r} among {', '.join(names)}")
+    found = _read(points[name], stamp, name, unit)
+    is_sweep = found is not None and np.abs(found.times - stamp).max() <= _LONGEST_SWEEP
+    if not is_sweep and unit is not None:
+        raise ValueError(f"the field {name!r} in {unit} is more than {_LONGEST_SWEEP // _SECOND} s off the stamp")
+    if found is None or not is_sweep or (found.times == found.times[0]).all():
         return None
-    return times
+    return found
 
 
-def _absolute(values: NDArray[Any], stamp: int) -> NDArray[np.int64] | None:
+def _read(values: NDArray[Any], stamp: int, field: str, unit: str | None) -> PointTimes | None:
     """None for what is no time."""
-    largest = np.abs(values.astype(np.float64)).max()
-    if values.dtype.kind not in "iuf" or not largest < _END:
+    if values.dtype.kind not in "iuf":
         return None
-    if values.dtype.kind != "f":
-        return values.astype(np.int64) + (0 if largest > _DAYS * _SECOND else stamp)
+    is_float = values.dtype.kind == "f"
+    largest = np.abs(values.astype(np.float64)).max()
+    unit = unit or ("s" if is_float and not largest > _DAYS * 100 else "ns")
+    if not largest * UNITS[unit] < _END:
+        return None
     # Seconds of today in a float64 are exact to a quarter of a microsecond.
-    scale = 1 if largest > _DAYS * 100 else _SECOND
-    since = 0 if largest > _DAYS else stamp
-    return np.asarray(since + np.rint(values.astype(np.float64) * scale).astype(np.int64))
+    times = np.rint(values.astype(np.float64) * UNITS[unit]) if is_float else values.astype(np.int64) * UNITS[unit]
+    absolute = bool(largest * UNITS[unit] > _DAYS * _SECOND)
+    return PointTimes((0 if absolute else stamp) + times.astype(np.int64), field, unit, absolute)
