@@ -26,7 +26,7 @@ _HINTS = {
     "too_new": _Hint(
         "TF025",
         "{parent} -> {child} lags behind the request: wait for it (timeout=...), or ask for the latest (0). In a node: "
-        "lookup_transform(target, source, stamp, timeout=Duration(seconds=0.1)), or rclpy.time.Time() as the stamp.",
+        "lookup_transform({target!r}, {source!r}, stamp, timeout=Duration(seconds=0.1)), or rclpy.time.Time() as the stamp.",
     ),
     "too_old": _Hint(
         "TF015", "{parent} -> {child} has forgotten that time: use a longer cache, or ask for a newer time."
@@ -40,8 +40,8 @@ def hint(failure: str, **facts: str) -> str:
 
     Args:
         failure: Its code, ``too_new``.
-        facts: What the sentence names: ``parent``, ``child``, ``bare``, ``requested``, ``trees``,
-            ``guess``.
+        facts: What the sentence names: ``target``, ``source``, ``parent``, ``child``, ``bare``,
+            ``requested``, ``trees``, ``guess``.
     """
     found = _HINTS.get(failure)
     if found is None:
