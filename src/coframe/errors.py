@@ -258,7 +258,7 @@ _MOST_GUESSES = 3
 
 
 def _hint(failure: Failure) -> str:
-    if failure.code == "too_old" and _looks_like_seconds(failure):
+    if failure.code == "too_old" and looks_like_seconds(failure):
         return hint("in_seconds", requested=str(failure.requested))
     parent, child = failure.edge or ("", "")
     return hint(
@@ -267,13 +267,14 @@ def _hint(failure: Failure) -> str:
         source=failure.source,
         parent=parent,
         child=child,
+        timeout="0.1",
         bare=failure.name.lstrip("/"),
         guess=_guess(failure) if failure.code == "unknown_frame" else "",
         trees=_trees(failure) if failure.code == "not_connected" else "",
     )
 
 
-def _looks_like_seconds(failure: Failure) -> bool:
+def looks_like_seconds(failure: Failure | TransformException) -> bool:
     """Whether the time asked for, taken as seconds, is one that the link has."""
     if failure.requested is None or failure.earliest is None or failure.latest is None:
         return False
@@ -287,10 +288,10 @@ def _guess(failure: Failure) -> str:
     close = _alike(failure.name, known)
     if not close:
         return f"The frames are: {', '.join(known)}."
-    target, source = (close[0] if name == failure.name else name for name in (failure.target, failure.source))
-    meant = " or ".join(map(repr, close))
-    line = f"lookup_transform({target!r}, {source!r}, ...)"
-    return f"Did you mean {meant}? The frames are: {', '.join(known)}. In a node: {line}."
+    asked = (failure.target, failure.source)
+    target, source = (close[0] if name == failure.name else name for name in asked)
+    line = f" In a node: lookup_transform({target!r}, {source!r}, ...)." if failure.name in asked else ""
+    return f"Did you mean {' or '.join(map(repr, close))}? The frames are: {', '.join(known)}.{line}"
 
 
 def _alike(name: str, known: list[str]) -> list[str]:
