@@ -1,4 +1,4 @@
-"""Why there is a transform, or why not: the verdict is the look-up's, and the links that are named are those to blame."""
+"""Why there is a transform, or why not: the verdict is the look-up's, the links that are named are those to blame."""
 
 import operator
 import random
@@ -163,7 +163,9 @@ def test_a_link_that_has_stopped_is_not_to_be_waited_for():
     moving(buffer, "odom", "base", now - 6 * SECOND, now - 4 * SECOND, 20 * MS)
     assert "silent for 4" in str(buffer.why("odom", "base", now=now))
     hint = buffer.why("odom", "base", now, now=now).hint
-    assert hint.startswith("odom -> base has not been told of for 4 s: no timeout helps. Is its publisher, /wheels, still")
+    assert hint.startswith(
+        "odom -> base has not been told of for 4 s: no timeout helps. Is its publisher, /wheels, still"
+    )
     assert "lookup_transform('odom', 'base', rclpy.time.Time())" in hint
     fresh = buffer.why("odom", "base", now - 3_990 * MS, now=now - 3_980 * MS).hint
     assert "timeout=Duration(seconds=0.1)" in fresh
@@ -192,17 +194,18 @@ def test_cleared_looped_and_odd(buffer):
         buffer.why("odom", "arm", 1.5)
 
 
-def forest(chance, reparents=False):
+def forest(chance, reparents=False, told=0.8):
     """A random forest whose links know random times, in a buffer that keeps everything."""
     buffer = coframe.Buffer(cache=None)
     frames = [f"f{number}" for number in range(chance.randint(2, 9))]
     for number, child in enumerate(frames[1:], 1):
-        if chance.random() < 0.8:
+        if chance.random() < told:
             static = chance.random() < 0.3
             first = chance.randint(1, 60)
-            count = 1 if static else chance.choice((1, 2, 5, 40))
+            count = 1 if static else chance.choice((1, 2, 5, 20))
+            parent = frames[chance.randrange(number)]
             for k in range(count):
-                parent = frames[chance.randrange(number)] if reparents or k == 0 else parent
+                parent = frames[chance.randrange(number)] if reparents else parent
                 place = coframe.Transform([chance.random(), k, number])
                 buffer.set(parent, child, place, (first + k) * SECOND, static=static)
     return buffer, [frame for frame in frames if frame in buffer]
@@ -216,18 +219,19 @@ def question(chance, frames):
 def test_the_verdict_is_the_look_ups(reparents):
     chance = random.Random(reparents)
     verdicts = []
-    for _ in range(60):
+    for _ in range(50):
         buffer, frames = forest(chance, reparents)
         for asked in [question(chance, frames) for _ in range(5)] if frames else ():
             why = buffer.why(*asked)
             verdicts.append(buffer.can_transform(*asked))
             assert why.possible == verdicts[-1]
             assert why.possible == (not why.broken and why.roots is None), "what is wrong is named, or nothing is"
-            try:
+            if not why.possible:
+                with pytest.raises(TransformException) as caught:
+                    buffer.lookup(*asked)
+                assert (why.code, why.text) == (caught.value.code, str(caught.value))
+            else:
                 assert buffer.lookup(*asked).stamp == why.answered
-            except TransformException as error:
-                assert (why.code, why.text) == (error.code, str(error))
-            if why.possible:
                 steps = [buffer.lookup(*pair, why.answered) for pair in pairwise(why.frames)]
                 end = reduce(operator.matmul, steps, NOW).translation
                 assert end == pytest.approx(buffer.lookup(*asked).translation), "the links are those of the answer"
@@ -239,8 +243,8 @@ def test_what_is_named_is_what_is_missing():
     """With all of it there is a transform, and without any one of it there is none."""
     chance = random.Random(3)
     repaired = joined = 0
-    for _ in range(300):
-        buffer, frames = forest(chance)
+    for _ in range(150):
+        buffer, frames = forest(chance, told=0.6)
         if not frames:
             continue
         target, source, stamp = question(chance, frames)
@@ -252,9 +256,10 @@ def test_what_is_named_is_what_is_missing():
         for parent, child, at in wanted:
             assert not buffer.can_transform(target, source, stamp)
             buffer.set(parent, child, NOW, at, static=at is None)
-        if why.roots is not None and stamp == 0:  # the two trees may know no time in common
+        joined += why.missing is not None
+        if why.roots is not None and stamp == 0:  # they are one tree now, which may know no time in common
+            assert buffer.why(target, source).roots is None
             continue
         assert buffer.can_transform(target, source, stamp), (why, wanted)
         repaired += bool(why.broken)
-        joined += why.missing is not None
-    assert min(repaired, joined) > 30
+    assert min(repaired, joined) > 20

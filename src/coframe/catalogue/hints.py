@@ -51,7 +51,8 @@ _HINTS = {
     ),
     "too_old": _Hint(
         "TF015",
-        "{parent} -> {child} has forgotten that time: use a longer cache, tf2_ros.Buffer(cache_time=Duration(seconds=30)) "
+        "{parent} -> {child} has forgotten that time: use a longer cache, "
+        "tf2_ros.Buffer(cache_time=Duration(seconds=30)) "
         'or coframe.Buffer(cache="30s"), or ask for a newer time.',
     ),
     "unknown_frame": _Hint("TF001", "{guess}"),

@@ -53,16 +53,25 @@ def verdict(found: Explanation) -> str:
 
 def remark(found: Explanation, link: Link) -> str:
     """What there is to say of a link: what is wrong with it, and by how much; "" where nothing is."""
+    return _oddity(found, link) if link.state == "ok" else _fault(found, link)
+
+
+def _fault(found: Explanation, link: Link) -> str:
+    by = duration(abs(link.by))
     if link.state == "too_new":
-        due = f", by its rate due {duration(link.due)} after that time" if 0 < link.by < link.patience else ""
-        return f"late by {duration(link.by)}{due if link.period else ''}"
+        due = (
+            f", by its rate due {duration(link.due)} after that time" if link.period and link.by < link.patience else ""
+        )
+        return f"late by {by}{due}"
     if link.state == "too_old":
         keeps = f", the buffer keeps {duration(found.cache)}" if found.cache >= 0 else ""
-        return f"asked {duration(-link.by)} too early{keeps}"
+        return f"asked {by} too early{keeps}"
     if link.state == "only_other":
-        return f"known only {duration(abs(link.by))} {'before' if link.by > 0 else 'after'} that time"
-    if link.state == "no_data":
-        return "not known any more"
+        return f"known only {by} {'before' if link.by > 0 else 'after'} that time"
+    return "not known any more"
+
+
+def _oddity(found: Explanation, link: Link) -> str:
     if link.later:
         return f"later told in {link.later}"
     if link.gap > max(_GAP, 10 * link.period):

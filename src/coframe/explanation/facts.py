@@ -59,7 +59,7 @@ class Link(NamedTuple):
 
     @property
     def due(self) -> int:
-        """How long after the time that is asked for its next sample is to come, if it keeps its rate, in nanoseconds."""
+        """How long after the time that is asked for its next sample is due by its rate, in nanoseconds."""
         return -self.by % self.period if self.period else 0
 
     @property
