@@ -55,10 +55,8 @@ class MissingLink(NamedTuple):
                 f"In the node that sends {self.child!r}, change the line to t.header.frame_id = {self.parent!r} "
                 f"(or t.child_frame_id); the two names must be the same."
             )
-        return (
-            f"Start the node that publishes {self.parent} -> {self.child}; if it never moves: "
-            f"coframe static --frame-id {shlex.quote(self.parent)} --child-frame-id {shlex.quote(self.child)}"
-        )
+        command = f"coframe static --frame-id {shlex.quote(self.parent)} --child-frame-id {shlex.quote(self.child)}"
+        return f"If {self.parent} -> {self.child} never moves: `{command}`; else start the node that publishes it."
 
 
 def unknown_mount(root: str) -> str:

@@ -14,12 +14,11 @@ from rich.markdown import Markdown
 from rich.text import Text
 
 from coframe.cli.recordings import NamespaceOption, reading
-from coframe.cli.session import DomainOption, TfStaticTopicOption, TfTopicOption, fail, printable, session
+from coframe.cli.session import DomainOption, TfStaticTopicOption, TfTopicOption, fail, length, printable, session
 from coframe.doctor import codes, diagnose, observe_recording, page
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.sarif import as_sarif
 from coframe.doctor.rendering.text import lines
-from coframe.time import duration_ns
 
 if TYPE_CHECKING:
     from coframe.doctor import Report
@@ -59,7 +58,7 @@ def doctor(
         _explain(explain)
         return
     unwanted = _codes(ignore or [])
-    window, buffers = _length("--duration", duration), _length("--cache", cache)
+    window, buffers = length("--duration", duration), length("--cache", cache)
     if (as_json and sarif) or (watch and (sarif or bag is not None)):
         fail("--json and --sarif, --watch and --sarif, and --watch and a recording exclude each other", code=2)
     with session():
@@ -102,16 +101,6 @@ def _codes(wanted: list[str]) -> list[str]:
         if code not in codes():
             fail(f"--ignore: there is no check {code!r}", f"There are {', '.join(codes())}.", code=2)
     return every
-
-
-def _length(option: str, text: str) -> int:
-    try:
-        nanoseconds = duration_ns(text)
-    except (ValueError, TypeError) as error:
-        fail(f"{option}: {error}", code=2)
-    if nanoseconds <= 0:
-        fail(f"{option} must be more than 0", code=2)
-    return nanoseconds
 
 
 def _finish(reports: dict[str, Report], as_json: bool, sarif: bool, what: str) -> None:

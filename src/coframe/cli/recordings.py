@@ -40,10 +40,12 @@ def reading() -> Iterator[Callable[[int, int], object]]:
 
 
 @contextmanager
-def opened(path: Path, namespace: str | None, prefix: str, keep: str) -> Iterator[Recording]:
+def opened(
+    path: Path, namespace: str | None, prefix: str, keep: str, heard: Callable[..., object] | None = None
+) -> Iterator[Recording]:
     """The recording, read with a progress bar if that takes long; what could not be read goes to stderr."""
     with reading() as progress:
-        recording = open_bag(path, namespace=namespace, prefix=prefix, keep=keep, progress=progress)
+        recording = open_bag(path, namespace=namespace, prefix=prefix, keep=keep, progress=progress, heard=heard)
     with recording:
         told = recording.problems
         for problem in told:

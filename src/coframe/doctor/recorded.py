@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from coframe.bags import Recording
     from coframe.bags.storage import Channel, Slices
 
-__all__ = ["observe_recording"]
+__all__ = ["collecting", "observe_recording"]
 
 _MOST_DECODED = 2000  # messages a topic: enough to tell, and quick
 _MOST_DESCRIPTIONS = 10
@@ -48,14 +48,7 @@ def observe_recording(
         RecordingError: Nothing of it can be read.
     """
     collectors: dict[str, Collector] = {}
-
-    def heard(channel: Channel, received: NDArray[np.int64], messages: Slices) -> None:
-        take = ingest_for(channel)
-        if take is not None:
-            collector = collectors.setdefault(channel.topic.rpartition("/")[0], Collector())
-            collector.add(channel.topic, take.static, take.columns(messages), received, [""] * len(received))
-
-    with open_bag(path, namespace=namespace, progress=progress, heard=heard) as recording:
+    with open_bag(path, namespace=namespace, progress=progress, heard=collecting(collectors)) as recording:
         facts = _Facts(recording)
         return {
             name: Observation(
@@ -76,6 +69,18 @@ def observe_recording(
             )
             for name, collector in sorted((collectors or {"": Collector()}).items())
         }
+
+
+def collecting(collectors: dict[str, Collector]) -> Callable[[Channel, NDArray[np.int64], Slices], None]:
+    """What :func:`coframe.open_bag` takes as ``heard``: it fills a collector for each namespace."""
+
+    def heard(channel: Channel, received: NDArray[np.int64], messages: Slices) -> None:
+        take = ingest_for(channel)
+        if take is not None:
+            collector = collectors.setdefault(channel.topic.rpartition("/")[0], Collector())
+            collector.add(channel.topic, take.static, take.columns(messages), received, [""] * len(received))
+
+    return heard
 
 
 def _belongs(topic: str, namespace: str, namespaces: dict[str, Collector]) -> bool:
