@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe import _core
 from coframe.catalogue.hints import hint
-from coframe.catalogue.missing_link import missing_link
+from coframe.catalogue.missing_link import missing_link, tree_of
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -303,7 +303,7 @@ def _alike(name: str, known: list[str]) -> list[str]:
 
 def _trees(failure: Failure) -> str:
     roots = failure.roots or ("", "")
-    trees = [[root, *_below(root, failure.parents)] for root in roots]
+    trees = [tree_of(root, failure.parents) for root in roots]
     told = " and ".join(f"{root!r} with {', '.join(below)}" if below else f"{root!r} alone" for root, *below in trees)
     target_root, source_root = roots
     link = missing_link(*sorted(trees, key=len, reverse=True))
@@ -311,15 +311,3 @@ def _trees(failure: Failure) -> str:
         f"The trees are {told}. The missing link is a transform with the child {source_root!r} (or {target_root!r})."
         + (f" {link.fix}" if link else "")
     )
-
-
-def _below(root: str, parents: dict[str, str]) -> list[str]:
-    return sorted(frame for frame in parents if frame != root and _root_of(frame, parents) == root)
-
-
-def _root_of(frame: str, parents: dict[str, str]) -> str:
-    seen = set()
-    while parents.get(frame) and frame not in seen:
-        seen.add(frame)
-        frame = parents[frame]
-    return frame

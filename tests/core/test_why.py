@@ -74,7 +74,7 @@ def test_early_by_how_much(buffer):
         ("odom -> base", "too_old", -1),
         ("base -> arm", "too_old", -1),
     ]
-    assert "base -> arm is asked 1 ns too early, the buffer keeps 10 s" in str(why)
+    assert "odom -> base is asked 1 ns too early, the buffer keeps 10 s, and 1 more" in str(why)
     assert "before 10.000000000" in why.hint
     moving(buffer, "odom", "base", 13 * SECOND, 25 * SECOND, 20 * MS)
     assert "coframe.Buffer(cache=" in buffer.why("odom", "lidar", 11 * SECOND).hint, "which has been forgotten"

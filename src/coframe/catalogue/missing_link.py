@@ -8,9 +8,9 @@ import shlex
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
-__all__ = ["MissingLink", "missing_link", "unknown_mount"]
+__all__ = ["MissingLink", "missing_link", "tree_of", "unknown_mount"]
 
 _ALIKE = 0.8
 # Parents and children by REP-105 and by habit.
@@ -65,6 +65,25 @@ def unknown_mount(root: str) -> str:
         f"Publish a transform with child_frame_id = {root!r}; if it never moves: "
         f"coframe static --frame-id PARENT --child-frame-id {shlex.quote(root)}"
     )
+
+
+def tree_of(root: str, parents: Mapping[str, str]) -> list[str]:
+    """The frames of a tree, its root in front, from the parents of all frames; "" for those that have none.
+
+    Example:
+        >>> tree_of("odom", {"lidar": "base", "base": "odom", "odom": "", "map": ""})
+        ['odom', 'base', 'lidar']
+    """
+    return [root, *sorted(frame for frame in parents if frame != root and _root(frame, parents) == root)]
+
+
+def _root(frame: str, parents: Mapping[str, str]) -> str:
+    """Of a loop any of its frames."""
+    seen = set()
+    while parents.get(frame) and frame not in seen:
+        seen.add(frame)
+        frame = parents[frame]
+    return frame
 
 
 def missing_link(first: Sequence[str], second: Sequence[str]) -> MissingLink | None:

@@ -85,7 +85,11 @@ def _reason(found: Explanation) -> str:
         return _REASONS[found.code]
     if found.unknown:
         return f"nobody tells of {' and '.join(map(repr, found.unknown))}"
-    reasons = [f"{link.name} is {remark(found, link)}" for link in found.broken]
+    reasons = []
+    if found.broken:
+        worst = max(found.broken, key=lambda link: abs(link.by))
+        others = f", and {len(found.broken) - 1} more have nothing for that time" if len(found.broken) > 1 else ""
+        reasons.append(f"{worst.name} is {remark(found, worst)}{others}")
     if found.roots is not None:
         reasons.append(f"nothing joins the trees of {found.roots[0]} and {found.roots[1]}")
     if found.missing is not None:

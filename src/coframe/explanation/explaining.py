@@ -10,7 +10,7 @@ import time as system_time
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.catalogue.missing_link import MissingLink, missing_link
+from coframe.catalogue.missing_link import MissingLink, missing_link, tree_of
 from coframe.errors import TransformException
 from coframe.explanation.advice import advice
 from coframe.explanation.facts import Explanation, Link
@@ -176,16 +176,8 @@ def _missing(buffer: Buffer, roots: tuple[str, str]) -> MissingLink | None:
     parents = {frame.name: frame.parent for frame in buffer.frames()}
     if not all(root in parents for root in roots):
         return None
-    trees = [[root, *(frame for frame in parents if frame != root and _root(frame, parents) == root)] for root in roots]
+    trees = [tree_of(root, parents) for root in roots]
     return missing_link(*sorted(trees, key=len, reverse=True)) or MissingLink(*roots, misspelt=False)
-
-
-def _root(frame: str, parents: dict[str, str]) -> str:
-    seen = set()
-    while parents.get(frame) and frame not in seen:
-        seen.add(frame)
-        frame = parents[frame]
-    return frame
 
 
 def _possible_at(buffer: Buffer, target: str, source: str, links: tuple[Link, ...]) -> int | None:
