@@ -99,6 +99,8 @@ def test_two_trees_their_roots_and_the_likely_link():
     assert "'base_lnk' looks like 'base_link' misspelt" in str(why)
     assert "t.header.frame_id = 'base_link'" in why.hint
     assert [link.name for link in why.links] == ["base_lnk -> camera"]
+    buffer.set("shelf", "box", NOW, static=True)
+    assert "; a link such as odom -> shelf is missing" in str(buffer.why("odom", "box"))
 
 
 @pytest.mark.parametrize(

@@ -74,16 +74,16 @@ def tree_of(root: str, parents: Mapping[str, str]) -> list[str]:
         >>> tree_of("odom", {"lidar": "base", "base": "odom", "odom": "", "map": ""})
         ['odom', 'base', 'lidar']
     """
-    return [root, *sorted(frame for frame in parents if frame != root and _root(frame, parents) == root)]
-
-
-def _root(frame: str, parents: Mapping[str, str]) -> str:
-    """Of a loop any of its frames."""
-    seen = set()
-    while parents.get(frame) and frame not in seen:
-        seen.add(frame)
-        frame = parents[frame]
-    return frame
+    below: dict[str, list[str]] = {}
+    for frame, parent in parents.items():
+        below.setdefault(parent, []).append(frame)
+    found = {root}
+    pending = [root]
+    while pending:
+        new = set(below.get(pending.pop(), ())) - found
+        found |= new
+        pending += new
+    return [root, *sorted(found - {root})]
 
 
 def missing_link(first: Sequence[str], second: Sequence[str]) -> MissingLink | None:
