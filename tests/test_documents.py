@@ -48,7 +48,9 @@ def test_commands_and_links_exist(document):
 
 
 def public_modules():
-    names = [module.name for module in pkgutil.walk_packages(coframe.__path__, "coframe.")]
+    # Where coframe is installed for editing, its path also has the folder above, in which it is once more.
+    folder = str(Path(coframe.__file__).parent)
+    names = [module.name for module in pkgutil.walk_packages([folder], "coframe.")]
     return [name for name in names if not re.search(r"generated|__main__|\.ros\b|_core|\.lab\b", name)]
 
 

@@ -421,6 +421,43 @@ nb::list frame_tuples(const BufferObject& self) {
   return frames;
 }
 
+const char* found_name(Found found) {
+  switch (found) {
+    case Found::ok: return "ok";
+    case Found::empty: return "no_data";
+    case Found::only_other: return "only_other";
+    case Found::too_new: return "too_new";
+    case Found::too_old: return "too_old";
+  }
+  return "";
+}
+
+// What a frame's history has for a time: (what the search comes to, the parent told then or else last, the stamps
+// around it). None for a frame without one.
+nb::object link_at(const BufferObject& self, std::string_view child, Stamp stamp) {
+  struct Told {
+    bool exists;
+    Found found;
+    std::string parent;
+    Stamp before, after;
+  };
+  const Told told = self.core->read([&](const Tree& tree) {
+    const History::View history = tree.history(tree.find(child));
+    Pose pose;
+    FrameId parent = history.parent();
+    const Found found = history.exists() ? history.at(stamp, pose, parent) : Found::empty;
+    Stamp before = history.newest(), after = before;
+    if (found == Found::ok && !history.is_static() && stamp != 0) {
+      const std::size_t next = history.first_after(stamp);
+      before = history.time(next == 0 ? 0 : next - 1);
+      after = before == stamp ? before : history.time(std::min(next, history.size() - 1));
+    }
+    return Told{history.exists(), found, parent == 0 ? std::string() : tree.name(parent), before, after};
+  });
+  if (!told.exists) return nb::none();
+  return nb::make_tuple(found_name(told.found), told.parent, told.before, told.after);
+}
+
 nb::dict statistics(const BufferObject& self) {
   const Counts counts = self.core->counts();
   nb::dict named;
@@ -490,6 +527,7 @@ void define_buffer(nb::module_& module) {
       .def("become_snapshot", [](BufferObject& self, const BufferObject& other) { self.core = other.core->snapshot(); },
            arg("other"))
       .def("frame_tuples", &frame_tuples)
+      .def("link_at", &link_at, arg("child"), arg("stamp"))
       .def("edge_tuples", &edge_tuples, arg("children") = nb::none())
       .def("frame_names", [](const BufferObject& self) { return self.core->frame_names(); })
       .def("frame_exists",

@@ -258,6 +258,14 @@ class Buffer:
             tuple[int, int, int, int, int, int, int],
         ]
     ]: ...
+    def link_at(self, child: str, stamp: int) -> tuple[str, str, int, int] | None:
+        """What a frame's samples have for a time; 0 is the latest. None for a frame that nobody has told a parent of.
+
+        Returns:
+            What is wrong (``ok``, or ``too_new`` and its like, as a Failure's code), the parent that was told then (or
+            last, where there is no sample then; "" without any), and the stamps of the samples before and after.
+        """
+
     def frame_names(self) -> list[str]:
         """All frames in the order in which they were first mentioned (a child before its parent)."""
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Self
 
+    from coframe.explanation import Explanation
     from coframe.time import DurationLike, StampLike
     from coframe.transform import Transform
 
@@ -468,6 +469,25 @@ class Buffer(_core.Buffer):
             return self.lookup(target, source, stamp)
         except TransformException as error:
             raise _in_vain(target, source, timeout, error) from error
+
+    def why(
+        self, target: str, source: str, at: StampLike | None = None, *, now: StampLike | None = None
+    ) -> Explanation:
+        """Why :meth:`lookup` has an answer, or why not: by which links, and which one is missing, late or early.
+
+        Args:
+            target: The frame the answer is in.
+            source: The frame that is asked about.
+            at: When; 0 or None is the latest.
+            now: The present, by the clock of the stamps. By default the system's, where the stamps are within an hour
+                of it; a buffer that is frozen or keeps everything, as of a recording, has none.
+
+        Returns:
+            The facts; ``print()`` draws them.
+        """
+        from coframe.explanation import explain  # noqa: PLC0415 - it stands on this module
+
+        return explain(self, target, source, at, now=now)
 
     def on_change(self, callback: Callable[[EdgeInfo], object], *, child: str | None = None) -> Subscription:
         """Calls back when the link between ``child`` and its parent gets a new sample.

@@ -27,6 +27,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe import _core
 from coframe.catalogue.hints import hint
+from coframe.catalogue.missing_link import missing_link, tree_of
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -59,6 +60,7 @@ class _Facts(NamedTuple):
     latest: int | None = None
     edge: tuple[str, str] | None = None
     hint: str = ""
+    code: str = ""
 
 
 _NO_FACTS = _Facts()
@@ -86,10 +88,11 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
         latest: int | None = None,
         edge: tuple[str, str] | None = None,
         hint: str = "",
+        code: str = "",
     ) -> Self:
         """An exception with the text ``reason`` and with these facts."""
         error = cls(reason)
-        error._told = _Facts(target, source, requested, earliest, latest, edge, hint)
+        error._told = _Facts(target, source, requested, earliest, latest, edge, hint, code)
         return error
 
     @property
@@ -114,6 +117,11 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
     @property
     def _facts(self) -> Failure | _Facts:
         return self._failure or self._told
+
+    @property
+    def code(self) -> str:
+        """What went wrong in a word, ``too_new`` or ``not_connected``; "" where it was no look-up that failed."""
+        return self._facts.code
 
     @property
     def target(self) -> str | None:
@@ -246,51 +254,60 @@ def _restore(kind: str | type[TransformException], text: str, facts: dict[str, o
     return chosen.telling(text, **facts)  # type: ignore[arg-type]
 
 
+_MOST_GUESSES = 3
+
+
 def _hint(failure: Failure) -> str:
-    if failure.code == "too_old" and _looks_like_seconds(failure):
+    if failure.code == "too_old" and looks_like_seconds(failure):
         return hint("in_seconds", requested=str(failure.requested))
     parent, child = failure.edge or ("", "")
     return hint(
         failure.code,
+        target=failure.target,
+        source=failure.source,
         parent=parent,
         child=child,
+        timeout="0.1",
         bare=failure.name.lstrip("/"),
-        guess=_guess(failure.name, list(failure.parents)) if failure.code == "unknown_frame" else "",
+        guess=_guess(failure) if failure.code == "unknown_frame" else "",
         trees=_trees(failure) if failure.code == "not_connected" else "",
     )
 
 
-def _looks_like_seconds(failure: Failure) -> bool:
+def looks_like_seconds(failure: Failure | TransformException) -> bool:
     """Whether the time asked for, taken as seconds, is one that the link has."""
     if failure.requested is None or failure.earliest is None or failure.latest is None:
         return False
     return failure.earliest <= failure.requested * 1_000_000_000 <= failure.latest
 
 
-def _guess(name: str, known: list[str]) -> str:
+def _guess(failure: Failure) -> str:
+    known = sorted(failure.parents)
     if not known:
         return "No transforms have arrived yet: is a broadcaster running, in the same ROS domain?"
-    close = difflib.get_close_matches(name, known, n=1)
-    guess = f"Did you mean {close[0]!r}? " if close else ""
-    return f"{guess}The frames are: {', '.join(sorted(known))}."
+    close = _alike(failure.name, known)
+    if not close:
+        return f"The frames are: {', '.join(known)}."
+    asked = (failure.target, failure.source)
+    target, source = (close[0] if name == failure.name else name for name in asked)
+    line = f" In a node: lookup_transform({target!r}, {source!r}, ...)." if failure.name in asked else ""
+    return f"Did you mean {' or '.join(map(repr, close))}? The frames are: {', '.join(known)}.{line}"
+
+
+def _alike(name: str, known: list[str]) -> list[str]:
+    """The frames that may be meant: with a prefix or without, or spelt nearly like it."""
+    bare = name.rpartition("/")[2]
+    same = [frame for frame in known if frame.rpartition("/")[2] == bare]
+    return same[:_MOST_GUESSES] or difflib.get_close_matches(name, known, n=1)
 
 
 def _trees(failure: Failure) -> str:
-    target_root, source_root = failure.roots or ("", "")
-    trees = " and ".join(_tree_text(root, failure.parents) for root in (target_root, source_root))
+    roots = failure.roots or ("", "")
+    trees = [tree_of(root, failure.parents) for root in roots]
+    told = " and ".join(f"{root!r} with {', '.join(below)}" if below else f"{root!r} alone" for root, *below in trees)
+    target_root, source_root = roots
+    link = missing_link(*sorted(trees, key=len, reverse=True))
     return (
-        f"The trees are {trees}. The missing link is a transform with the child {source_root!r} (or {target_root!r})."
+        f"The trees are {told}. The missing link is a transform with the child {source_root!r} (or {target_root!r})."
+        + (f" {link.fix}" if link else "")
     )
-
-
-def _tree_text(root: str, parents: dict[str, str]) -> str:
-    members = sorted(frame for frame in parents if frame != root and _root_of(frame, parents) == root)
-    return f"{root!r} with {', '.join(members)}" if members else f"{root!r} alone"
-
-
-def _root_of(frame: str, parents: dict[str, str]) -> str:
-    seen = set()
-    while parents.get(frame) and frame not in seen:
-        seen.add(frame)
-        frame = parents[frame]
-    return frame

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+from nodes import NODE
 
 from coframe.doctor import diagnose, observe_recording
 
@@ -72,3 +73,9 @@ def inside(network, domain_id):  # noqa: ARG001 - which it sets for the processe
     processes = Inside(network)
     yield processes
     processes.close()
+
+
+@pytest.fixture
+def start(inside):
+    """Starts a node with this name and body."""
+    return lambda name, body, **options: inside.start("-c", NODE.replace("{body}", body), name, **options)

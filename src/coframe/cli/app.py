@@ -19,6 +19,7 @@ from coframe.cli.robot import robot
 from coframe.cli.static import static
 from coframe.cli.trajectory import trajectory
 from coframe.cli.view import view
+from coframe.cli.why import WhyCommand, why
 
 __all__ = ["app"]
 
@@ -27,6 +28,7 @@ app.command()(demo)
 app.command()(doctor)
 app.command()(echo)
 app.command()(monitor)
+app.command(cls=WhyCommand)(why)
 app.command()(view)
 app.command()(relay)
 app.command()(lookup)

@@ -23,6 +23,7 @@ from coframe.cli.session import (
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
     fail,
+    length,
     printable,
     recorded_tf_topics,
     session,
@@ -31,7 +32,6 @@ from coframe.doctor import codes, diagnose, observe_recording, page
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.sarif import as_sarif
 from coframe.doctor.rendering.text import lines
-from coframe.time import duration_ns
 
 if TYPE_CHECKING:
     from coframe.doctor import Report
@@ -73,7 +73,7 @@ def doctor(
         _explain(explain)
         return
     unwanted = _codes(ignore or [])
-    window, buffers = _length("--duration", duration), _length("--cache", cache)
+    window, buffers = length("--duration", duration), length("--cache", cache)
     if (as_json and sarif) or (watch and (sarif or bag is not None)):
         fail("--json and --sarif, --watch and --sarif, and --watch and a recording exclude each other", code=2)
     shared: Any = {"cache": buffers, "prefix": prefix, "keep": keep}
@@ -116,16 +116,6 @@ def _codes(wanted: list[str]) -> list[str]:
         if code not in codes():
             fail(f"--ignore: there is no check {code!r}", f"There are {', '.join(codes())}.", code=2)
     return every
-
-
-def _length(option: str, text: str) -> int:
-    try:
-        nanoseconds = duration_ns(text)
-    except (ValueError, TypeError) as error:
-        fail(f"{option}: {error}", code=2)
-    if nanoseconds <= 0:
-        fail(f"{option} must be more than 0", code=2)
-    return nanoseconds
 
 
 def _finish(reports: dict[str, Report], as_json: bool, sarif: bool, what: str) -> None:

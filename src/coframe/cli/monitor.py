@@ -20,11 +20,11 @@ from coframe.cli.session import (
     TfStaticTopicOption,
     TfTopicOption,
     fail,
+    length,
     printable,
     session,
 )
 from coframe.doctor.figures import chain_figures, link_figures, publisher_figures
-from coframe.time import duration_ns
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -63,7 +63,7 @@ def monitor(
         fail("give two frames, or none", code=2)
     if as_json and classic:
         fail("--json and --classic exclude each other", code=2)
-    window = _length(duration)
+    window = length("--duration", duration)
     pair = (target, source) if target is not None and source is not None else None
     with session():
         from coframe.wire.observing import Listening  # noqa: PLC0415 - 100 ms
@@ -83,16 +83,6 @@ def monitor(
             if not (once or as_json or classic):
                 _watch(listening, pair)
             _report(listening, pair, window / SECOND, _printer(as_json, classic), once=once)
-
-
-def _length(text: str) -> int:
-    try:
-        nanoseconds = duration_ns(text)
-    except (ValueError, TypeError) as error:
-        fail(f"--duration: {error}", code=2)
-    if nanoseconds <= 0:
-        fail("--duration must be more than 0", code=2)
-    return nanoseconds
 
 
 def _printer(as_json: bool, classic: bool) -> Callable[[Observation, Pair], None]:

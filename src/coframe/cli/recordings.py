@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console
@@ -75,12 +75,19 @@ def working() -> Iterator[Callable[[str, int, int], object]]:
 
 @contextmanager
 def opened(
-    path: Path, namespace: str | None, tf_topic: str | None, tf_static_topic: str | None, prefix: str, keep: str
+    path: Path,
+    namespace: str | None,
+    tf_topic: str | None,
+    tf_static_topic: str | None,
+    prefix: str,
+    keep: str,
+    heard: Callable[..., object] | None = None,
 ) -> Iterator[Recording]:
     """The recording, read with a progress bar if that takes long; what could not be read goes to stderr."""
     topics = recorded_tf_topics(tf_topic, tf_static_topic)
     with reading() as progress:
-        recording = open_bag(path, namespace=namespace, tf_topics=topics, prefix=prefix, keep=keep, progress=progress)
+        chosen: dict[str, Any] = {"namespace": namespace, "tf_topics": topics, "prefix": prefix, "keep": keep}
+        recording = open_bag(path, **chosen, progress=progress, heard=heard)
     with recording:
         told = recording.problems
         for problem in told:

@@ -20,6 +20,7 @@ from coframe.errors import (
     ViewerError,
     WireError,
 )
+from coframe.time import duration_ns
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -37,6 +38,7 @@ __all__ = [
     "TfTopicOption",
     "check_prefix",
     "fail",
+    "length",
     "log",
     "node_errors",
     "printable",
@@ -110,6 +112,17 @@ def fail(text: str, hint: str = "", *, code: int = 1) -> NoReturn:
     """Ends the command with one plain sentence and, below it, what to do."""
     typer.echo(f"coframe: {printable(text)}" + (f"\n  {printable(hint)}" if hint else ""), err=True)
     raise typer.Exit(code)
+
+
+def length(option: str, text: str) -> int:
+    """The duration that an option gives, in nanoseconds; one that is none, or 0, ends the command."""
+    try:
+        nanoseconds = duration_ns(text)
+    except (ValueError, TypeError) as error:
+        fail(f"{option}: {error}", code=2)
+    if nanoseconds <= 0:
+        fail(f"{option} must be more than 0", code=2)
+    return nanoseconds
 
 
 def printable(text: str) -> str:

@@ -20,10 +20,11 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from coframe import _core
     from coframe.bags import Recording
     from coframe.bags.storage import Channel, Slices
 
-__all__ = ["observe_recording"]
+__all__ = ["collecting", "observe_recording"]
 
 _MOST_DECODED = 2000  # messages a topic: enough to tell, and quick
 _MOST_DESCRIPTIONS = 10
@@ -57,15 +58,8 @@ def observe_recording(
     """
     names = renaming(prefix, keep)
     collectors: dict[str, Collector] = {}
-
-    def heard(channel: Channel, received: NDArray[np.int64], messages: Slices) -> None:
-        take = ingest_for(channel)
-        if take is not None:
-            collector = collectors.setdefault(channel.topic.rpartition("/")[0], Collector(names))
-            collector.add(channel.topic, take.static, take.columns(messages), received, [""] * len(received))
-
     chosen: Any = {"namespace": namespace, "tf_topics": tf_topics, "prefix": prefix, "keep": keep}
-    with open_bag(path, **chosen, progress=progress, heard=heard) as recording:
+    with open_bag(path, **chosen, progress=progress, heard=collecting(collectors, names)) as recording:
         facts = _Facts(recording)
         return {
             name: Observation(
@@ -87,6 +81,20 @@ def observe_recording(
             )
             for name, collector in sorted((collectors or {"": Collector()}).items())
         }
+
+
+def collecting(
+    collectors: dict[str, Collector], names: _core.Renaming | None = None
+) -> Callable[[Channel, NDArray[np.int64], Slices], None]:
+    """What :func:`coframe.open_bag` takes as ``heard``: it fills a collector for each namespace."""
+
+    def heard(channel: Channel, received: NDArray[np.int64], messages: Slices) -> None:
+        take = ingest_for(channel)
+        if take is not None:
+            collector = collectors.setdefault(channel.topic.rpartition("/")[0], Collector(names))
+            collector.add(channel.topic, take.static, take.columns(messages), received, [""] * len(received))
+
+    return heard
 
 
 def _belongs(topic: str, namespace: str, namespaces: dict[str, Collector]) -> bool:

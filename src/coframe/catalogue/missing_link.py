@@ -1,0 +1,133 @@
+"""The link that most likely is missing between two trees, by the names of their frames."""
+
+from __future__ import annotations
+
+import difflib
+import re
+import shlex
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+__all__ = ["MissingLink", "missing_link", "tree_of", "unknown_mount"]
+
+_ALIKE = 0.8
+# Parents and children by REP-105 and by habit.
+_USUAL = (
+    ("base_footprint", "base_link"),
+    ("odom", "base_footprint"),
+    ("odom", "base_link"),
+    ("map", "odom"),
+    ("map", "base_link"),
+    ("earth", "map"),
+    ("world", "map"),
+    ("world", "odom"),
+    ("world", "base_link"),
+)
+
+
+class MissingLink(NamedTuple):
+    """A link that would make one tree of two.
+
+    Attributes:
+        parent: A frame of one tree.
+        child: The root of the other one.
+        misspelt: Whether the two are meant to be one frame, and one name is misspelt.
+    """
+
+    parent: str
+    child: str
+    misspelt: bool
+
+    @property
+    def text(self) -> str:
+        """What is likely, in a few words."""
+        if self.misspelt:
+            return f"{self.child!r} looks like {self.parent!r} misspelt"
+        return f"most likely {self.parent} -> {self.child} is missing"
+
+    @property
+    def fix(self) -> str:
+        """What to do: the line to change, or the command."""
+        if self.misspelt:
+            return (
+                f"In the node that sends {self.child!r}, change the line to t.header.frame_id = {self.parent!r} "
+                f"(or t.child_frame_id); the two names must be the same."
+            )
+        command = f"coframe static --frame-id {shlex.quote(self.parent)} --child-frame-id {shlex.quote(self.child)}"
+        return f"If {self.parent} -> {self.child} never moves: `{command}`; else start the node that publishes it."
+
+
+def unknown_mount(root: str) -> str:
+    """What to do about a tree whose root nobody tells of, where no link is more likely than others."""
+    return (
+        f"Publish a transform with child_frame_id = {root!r}; if it never moves: "
+        f"coframe static --frame-id PARENT --child-frame-id {shlex.quote(root)}"
+    )
+
+
+def tree_of(root: str, parents: Mapping[str, str]) -> list[str]:
+    """The frames of a tree, its root in front, from the parents of all frames; "" for those that have none.
+
+    Example:
+        >>> tree_of("odom", {"lidar": "base", "base": "odom", "odom": "", "map": ""})
+        ['odom', 'base', 'lidar']
+    """
+    below: dict[str, list[str]] = {}
+    for frame, parent in parents.items():
+        below.setdefault(parent, []).append(frame)
+    found = {root}
+    pending = [root]
+    while pending:
+        new = set(below.get(pending.pop(), ())) - found
+        found |= new
+        pending += new
+    return [root, *sorted(found - {root})]
+
+
+def missing_link(first: Sequence[str], second: Sequence[str]) -> MissingLink | None:
+    """The most likely link between two trees: a misspelt name, or what is usual; None if none is likely.
+
+    Args:
+        first: The frames of the larger tree, its root in front.
+        second: Those of the other one, likewise.
+
+    Example:
+        >>> missing_link(["odom", "base_link"], ["base_lnk", "lidar"])
+        MissingLink(parent='base_link', child='base_lnk', misspelt=True)
+        >>> missing_link(["odom", "base_footprint"], ["base_link", "wheel"])
+        MissingLink(parent='base_footprint', child='base_link', misspelt=False)
+    """
+    sides = ((second[0], first), (first[0], second))
+    for root, frames in sides:
+        alike = [
+            frame for frame in difflib.get_close_matches(root, frames, n=3, cutoff=_ALIKE) if _is_slip(root, frame)
+        ]
+        if alike:
+            return MissingLink(alike[0], root, misspelt=True)
+    for parent, child in _USUAL:
+        for root, frames in sides:
+            above = [frame for frame in frames if _bare(frame) == parent and _prefix(frame) == _prefix(root)]
+            if _bare(root) == child and above:
+                return MissingLink(above[0], root, misspelt=False)
+    return None
+
+
+def _is_slip(name: str, other: str) -> bool:
+    """Whether one may be meant for the other: wheel_left and wheel_right, link1 and link2 are two names."""
+    return re.findall(r"\d+", name) == re.findall(r"\d+", other) and not (
+        {"left", "right", "front", "rear", "back", "upper", "lower"} & (_words(name) ^ _words(other))
+    )
+
+
+def _words(name: str) -> set[str]:
+    return set(re.split(r"[^a-z]+", name.lower()))
+
+
+def _bare(frame: str) -> str:
+    return frame.rpartition("/")[2]
+
+
+def _prefix(frame: str) -> str:
+    return frame.rpartition("/")[0]

@@ -1,0 +1,189 @@
+"""coframe why: of recordings as real robots make them, and of the lab's common errors as students make them."""
+
+import json
+import subprocess
+
+import pytest
+import recordings
+from nodes import ROBOT
+from recordings import SECOND, START, TF
+from runs import Run
+from typer.testing import CliRunner
+
+from coframe.cli.app import app
+from coframe.messages import find, serialize
+
+
+def why(*arguments):
+    """(exit code, standard output)."""
+    result = CliRunner().invoke(app, ["why", *map(str, arguments)])
+    assert result.exception is None or isinstance(result.exception, SystemExit)
+    return result.exit_code, result.stdout
+
+
+def answer(*arguments):
+    code, out = why(*arguments, "--json")
+    data = json.loads(out)
+    assert code == (0 if data["possible"] else 1)
+    return data
+
+
+def test_a_healthy_way_of_a_recording(shared):
+    bag = shared / "recordings" / "tb3_gazebo_walker"
+    data = answer(bag, "odom", "wheel_left_link")
+    assert data["frames"] == ["odom", "base_footprint", "base_link", "wheel_left_link"]
+    assert [(link["static"], link["publisher"]) for link in data["links"]] == [
+        (False, "/tf"),
+        (True, "/tf_static"),
+        (False, "/tf"),
+    ]
+    assert data["limit"] == ["base_link", "wheel_left_link"]
+    assert data["findings"] == []
+    code, out = why(bag, "odom", "wheel_left_link")
+    assert code == 0
+    assert out.startswith("yes: there is a transform from wheel_left_link to odom, the latest at 49.866000000: ")
+    assert "do:" not in out
+
+
+def test_statics_that_are_missing_from_a_recording(shared):
+    data = answer(shared / "recordings" / "tb3_tf_missing_static", "odom", "wheel_left_link")
+    assert (data["code"], data["roots"]) == ("not_connected", ["odom", "base_link"])
+    assert data["missing"] == ["base_footprint", "base_link"]
+    assert "coframe static --frame-id base_footprint --child-frame-id base_link" in data["hint"]
+    assert [finding["code"] for finding in data["findings"]] == ["TF017", "TF001"]
+
+
+@pytest.mark.parametrize(
+    ("at", "state", "by"),
+    [
+        ("302.136000001", "too_new", 1),
+        ("1h", "too_new", 280_002_000_000 + 3600 * SECOND - 302_136_000_000),
+        ("280.001999999", "too_old", -1),
+        ("0.000000001", "too_old", 1 - 280_002_000_000),
+    ],
+)
+def test_before_and_after_what_a_recording_knows_to_the_nanosecond(shared, at, state, by):
+    data = answer(shared / "recordings" / "tb3_tf_missing_static", "odom", "base_footprint", "--at", at)
+    (link,) = data["links"]
+    assert (link["state"], link["by_ns"]) == (state, by)
+    assert data["span_ns"] == [280_002_000_000, 302_136_000_000]
+    assert "from 280.002000000 to 302.136000000" in data["hint"]
+    assert data["findings"] == [], "the tree's other half has nothing to do with it"
+
+
+def test_what_the_doctor_finds_about_the_links_is_named(shared):
+    bag = shared / "recordings" / "epuck_webots"
+    assert [finding["code"] for finding in answer(bag, "odom", "base_link")["findings"]] == ["TF011"]
+    assert answer(bag, "base_link", "camera")["findings"] == []
+    code, out = why(bag, "odom", "base_link", "--prefix", "robot/")
+    assert (code, "'robot/odom'" in out) == (1, True)
+    code, out = why(bag, "robot/odom", "robot/base_link", "--prefix", "robot/")
+    assert (code, "TF011 warning: odom -> base_link: 182 of 780" in out) == (0, True)
+
+
+def test_a_frame_of_another_namespace(tmp_path):
+    rows, types = [], {}
+    for number, topic in enumerate(("/a/tf", "/b/tf")):
+        message = find(TF)(transforms=[find("geometry_msgs/msg/TransformStamped")()])
+        mount = message.transforms[0]
+        mount.header.frame_id, mount.child_frame_id = "base", "lidar" if number else "camera"
+        second = find("geometry_msgs/msg/TransformStamped")()
+        second.header.frame_id, second.child_frame_id = "odom", "base"
+        message.transforms.append(second)
+        rows.append((topic, START + number, serialize(message)))
+        types[topic] = (TF, "ros2msg", b"", "cdr")
+    bag = recordings.write_mcap(tmp_path / "two.mcap", rows=rows, types=types)
+    code, out = why(bag, "odom", "lidar")
+    assert (code, "'lidar' is told of on /b/tf: coframe why ... --namespace /b" in out) == (1, True)
+    assert why(bag, "odom", "lidar", "--namespace", "/b")[0] == 0
+
+
+def test_hostile_names_do_not_steer_the_terminal(tmp_path):
+    run = Run()
+    run.tf("odom", "base\x1b[2J", START, static=True)
+    code, out = why(run.write(tmp_path), "odom", "base\x1b[2J")
+    assert (code, "\x1b" in out) == (0, False)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "text"),
+    [
+        (["a"], 2, "give TARGET and SOURCE"),
+        (["x.mcap", "a", "b", "c"], 2, "give TARGET and SOURCE"),
+        (["nowhere.mcap", "a", "b"], 1, "nowhere.mcap cannot be read"),
+        (["x.mcap", "a", "b", "--watch"], 2, "exclude each other"),
+        (["a", "b", "--duration", "0s"], 2, "more than 0"),
+        (["a", "b", "--at", "soon", "--duration", "1ms"], 2, "--at: 'soon' is no point in time"),
+    ],
+)
+@pytest.mark.usefixtures("domain_id")
+def test_wrong_usage_is_a_sentence(arguments, code, text):
+    result = CliRunner().invoke(app, ["why", *arguments])
+    assert result.exit_code == code
+    assert text in result.output
+
+
+STUDENT = """
+buffer = Buffer()
+listener = TransformListener(buffer, node)
+def query():
+    for source in ("lidar_link", "lidar_lnk"):
+        try:
+            buffer.lookup_transform("odom", source, node.get_clock().now())
+        except TransformException as error:
+            print(source, error.hint, flush=True)
+every(0.1, query)
+"""
+SECOND_PUBLISHER = """
+b = TransformBroadcaster(node)
+every(0.03, lambda: b.sendTransform(stamped("odom", "base_link", 5.0)))
+other = node.create_publisher(TFMessage, "/robot1/tf", 10)
+"""
+
+
+def test_the_labs_three_errors_are_answered_with_the_line_to_change(start, inside):
+    start("robot", ROBOT)
+    start("filter", SECOND_PUBLISHER)
+    student = start("tf_listener", STUDENT, stdout=subprocess.PIPE, text=True)
+
+    def ask(*question):
+        command = ("-m", "coframe.cli", "why", *question, "--json", "--duration", "700ms")
+        return inside.start(*command, stdout=subprocess.PIPE, text=True)
+
+    def answers(*questions):
+        asked = [ask(*question) for question in questions]
+        return [json.loads(process.communicate(timeout=60)[0]) for process in asked], [p.returncode for p in asked]
+
+    hints = {}
+    with student:
+        while len(hints) < 2 or not all("In a node" in hint for hint in hints.values()):
+            source, _, hint = student.stdout.readline().partition(" ")
+            hints[source] = hint
+        student.kill()
+    at_now = "lookup_transform('odom', 'lidar_link', stamp, timeout=Duration(seconds=0.1)), or rclpy.time.Time() as the"
+    assert at_now in hints["lidar_link"]
+    assert "lookup_transform('odom', 'lidar_link', ...)" in hints["lidar_lnk"]
+
+    (late, misspelt), codes = answers(("odom", "lidar_link", "--at", "now"), ("odom", "lidar_lnk"))
+    assert codes == [1, 1]
+    (link,) = [link for link in late["links"] if link["state"] != "ok"]
+    assert (link["parent"], link["child"], link["state"]) == ("odom", "base_link", "too_new")
+    assert 0 < link["by_ns"] < SECOND
+    assert link["publisher"] in {"/robot", "/filter"}
+    assert at_now in late["hint"]
+    (two,) = [finding for finding in late["findings"] if finding["code"] == "TF003"]
+    assert sorted(two["publishers"]) == ["/filter", "/robot"]
+    assert "Stop one of the two" in two["fix"]
+    assert "lookup_transform('odom', 'lidar_link', ...)" in misspelt["hint"]
+    assert any("--tf-topic /robot1/tf" in note for note in misspelt["notes"])
+
+
+@pytest.mark.slow
+def test_watch_tells_again_and_again_and_ends_by_a_signal(start, inside):
+    start("robot", ROBOT)
+    options = ("odom", "lidar_link", "--watch", "--json")
+    with inside.start("-m", "coframe.cli", "why", *options, stdout=subprocess.PIPE, text=True) as process:
+        while not json.loads(process.stdout.readline())["possible"]:
+            pass
+        process.terminate()
+        assert process.wait(20) == 0
