@@ -1,5 +1,6 @@
 """The command `coframe frames`: recordings, files, live, and what changes while somebody watches."""
 
+import dataclasses
 import io
 import json
 import re
@@ -141,3 +142,14 @@ def test_changes_are_highlighted_and_the_rest_of_a_tall_tree_is_counted(tmp_path
     assert re.search(r"\x1b\[7;33mbase_link", text)
     assert "... and 24 more rows" in text
     assert "43 frames in 1 tree" in text
+
+
+def test_a_narrow_screen_cuts_publishers_before_names_and_figures(tmp_path):
+    (seen,) = observe_recording(Run.healthy(seconds=2, skip={"scan"}).write(tmp_path)).values()
+    told = dataclasses.replace(seen.transforms, publishers=("/a_node_with_a_name_that_is_longer_than_it_should_be",))
+    console = Console(record=True, width=70, file=io.StringIO())
+    console.print(tree(grow(dataclasses.replace(seen, transforms=told))))
+    base, lidar = (line.split() for line in console.export_text().splitlines()[2:4])
+    assert base[1:2] + base[3:] == ["base_link", "50.0", "0.0", "1.0", "1.0", "1.0"]
+    assert base[2].startswith("/a_node")
+    assert lidar[-1] == "static"

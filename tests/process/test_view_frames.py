@@ -1,4 +1,4 @@
-"""The service that upstream's view_frames draws its picture from, asked as view_frames asks it, from another process."""
+"""The service that upstream's view_frames draws its picture from, asked as view_frames does, from another process."""
 
 import json
 

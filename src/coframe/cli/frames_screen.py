@@ -26,7 +26,7 @@ __all__ = ["tree", "watch"]
 
 _KINDS = {"root": "bold", "moving": "cyan", "static": "", "stale": "red", "other": "red"}
 _STYLES = {"came": "green", "moved": "yellow", "stale": "red", "fresh": "green", "gone": "red"}
-_TEXTS = 2  # of the columns: the first ones
+_PUBLISHER = 1  # which of the columns
 _HIGHLIGHTED = 5.0  # seconds
 _REMEMBERED = 1000  # changes
 _NAMED = 8  # of them, below the tree
@@ -44,16 +44,18 @@ def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None
     every = list(rows(forest))
     cut = every if most is None or len(every) <= most else every[: most - 1]
     told = [column for column in range(len(COLUMNS) - 1) if any(row.cells[column] for row in every)]
-    table = Table(box=None, pad_edge=False, header_style="dim")
+    table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0), header_style="dim")
     for number in (0, *(column + 1 for column in told)):
-        table.add_column(COLUMNS[number], justify="left" if number < _TEXTS else "right", no_wrap=True)
+        # On a narrow screen publishers are cut first: rich takes room from columns that may wrap, which no cell does.
+        wraps = number == _PUBLISHER
+        table.add_column(COLUMNS[number], justify="left" if number <= _PUBLISHER else "right", no_wrap=not wraps)
     for row in cut:
         kind = (changed or {}).get(row.frame)
-        name = Text.assemble(
-            (row.branches, "dim"), (row.name, f"reverse {_STYLES[kind]}" if kind else _KINDS[row.kind])
-        )
-        style = "red" if row.kind == "stale" else ""
-        table.add_row(name, *(Text(row.cells[column], style=style) for column in told))
+        style = f"reverse {_STYLES[kind]}" if kind else _KINDS[row.kind]
+        name = Text.assemble((row.branches, "dim"), (row.name, style), no_wrap=True, overflow="ellipsis")
+        rest = "red" if row.kind == "stale" else ""
+        cells = (Text(row.cells[column], style=rest, no_wrap=True, overflow="ellipsis") for column in told)
+        table.add_row(name, *cells)
     left = len(every) - len(cut)
     more = [Text(f"... and {left} more rows, which `coframe frames` prints", style="dim")] if left else []
     style = "yellow" if len(forest.trees) > 1 or forest.loops else "green"

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from coframe.doctor.figures import LinkFigures
 
 __all__ = ["Forest", "Frame"]
@@ -74,3 +77,8 @@ class Forest:
     frames: dict[str, Frame]
     trees: dict[str, int]
     loops: frozenset[str]
+
+    def by_tree(self) -> Iterator[list[Frame]]:
+        """The frames of one tree after the other, its root first."""
+        for _, frames in groupby(self.frames.values(), key=lambda frame: frame.root):
+            yield list(frames)

@@ -27,13 +27,10 @@ def as_graphviz(forest: Forest, title: str) -> str:
 
 
 def _trees(forest: Forest, ids: dict[str, str]) -> Iterator[str]:
-    trees: dict[str, list[str]] = {}
-    for frame in forest.frames.values():
-        trees.setdefault(frame.root, []).append(frame.name)
-    for number, (root, names) in enumerate(trees.items()):
+    for number, tree in enumerate(forest.by_tree()):
         yield f"  subgraph cluster_{number} {{"
-        yield f"    label={_quoted([f'tree of {shown(root)}'])};"
-        for name in names:
+        yield f"    label={_quoted([f'tree of {shown(tree[0].name)}'])};"
+        for name in (frame.name for frame in tree):
             # In a label that is taken from the name, what a backslash begins would be read as an escape.
             told = shown(name) == ids[name] and "\\" not in name
             label = "" if told else f" [label={_quoted([shown(name)])}]"

@@ -83,8 +83,20 @@ class _Block(NamedTuple):
 
 
 class _Spot(NamedTuple):
+    """Where a box is."""
+
     x: float
     y: float
+    width: float
+    height: float
+
+    @property
+    def right(self) -> float:
+        return self.x + self.width
+
+    @property
+    def middle(self) -> float:
+        return self.y + self.height / 2
 
 
 def draw(forest: Forest, title: str, spell: Callable[[str], str] = str) -> Picture:
@@ -96,26 +108,23 @@ def draw(forest: Forest, title: str, spell: Callable[[str], str] = str) -> Pictu
         spell: Gives words the letters that the format has.
     """
     blocks = {name: _block(frame, spell) for name, frame in forest.frames.items()}
-    columns = _columns(forest, blocks)
     shapes: list[Box | Line | Words] = []
     shapes.append(Words(_MARGIN, _MARGIN + _TITLE, spell(shown(title)), _TITLE, bold=True))
     shapes.append(Words(_MARGIN, _MARGIN + _TITLE + 22.0, spell(summary(forest)), _NAME, FAINT))
     shapes += _legend(_MARGIN + _TITLE + 38.0)
     top = _MARGIN + _TITLE + 76.0
-    trees: dict[str, list[Frame]] = {}
-    for frame in forest.frames.values():
-        trees.setdefault(frame.root, []).append(frame)
     spots: dict[str, _Spot] = {}
-    for number, (root, tree) in enumerate(trees.items(), 1):
-        if len(trees) > 1:
-            heading = spell(f"Tree {number} of {len(trees)}: {shown(root)}")
+    for number, tree in enumerate(forest.by_tree(), 1):
+        if len(forest.trees) > 1:
+            heading = spell(f"Tree {number} of {len(forest.trees)}: {shown(tree[0].name)}")
             shapes.append(Words(_MARGIN, top, heading, _NAME, FAINT, bold=True))
             top += 16.0
-        top = _place(tree, blocks, columns, top, spots) + _TREE_GAP
-    shapes += _links(forest, blocks, columns, spots)
+        top = _place(tree, blocks, top, spots) + _TREE_GAP
+    shapes += _links(forest, spots)
+    shapes += _alarming_links(forest, spots)
     for name, frame in forest.frames.items():
         shapes += _frame(frame, blocks[name], spots[name])
-    right = max((spot.x + blocks[name].width for name, spot in spots.items()), default=0.0)
+    right = max((spot.right for spot in spots.values()), default=0.0)
     written = max(words.x + _width(words.text, words.size, words.bold) for words in shapes if isinstance(words, Words))
     return Picture(max(right, written) + _MARGIN, top - _TREE_GAP + _MARGIN, shapes)
 
@@ -133,25 +142,24 @@ def _width(text: str, size: float, bold: bool = False) -> float:
     return units * size * (0.62 if bold else 0.54)
 
 
-def _columns(forest: Forest, blocks: dict[str, _Block]) -> list[float]:
+def _columns(tree: list[Frame], blocks: dict[str, _Block]) -> list[float]:
     """Where the frames of each depth begin, by the widest one to the left of them."""
     widest: dict[int, float] = {}
-    for name, frame in forest.frames.items():
-        widest[frame.depth] = max(widest.get(frame.depth, 0.0), blocks[name].width)
+    for frame in tree:
+        widest[frame.depth] = max(widest.get(frame.depth, 0.0), blocks[frame.name].width)
     left = [_MARGIN]
     for depth in range(len(widest)):
         left.append(left[-1] + widest[depth] + _COLUMN_GAP)
     return left
 
 
-def _place(
-    tree: list[Frame], blocks: dict[str, _Block], columns: list[float], top: float, spots: dict[str, _Spot]
-) -> float:
+def _place(tree: list[Frame], blocks: dict[str, _Block], top: float, spots: dict[str, _Spot]) -> float:
     """Gives each frame of a tree its spot; where the tree ends below.
 
     A frame has the whole height of what is below it for itself, or its own if that is more, and stands in the middle of
     its first and last child.
     """
+    columns = _columns(tree, blocks)
     heights: dict[str, float] = {}
     for frame in reversed(tree):
         heights[frame.name] = max(blocks[frame.name].height, _stack(frame, heights))
@@ -164,11 +172,11 @@ def _place(
     for frame in reversed(tree):
         middle = tops[frame.name] + heights[frame.name] / 2
         if frame.children:
-            first, last = frame.children[0], frame.children[-1]
-            middle = (_middle(spots[first], blocks[first]) + _middle(spots[last], blocks[last])) / 2
-        height = blocks[frame.name].height
-        lowest = tops[frame.name] + heights[frame.name] - height
-        spots[frame.name] = _Spot(columns[frame.depth], min(max(middle - height / 2, tops[frame.name]), lowest))
+            middle = (spots[frame.children[0]].middle + spots[frame.children[-1]].middle) / 2
+        block = blocks[frame.name]
+        lowest = tops[frame.name] + heights[frame.name] - block.height
+        y = min(max(middle - block.height / 2, tops[frame.name]), lowest)
+        spots[frame.name] = _Spot(columns[frame.depth], y, block.width, block.height)
     return top + heights[tree[0].name]
 
 
@@ -177,31 +185,31 @@ def _stack(frame: Frame, heights: dict[str, float]) -> float:
     return sum(heights[child] for child in frame.children) + _GAP * max(len(frame.children) - 1, 0)
 
 
-def _middle(spot: _Spot, block: _Block) -> float:
-    return spot.y + block.height / 2
-
-
-def _links(forest: Forest, blocks: dict[str, _Block], columns: list[float], spots: dict[str, _Spot]) -> Iterator[Line]:
+def _links(forest: Forest, spots: dict[str, _Spot]) -> Iterator[Line]:
     for name, frame in forest.frames.items():
         if frame.children:
-            heights = [_middle(spots[child], blocks[child]) for child in frame.children]
-            bend, own = columns[frame.depth + 1] - _COLUMN_GAP / 2, _middle(spots[name], blocks[name])
-            yield Line(((spots[name].x + blocks[name].width, own), (bend, own)), _LINE)
-            yield Line(((bend, min(own, heights[0])), (bend, max(own, heights[-1]))), _LINE)
-            for height in heights:
-                yield Line(((bend, height), (columns[frame.depth + 1], height)), _LINE)
+            children, own = [spots[child] for child in frame.children], spots[name].middle
+            left = children[0].x
+            bend = left - _COLUMN_GAP / 2
+            yield Line(((spots[name].right, own), (bend, own)), _LINE)
+            yield Line(((bend, min(own, children[0].middle)), (bend, max(own, children[-1].middle))), _LINE)
+            for child in children:
+                yield Line(((bend, child.middle), (left, child.middle)), _LINE)
+
+
+def _alarming_links(forest: Forest, spots: dict[str, _Spot]) -> Iterator[Line]:
+    """From second parents, and to where a loop closes."""
     for name, frame in forest.frames.items():
         others = dict.fromkeys(link.parent for link in frame.others)
         if name in forest.loops:
             others[frame.parent] = None
-        for other in others:
-            if other in spots:
-                start = (spots[other].x + blocks[other].width, spots[other].y + blocks[other].height - _PAD)
-                yield Line((start, (spots[name].x, spots[name].y + blocks[name].height - _PAD)), ALARM, dashed=True)
+        end = (spots[name].x, spots[name].y + spots[name].height - _PAD)
+        for other in (spots[parent] for parent in others):
+            yield Line(((other.right, other.y + other.height - _PAD), end), ALARM, dashed=True)
 
 
 def _frame(frame: Frame, block: _Block, spot: _Spot) -> Iterator[Box | Words]:
-    yield Box(*spot, block.width, block.height, *_COLOURS[frame.kind], title=frame.name)
+    yield Box(*spot, *_COLOURS[frame.kind], title=frame.name)
     base = spot.y + _PAD / 2 + _NAME
     yield Words(spot.x + _PAD, base, block.name, _NAME, bold=True)
     for number, (line, colour) in enumerate(block.lines, 1):

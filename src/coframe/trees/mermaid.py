@@ -37,14 +37,11 @@ def as_mermaid(forest: Forest, title: str) -> str:
 
 def _trees(forest: Forest) -> Iterator[str]:
     names = _ids(forest)
-    open_tree = ""
-    for frame in forest.frames.values():
-        if frame.is_root:
-            yield f'{open_tree}  subgraph t{names[frame.name]}["tree of {_escaped(shown(frame.name))}"]'
-            open_tree = "  end\n"
-        label = "<br/>".join(map(_escaped, [shown(frame.name), *figures(frame), *alarms(frame)]))
-        yield f'    {names[frame.name]}["{label}"]:::{frame.kind}'
-    if open_tree:
+    for tree in forest.by_tree():
+        yield f'  subgraph t{names[tree[0].name]}["tree of {_escaped(shown(tree[0].name))}"]'
+        for frame in tree:
+            label = "<br/>".join(map(_escaped, [shown(frame.name), *figures(frame), *alarms(frame)]))
+            yield f'    {names[frame.name]}["{label}"]:::{frame.kind}'
         yield "  end"
 
 
@@ -69,5 +66,5 @@ def _ids(forest: Forest) -> dict[str, str]:
 
 def _escaped(text: str) -> str:
     """What is neither letter, digit nor harmless as Mermaid's code for it."""
-    text = text.replace("\\", "\N{REVERSE SOLIDUS OPERATOR}")  # "\\n" would end the line, however it is written
+    text = text.replace("\\", "\N{REVERSE SOLIDUS OPERATOR}")  # Mermaid ends a line at \\n, however it is written
     return "".join(c if c.isalnum() or c in " _/.,:" else f"#{ord(c)};" for c in text)
