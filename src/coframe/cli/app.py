@@ -8,6 +8,7 @@ from coframe.cli.cloud import cloud
 from coframe.cli.demo import demo
 from coframe.cli.doctor import doctor
 from coframe.cli.echo import echo
+from coframe.cli.frames import frames
 from coframe.cli.joints import joints
 from coframe.cli.lookup import lookup
 from coframe.cli.monitor import monitor
@@ -27,6 +28,7 @@ app = new_app()
 app.command()(demo)
 app.command()(doctor)
 app.command()(echo)
+app.command()(frames)
 app.command()(monitor)
 app.command(cls=WhyCommand)(why)
 app.command()(view)

@@ -1,0 +1,171 @@
+"""``coframe frames``: the transform trees with their figures, in the terminal or as a picture (view_frames)."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path  # noqa: TC003 - typer reads the annotations
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from rich.console import Console
+from rich.text import Text
+
+from coframe import frame_names
+from coframe.cli.frames_screen import tree, watch
+from coframe.cli.recordings import NamespaceOption, reading
+from coframe.cli.session import (
+    DomainOption,
+    KeepOption,
+    PrefixOption,
+    TfStaticTopicOption,
+    TfTopicOption,
+    fail,
+    printable,
+    session,
+)
+from coframe.doctor import observe_recording
+from coframe.time import duration_ns
+from coframe.trees import grow
+from coframe.trees.graphviz import as_graphviz
+from coframe.trees.mermaid import MOST_LINKS, as_markdown, as_mermaid
+from coframe.trees.plain import as_data
+from coframe.trees.svg import as_svg
+from coframe.trees.wording import summary
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from coframe.trees import Forest
+
+__all__ = ["frames"]
+
+SECOND = 1_000_000_000
+
+
+def _pdf(forest: Forest, title: str) -> bytes:
+    from coframe.trees.pdf import as_pdf  # noqa: PLC0415 - its library is an extra
+
+    return as_pdf(forest, title)
+
+
+_FORMATS: dict[str, Callable[[Forest, str], str | bytes]] = {
+    ".gv": as_graphviz,
+    ".dot": as_graphviz,
+    ".svg": as_svg,
+    ".pdf": _pdf,
+    ".json": lambda forest, _: json.dumps(as_data(forest), indent=2) + "\n",
+    ".mmd": as_mermaid,
+    ".md": as_markdown,
+}
+
+
+def frames(
+    bag: Annotated[
+        Path | None, typer.Argument(metavar="[BAG]", help="A recording; without one it listens.", show_default=False)
+    ] = None,
+    output: Annotated[
+        list[Path] | None,
+        typer.Option("--output", "-o", metavar="FILE", help=f"Write a picture: {', '.join(_FORMATS)}; again for more."),
+    ] = None,
+    watching: Annotated[bool, typer.Option("--watch", help="Listen on; what has changed is highlighted.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="JSON on standard output; times in nanoseconds.")] = False,
+    duration: Annotated[str, typer.Option(help="How long to listen; the window of --watch.")] = "5s",
+    namespace: NamespaceOption = None,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
+    domain: DomainOption = None,
+    tf_topic: TfTopicOption = "/tf",
+    tf_static_topic: TfStaticTopicOption = "/tf_static",
+) -> None:
+    """Show the transform trees with the figures of each link: live, or in the recording BAG.
+
+    Example: coframe frames run.mcap -o frames.svg
+    """
+    files = [_known(path) for path in output or []]
+    window = _length(duration)
+    if watching and (files or bag is not None):
+        fail("--watch excludes a recording and --output", code=2)
+    renaming = frame_names.renaming(prefix, keep)
+    with session():
+        if bag is not None:
+            with reading() as progress:
+                seen = observe_recording(bag, namespace=namespace, progress=progress)
+            forests = {name: grow(one, renaming) for name, one in seen.items()}
+            for problem in dict.fromkeys(problem for one in seen.values() for problem in one.unread):
+                typer.echo(f"coframe: {printable(problem)}", err=True)
+            _finish(forests, files, as_json, bag.name)
+            return
+        from coframe.wire.observing import Listening  # noqa: PLC0415 - recordings need no DDS
+
+        with Listening(
+            domain, window=window, tf_topic=tf_topic, tf_static_topic=tf_static_topic, node_name="coframe_frames"
+        ) as listening:
+            if watching:
+                watch(listening, renaming, as_json)
+                return
+            if Console(stderr=True).is_terminal:
+                typer.echo(f"listening for {duration} ...", err=True)
+            listening.listen(window / SECOND)
+            seen_live = grow(listening.observe(), renaming)
+        _finish({"": seen_live}, files, as_json, f"live on {tf_topic}")
+
+
+def _known(path: Path) -> Path:
+    """A file that can be written, as far as its name and the installed packages tell."""
+    if path.suffix.lower() not in _FORMATS:
+        fail(f"{path} names no known format", f"Let it end in {', '.join(_FORMATS)}.", code=2)
+    if path.suffix.lower() == ".pdf":
+        try:
+            import pydyf  # noqa: F401, PLC0415 - an extra
+        except ModuleNotFoundError:
+            fail("PDF needs the package pydyf: pip install 'coframe[pdf]'", "An .svg needs nothing.")
+    return path
+
+
+def _length(text: str) -> int:
+    try:
+        nanoseconds = duration_ns(text)
+    except (ValueError, TypeError) as error:
+        fail(f"--duration: {error}", code=2)
+    if nanoseconds <= 0:
+        fail("--duration must be more than 0", code=2)
+    return nanoseconds
+
+
+def _finish(forests: dict[str, Forest], files: list[Path], as_json: bool, title: str) -> None:
+    """Writes the files, and prints what is left to print."""
+    if not any(forest.frames for forest in forests.values()):
+        fail("no transforms came", "Is a broadcaster running, in the same ROS domain?")
+    if files and len(forests) > 1:
+        names = ", ".join(name or "/" for name in forests)
+        fail("each of several namespaces has trees of its own", f"Choose one by --namespace: {names}", code=2)
+    for path in files:
+        (forest,) = forests.values()
+        _write(path, forest, title)
+    if as_json:
+        data: Any = {name: as_data(forest) for name, forest in forests.items()}
+        print(json.dumps(data[""] if list(data) == [""] else {"namespaces": data}))
+    elif not files:
+        _print(forests)
+
+
+def _write(path: Path, forest: Forest, title: str) -> None:
+    picture = _FORMATS[path.suffix.lower()](forest, title)
+    try:
+        path.write_bytes(picture if isinstance(picture, bytes) else picture.encode(errors="backslashreplace"))
+    except OSError as error:
+        fail(f"{path} cannot be written: {error.strerror}")
+    typer.echo(f"{path}: {summary(forest)}", err=True)
+    if path.suffix.lower() in {".mmd", ".md"} and len(forest.frames) > MOST_LINKS:
+        typer.echo(f"coframe: Mermaid draws no more than {MOST_LINKS} links unless its maxEdges is raised", err=True)
+
+
+def _print(forests: dict[str, Forest]) -> None:
+    # What is written to a file or another program is not cut to the width of a terminal that is not there.
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        console = Console(highlight=False, width=200)
+    for name, forest in forests.items():
+        if len(forests) > 1:
+            console.print(Text(printable(f"{name or '/'}:"), style="bold"))
+        console.print(tree(forest))

@@ -1,0 +1,50 @@
+"""What has changed from one forest to the next."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe.doctor.wording import duration
+from coframe.trees.wording import shown
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from coframe.trees.forest import Forest, Frame
+
+__all__ = ["Change", "changes"]
+
+
+class Change(NamedTuple):
+    """One frame's.
+
+    Attributes:
+        kind: ``came``, ``gone``, ``moved`` (it has another parent), ``stale`` or ``fresh`` (it is told of again).
+        frame: The frame.
+        text: A sentence without its full stop.
+    """
+
+    kind: str
+    frame: str
+    text: str
+
+
+def changes(before: Forest, after: Forest) -> Iterator[Change]:
+    """The frames that came, changed and went, in the order of drawing."""
+    for name, frame in after.frames.items():
+        old = before.frames.get(name)
+        if old is None:
+            yield Change("came", name, f"{shown(name)} came, {_place(frame)}")
+        elif old.parent != frame.parent:
+            yield Change("moved", name, f"{shown(name)} moved: it is {_place(frame)} now, and was {_place(old)}")
+        elif frame.silence is not None and old.silence is None:
+            yield Change("stale", name, f"{shown(name)} is stale: silent for {duration(frame.silence)}")
+        elif frame.silence is None and old.silence is not None:
+            yield Change("fresh", name, f"{shown(name)} is told of again")
+    for name, old in before.frames.items():
+        if name not in after.frames:
+            yield Change("gone", name, f"{shown(name)} is gone; it was {_place(old)}")
+
+
+def _place(frame: Frame) -> str:
+    return f"below {shown(frame.parent)}" if frame.parent else "a root"

@@ -1,0 +1,75 @@
+"""A forest in the language of Graphviz, for `dot` and the programs that read it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coframe.trees.wording import alarms, figures, link_figures, shown, summary
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from coframe.doctor.figures import LinkFigures
+    from coframe.trees.forest import Forest, Frame
+
+__all__ = ["as_graphviz"]
+
+_LONGEST = 200
+_MOST = 5
+
+
+def as_graphviz(forest: Forest, title: str) -> str:
+    """The file's text: a cluster a tree, links from second parents and round loops in red."""
+    ids = {name: _id(number, name) for number, name in enumerate(forest.frames)}
+    head = ["digraph frames {", "  rankdir=LR;", "  node [shape=box, fontname=Helvetica];"]
+    head += ["  edge [fontname=Helvetica, fontsize=10];", f"  label={_quoted([shown(title), summary(forest)])};"]
+    return "\n".join([*head, *_trees(forest, ids), *_edges(forest, ids), "}", ""])
+
+
+def _trees(forest: Forest, ids: dict[str, str]) -> Iterator[str]:
+    for number, tree in enumerate(forest.by_tree()):
+        yield f"  subgraph cluster_{number} {{"
+        yield f"    label={_quoted([f'tree of {shown(tree[0].name)}'])};"
+        for name in (frame.name for frame in tree):
+            # In a label that is taken from the name, what a backslash begins would be read as an escape.
+            told = shown(name) == ids[name] and "\\" not in name
+            label = "" if told else f" [label={_quoted([shown(name)])}]"
+            yield f"    {_quoted([ids[name]])}{label};"
+        yield "  }"
+
+
+def _edges(forest: Forest, ids: dict[str, str]) -> Iterator[str]:
+    for frame in forest.frames.values():
+        if frame.parent:
+            style = _style(forest, frame)
+            label = _quoted([*figures(frame), *alarms(frame)])
+            yield f"  {_quoted([ids[frame.parent]])} -> {_quoted([ids[frame.name]])} [label={label}{style}];"
+        for parent, links in _by_parent(frame.others).items():
+            told = [line for link in links[:_MOST] for line in link_figures(link)]
+            ends = f"{_quoted([ids[parent]])} -> {_quoted([ids[frame.name]])}"
+            yield f"  {ends} [label={_quoted(told)}, color=red, constraint=false];"
+
+
+def _style(forest: Forest, frame: Frame) -> str:
+    if frame.name in forest.loops:
+        return ", color=red, constraint=false"
+    if frame.silence is not None:
+        return ", color=red, style=dashed"
+    return ", style=dashed" if frame.static else ""
+
+
+def _by_parent(links: Iterable[LinkFigures]) -> dict[str, list[LinkFigures]]:
+    found: dict[str, list[LinkFigures]] = {}
+    for link in links:
+        found.setdefault(link.parent, []).append(link)
+    return found
+
+
+def _id(number: int, name: str) -> str:
+    """The name itself, if it is one that can be read; else a number."""
+    plain = len(name) <= _LONGEST and name.isprintable() and not name.startswith("#")
+    return name if plain else f"#{number}"
+
+
+def _quoted(told: list[str]) -> str:
+    return '"' + "\\n".join(line.replace("\\", "\\\\").replace('"', '\\"') for line in told) + '"'

@@ -1,0 +1,89 @@
+"""A picture as one page of PDF, with the fonts that every reader has: letters beyond theirs are written as escapes."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING
+
+import pydyf
+
+from coframe.trees.layout import Box, Line, draw
+from coframe.trees.wording import shown
+
+if TYPE_CHECKING:
+    from coframe.trees.forest import Forest
+    from coframe.trees.layout import Words
+
+__all__ = ["as_pdf"]
+
+_POINT = 0.75  # points of 1/72 inch in one of the picture
+_ENCODING = "cp1252"  # PDF calls it WinAnsi
+_FONTS = {"F": "Helvetica", "B": "Helvetica-Bold"}
+_LONGEST = 14_400.0  # points: readers need not show larger pages
+
+
+def as_pdf(forest: Forest, title: str) -> bytes:
+    """The file's bytes."""
+    picture = draw(forest, title, _spelled)
+    scale = min(_POINT, _LONGEST / max(picture.width, picture.height))
+    page = pydyf.Stream(compress=True)
+    page.set_matrix(scale, 0, 0, -scale, 0, picture.height * scale)
+    page.set_line_width(1)
+    for shape in picture.shapes:
+        _draw(page, shape)
+    document = pydyf.PDF()
+    document.info["Title"] = pydyf.String(shown(title))
+    document.add_object(page)
+    fonts = pydyf.Dictionary({name: _font(base) for name, base in _FONTS.items()})
+    document.add_page(
+        pydyf.Dictionary(
+            {
+                "Type": "/Page",
+                "Parent": document.pages.reference,
+                "Contents": page.reference,
+                "MediaBox": pydyf.Array([0, 0, picture.width * scale, picture.height * scale]),
+                "Resources": pydyf.Dictionary({"Font": fonts}),
+            }
+        )
+    )
+    file = io.BytesIO()
+    document.write(file)
+    return file.getvalue()
+
+
+def _font(base: str) -> pydyf.Dictionary:
+    return pydyf.Dictionary(
+        {"Type": "/Font", "Subtype": "/Type1", "BaseFont": f"/{base}", "Encoding": "/WinAnsiEncoding"}
+    )
+
+
+def _draw(page: pydyf.Stream, shape: Box | Line | Words) -> None:
+    if isinstance(shape, Box):
+        page.set_color_rgb(*_rgb(shape.fill))
+        page.set_color_rgb(*_rgb(shape.border), stroke=True)
+        page.rectangle(shape.x, shape.y, shape.width, shape.height)
+        page.fill_and_stroke()
+    elif isinstance(shape, Line):
+        page.set_color_rgb(*_rgb(shape.colour), stroke=True)
+        page.set_dash([6, 4] if shape.dashed else [], 0)
+        page.move_to(*shape.points[0])
+        for point in shape.points[1:]:
+            page.line_to(*point)
+        page.stroke()
+        page.set_dash([], 0)
+    else:
+        page.set_color_rgb(*_rgb(shape.colour))
+        page.begin_text()
+        page.set_font_size("B" if shape.bold else "F", shape.size)
+        page.set_text_matrix(1, 0, 0, -1, shape.x, shape.y)
+        page.show_text_string(shape.text.encode(_ENCODING))
+        page.end_text()
+
+
+def _rgb(colour: str) -> tuple[float, float, float]:
+    red, green, blue = bytes.fromhex(colour.removeprefix("#"))
+    return red / 255, green / 255, blue / 255
+
+
+def _spelled(text: str) -> str:
+    return text.encode(_ENCODING, "backslashreplace").decode(_ENCODING)

@@ -1,0 +1,36 @@
+"""A forest as plain data, for JSON."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from coframe.trees.forest import Forest, Frame
+
+__all__ = ["as_data"]
+
+
+def as_data(forest: Forest) -> dict[str, Any]:
+    """What ``--json`` prints; docs/frames.md tells of its keys. All times are integer nanoseconds."""
+    return {
+        "live": forest.live,
+        "start_ns": forest.start,
+        "end_ns": forest.end,
+        "trees": [{"root": root, "frames": count} for root, count in forest.trees.items()],
+        "loops": sorted(forest.loops),
+        "frames": [_frame(frame) for frame in forest.frames.values()],
+    }
+
+
+def _frame(frame: Frame) -> dict[str, Any]:
+    return {
+        "name": frame.name,
+        "parent": frame.parent or None,
+        "root": frame.root,
+        "depth": frame.depth,
+        "children": list(frame.children),
+        "static": frame.static,
+        "silent_ns": frame.silence,
+        "links": [link._asdict() for link in frame.links],
+        "other_links": [link._asdict() for link in frame.others],
+    }

@@ -1,0 +1,52 @@
+"""A picture as SVG, which browsers, documents and code hosts show; nothing in it is loaded from elsewhere."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+from xml.sax.saxutils import escape, quoteattr
+
+from coframe.trees.layout import Box, Line, draw
+
+if TYPE_CHECKING:
+    from coframe.trees.forest import Forest
+    from coframe.trees.layout import Words
+
+__all__ = ["as_svg"]
+
+_FONT = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
+
+
+def as_svg(forest: Forest, title: str) -> str:
+    """The file's text."""
+    picture = draw(forest, title)
+    size = f"{picture.width:.0f}", f"{picture.height:.0f}"
+    head = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{size[0]}" height="{size[1]}" '
+        f'viewBox="0 0 {size[0]} {size[1]}" font-family="{_FONT}">\n'
+        f"<title>{_text(title)}</title>\n"
+        f'<rect width="100%" height="100%" fill="#ffffff"/>\n'
+    )
+    return head + "\n".join(map(_shape, picture.shapes)) + "\n</svg>\n"
+
+
+def _shape(shape: Box | Line | Words) -> str:
+    if isinstance(shape, Box):
+        title = f"<title>{_text(shape.title)}</title>" if shape.title else ""
+        return (
+            f'<rect x="{shape.x:.1f}" y="{shape.y:.1f}" width="{shape.width:.1f}" height="{shape.height:.1f}" rx="4" '
+            f'fill="{shape.fill}" stroke="{shape.border}">{title}</rect>'
+        )
+    if isinstance(shape, Line):
+        points = " ".join(f"{x:.1f},{y:.1f}" for x, y in shape.points)
+        dashes = ' stroke-dasharray="6 4"' if shape.dashed else ""
+        return f'<polyline points="{points}" fill="none" stroke="{shape.colour}"{dashes}/>'
+    weight = ' font-weight="bold"' if shape.bold else ""
+    return (
+        f'<text x="{shape.x:.1f}" y="{shape.y:.1f}" font-size="{shape.size:g}" fill={quoteattr(shape.colour)}{weight} '
+        f'xml:space="preserve">{_text(shape.text)}</text>'
+    )
+
+
+def _text(text: str) -> str:
+    """Without what XML cannot hold at all."""
+    return escape("".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text))

@@ -1,0 +1,155 @@
+"""The command `coframe frames`: recordings, files, live, and what changes while somebody watches."""
+
+import dataclasses
+import io
+import json
+import re
+import sys
+from xml.etree import ElementTree
+
+import pytest
+from recordings import START
+from rich.console import Console
+from runs import Run
+from typer.testing import CliRunner
+
+from coframe.cli.app import app
+from coframe.cli.frames_screen import tree
+from coframe.doctor import observe_recording
+from coframe.trees import grow
+
+
+def frames(*arguments):
+    return CliRunner().invoke(app, ["frames", *map(str, arguments)])
+
+
+def test_a_recording_in_the_terminal(shared):
+    result = frames(shared / "recordings" / "tb3_tf_missing_static")
+    assert result.exit_code == 0
+    lines = [line.split() for line in result.stdout.splitlines()]
+    assert lines[0] == ["frame", "Hz", "jitter", "ms"], "what nobody knows has no column"
+    assert ["base_link", "root"] in lines
+    assert ["├─", "wheel_left_link", "19.4", "17.1"] in lines
+    assert ["odom", "root"] in lines
+    assert "5 frames in 2 trees that nothing joins: base_link (3), odom (2)" in result.stdout
+
+
+def test_every_format_of_a_recording(shared, tmp_path):
+    paths = [tmp_path / f"frames{suffix}" for suffix in (".gv", ".svg", ".pdf", ".json", ".mmd", ".md")]
+    options = [part for path in paths for part in ("-o", path)]
+    result = frames(shared / "recordings" / "tb3_tf_missing_static", *options)
+    assert result.exit_code == 0
+    assert result.stdout == ""
+    assert result.stderr.count("5 frames in 2 trees") == len(paths)
+    gv, svg, pdf, data, mmd, md = paths
+    assert '"odom" -> "base_footprint"' in gv.read_text()
+    assert ElementTree.parse(svg).getroot().tag.endswith("svg")
+    assert pdf.read_bytes().startswith(b"%PDF-")
+    assert [tree["root"] for tree in json.loads(data.read_text())["trees"]] == ["base_link", "odom"]
+    assert mmd.read_text() in md.read_text()
+
+
+def test_namespaces_are_apart(tmp_path):
+    run = Run()
+    for robot in ("/r1", "/r2"):
+        run.tf("odom", "base", START, static=True, topic=f"{robot}/tf_static")
+    bag = run.write(tmp_path)
+    assert sorted(json.loads(frames(bag, "--json").stdout)["namespaces"]) == ["/r1", "/r2"]
+    refused = frames(bag, "-o", tmp_path / "x.svg")
+    assert refused.exit_code == 2
+    assert "--namespace: /r1, /r2" in refused.output
+    assert frames(bag, "-o", tmp_path / "x.svg", "--namespace", "/r1").exit_code == 0
+    data = json.loads(frames(bag, "--namespace", "r2", "--prefix", "r2/", "--keep", "odom", "--json").stdout)
+    data = data["namespaces"]["/r2"] if "namespaces" in data else data
+    assert [frame["name"] for frame in data["frames"]] == ["odom", "r2/base"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "text"),
+    [
+        (["-o", "frames.png"], 2, "Let it end in .gv"),
+        (["--watch", "-o", "frames.svg"], 2, "--watch excludes"),
+        (["--duration", "0s"], 2, "more than 0"),
+        (["nowhere.mcap"], 1, "nowhere.mcap"),
+    ],
+)
+def test_wrong_usage_is_a_sentence(arguments, code, text):
+    result = frames(*arguments)
+    assert result.exit_code == code
+    assert text in result.output
+    assert "Traceback" not in result.output
+
+
+def test_what_cannot_be_written_or_drawn_is_a_sentence(tmp_path, monkeypatch):
+    run = Run()
+    run.tf("a", "b", START, static=True)
+    bag = run.write(tmp_path)
+    result = frames(bag, "-o", tmp_path / "no" / "x.svg")
+    assert (result.exit_code, "cannot be written: No such file" in result.output) == (1, True)
+    monkeypatch.setitem(sys.modules, "pydyf", None)
+    result = frames(bag, "-o", tmp_path / "x.pdf")
+    assert (result.exit_code, "pip install 'coframe[pdf]'" in result.output) == (1, True)
+    empty = tmp_path / "empty"
+    empty.mkdir()
+    other = Run()
+    other.scan(START)
+    result = frames(other.write(empty), "--json")
+    assert (result.exit_code, result.stdout, "no transforms" in result.stderr) == (1, "", True)
+
+
+def test_live_trees_name_their_publishers(inside, tmp_path, eventually):
+    told = tmp_path / "told"
+
+    def frames():
+        whole = told.read_text().rpartition("\n")[0].splitlines()[-1:]
+        return {frame["name"]: frame for line in whole for frame in json.loads(line)["frames"]}
+
+    with told.open("w") as output:
+        inside.start("-m", "coframe.cli", "frames", "--watch", "--json", stdout=output)
+        inside.start("-m", "coframe.lab.complete_tf_tree")
+        eventually(lambda: len(frames()) == 11 and frames()["link1"]["links"][-1]["transforms"] > 40)
+    found = frames()
+    # What comes before it is known who is there has no name.
+    assert {link["publisher"] for frame in found.values() for link in frame["links"]} - {""} == {"/complete_tf_tree"}
+    assert found["link1"]["parent"] == "base_link"
+    assert 40 < found["link1"]["links"][-1]["rate"] < 60
+    assert found["link1"]["links"][-1]["age"] is not None
+    assert found["lidar_link"]["static"]
+
+
+@pytest.mark.slow
+def test_who_watches_is_told_what_changes(inside, tmp_path, eventually):
+    told = tmp_path / "told"
+    with told.open("w") as output:
+        node = inside.start("-m", "coframe.lab.complete_tf_tree")
+        inside.start("-m", "coframe.cli", "frames", "--watch", "--duration", "2s", stdout=output)
+        eventually(lambda: "11 frames in 1 tree" in told.read_text() or "end_effector came" in told.read_text())
+        inside.start("-m", "coframe.cli", "static", "--frame-id", "base_link", "--child-frame-id", "mug")
+        eventually(lambda: "mug came, below base_link" in told.read_text())
+        node.kill()
+        eventually(lambda: "link1 is stale: silent for" in told.read_text())
+        eventually(lambda: "link1 is gone; it was below base_link" in told.read_text())
+
+
+def test_changes_are_highlighted_and_the_rest_of_a_tall_tree_is_counted(tmp_path):
+    run = Run.healthy(seconds=2, skip={"scan"})
+    for number in range(40):
+        run.tf("base_link", f"sensor{number}", START, static=True)
+    (seen,) = observe_recording(run.write(tmp_path)).values()
+    console = Console(record=True, width=80, force_terminal=True, file=io.StringIO())
+    console.print(tree(grow(seen), {"base_link": "moved"}, most=20))
+    text = console.export_text(styles=True)
+    assert re.search(r"\x1b\[7;33mbase_link", text)
+    assert "... and 24 more rows" in text
+    assert "43 frames in 1 tree" in text
+
+
+def test_a_narrow_screen_cuts_publishers_before_names_and_figures(tmp_path):
+    (seen,) = observe_recording(Run.healthy(seconds=2, skip={"scan"}).write(tmp_path)).values()
+    told = dataclasses.replace(seen.transforms, publishers=("/a_node_with_a_name_that_is_longer_than_it_should_be",))
+    console = Console(record=True, width=70, file=io.StringIO())
+    console.print(tree(grow(dataclasses.replace(seen, transforms=told))))
+    base, lidar = (line.split() for line in console.export_text().splitlines()[2:4])
+    assert base[1:2] + base[3:] == ["base_link", "50.0", "0.0", "1.0", "1.0", "1.0"]
+    assert base[2].startswith("/a_node")
+    assert lidar[-1] == "static"

@@ -1,0 +1,63 @@
+"""Trees of a robot that drives, with a second parent, a loop, and names that nobody should give."""
+
+import pytest
+from recordings import START
+from runs import MS, SECOND, Run
+
+from coframe.doctor import observe_recording
+from coframe.trees import grow
+
+HOSTILE = (
+    '"quoted" \\ back\\',
+    "<b>bold</b>&amp;",
+    "two\nlines",
+    "フレーム",
+    "emoji \N{ROBOT FACE}",
+    "x" * 10_000,
+    "end",
+    "`tick`",
+    "#1",
+    "\x1b[31mred",
+    "\u202eright",
+    ";} digraph",
+    "%%{init",
+    ']]>"',
+    "C:\\new",
+    "[bold]rich[/bold]",
+)
+
+
+@pytest.fixture
+def hostile():
+    """Names that are in `forest`."""
+    return HOSTILE
+
+
+@pytest.fixture
+def readable():
+    """Those of them that are shown as they are in any format."""
+    return [name for name in HOSTILE if name.isascii() and name.isprintable() and len(name) < 60]
+
+
+@pytest.fixture
+def plant(tmp_path):
+    """From a run to its forest."""
+
+    def plant(run, renaming=None):
+        (observation,) = observe_recording(run.write(tmp_path)).values()
+        return grow(observation, renaming)
+
+    return plant
+
+
+@pytest.fixture
+def forest(plant):
+    """Three trees: of a robot, of a loop, and of a second parent that has nothing else below it."""
+    run = Run.healthy(seconds=4, skip={"scan"}, latency=2 * MS)
+    for name in HOSTILE:
+        run.tf("base_link", name, START, static=True)
+    for i in range(3):
+        for parent, child in (("l1", "l2"), ("l2", "l3"), ("l3", "l1"), ("l2", "tail")):
+            run.tf(parent, child, START + i * SECOND)
+    run.tf("elsewhere", "base_link", START)
+    return plant(run)

@@ -1,0 +1,129 @@
+"""Each format, read by something that is not ours."""
+
+import io
+import json
+import re
+from xml.etree import ElementTree
+
+import pytest
+
+from coframe.trees.graphviz import as_graphviz
+from coframe.trees.layout import Box, draw
+from coframe.trees.mermaid import as_markdown, as_mermaid
+from coframe.trees.pdf import as_pdf
+from coframe.trees.plain import as_data
+from coframe.trees.svg import as_svg
+from coframe.trees.text import rows
+
+SVG = "{http://www.w3.org/2000/svg}"
+LINKS = 24 - 2  # frames less roots that are no loop's
+
+
+def test_json_comes_back_with_whole_names(forest, hostile):
+    data = json.loads(json.dumps(as_data(forest)))
+    frames = {frame["name"]: frame for frame in data["frames"]}
+    assert set(hostile) <= set(frames)
+    assert data["trees"] == [
+        {"root": "odom", "frames": 19},
+        {"root": "l1", "frames": 4},
+        {"root": "elsewhere", "frames": 1},
+    ]
+    assert data["loops"] == ["l1"]
+    base = frames["base_link"]
+    assert (base["parent"], base["depth"], base["static"], base["silent_ns"]) == ("odom", 1, False, None)
+    assert base["links"][0]["delay_p99"] == 2_000_000
+    assert base["other_links"][0]["parent"] == "elsewhere"
+    assert frames["odom"]["parent"] is None
+    assert frames["lidar"]["links"][0]["rate"] is None
+
+
+def test_svg(forest, readable):
+    picture = ElementTree.fromstring(as_svg(forest, "<run> & co"))
+    texts = [text.text for text in picture.iter(f"{SVG}text")]
+    assert "<run> & co" in texts
+    assert set(readable) <= set(texts)
+    assert "two\\nlines" in texts
+    assert "50.0 Hz, jitter 0 ns" in texts
+    assert "also below elsewhere" in texts
+    assert "in a loop: below l3" in texts
+    assert [text for text in texts if text.startswith("Tree ")] == [
+        "Tree 1 of 3: odom",
+        "Tree 2 of 3: l1",
+        "Tree 3 of 3: elsewhere",
+    ]
+    titles = [title.text for title in picture.iter(f"{SVG}title")]
+    assert "x" * 10_000 in titles, "the whole name is what a browser shows below the pointer"
+    assert not re.search(r"href|url\(|<script", as_svg(forest, ""))
+
+
+def test_boxes_do_not_overlap_and_hold_their_words(forest):
+    picture = draw(forest, "run")
+    boxes = [shape for shape in picture.shapes if isinstance(shape, Box) and shape.title]
+    assert len(boxes) == len(forest.frames)
+    for i, a in enumerate(boxes):
+        assert 0 <= a.x <= a.x + a.width <= picture.width
+        assert 0 <= a.y <= a.y + a.height <= picture.height
+        for b in boxes[:i]:
+            apart_x = a.x + a.width <= b.x or b.x + b.width <= a.x
+            apart_y = a.y + a.height <= b.y or b.y + b.height <= a.y
+            assert apart_x or apart_y, (a, b)
+
+
+def test_pdf(forest, readable):
+    pypdf = pytest.importorskip("pypdf")
+    document = pypdf.PdfReader(io.BytesIO(as_pdf(forest, "run (1)")), strict=True)
+    (page,) = document.pages
+    text = page.extract_text()
+    assert document.metadata.title == "run (1)"
+    assert "also below elsewhere" in text
+    assert "\\u30d5\\u30ec" in text, "letters that the fonts lack are told as escapes"
+    for name in readable:
+        assert name in text
+    picture = draw(forest, "run (1)")
+    assert float(page.mediabox.height) == pytest.approx(picture.height * 0.75, abs=1)
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")  # pydot's, about pyparsing
+def test_graphviz(forest):
+    pydot = pytest.importorskip("pydot")
+    (graph,) = pydot.graph_from_dot_data(as_graphviz(forest, 'a "run"'))
+    edges = {(edge.get_source(), edge.get_destination()): edge.get_attributes() for edge in graph.get_edges()}
+    assert len(edges) == LINKS + 1
+    assert "50.0 Hz" in edges['"odom"', '"base_link"']["label"]
+    assert edges['"elsewhere"', '"base_link"']["color"] == "red"
+    assert edges['"l3"', '"l1"']["color"] == "red"
+    assert ('"base_link"', '"\\"quoted\\" \\\\ back\\\\"') in edges
+    clusters = {cluster.get_label(): len(cluster.get_nodes()) for cluster in graph.get_subgraphs()}
+    assert clusters == {'"tree of odom"': 19, '"tree of l1"': 4, '"tree of elsewhere"': 1}
+
+
+def test_mermaid(forest):
+    head, title, end, kind, *chart = as_mermaid(forest, "run").splitlines()
+    assert (head, end, kind) == ("---", "---", "flowchart LR")
+    assert "19" in json.loads(title.removeprefix("title: "))
+    nodes = [line for line in chart if re.fullmatch(r' {4}f\d+\["[^"`<>\\{}]*(<br/>[^"`<>\\{}]*)*"\]:::\w+', line)]
+    arrows = [line for line in chart if re.fullmatch(r"  f\d+ (-->|-\.->) f\d+", line)]
+    assert (len(nodes), len(arrows)) == (24, LINKS + 1)
+    assert sum("-.->" in arrow for arrow in arrows) == 2, "the second parent's, and the one that closes the loop"
+    opened = sum(line.startswith("  subgraph ") for line in chart)
+    assert opened == chart.count("  end") == 3
+    assert len(nodes) + len(arrows) + 2 * opened + 4 == len(chart), "there is nothing else but the four styles"
+    assert any("#60;b#62;bold#60;/b#62;#38;amp#59;" in node for node in nodes)
+
+
+def test_markdown_holds_one_block(forest):
+    text = as_markdown(forest, "run")
+    assert text.startswith("```mermaid\n")
+    assert text.endswith("\n```\n")
+    assert text.count("```") == 2
+
+
+def test_rows_of_a_terminal(forest):
+    shown = {row.frame: row for row in rows(forest) if row.kind != "other"}
+    assert shown["base_link"].branches + shown["base_link"].name == "└─ base_link"
+    assert shown["base_link"].cells[1:4:2] == ("50.0", "2.0")
+    assert shown["lidar"].cells == ("", "static", "", "", "", "")
+    assert shown["tail"].branches == "   └─ "
+    assert all(row.name.isprintable() and len(row.name) < 100 for row in rows(forest))
+    others = ["".join(row[:2]).strip(" │") for row in rows(forest) if row.kind == "other"]
+    assert others == ["also below elsewhere", "in a loop: below l3"]
