@@ -5,6 +5,8 @@ from __future__ import annotations
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from coframe.bags import open_bag
 from coframe.bags.transforms import ingest_for
 from coframe.doctor.collector import Collector
@@ -16,7 +18,6 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterator
 
-    import numpy as np
     from numpy.typing import NDArray
 
     from coframe.bags import Recording
@@ -53,7 +54,8 @@ def observe_recording(
         take = ingest_for(channel)
         if take is not None:
             collector = collectors.setdefault(channel.topic.rpartition("/")[0], Collector())
-            collector.add(channel.topic, take.static, take.columns(messages), received, [""] * len(received))
+            nobody = np.zeros(len(received), dtype=np.int64)
+            collector.add(channel.topic, take.static, take.columns(messages), received, nobody, [""])
 
     with open_bag(path, namespace=namespace, progress=progress, heard=heard) as recording:
         facts = _Facts(recording)

@@ -7,14 +7,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.observation import NORM_TOLERANCE
+from coframe.doctor.transforms import NORM_TOLERANCE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
-    from coframe.doctor.observation import Observation, Transforms
+    from coframe.doctor.observation import Observation
+    from coframe.doctor.transforms import Transforms
 
 __all__ = ["CODE", "find"]
 
