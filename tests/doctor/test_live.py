@@ -1,8 +1,14 @@
 """Faults made by real processes, found by the real command."""
 
 import json
+import os
+import re
+import shutil
+import signal
 import subprocess
+import sys
 import time
+from subprocess import PIPE
 
 import pytest
 
@@ -43,11 +49,29 @@ def move():
 every(0.02, move)
 """
 
+# What a process asks the time, and everything in it.
+CLOCK = """
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <time.h>
+
+int clock_gettime(clockid_t which, struct timespec *time) {
+  int (*real)(clockid_t, struct timespec *) = dlsym(RTLD_NEXT, "clock_gettime");
+  const int result = real(which, time);
+  if (result == 0 && which == CLOCK_REALTIME) {
+    time->tv_nsec += 350000000;
+    time->tv_sec += time->tv_nsec / 1000000000;
+    time->tv_nsec %= 1000000000;
+  }
+  return result;
+}
+"""
+
 
 @pytest.fixture
 def start(inside):
     """Starts a node with this name and body."""
-    return lambda name, body: inside.start("-c", NODE.replace("{body}", body), name)
+    return lambda name, body, **options: inside.start("-c", NODE.replace("{body}", body), name, **options)
 
 
 @pytest.fixture
@@ -143,15 +167,39 @@ def test_nobody_there_is_not_healthy(inside):
     assert not data["healthy"]
 
 
+@pytest.fixture
+def clock_ahead(tmp_path):
+    """The environment of a process whose clock is 350 ms ahead, as on a machine of its own; DDS's clock is, too."""
+    compiler = shutil.which("cc")
+    if not compiler or sys.platform != "linux":
+        pytest.skip("a process's clock is set wrong by a library, which needs Linux and a C compiler")
+    library = tmp_path / "clock.so"
+    subprocess.run([compiler, "-shared", "-fPIC", "-o", library, "-x", "c", "-"], input=CLOCK, text=True, check=True)
+    return {**os.environ, "LD_PRELOAD": str(library)}
+
+
+@pytest.mark.slow
+def test_a_process_whose_clock_is_ahead(start, only, clock_ahead):
+    start("wheels", ROBOT)
+    arm = 'b = TransformBroadcaster(node)\nevery(0.02, lambda: b.sendTransform(stamped("base_link", "arm", at())))'
+    start("arm_driver", f"import time\ndef at():\n    return time.monotonic() % 100\n{arm}", env=clock_ahead)
+    finding = only("TF010")
+    assert finding["publishers"] == ["/arm_driver"]
+    assert re.search(r"the clock of the machine of /arm_driver is at least 3[45]\d ms ahead", finding["text"])
+    assert "chrony" in finding["fix"]
+    assert [effect["code"] for effect in finding["explains"]] == ["TF008"]
+
+
 def test_watch_tells_again_and_again_and_ends_by_a_signal(start, inside):
     start("robot", ROBOT)
     options = ("--watch", "--json", "--duration", "5s")
-    with inside.start("-m", "coframe.cli", "doctor", *options, stdout=subprocess.PIPE, text=True) as process:
+    with inside.start("-m", "coframe.cli", "doctor", *options, stdout=PIPE, stderr=PIPE, text=True) as process:
         heard = [json.loads(process.stdout.readline())]
         while not heard[-1]["healthy"]:
             heard.append(json.loads(process.stdout.readline()))
-        process.terminate()
+        process.send_signal(signal.SIGINT)
         assert process.wait(20) == 0
+        assert "Traceback" not in process.stderr.read()
     assert set(heard[-1]["frames"]) == {"odom", "base_link", "lidar_link"}
 
 

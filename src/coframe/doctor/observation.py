@@ -29,7 +29,10 @@ NEVER = np.iinfo(np.int64).max
 
 @dataclass(frozen=True)
 class Endpoint:
-    """A publisher or a subscription: its node's full name, and whether late joiners get what was sent before."""
+    """A publisher or a subscription: its node's full name, and whether late joiners get what was sent before.
+
+    A recording does not tell the node: it is "" there.
+    """
 
     node: str
     transient_local: bool
@@ -37,7 +40,10 @@ class Endpoint:
 
 @dataclass(frozen=True)
 class TopicFacts:
-    """A topic: its type, how many messages were heard, and who is on it (live only)."""
+    """A topic: its type, how many messages were heard, and who is on it.
+
+    Of a recording, only the publishers of static transforms are told.
+    """
 
     name: str
     type: str

@@ -7,11 +7,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe.bags import open_bag
-from coframe.bags.transforms import ingest_for
+from coframe.bags import from_yaml, open_bag
+from coframe.bags.transforms import ingest_for, is_static
 from coframe.doctor.collector import Collector
 from coframe.doctor.joints import joint_states
-from coframe.doctor.observation import DEFAULT_CACHE, Clock, JointStates, LogLine, Observation, Sensor, TopicFacts
+from coframe.doctor.observation import (
+    DEFAULT_CACHE,
+    Clock,
+    Endpoint,
+    JointStates,
+    LogLine,
+    Observation,
+    Sensor,
+    TopicFacts,
+)
 from coframe.errors import DecodeError
 
 if TYPE_CHECKING:
@@ -92,7 +101,8 @@ class _Facts:
     def __init__(self, recording: Recording) -> None:
         self._recording = recording
         self.topics = {
-            topic.name: TopicFacts(topic.name, topic.type, topic.messages) for topic in recording.topics.values()
+            topic.name: TopicFacts(topic.name, topic.type, topic.messages, self._publishers(topic.name))
+            for topic in recording.topics.values()
         }
         self.clock = self._clock()
         self.sensors = [sensor for name in self.topics if (sensor := self._sensor(name)) is not None]
@@ -104,6 +114,14 @@ class _Facts:
         ]
         self.joints = [self._joints(name) for name in self._of_type({"sensor_msgs/msg/JointState"})]
         self.log = tuple(line for name in self._of_type(_LOGS) for line in self._lines(name))
+
+    def _publishers(self, topic: str) -> tuple[Endpoint, ...]:
+        """Of static transforms, as far as the recording tells: what they offered, not who they were."""
+        if not is_static(topic):
+            return ()
+        channels = (channel for channel in self._recording.channels() if channel.topic == topic)
+        offers = (offered for channel in channels for offered in from_yaml(channel.offered_qos))
+        return tuple(dict.fromkeys(Endpoint("", offered.transient_local) for offered in offers))
 
     def _of_type(self, types: set[str]) -> list[str]:
         return [topic.name for topic in self.topics.values() if topic.type in types]

@@ -29,6 +29,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             severity=Severity.WARNING,
             text=f"{observation.damaged_messages} messages hold bytes that are no TFMessage",
             fix="Find the program that writes its own bytes on the topic, or copy the recording again.",
+            harm="Listeners throw such a message away: what it was to tell is not there.",
         )
     if observation.empty_messages:
         yield Finding(
@@ -36,6 +37,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             severity=Severity.NOTE,
             text=f"a message without any transform was sent {times(observation.empty_messages)}",
             fix="Harmless; in its publisher: `if transforms: broadcaster.sendTransform(transforms)`.",
+            harm="It tells nobody anything; listeners take it and go on.",
         )
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.catalogue import page
 from coframe.doctor.wording import duration, listed, seconds
 
 if TYPE_CHECKING:
@@ -20,7 +19,7 @@ def lines(report: Report) -> Iterator[tuple[str, str]]:
     """Pairs of a style (``error``, ``warning``, ``note``, ``good``, ``dim`` or ``plain``) and a line."""
     for finding in report.findings:
         yield str(finding.severity), headline(finding)
-        yield "dim", f"      why: {page(finding.code).why}"
+        yield "dim", f"      why: {finding.why}"
         yield "plain", f"      do:  {finding.fix}"
         for effect in finding.explains:
             yield "dim", f"      so:  {headline(effect)}"
