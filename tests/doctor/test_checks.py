@@ -11,10 +11,11 @@ from rosbags.interfaces import QosDurability
 from rosbags.rosbag2 import StoragePlugin
 from runs import MS, SECOND, Offered, Run, rpy, stamp_message, yaw
 
-from coframe.doctor import Severity, codes, diagnose, observe_recording
+from coframe.doctor import Observation, Severity, codes, diagnose, observe_recording
 from coframe.doctor.diagnosis import all_checks
 from coframe.doctor.edge import Edge
 from coframe.doctor.flicker import flicker
+from coframe.doctor.transforms import Transforms
 from coframe.messages import find
 
 URDF = """<robot name="r"><link name="base_link"/><link name="lidar"/><link name="wheel"/>
@@ -556,3 +557,48 @@ def test_hostile_names_and_numbers_end_in_findings_not_in_exceptions(examine):
     report = examine(run)
     assert not report.healthy
     json.dumps([str(finding) for finding in report.findings])
+
+
+# What hostile or hopeless systems make of it
+
+
+def observed(links):
+    """An observation with one transform of each link."""
+    numbers = {}
+    parent, child = np.array([[numbers.setdefault(name, len(numbers)) for name in link] for link in links]).T
+    arrived = START + np.arange(len(links)) * MS
+    values = np.tile([0, 0, 0, 0, 0, 0, 1.0], (len(links), 1))
+    nobody = np.zeros(len(links), dtype=int)
+    moving = np.zeros(len(links), dtype=bool)
+    rows = Transforms(arrived, arrived, parent, child, nobody, moving, values, tuple(numbers), ("/node",))
+    return Observation(True, START, int(arrived[-1]), rows)
+
+
+@pytest.mark.parametrize(
+    ("links", "found", "findings"),
+    [
+        ([(f"p{i}", f"c{i}") for i in range(3000)], {"TF001"}, 51),
+        ([(f"f{i}", f"f{i + 1}") for i in range(3000)], set(), 0),
+        ([(f"f{i}", f"f{(i + 1) % 3000}") for i in range(3000)], {"TF004"}, 1),
+        ([("root", f"a{i}") for i in range(2000)] + [(f"b{i}x", f"c{i}") for i in range(1000)], {"TF001"}, 51),
+        ([("/" * 3000 + "a/" * 3000, "b"), ("a", "c")], None, None),
+    ],
+    ids=["trees", "chain", "loop", "wide", "slashes"],
+)
+@pytest.mark.timeout(20)
+def test_thousands_of_frames_take_seconds_and_tell_it_shortly(links, found, findings):
+    report = diagnose(observed(links))
+    if found is not None:
+        assert {finding.code for finding in report.every_finding()} == found
+        assert len(report.every_finding()) == findings
+
+
+def test_a_loop_is_one_tree_and_is_told_in_order():
+    report = diagnose(observed([("a", "b"), ("b", "c"), ("c", "a"), ("c", "tool"), ("tool", "tip")]))
+    (finding,) = report.every_finding()
+    assert finding.code == "TF004"
+    assert finding.frames == {"a", "b", "c"}
+    names = finding.text.rpartition(": ")[2].split(" -> ")
+    assert (len(names), names[0]) == (4, names[-1])
+    assert "abca".find("".join(names[:2])) >= 0
+    assert len(report.observation.trees) == 1

@@ -205,10 +205,11 @@ def test_watch_tells_again_and_again_and_ends_by_a_signal(start, inside):
 
 @pytest.mark.slow
 @pytest.mark.timeout(200)
-@pytest.mark.parametrize("_run", range(5))
-def test_a_healthy_demo_has_no_finding_at_all(inside, _run, tmp_path):
+@pytest.mark.parametrize("options", [*[""] * 5, "--urdf", "--robots 3", "--robots 3 --own-topics"])
+def test_a_healthy_demo_has_no_finding_at_all(inside, options, tmp_path):
     log = (tmp_path / "demo.log").open("wb")
-    demo = inside.start("-m", "coframe.cli", "demo", "--no-browser", "--duration", "150", stdout=log, stderr=log)
+    command = ("-m", "coframe.cli", "demo", "--no-browser", "--duration", "150", *options.split())
+    demo = inside.start(*command, stdout=log, stderr=log)
     try:
         deadline = time.monotonic() + 60
         while inside.doctor("--duration", "2s")["transforms"] < 50:

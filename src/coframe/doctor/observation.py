@@ -210,10 +210,21 @@ class Observation:
         """All frames, in the order in which they came up."""
         return tuple(dict.fromkeys(name for edge in self.edges for name in edge.key))
 
+    @cached_property
+    def roots(self) -> dict[str, str]:
+        """By frame the root of its tree; of a loop, and of what hangs on it, one of the loop's frames."""
+        found: dict[str, str] = {}
+        for start in self.frames:
+            frame, way = start, dict[str, None]()
+            while frame not in found and frame not in way and frame in self.last:
+                way[frame] = None
+                frame = self.last[frame].parent
+            found |= dict.fromkeys([*way, frame], found.get(frame, frame))
+        return found
+
     def root(self, frame: str) -> str:
-        """Of the tree that a frame is in; of a loop any of its frames."""
-        path = self.path(frame)
-        return path[-1].parent if path else frame
+        """Of the tree that a frame is in; of one that nobody tells of, itself."""
+        return self.roots.get(frame, frame)
 
     def path(self, frame: str) -> list[Edge]:
         """The links from a frame up to its root; a loop is walked once."""

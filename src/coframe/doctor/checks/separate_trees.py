@@ -12,12 +12,15 @@ from coframe.doctor.wording import listed
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from coframe.doctor.edge import Edge
     from coframe.doctor.observation import Observation
 
 __all__ = ["CODE", "find"]
 
 CODE = "TF001"
 _ALIKE = 0.8
+_MOST = 50  # trees that are told of one by one
+_COMPARED = 1_000  # names: each takes microseconds
 # Parents and children by REP-105 and by habit.
 _USUAL = (
     ("base_footprint", "base_link"),
@@ -39,13 +42,16 @@ class _Missing(NamedTuple):
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """One finding for every tree but the largest."""
+    """One finding for every tree but the largest, and one for all the rest of very many."""
     main, *others = observation.trees or [""]
-    for root in others:
+    by_root: dict[str, list[Edge]] = {}
+    for edge in observation.edges:
+        by_root.setdefault(observation.root(edge.child), []).append(edge)
+    for root in others[:_MOST]:
         link = _missing(observation, main, root)
         members = [frame for frame in observation.trees[root] if frame != root]
         below = f" with {listed(members)}" if members else ""
-        edges = [edge for edge in observation.edges if observation.root(edge.child) == root]
+        edges = by_root.get(root, [])
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
@@ -56,13 +62,24 @@ def find(observation: Observation) -> Iterator[Finding]:
             first_stamp=min((edge.first_stamp for edge in edges), default=None),
             publishers=tuple(dict.fromkeys(name for edge in edges for name in edge.publishers)),
         )
+    if rest := others[_MOST:]:
+        yield Finding(
+            code=CODE,
+            severity=Severity.WARNING,
+            text=f"{len(rest)} more trees: {listed(rest)}; names that are made anew all the time make so many",
+            fix="Find the publisher that numbers its frames without end, or give those of one robot one root.",
+            frames=frozenset(rest),
+            first_stamp=min((edge.first_stamp for root in rest for edge in by_root.get(root, [])), default=None),
+        )
 
 
 def _missing(observation: Observation, main: str, other: str) -> _Missing | None:
     """The most likely link between two trees: a misspelt name, or what is usual."""
     for root, frames in ((other, observation.trees[main]), (main, observation.trees[other])):
         alike = [
-            frame for frame in difflib.get_close_matches(root, frames, n=3, cutoff=_ALIKE) if _is_slip(root, frame)
+            frame
+            for frame in difflib.get_close_matches(root, frames[:_COMPARED], n=3, cutoff=_ALIKE)
+            if _is_slip(root, frame)
         ]
         if alike:
             return _Missing(alike[0], root, misspelt=True)
