@@ -57,6 +57,13 @@ def test_healthy_and_left_out(ill, tmp_path):
     assert result.stdout.startswith("healthy: 101 transforms of 2 links, 3 frames in 1 tree, 1 sensor, ")
 
 
+def test_a_namespace_that_is_not_there_is_told_what_is(tmp_path):
+    run = Run()
+    run.tf("odom", "base_link", START, topic="/robot1/tf")
+    run.tf("odom", "base_link", START, topic="/robot2/tf")
+    assert "there are some on /robot1/tf, /robot2/tf" in command(run.write(tmp_path), "--namespace", "/robot3").stdout
+
+
 def test_json_on_standard_output_alone(ill):
     result = command(ill, "--json")
     data = json.loads(result.stdout)

@@ -31,7 +31,7 @@ __all__ = ["doctor"]
 SECOND = 1_000_000_000
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan", "good": "green", "dim": "dim", "plain": ""}
 # A running verdict takes at most this part of a processor.
-_SHARE = 0.01
+_SHARE = 0.006
 
 
 def doctor(

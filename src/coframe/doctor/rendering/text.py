@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
     from coframe.doctor.diagnosis import Report, SensorFacts
     from coframe.doctor.finding import Finding
+    from coframe.doctor.observation import Observation
 
 __all__ = ["lines"]
 
@@ -47,7 +48,10 @@ def _summary(report: Report) -> Iterator[tuple[str, str]]:
     )
     every = report.every_finding()
     if not len(seen.transforms):
-        yield "warning", f"no transforms at all in {duration(seen.duration)}: nothing could be judged"
+        yield (
+            "warning",
+            f"no transforms at all in {duration(seen.duration)}: nothing could be judged" + _elsewhere(seen),
+        )
     elif not every:
         yield "good", f"healthy: {looked_at}"
     else:
@@ -56,6 +60,12 @@ def _summary(report: Report) -> Iterator[tuple[str, str]]:
         }
         told = ", ".join(_count(count, kind) for kind, count in counts.items() if count)
         yield "plain", f"{told}; looked at {looked_at}. `coframe doctor --explain {every[0].code}` says more."
+
+
+def _elsewhere(seen: Observation) -> str:
+    """Where there are transforms, if not where they were looked for."""
+    topics = [topic.name for topic in seen.topics.values() if topic.type.endswith("/TFMessage") and topic.messages]
+    return f"; there are some on {listed(topics)}" if topics else ""
 
 
 def _count(number: int, what: str) -> str:
