@@ -40,7 +40,7 @@ def buffer() -> coframe.Buffer:
     return filled
 
 
-def mcap(path: Path) -> Path:
+def mcap(path: Path, transforms: int = TRANSFORMS) -> Path:
     """A recording with as many, all links in each message."""
     from mcap.writer import Writer
 
@@ -60,7 +60,7 @@ def mcap(path: Path) -> Path:
         channel = writer.register_channel(
             "/tf", "cdr", writer.register_schema("tf2_msgs/msg/TFMessage", "ros2msg", b"")
         )
-        for index in range(TRANSFORMS // PER_MESSAGE):
+        for index in range(transforms // PER_MESSAGE):
             at = motion.START + index * motion.STEP
             for place in places:
                 stamp.pack_into(data, place, *divmod(at, motion.NS))

@@ -2,6 +2,7 @@
 
 from benchmarks.rows import (
     batch,
+    doctor,
     fleet,
     history,
     insertion,
@@ -23,6 +24,7 @@ ROWS = {
     "robots": robots.ROWS,
     "listener": listener.ROWS,
     "fleet": fleet.ROWS,
+    "doctor": doctor.ROWS,
     "recordings": recordings.ROWS + large_recordings.ROWS,
     "history": history.ROWS,
     "startup": startup.ROWS,

@@ -90,18 +90,19 @@ nb::list take(PyReader& reader, std::uint32_t limit) {
   return messages;
 }
 
-nb::list take_tapped(PyTap& tap) {
-  std::vector<Tap::Message> tapped;
+template <class Number>
+nb::bytes to_bytes(const std::vector<Number>& numbers) {
+  return nb::bytes(numbers.data(), numbers.size() * sizeof(Number));
+}
+
+nb::tuple take_tapped(PyTap& tap) {
+  Tap::Messages tapped;
   {
     WithoutGil release;
     tapped = tap.take();
   }
-  nb::list messages;
-  for (const Tap::Message& message : tapped) {
-    messages.append(nb::make_tuple(nb::bytes(message.bytes.data(), message.bytes.size()), message.arrived,
-                                   message.sent, message.writer));
-  }
-  return messages;
+  return nb::make_tuple(nb::bytes(tapped.bytes.data(), tapped.bytes.size()), to_bytes(tapped.ends),
+                        to_bytes(tapped.arrived), to_bytes(tapped.sent), to_bytes(tapped.writers));
 }
 
 nb::list take_endpoints(PyEndpointReader& reader) {
@@ -192,7 +193,8 @@ void define_readers(nb::module_& wire) {
   tap.def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, std::size_t, std::size_t>(),
           nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("head"),
           nb::arg("capacity"), ReleaseGil())
-      .def("take", &take_tapped, "The messages since the last call: tuples (bytes, arrived, sent, writer's handle).")
+      .def("take", &take_tapped, "The messages since the last call: their bytes, and as bytes where each ends (uint64), arrived, sent (int64) "
+           "and writer's handle (uint64).")
       .def_prop_ro("missed", &PyTap::missed, "How many messages came while it was full.");
   define_reader_properties<PyTap>(tap);
 

@@ -34,20 +34,22 @@ void Tap::drain(dds::Entity reader) {
   const std::int64_t arrived = now();
   const std::lock_guard lock(mutex_);
   const auto keep = [&](const dds::Sample& sample) {
-    if (messages_.size() >= capacity_) {
+    if (messages_.ends.size() >= capacity_) {
       ++missed_;
       return;
     }
     const auto bytes = sample.bytes();
-    const std::size_t size = std::min(bytes.size(), head_);
-    messages_.push_back({arrived, sample.info().source_timestamp, sample.info().publication_handle,
-                         std::string(reinterpret_cast<const char*>(bytes.data()), size)});
+    messages_.bytes.append(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), head_));
+    messages_.arrived.push_back(arrived);
+    messages_.sent.push_back(sample.info().source_timestamp);
+    messages_.writers.push_back(sample.info().publication_handle);
+    messages_.ends.push_back(messages_.bytes.size());
   };
   while (dds::take(reader, dds::kBatch, keep) == dds::kBatch) {
   }
 }
 
-std::vector<Tap::Message> Tap::take() {
+Tap::Messages Tap::take() {
   const std::lock_guard lock(mutex_);
   return std::exchange(messages_, {});
 }

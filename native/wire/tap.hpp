@@ -14,11 +14,12 @@ namespace coframe {
 
 class Tap {
  public:
-  // One message: when it came by the system's clock, when its writer says it was sent (both nanoseconds since 1970), by
-  // whom, and its first bytes.
-  struct Message {
-    std::int64_t arrived, sent;
-    dds::Handle writer;
+  // Messages, the oldest first: when each came by the system's clock, when its writer says it was sent (both nanoseconds
+  // since 1970), by whom, and where its first bytes end among those of all of them.
+  struct Messages {
+    std::vector<std::int64_t> arrived, sent;
+    std::vector<dds::Handle> writers;
+    std::vector<std::uint64_t> ends;
     std::string bytes;
   };
 
@@ -27,8 +28,8 @@ class Tap {
       std::size_t head, std::size_t capacity);
   void close() noexcept { reader_.close(); }
 
-  // What has come since the last call, oldest first.
-  std::vector<Message> take();
+  // What has come since the last call.
+  Messages take();
   // How many came while it was full.
   std::uint64_t missed();
 
@@ -40,7 +41,7 @@ class Tap {
 
   const std::size_t head_, capacity_;
   std::mutex mutex_;  // of the two below
-  std::vector<Message> messages_;
+  Messages messages_;
   std::uint64_t missed_ = 0;
   DataReader reader_;  // last: its callback uses the members above
 };

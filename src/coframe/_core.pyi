@@ -707,10 +707,13 @@ class Tap:
     def __init__(
         self, participant: int, topic: int, qos: QosProfile, user_data: str, head: int, capacity: int
     ) -> None: ...
-    def take(self) -> list[tuple[bytes, int, int, int]]:
-        """The messages since the last call: tuples (first `head` bytes, arrived, sent, writer's handle).
+    def take(self) -> tuple[bytes, bytes, bytes, bytes, bytes]:
+        """The messages since the last call, the oldest first.
 
-        The times are nanoseconds since 1970, by the clocks of this machine and of the writer's.
+        Returns:
+            The first `head` bytes of all of them, one after the other; then, as bytes, of each where it ends (uint64),
+            when it arrived and when it was sent (int64 nanoseconds since 1970, by the clocks of this machine and of the
+            writer's), and its writer's handle (uint64).
         """
 
     @property

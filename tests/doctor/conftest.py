@@ -14,8 +14,9 @@ from coframe.doctor import diagnose, observe_recording
 def examine(tmp_path):
     """From a run, or the path of a recording, to a report."""
 
-    def examine(run, **options):
-        path = run.write(tmp_path) if hasattr(run, "write") else run
+    def examine(run, folder="", **options):
+        (tmp_path / folder).mkdir(exist_ok=True)
+        path = run.write(tmp_path / folder) if hasattr(run, "write") else run
         (observation,) = observe_recording(path).values()
         return diagnose(observation, **options)
 

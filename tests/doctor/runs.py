@@ -1,7 +1,9 @@
 """Recordings of a healthy robot, to be made ill."""
 
 import numpy as np
-from recordings import START, TF, write_mcap
+from recordings import START, TF, humble, write_mcap
+from rosbags.interfaces import Qos, QosHistory, QosLiveliness, QosReliability, QosTime
+from rosbags.rosbag2 import Writer
 
 from coframe import quaternion
 from coframe.messages import find, serialize
@@ -76,3 +78,29 @@ class Run:
     def write(self, folder):
         self.rows.sort(key=lambda row: row[1])
         return write_mcap(folder / "run.mcap", rows=self.rows, types=self.types)
+
+
+class Offered:
+    """A run as rosbag2 records it, with what the publishers of its static transforms offered."""
+
+    def __init__(self, run, plugin, *durabilities):
+        self.run, self.plugin = run, plugin
+        forever = QosTime(9223372036, 854775807)
+        self.profiles = [
+            Qos(QosHistory.KEEP_LAST, 1, QosReliability.RELIABLE, durability, forever, forever,
+                QosLiveliness.AUTOMATIC, forever, avoid_ros_namespace_conventions=False)
+            for durability in durabilities
+        ]  # fmt: skip
+
+    def write(self, folder):
+        self.run.rows.sort(key=lambda row: row[1])
+        with Writer(folder / "run", version=9, storage_plugin=self.plugin) as writer:
+            connections = {
+                topic: writer.add_connection(
+                    topic, type_, typestore=humble, offered_qos_profiles=self.profiles if "static" in topic else []
+                )
+                for topic, (type_, *_) in self.run.types.items()
+            }
+            for topic, at, data in self.run.rows:
+                writer.write(connections[topic], at, data)
+        return folder / "run"

@@ -1,14 +1,21 @@
 """Each check finds its fault, and nothing else is found."""
 
 import json
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 from recordings import START
-from runs import MS, SECOND, Run, rpy, stamp_message, yaw
+from rosbags.interfaces import QosDurability
+from rosbags.rosbag2 import StoragePlugin
+from runs import MS, SECOND, Offered, Run, rpy, stamp_message, yaw
 
-from coframe.doctor import Severity, codes, diagnose, observe_recording
+from coframe.doctor import Observation, Severity, codes, diagnose, observe_recording
 from coframe.doctor.diagnosis import all_checks
+from coframe.doctor.edge import Edge
+from coframe.doctor.flicker import flicker
+from coframe.doctor.transforms import Transforms
 from coframe.messages import find
 
 URDF = """<robot name="r"><link name="base_link"/><link name="lidar"/><link name="wheel"/>
@@ -41,7 +48,18 @@ def test_a_healthy_run_has_no_finding_at_all(examine):
 
 def test_every_check_has_a_page_and_every_page_a_check():
     assert tuple(all_checks()) == codes()
-    assert len(codes()) == 25
+    assert len(codes()) >= 25
+
+
+def test_every_code_has_a_fault_that_is_found_and_nothing_else():
+    tests = "".join(file.read_text("utf-8") for file in Path(__file__).parent.glob("test_*.py"))
+    assert sorted(set(re.findall(r'\bonly\((?:.+, )?"(TF\d+)"\)', tests))) == list(codes())
+
+
+def test_every_code_is_in_the_documents_table(request):
+    table = (request.config.rootpath / "docs" / "doctor.md").read_text("utf-8")
+    rows = re.findall(r"^\| \[(TF\d+)\]\(\.\./src/coframe/catalogue/pages/(TF\d+)\.md\) \| \S", table, re.MULTILINE)
+    assert rows == [(code, code) for code in codes()]
 
 
 def test_a_run_without_transforms_is_not_called_healthy(examine):
@@ -107,6 +125,19 @@ def test_flicker_in_a_recording(only):
     finding = only(run, "TF003")
     assert "0.2" in finding.text
     assert finding.edge == ("odom", "base_link")
+
+
+@pytest.mark.parametrize("turns", ["AB", "AAB", "AAAB", "AAAAB", "AABAB", "AAABAAB"])
+@pytest.mark.parametrize("rows", [600, 30_000])
+def test_flicker_by_publishers_of_any_two_rates(turns, rows):
+    stamp = np.arange(rows) * 10 * MS
+    values = np.tile([0, 0, 0, 0, 0, 0, 1.0], (rows, 1))
+    values[:, 0] = (
+        1e-3 * np.arange(rows) + 0.3 * np.array([turn == "B" for turn in turns])[np.arange(rows) % len(turns)]
+    )
+    found = flicker(Edge("odom", "base_link", False, stamp, stamp, np.zeros(rows, dtype=int), values, ("",)))
+    assert found is not None
+    assert found.distance == pytest.approx(0.3, abs=2e-3)
 
 
 def test_flicker_by_a_publisher_that_is_rarer(only):
@@ -319,6 +350,24 @@ def test_static_links_of_an_earlier_run(only):
     assert finding.severity is Severity.NOTE
 
 
+def test_a_static_link_that_is_sent_again_is_no_leftover(examine):
+    run = Run.healthy()
+    for i in range(3):
+        run.tf("base_link", "lidar", later(1 + 3 * i), (0.1, 0.0, 0.3), static=True)
+    run.tf("base_link", "lidar", 0, (0.1, 0.0, 0.3), static=True, arrived=later(11))
+    assert examine(run).findings == []
+
+
+@pytest.mark.parametrize("plugin", StoragePlugin)
+def test_a_static_publisher_that_offered_volatile(only, examine, plugin):
+    volatile, kept = QosDurability.VOLATILE, QosDurability.TRANSIENT_LOCAL
+    finding = only(Offered(Run.healthy(seconds=1), plugin, kept, volatile, volatile), "TF016")
+    assert finding.severity is Severity.ERROR
+    assert "a publisher on /tf_static offered the durability volatile" in finding.text
+    assert "--qos-profile-overrides-path" in finding.fix
+    assert examine(Offered(Run.healthy(seconds=1), plugin, kept), folder="good").findings == []
+
+
 def test_a_recording_without_its_statics(only):
     run = Run.healthy(skip={"static", "scan"})
     for i in range(600):
@@ -427,16 +476,22 @@ def test_a_joint_state_without_a_joint(only):
     assert "tell of elbow, which" in only(run, "TF022").text
 
 
-def test_transforms_that_are_not_the_models(examine):
+@pytest.mark.parametrize(
+    ("height", "turned", "link", "text"),
+    [
+        (0.4, 0.0, ("base_link", "lidar"), "by 0.1 m and 0 degrees"),
+        (0.3, 0.1, ("base_link", "wheel"), "5.73 degrees, the median of 300"),
+    ],
+)
+def test_transforms_that_are_not_the_models(only, height, turned, link, text):
     run = Run.healthy()
-    describe(run, URDF.replace("0.1 0 0.3", "0.1 0 0.4"))
+    describe(run, URDF.replace("0.1 0 0.3", f"0.1 0 {height}"))
     for i in range(300):
         joints(run, later(i / 25), turn=i / 25)
-        run.tf("base_link", "wheel", later(i / 25), turn=yaw(i / 25 + 0.1))
-    texts = {finding.edge: finding for finding in examine(run).findings}
-    assert {finding.code for finding in texts.values()} == {"TF023"}
-    assert "by 0.1 m and 0 degrees" in texts["base_link", "lidar"].text
-    assert "5.73 degrees, the median of 300" in texts["base_link", "wheel"].text
+        run.tf("base_link", "wheel", later(i / 25), turn=yaw(i / 25 + turned))
+    finding = only(run, "TF023")
+    assert finding.edge == link
+    assert text in finding.text
 
 
 @pytest.mark.parametrize("text", ["", "<robot name=''/>", "<robot name='r'><link name='a'/><link name='b'/></robot>"])
@@ -502,3 +557,48 @@ def test_hostile_names_and_numbers_end_in_findings_not_in_exceptions(examine):
     report = examine(run)
     assert not report.healthy
     json.dumps([str(finding) for finding in report.findings])
+
+
+# What hostile or hopeless systems make of it
+
+
+def observed(links):
+    """An observation with one transform of each link."""
+    numbers = {}
+    parent, child = np.array([[numbers.setdefault(name, len(numbers)) for name in link] for link in links]).T
+    arrived = START + np.arange(len(links)) * MS
+    values = np.tile([0, 0, 0, 0, 0, 0, 1.0], (len(links), 1))
+    nobody = np.zeros(len(links), dtype=int)
+    moving = np.zeros(len(links), dtype=bool)
+    rows = Transforms(arrived, arrived, parent, child, nobody, moving, values, tuple(numbers), ("/node",))
+    return Observation(True, START, int(arrived[-1]), rows)
+
+
+@pytest.mark.parametrize(
+    ("links", "found", "findings"),
+    [
+        ([(f"p{i}", f"c{i}") for i in range(3000)], {"TF001"}, 51),
+        ([(f"f{i}", f"f{i + 1}") for i in range(3000)], set(), 0),
+        ([(f"f{i}", f"f{(i + 1) % 3000}") for i in range(3000)], {"TF004"}, 1),
+        ([("root", f"a{i}") for i in range(2000)] + [(f"b{i}x", f"c{i}") for i in range(1000)], {"TF001"}, 51),
+        ([("/" * 3000 + "a/" * 3000, "b"), ("a", "c")], None, None),
+    ],
+    ids=["trees", "chain", "loop", "wide", "slashes"],
+)
+@pytest.mark.timeout(20)
+def test_thousands_of_frames_take_seconds_and_tell_it_shortly(links, found, findings):
+    report = diagnose(observed(links))
+    if found is not None:
+        assert {finding.code for finding in report.every_finding()} == found
+        assert len(report.every_finding()) == findings
+
+
+def test_a_loop_is_one_tree_and_is_told_in_order():
+    report = diagnose(observed([("a", "b"), ("b", "c"), ("c", "a"), ("c", "tool"), ("tool", "tip")]))
+    (finding,) = report.every_finding()
+    assert finding.code == "TF004"
+    assert finding.frames == {"a", "b", "c"}
+    names = finding.text.rpartition(": ")[2].split(" -> ")
+    assert (len(names), names[0]) == (4, names[-1])
+    assert "abca".find("".join(names[:2])) >= 0
+    assert len(report.observation.trees) == 1

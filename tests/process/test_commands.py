@@ -125,7 +125,7 @@ def test_demo_shows_the_whole_tree_and_ends_its_nodes(processes):
 @pytest.mark.slow
 def test_demo_from_a_description_shows_the_same_tree(processes):
     pytest.importorskip("xacro", reason="the lab's robot is described in xacro")
-    processes.start("demo", "python", "-m", "coframe.cli", "demo", "--urdf", "--duration", "6", "--no-browser")
+    processes.start("demo", "python", "-m", "coframe.cli", "demo", "--urdf", "--duration", "12", "--no-browser")
     heard = processes.observe(1.0, "/robot_description:std_msgs/msg/String:transient_local")
     assert "two_link_arm" in heard["/robot_description"][0][1]["data"]
     eventually(lambda: not processes.running("demo"), lambda: processes.text("demo"))

@@ -43,9 +43,9 @@ def readable():
 def plant(tmp_path):
     """From a run to its forest."""
 
-    def plant(run, renaming=None):
-        (observation,) = observe_recording(run.write(tmp_path)).values()
-        return grow(observation, renaming)
+    def plant(run, **names):
+        (observation,) = observe_recording(run.write(tmp_path), **names).values()
+        return grow(observation)
 
     return plant
 

@@ -7,7 +7,6 @@ import pytest
 from recordings import START
 from runs import SECOND, Run
 
-from coframe import frame_names
 from coframe.doctor import Observation
 from coframe.doctor.observation import Transforms
 from coframe.trees import changes, grow
@@ -70,7 +69,7 @@ def test_a_slow_link_is_not_stale(plant):
 def test_prefixes(plant):
     run = moving(Run(), "map", "base", 1)
     run.tf("base", "/lidar", START, static=True)
-    renamed = plant(run, frame_names.renaming("r1/", "map"))
+    renamed = plant(run, prefix="r1/", keep="map")
     assert list(renamed.frames) == ["map", "r1/base", "r1/lidar"]
 
 

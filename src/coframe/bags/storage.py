@@ -60,9 +60,13 @@ class Slices(NamedTuple):
     @staticmethod
     def joined(messages: Sequence[bytes | memoryview]) -> Slices:
         """Of messages that lie apart."""
-        ends = np.cumsum(np.fromiter(map(len, messages), np.uint64, len(messages)))
-        starts = np.concatenate([np.zeros(1, dtype=np.uint64), ends[:-1]]) if len(messages) else ends
-        return Slices(b"".join(messages), starts, ends)
+        lengths = np.fromiter(map(len, messages), np.uint64, len(messages))
+        return Slices.adjoining(b"".join(messages), np.cumsum(lengths))
+
+    @staticmethod
+    def adjoining(data: bytes, ends: NDArray[np.uint64]) -> Slices:
+        """Of messages of which each begins where the one before it ends."""
+        return Slices(data, np.concatenate([np.zeros(1, dtype=np.uint64), ends])[:-1], ends)
 
     def each(self) -> Iterator[memoryview]:
         """One message after the other."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import time
 from pathlib import Path  # noqa: TC003 - typer reads the annotations
@@ -42,7 +43,7 @@ __all__ = ["doctor"]
 SECOND = 1_000_000_000
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan", "good": "green", "dim": "dim", "plain": ""}
 # A running verdict takes at most this part of a processor.
-_SHARE = 0.01
+_SHARE = 0.006
 
 
 def doctor(
@@ -83,7 +84,7 @@ def doctor(
             with reading() as progress:
                 seen = observe_recording(bag, namespace=namespace, tf_topics=topics, progress=progress, **shared)
             reports = {name: diagnose(one, ignore=unwanted) for name, one in seen.items()}
-            _finish(reports, as_json, sarif, str(bag))
+            _finish(reports, as_json, sarif, bag)
         from coframe.wire.observing import Listening  # noqa: PLC0415 - recordings need no DDS
 
         shared |= {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
@@ -95,14 +96,14 @@ def doctor(
                 typer.echo(f"listening for {duration} ...", err=True)
             listening.listen(window / SECOND)
             report = diagnose(listening.observe(), ignore=unwanted)
-        _finish({"": report}, as_json, sarif, "live")
+        _finish({"": report}, as_json, sarif, None)
 
 
 def _explain(code: str) -> None:
     try:
         text = page(code).text
     except KeyError:
-        fail(f"there is no page for {code!r}", f"There are {', '.join(codes())}.", code=2)
+        fail(f"there is no page for {code!r}", _nearest(code), code=2)
     console = Console()
     if console.is_terminal:
         console.print(Markdown(text))
@@ -114,14 +115,24 @@ def _codes(wanted: list[str]) -> list[str]:
     every = [code.strip().upper() for option in wanted for code in option.split(",")]
     for code in every:
         if code not in codes():
-            fail(f"--ignore: there is no check {code!r}", f"There are {', '.join(codes())}.", code=2)
+            fail(f"--ignore: there is no check {code!r}", _nearest(code), code=2)
     return every
 
 
-def _finish(reports: dict[str, Report], as_json: bool, sarif: bool, what: str) -> None:
+def _nearest(code: str) -> str:
+    """What may have been meant, by the code or by the words of a title; else which codes there are."""
+    words = code.lower()
+    by_title = [known for known in codes() if len(words) > 2 and words in page(known).title.lower()]
+    near = by_title or difflib.get_close_matches(code.upper(), codes(), n=3, cutoff=0.8)
+    if not near:
+        return f"There are {codes()[0]} to {codes()[-1]}."
+    return f"Did you mean {' or '.join(f'{known} ({page(known).title})' for known in near)}?"
+
+
+def _finish(reports: dict[str, Report], as_json: bool, sarif: bool, bag: Path | None) -> None:
     """Prints, and ends with the verdict as exit code."""
     if sarif:
-        print(json.dumps(as_sarif(reports, what), indent=2))
+        print(json.dumps(as_sarif(reports, bag), indent=2))
     elif as_json:
         data: Any = {name: as_data(report) for name, report in reports.items()}
         print(json.dumps(data[""] if list(data) == [""] else {"namespaces": data}, indent=2))
@@ -137,7 +148,7 @@ def _finish(reports: dict[str, Report], as_json: bool, sarif: bool, what: str) -
 
 def _texts(report: Report) -> list[Text]:
     every = [Text(printable(line), style=_STYLES[style]) for style, line in lines(report)]
-    every += [Text(f"could not be read: {printable(problem)}", style="dim") for problem in report.observation.unread]
+    every += [Text(f"of the recording: {printable(problem)}", style="dim") for problem in report.observation.unread]
     return every
 
 

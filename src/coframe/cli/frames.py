@@ -10,21 +10,23 @@ import typer
 from rich.console import Console
 from rich.text import Text
 
-from coframe import frame_names
 from coframe.cli.frames_screen import tree, watch
 from coframe.cli.recordings import NamespaceOption, reading
 from coframe.cli.session import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
     DomainOption,
     KeepOption,
     PrefixOption,
-    TfStaticTopicOption,
-    TfTopicOption,
+    RecordedTfStaticTopicOption,
+    RecordedTfTopicOption,
     fail,
+    length,
     printable,
+    recorded_tf_topics,
     session,
 )
 from coframe.doctor import observe_recording
-from coframe.time import duration_ns
 from coframe.trees import grow
 from coframe.trees.graphviz import as_graphviz
 from coframe.trees.mermaid import MOST_LINKS, as_markdown, as_mermaid
@@ -74,40 +76,40 @@ def frames(
     prefix: PrefixOption = "",
     keep: KeepOption = "",
     domain: DomainOption = None,
-    tf_topic: TfTopicOption = "/tf",
-    tf_static_topic: TfStaticTopicOption = "/tf_static",
+    tf_topic: RecordedTfTopicOption = None,
+    tf_static_topic: RecordedTfStaticTopicOption = None,
 ) -> None:
     """Show the transform trees with the figures of each link: live, or in the recording BAG.
 
     Example: coframe frames run.mcap -o frames.svg
     """
     files = [_known(path) for path in output or []]
-    window = _length(duration)
+    window = length("--duration", duration)
     if watching and (files or bag is not None):
         fail("--watch excludes a recording and --output", code=2)
-    renaming = frame_names.renaming(prefix, keep)
+    names: dict[str, Any] = {"prefix": prefix, "keep": keep}
     with session():
         if bag is not None:
+            topics = recorded_tf_topics(tf_topic, tf_static_topic)
             with reading() as progress:
-                seen = observe_recording(bag, namespace=namespace, progress=progress)
-            forests = {name: grow(one, renaming) for name, one in seen.items()}
+                seen = observe_recording(bag, namespace=namespace, tf_topics=topics, progress=progress, **names)
+            forests = {name: grow(one) for name, one in seen.items()}
             for problem in dict.fromkeys(problem for one in seen.values() for problem in one.unread):
                 typer.echo(f"coframe: {printable(problem)}", err=True)
             _finish(forests, files, as_json, bag.name)
             return
         from coframe.wire.observing import Listening  # noqa: PLC0415 - recordings need no DDS
 
-        with Listening(
-            domain, window=window, tf_topic=tf_topic, tf_static_topic=tf_static_topic, node_name="coframe_frames"
-        ) as listening:
+        names |= {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
+        with Listening(domain, window=window, node_name="coframe_frames", **names) as listening:
             if watching:
-                watch(listening, renaming, as_json)
+                watch(listening, as_json)
                 return
             if Console(stderr=True).is_terminal:
                 typer.echo(f"listening for {duration} ...", err=True)
             listening.listen(window / SECOND)
-            seen_live = grow(listening.observe(), renaming)
-        _finish({"": seen_live}, files, as_json, f"live on {tf_topic}")
+            seen_live = grow(listening.observe())
+        _finish({"": seen_live}, files, as_json, f"live on {names['tf_topic']}")
 
 
 def _known(path: Path) -> Path:
@@ -120,16 +122,6 @@ def _known(path: Path) -> Path:
         except ModuleNotFoundError:
             fail("PDF needs the package pydyf: pip install 'coframe[pdf]'", "An .svg needs nothing.")
     return path
-
-
-def _length(text: str) -> int:
-    try:
-        nanoseconds = duration_ns(text)
-    except (ValueError, TypeError) as error:
-        fail(f"--duration: {error}", code=2)
-    if nanoseconds <= 0:
-        fail("--duration must be more than 0", code=2)
-    return nanoseconds
 
 
 def _finish(forests: dict[str, Forest], files: list[Path], as_json: bool, title: str) -> None:

@@ -17,7 +17,7 @@ from coframe.trees.text import COLUMNS, rows
 from coframe.trees.wording import summary
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
     from coframe.trees import Change, Forest
     from coframe.wire.observing import Listening
@@ -62,24 +62,24 @@ def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None
     return Group(table, *more, Text(summary(forest), style=style))
 
 
-def watch(listening: Listening, renaming: Callable[[str], str] | None, as_json: bool) -> None:
+def watch(listening: Listening, as_json: bool) -> None:
     """Shows the trees until Ctrl-C; where nobody looks at a screen a line a change, or with JSON a line each second."""
     console = Console(highlight=False)
     if as_json:
-        for forest, news in _steps(listening, renaming):
+        for forest, news in _steps(listening):
             print(json.dumps({**as_data(forest), "changes": [change._asdict() for change in news]}), flush=True)
     elif console.is_terminal:
-        _show(console, _steps(listening, renaming))
+        _show(console, _steps(listening))
     else:
-        _tell(_steps(listening, renaming))
+        _tell(_steps(listening))
 
 
-def _steps(listening: Listening, renaming: Callable[[str], str] | None) -> Iterator[tuple[Forest, list[Change]]]:
+def _steps(listening: Listening) -> Iterator[tuple[Forest, list[Change]]]:
     """The forest of each second, and how it differs from the one before."""
     before: Forest | None = None
     while True:
         listening.listen(_STEP)
-        forest = grow(listening.observe(), renaming)
+        forest = grow(listening.observe())
         yield forest, [] if before is None else list(changes(before, forest))
         before = forest
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
@@ -40,6 +41,7 @@ __all__ = ["monitor"]
 
 SECOND = 1_000_000_000
 _MS = 1e6
+_BROADCASTERS = "\nAll Broadcasters:"
 
 
 def monitor(
@@ -89,7 +91,7 @@ def _printer(as_json: bool, classic: bool) -> Callable[[Observation, Pair], None
     if as_json:
         return lambda seen, pair: print(json.dumps(_data(seen, pair)), flush=True)
     if classic:
-        return lambda seen, pair: print("\n".join(_classic(seen, pair)), flush=True)
+        return _print_classic
     return lambda seen, pair: _console().print(_picture(seen, pair))
 
 
@@ -158,6 +160,12 @@ def _data(seen: Observation, pair: Pair) -> dict[str, Any]:
     return data
 
 
+def _print_classic(seen: Observation, pair: Pair) -> None:
+    for line in _classic(seen, pair):
+        # So does tf2_monitor with this line alone.
+        print(line, file=sys.stderr if line == _BROADCASTERS else sys.stdout, flush=True)
+
+
 def _classic(seen: Observation, pair: Pair) -> Iterator[str]:
     """As tf2_monitor prints it, with the publishers' names in the place of ``<no authority available>``.
 
@@ -177,7 +185,7 @@ def _classic(seen: Observation, pair: Pair) -> Iterator[str]:
         name = printable(row.publisher) or "<no authority available>"
         frame = printable(row.child)
         yield f"Frame: {frame}, published by {name}, Average Delay: {_g(row.delay)}, Max Delay: {_g(row.delay_max)}"
-    yield "\nAll Broadcasters:"
+    yield _BROADCASTERS
     for node in publisher_figures(seen):
         name, rate = printable(node.publisher) or "<no authority available>", node.rate or 0.0
         yield f"Node: {name} {rate:g} Hz, Average Delay: {_g(node.delay)} Max Delay: {_g(node.delay_max)}"

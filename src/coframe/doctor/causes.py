@@ -52,7 +52,7 @@ CAUSES: tuple[tuple[str, str, bool], ...] = (
 
 def joined(findings: list[Finding]) -> list[Finding]:
     """The causes, worst first, with what they explain; a finding stands below one cause only."""
-    causes = {position: _cause(position, findings) for position in range(len(findings))}
+    causes = _causes(findings)
     below: dict[int, list[Finding]] = {}
     for position, cause in causes.items():
         if cause is not None:
@@ -69,16 +69,23 @@ def _worst(finding: Finding) -> int:
     return max(finding.severity, *(other.severity for other in finding.explains), 0)
 
 
-def _cause(position: int, findings: list[Finding]) -> int | None:
-    """The first finding of the first code that explains this one."""
-    effect = findings[position]
-    for code, consequence, share_frames in CAUSES:
-        if consequence != effect.code:
-            continue
-        for other, cause in enumerate(findings):
-            if cause.code == code and (not share_frames or cause.frames & effect.frames):
-                return other
-    return None
+def _causes(findings: list[Finding]) -> dict[int, int | None]:
+    """By position the first finding of the first code that explains it."""
+    first: dict[tuple[str, str | None], int] = {}  # of a code, and of a code and a frame
+    for position, finding in enumerate(findings):
+        for frame in (None, *finding.frames):
+            first.setdefault((finding.code, frame), position)
+    found: dict[int, int | None] = {}
+    for position, effect in enumerate(findings):
+        causes = (
+            min((first[code, frame] for frame in effect.frames if (code, frame) in first), default=None)
+            if share_frames
+            else first.get((code, None))
+            for code, consequence, share_frames in CAUSES
+            if consequence == effect.code
+        )
+        found[position] = next((cause for cause in causes if cause is not None), None)
+    return found
 
 
 def _outermost(position: int, causes: dict[int, int | None]) -> int:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections import deque
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe.doctor.observation import Transforms
+from coframe.doctor.transforms import Transforms
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -20,16 +21,6 @@ __all__ = ["Collector"]
 
 # Names come from the wire: a million of them are somebody's mistake, and would cost as much memory as they like.
 _MOST_NAMES = 100_000
-
-
-class _Batch(NamedTuple):
-    arrived: NDArray[np.int64]
-    stamp: NDArray[np.int64]
-    parent: NDArray[np.int64]
-    child: NDArray[np.int64]
-    publisher: NDArray[np.int64]
-    static: NDArray[np.bool_]
-    values: NDArray[np.float64]
 
 
 class Collector:
@@ -51,10 +42,17 @@ class Collector:
         self.messages: dict[str, int] = {}
         self._names: dict[str, int] = {}
         self._publishers: dict[str, int] = {}
-        self._batches: list[_Batch] = []
+        self._static: deque[Transforms] = deque()
+        self._moving: deque[Transforms] = deque()
 
     def add(
-        self, topic: str, static: bool, columns: Columns, arrived: NDArray[np.int64], publishers: Sequence[str]
+        self,
+        topic: str,
+        static: bool,
+        columns: Columns,
+        arrived: NDArray[np.int64],
+        publisher: NDArray[np.int64],
+        publishers: Sequence[str],
     ) -> None:
         """Takes in the transforms of some messages.
 
@@ -63,50 +61,40 @@ class Collector:
             static: Valid for all time.
             columns: The transforms.
             arrived: (M,) when each message came.
-            publishers: (M,) who sent each.
+            publisher: (M,) number of who sent it.
+            publishers: Their names, "" for one that is not known.
         """
         self.messages[topic] = self.messages.get(topic, 0) + len(arrived)
         self.damaged += columns.damaged
         self.empty += len(arrived) - columns.damaged - len(np.unique(columns.message))
         if not len(columns.stamp) or len(self._names) > _MOST_NAMES:
             return
-        called = map(self._renamed, columns.names)
-        names = np.array([self._names.setdefault(name, len(self._names)) for name in called], dtype=np.int64)
-        number = self._publishers.setdefault
-        who = np.array([number(name, len(self._publishers)) for name in publishers], dtype=np.int64)
-        self._batches.append(
-            _Batch(
-                arrived[columns.message],
-                columns.stamp,
-                names[columns.parent],
-                names[columns.child],
-                who[columns.message],
-                np.full(len(columns.stamp), static),
-                columns.values,
-            )
+        names, who = _numbers(self._names, map(self._renamed, columns.names)), _numbers(self._publishers, publishers)
+        batch = Transforms(
+            arrived=arrived[columns.message],
+            stamp=columns.stamp,
+            parent=names[columns.parent],
+            child=names[columns.child],
+            publisher=who[publisher[columns.message]],
+            static=np.full(len(columns.stamp), static),
+            values=columns.values,
         )
+        (self._static if static else self._moving).append(batch)
 
     def forget(self, before: int, most: int) -> None:
         """Lets go of moving transforms that came before a time, and of the oldest where there are more than so many."""
-        kept: list[_Batch] = []
-        rows = 0
-        for batch in reversed(self._batches):
-            if batch.static[0]:
-                kept.append(batch)
-            elif batch.arrived[-1] >= before and rows < most:
-                kept.append(batch)
-                rows += len(batch.stamp)
-        self._batches = kept[::-1]
+        while self._moving and self._moving[0].arrived[-1] < before:
+            self._moving.popleft()
+        for batches in (self._static, self._moving):
+            rows = sum(map(len, batches))
+            while rows > most and len(batches) > 1:
+                rows -= len(batches.popleft())
 
     def transforms(self) -> Transforms:
         """All rows, in the order in which they came."""
-        if not self._batches:
-            none = np.zeros(0, dtype=np.int64)
-            return Transforms(none, none, none, none, none, none.astype(bool), np.zeros((0, 7)), (), ())
-        columns: list[Any] = [np.concatenate(column) for column in zip(*self._batches, strict=True)]
-        arrived = columns[0]
-        if (arrived[1:] < arrived[:-1]).any():
-            order = np.argsort(arrived, kind="stable")
-            columns = [column[order] for column in columns]
-        named = _Batch(*columns)._asdict()
-        return Transforms(**named, names=tuple(self._names), publishers=tuple(self._publishers))
+        return Transforms.joined([*self._static, *self._moving], tuple(self._names), tuple(self._publishers))
+
+
+def _numbers(known: dict[str, int], names: Iterable[str]) -> NDArray[np.int64]:
+    """Of names, new ones among them."""
+    return np.array([known.setdefault(name, len(known)) for name in names], dtype=np.int64)

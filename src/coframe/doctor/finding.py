@@ -6,6 +6,8 @@ from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
+from coframe.catalogue import page
+
 if TYPE_CHECKING:
     from typing_extensions import Self
 
@@ -38,6 +40,7 @@ class Finding:
         first_stamp: Of the first transform or message concerned, in nanoseconds; None where there is none.
         publishers: The full names of the nodes that are to blame, as far as they are known.
         explains: Findings that would go if this one did.
+        harm: Why it matters, where that is not what the page of the code opens with.
     """
 
     code: str
@@ -50,10 +53,16 @@ class Finding:
     first_stamp: int | None = None
     publishers: tuple[str, ...] = ()
     explains: tuple[Finding, ...] = field(default=())
+    harm: str = ""
 
     def __post_init__(self) -> None:
         if self.edge is not None:
             object.__setattr__(self, "frames", self.frames | set(self.edge))
+
+    @property
+    def why(self) -> str:
+        """Why it matters, in a sentence."""
+        return self.harm or page(self.code).why
 
     @property
     def subject(self) -> str:

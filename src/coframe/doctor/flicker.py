@@ -9,6 +9,8 @@ import numpy as np
 from coframe.doctor.edge import angles_between
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from coframe.doctor.edge import Edge
 
 __all__ = ["Flicker", "flicker"]
@@ -17,8 +19,11 @@ _LEAST = 6  # jumps there and back
 _METRES = 1e-3
 _RADIANS = 1e-2
 # A jump is so many times larger than what is left of it one or a few rows later.
-_CLEARLY = 5.0
-_SAMPLE = 10_000  # rows are enough for a median
+_CLEARLY = 6.0
+_SAMPLE = 1_000  # rows are enough for a quantile
+_TURNS = 3
+_MOSTLY = 0.4
+_GOLDEN = 0.6180339887498949
 # How many rows the slower publisher may lie apart.
 _LONGEST_RUN = 12
 
@@ -57,11 +62,21 @@ def flicker(edge: Edge) -> Flicker | None:
 
 
 def _typical(edge: Edge) -> tuple[float, float]:
-    """How far it mostly moves from a row to the next; of every second row, too, where each row jumps."""
-    rows = np.arange(0, edge.count - 2, 1 + edge.count // _SAMPLE)
-    every_second = np.linalg.norm(edge.values[rows + 2, :3] - edge.values[rows, :3], axis=1)
-    turned = angles_between(edge.rotations[rows], edge.rotations[rows + 2])
-    return (
-        float(min(np.median(edge.distances[rows]), np.median(every_second))),
-        float(min(np.median(edge.turns[rows]), np.median(turned))),
-    )
+    """How far it mostly moves where nobody else has told in between.
+
+    Of two publishers that take turns every second row is of the same one, and if one is twice as quick every third; if
+    it is quicker than that, half of the rows follow on one of the same.
+    """
+    rows = _sample(edge.count - _TURNS)
+    moved = [
+        np.linalg.norm(edge.values[rows + turn, :3] - edge.values[rows, :3], axis=1) for turn in range(1, _TURNS + 1)
+    ]
+    turned = [angles_between(edge.rotations[rows], edge.rotations[rows + turn]) for turn in range(1, _TURNS + 1)]
+    return float(np.quantile(moved, _MOSTLY, axis=1).min()), float(np.quantile(turned, _MOSTLY, axis=1).min())
+
+
+def _sample(count: int) -> NDArray[np.intp]:
+    """Rows from all over; steps of the same size might meet the turns of one publisher only."""
+    if count <= _SAMPLE:
+        return np.arange(count)
+    return np.asarray(np.arange(_SAMPLE) * _GOLDEN % 1.0 * count).astype(np.intp)

@@ -12,116 +12,29 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor.edge import Edge
+from coframe.doctor.transforms import bare
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-__all__ = ["NEVER", "Clock", "Endpoint", "JointStates", "LogLine", "Observation", "Sensor", "TopicFacts", "Transforms"]
+    from coframe.doctor.transforms import Transforms
+
+__all__ = ["NEVER", "Clock", "Endpoint", "JointStates", "LogLine", "Observation", "Sensor", "TopicFacts"]
 
 DEFAULT_CACHE = 10_000_000_000
-# tf2 refuses a quaternion whose squared length differs from 1 by so much.
-NORM_TOLERANCE = 0.01
 _HOUR = 3_600_000_000_000
 _MINUTE = 60_000_000_000
-_DENSE = 1_000_000  # keys up to here are counted rather than sorted
 NEVER = np.iinfo(np.int64).max
-
-
-@dataclass(frozen=True, eq=False)
-class Transforms:
-    """Transforms as they were sent, a row each, in the order in which they came.
-
-    Attributes:
-        arrived: (N,) when the message came, by the listener's clock.
-        stamp: (N,) of the header.
-        parent: (N,) number of the parent's name.
-        child: (N,) number of the child's name.
-        publisher: (N,) number of who sent it.
-        static: (N,) bool, whether it came on a topic of static transforms.
-        values: (N, 7) x, y, z in metres and qx, qy, qz, qw.
-        names: Of frames, as they were sent.
-        publishers: Full names of nodes; "" where nobody says who it was.
-    """
-
-    arrived: NDArray[np.int64]
-    stamp: NDArray[np.int64]
-    parent: NDArray[np.int64]
-    child: NDArray[np.int64]
-    publisher: NDArray[np.int64]
-    static: NDArray[np.bool_]
-    values: NDArray[np.float64]
-    names: tuple[str, ...]
-    publishers: tuple[str, ...]
-
-    def __len__(self) -> int:
-        return len(self.stamp)
-
-    @cached_property
-    def finite(self) -> NDArray[np.bool_]:
-        """(N,) whether all numbers are numbers."""
-        return np.asarray(np.isfinite(self.values).all(axis=1))
-
-    @cached_property
-    def squared_norms(self) -> NDArray[np.float64]:
-        """(N,) of the quaternions."""
-        squares: NDArray[np.float64] = np.einsum("ij,ij->i", self.values[:, 3:], self.values[:, 3:])
-        return squares
-
-    @cached_property
-    def taken(self) -> NDArray[np.bool_]:
-        """(N,) whether tf2 takes the row."""
-        with np.errstate(invalid="ignore", over="ignore"):
-            unit = np.abs(self.squared_norms - 1.0) < NORM_TOLERANCE
-        named = np.array([_is_link(self.pair(link)) for link in range(len(self.links))], dtype=bool)
-        return np.asarray(self.finite & unit & (named[self.link] if len(self) else np.zeros(0, dtype=bool)))
-
-    @cached_property
-    def _numbered(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-        keys = self.child * len(self.names) + self.parent
-        if not len(keys) or keys.max() > _DENSE:
-            links, link = np.unique(keys, return_inverse=True)
-            return links, link
-        links = np.flatnonzero(np.bincount(keys))  # a tenth of the time
-        place = np.zeros(int(links[-1]) + 1, dtype=np.int64)
-        place[links] = np.arange(len(links))
-        return links, place[keys]
-
-    @property
-    def links(self) -> NDArray[np.int64]:
-        """The pairs of names that occur; see :meth:`pair`."""
-        return self._numbered[0]
-
-    @property
-    def link(self) -> NDArray[np.int64]:
-        """(N,) which of the :attr:`links` each row tells of."""
-        return self._numbered[1]
-
-    def pair(self, link: int) -> tuple[str, str]:
-        """The names of parent and child, as they were sent."""
-        child, parent = divmod(int(self.links[link]), len(self.names))
-        return self.names[parent], self.names[child]
-
-    def senders(self, rows: NDArray[np.intp]) -> tuple[str, ...]:
-        """Who sent some of the rows, as far as that is known."""
-        numbers = np.unique(self.publisher[rows]).tolist()
-        return tuple(self.publishers[number] for number in numbers if self.publishers[number])
-
-
-def _bare(names: tuple[str, str]) -> tuple[str, str]:
-    parent, child = names
-    return parent.lstrip("/"), child.lstrip("/")
-
-
-def _is_link(names: tuple[str, str]) -> bool:
-    parent, child = _bare(names)
-    return bool(parent and child) and parent != child
 
 
 @dataclass(frozen=True)
 class Endpoint:
-    """A publisher or a subscription: its node's full name, and whether late joiners get what was sent before."""
+    """A publisher or a subscription: its node's full name, and whether late joiners get what was sent before.
+
+    A recording does not tell the node: it is "" there.
+    """
 
     node: str
     transient_local: bool
@@ -129,7 +42,10 @@ class Endpoint:
 
 @dataclass(frozen=True)
 class TopicFacts:
-    """A topic: its type, how many messages were heard, and who is on it (live only)."""
+    """A topic: its type, how many messages were heard, and who is on it.
+
+    Of a recording, only the publishers of static transforms are told.
+    """
 
     name: str
     type: str
@@ -248,13 +164,13 @@ class Observation:
             return ()
         # With and without a slash in front they are one.
         numbers: dict[tuple[str, str], int] = {}
-        bare = [_bare(told.pair(link)) for link in range(len(told.links))]
-        same = np.array([numbers.setdefault(pair, len(numbers)) for pair in bare], dtype=np.int64)
+        names = [bare(told.pair(link)) for link in range(len(told.links))]
+        same = np.array([numbers.setdefault(pair, len(numbers)) for pair in names], dtype=np.int64)
         groups = same[told.link[rows]] * 2 + told.static[rows]
         order = np.argsort(groups.astype(np.min_scalar_type(2 * len(numbers))), kind="stable")
         ends = np.cumsum(np.bincount(groups))
         parts = [rows[part] for part in np.split(order, ends[:-1]) if len(part)]
-        found = [self._edge(part, bare[int(told.link[part[0]])]) for part in parts]
+        found = [self._edge(part, names[int(told.link[part[0]])]) for part in parts]
         return tuple(sorted(found, key=lambda edge: int(edge.arrived[0])))
 
     def _edge(self, rows: NDArray[np.intp], names: tuple[str, str]) -> Edge:
@@ -298,10 +214,21 @@ class Observation:
         """All frames, in the order in which they came up."""
         return tuple(dict.fromkeys(name for edge in self.edges for name in edge.key))
 
+    @cached_property
+    def roots(self) -> dict[str, str]:
+        """By frame the root of its tree; of a loop, and of what hangs on it, one of the loop's frames."""
+        found: dict[str, str] = {}
+        for start in self.frames:
+            frame, way = start, dict[str, None]()
+            while frame not in found and frame not in way and frame in self.last:
+                way[frame] = None
+                frame = self.last[frame].parent
+            found |= dict.fromkeys([*way, frame], found.get(frame, frame))
+        return found
+
     def root(self, frame: str) -> str:
-        """Of the tree that a frame is in; of a loop any of its frames."""
-        path = self.path(frame)
-        return path[-1].parent if path else frame
+        """Of the tree that a frame is in; of one that nobody tells of, itself."""
+        return self.roots.get(frame, frame)
 
     def path(self, frame: str) -> list[Edge]:
         """The links from a frame up to its root; a loop is walked once."""

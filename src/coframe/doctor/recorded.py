@@ -5,11 +5,22 @@ from __future__ import annotations
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-from coframe.bags import open_bag
-from coframe.bags.transforms import ingest_for
+import numpy as np
+
+from coframe.bags import from_yaml, open_bag
+from coframe.bags.transforms import ingest_for, is_static
 from coframe.doctor.collector import Collector
 from coframe.doctor.joints import joint_states
-from coframe.doctor.observation import DEFAULT_CACHE, Clock, JointStates, LogLine, Observation, Sensor, TopicFacts
+from coframe.doctor.observation import (
+    DEFAULT_CACHE,
+    Clock,
+    Endpoint,
+    JointStates,
+    LogLine,
+    Observation,
+    Sensor,
+    TopicFacts,
+)
 from coframe.errors import DecodeError
 from coframe.frame_names import renaming
 
@@ -17,7 +28,6 @@ if TYPE_CHECKING:
     import os
     from collections.abc import Callable, Iterable, Iterator
 
-    import numpy as np
     from numpy.typing import NDArray
 
     from coframe import _core
@@ -92,7 +102,8 @@ def collecting(
         take = ingest_for(channel)
         if take is not None:
             collector = collectors.setdefault(channel.topic.rpartition("/")[0], Collector(names))
-            collector.add(channel.topic, take.static, take.columns(messages), received, [""] * len(received))
+            nobody = np.zeros(len(received), dtype=np.int64)
+            collector.add(channel.topic, take.static, take.columns(messages), received, nobody, [""])
 
     return heard
 
@@ -109,7 +120,8 @@ class _Facts:
     def __init__(self, recording: Recording) -> None:
         self._recording = recording
         self.topics = {
-            topic.name: TopicFacts(topic.name, topic.type, topic.messages) for topic in recording.topics.values()
+            topic.name: TopicFacts(topic.name, topic.type, topic.messages, self._publishers(topic.name))
+            for topic in recording.topics.values()
         }
         self.clock = self._clock()
         self.sensors = [sensor for name in self.topics if (sensor := self._sensor(name)) is not None]
@@ -121,6 +133,14 @@ class _Facts:
         ]
         self.joints = [self._joints(name) for name in self._of_type({"sensor_msgs/msg/JointState"})]
         self.log = tuple(line for name in self._of_type(_LOGS) for line in self._lines(name))
+
+    def _publishers(self, topic: str) -> tuple[Endpoint, ...]:
+        """Of static transforms, as far as the recording tells: what they offered, not who they were."""
+        if not is_static(topic):
+            return ()
+        channels = (channel for channel in self._recording.channels() if channel.topic == topic)
+        offers = (offered for channel in channels for offered in from_yaml(channel.offered_qos))
+        return tuple(dict.fromkeys(Endpoint("", offered.transient_local) for offered in offers))
 
     def _of_type(self, types: set[str]) -> list[str]:
         return [topic.name for topic in self.topics.values() if topic.type in types]

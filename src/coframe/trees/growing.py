@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from coframe.doctor.figures import link_figures
 from coframe.trees.forest import Forest, Frame
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterable
 
     from coframe.doctor import Observation
     from coframe.doctor.edge import Edge
@@ -21,19 +20,13 @@ _SILENT = 1_000_000_000
 _UNUSUAL = 3.0  # times the usual time between two transforms of a link
 
 
-def grow(observation: Observation, renaming: Callable[[str], str] | None = None) -> Forest:
-    """The trees as a buffer would hold them at the end of the observation.
-
-    Args:
-        observation: What was heard, or is in a recording.
-        renaming: Gives frames their names; None: as they came.
-    """
-    seen = observation if renaming is None else _renamed(observation, renaming)
-    parents = {child: edge.parent for child, edge in seen.last.items()}
+def grow(observation: Observation) -> Forest:
+    """The trees as a buffer would hold them at the end of the observation."""
+    parents = {child: edge.parent for child, edge in observation.last.items()}
     children: dict[str, list[str]] = {}
     for child in sorted(parents, reverse=True):
         children.setdefault(parents[child], []).append(child)
-    roots = [frame for frame in seen.frames if frame not in parents]
+    roots = [frame for frame in observation.frames if frame not in parents]
     trees = {root: _below(root, children) for root in roots}
     drawn = {frame for tree in trees.values() for frame in tree}
     loops = []
@@ -44,21 +37,18 @@ def grow(observation: Observation, renaming: Callable[[str], str] | None = None)
             trees[root] = _below(root, children)
             drawn.update(trees[root])
     told: dict[str, list[LinkFigures]] = {}
-    for link in link_figures(seen):
+    for link in link_figures(observation):
         told.setdefault(link.child, []).append(link)
     ordered = {root: trees[root] for root in sorted(trees, key=lambda root: (-len(trees[root]), root))}
     frames = {
-        name: _frame(name, root, depth, parents.get(name, ""), children.get(name, ()), trees, told.get(name, []), seen)
+        name: _frame(
+            name, root, depth, parents.get(name, ""), children.get(name, ()), trees, told.get(name, []), observation
+        )
         for root, tree in ordered.items()
         for name, depth in tree.items()
     }
     counts = {root: len(tree) for root, tree in ordered.items()}
-    return Forest(seen.start, seen.end, seen.live, frames, counts, frozenset(loops))
-
-
-def _renamed(observation: Observation, renaming: Callable[[str], str]) -> Observation:
-    told = observation.transforms
-    return replace(observation, transforms=replace(told, names=tuple(map(renaming, told.names))))
+    return Forest(observation.start, observation.end, observation.live, frames, counts, frozenset(loops))
 
 
 def _below(root: str, children: dict[str, list[str]]) -> dict[str, int]:

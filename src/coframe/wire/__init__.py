@@ -15,7 +15,7 @@ from coframe.wire.endpoints import (
     Sample,
     Subscription,
     Tap,
-    TappedMessage,
+    TappedMessages,
     TfReader,
 )
 from coframe.wire.graph import Endpoint
@@ -35,7 +35,7 @@ __all__ = [
     "StaticWriter",
     "Subscription",
     "Tap",
-    "TappedMessage",
+    "TappedMessages",
     "TfReader",
     "connect",
 ]

@@ -6,6 +6,8 @@ import threading
 from collections import deque
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
+import numpy as np
+
 from coframe import _core
 from coframe.errors import WireError
 from coframe.wire import names
@@ -14,6 +16,8 @@ from coframe.wire.graph import DdsEndpoint, Graph
 from coframe.wire.publishers import TfPublisher, publisher_of
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from coframe.wire.participant import Participant
     from coframe.wire.qos import QoS
 
@@ -213,20 +217,22 @@ class Subscription(WireEndpoint):
         return not self._closed and self._reader.pending
 
 
-class TappedMessage(NamedTuple):
-    """A message, or its first bytes, and when it came. Times are nanoseconds since 1970.
+class TappedMessages(NamedTuple):
+    """Messages, or their first bytes, the oldest first. Times are nanoseconds since 1970.
 
     Attributes:
-        data: 4 bytes of encapsulation, then CDR; the first bytes of it.
-        arrived: by this machine's clock.
-        sent: by the clock of its writer's machine.
-        writer: its writer's handle, for `Participant.writer_node`.
+        data: of each 4 bytes of encapsulation, then CDR, or the first bytes of it; one after the other.
+        ends: where each ends, (N,) uint64.
+        arrived: (N,) by this machine's clock.
+        sent: (N,) by the clock of its writer's machine.
+        writers: (N,) its writer's handle, uint64, for `Participant.writer_node`.
     """
 
     data: bytes
-    arrived: int
-    sent: int
-    writer: int
+    ends: NDArray[np.uint64]
+    arrived: NDArray[np.int64]
+    sent: NDArray[np.int64]
+    writers: NDArray[np.uint64]
 
 
 class Tap(WireEndpoint):
@@ -236,9 +242,16 @@ class Tap(WireEndpoint):
         self._tap = native
         super().__init__(native, node, topic, dds_type, qos)
 
-    def take(self) -> list[TappedMessage]:
-        """The messages since the last call, the oldest first."""
-        return [TappedMessage(*message) for message in self._tap.take()]
+    def take(self) -> TappedMessages:
+        """The messages since the last call."""
+        data, ends, arrived, sent, writers = self._tap.take()
+        return TappedMessages(
+            data,
+            np.frombuffer(ends, np.uint64),
+            np.frombuffer(arrived, np.int64),
+            np.frombuffer(sent, np.int64),
+            np.frombuffer(writers, np.uint64),
+        )
 
     @property
     def missed(self) -> int:

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
     from typing_extensions import Self
 
-    from coframe.wire.endpoints import Tap, TappedMessage
+    from coframe.wire.endpoints import Tap, TappedMessages
     from coframe.wire.graph import Endpoint as WireEndpoint
 
 __all__ = ["Listening"]
@@ -201,17 +201,24 @@ class Listening:
         number = processes.index(process)
         self._names[handle] = name if number == 0 else f"{name} (copy {number + 1})"
 
-    def _take_transforms(self, topic: str, messages: list[TappedMessage], static: bool) -> None:
-        if not messages:
+    def _take_transforms(self, topic: str, messages: TappedMessages, static: bool) -> None:
+        if not len(messages.ends):
             return
-        columns = tf_columns(Slices.joined([message.data for message in messages]))
-        arrived = np.array([message.arrived for message in messages], dtype=np.int64)
-        publishers = [self._names.get(message.writer, "") for message in messages]
-        self._collector.add(topic, static, columns, arrived, publishers)
+        handles, publisher = np.unique(messages.writers, return_inverse=True)
+        publishers = [self._names.get(handle, "") for handle in handles.tolist()]
+        self._collector.add(
+            topic,
+            static,
+            tf_columns(Slices.adjoining(messages.data, messages.ends)),
+            messages.arrived,
+            publisher,
+            publishers,
+        )
         if not static:  # what was sent before we came was long under way
-            for message, publisher in zip(messages, publishers, strict=True):
-                travel = self._travel.setdefault(publisher, deque(maxlen=_MOST_MESSAGES))
-                travel.append(message.arrived - message.sent)
+            took = messages.arrived - messages.sent
+            for number, name in enumerate(publishers):
+                travel = self._travel.setdefault(name, deque(maxlen=_MOST_MESSAGES))
+                travel.extend(took[publisher == number].tolist())
 
     def _listen(self, name: str, types: list[str]) -> None:
         ros_type = types[0]
@@ -227,16 +234,17 @@ class Listening:
 
     def _take(self, heard: _Topic) -> None:
         messages = heard.tap.take()
-        heard.messages += len(messages)
+        heard.messages += len(messages.ends)
+        whole = Slices.adjoining(messages.data, messages.ends).each()
+        rows = zip(map(bytes, whole), messages.arrived.tolist(), messages.writers.tolist(), strict=True)
         if heard.type in _DECODED or heard.name.endswith(_DESCRIPTION):
-            heard.decoded += _decode(heard.type, messages)
-        else:
-            for message in messages:
-                header = header_of(message.data)
-                if header is not None:
-                    stamp, frame = header
-                    publisher = self._names.get(message.writer, "")
-                    heard.heads.append(_Head(frame.lstrip("/"), stamp, message.arrived, publisher))
+            heard.decoded += _decode(heard.type, rows)
+            return
+        for data, arrived, writer in rows:
+            header = header_of(data)
+            if header is not None:
+                stamp, frame = header
+                heard.heads.append(_Head(frame.lstrip("/"), stamp, arrived, self._names.get(writer, "")))
 
     def _decoded(self, ros_type: str) -> list[tuple[int, Any]]:
         return [pair for topic in self._topics.values() if topic.type == ros_type for pair in topic.decoded]
@@ -275,12 +283,12 @@ class Listening:
         )
 
 
-def _decode(ros_type: str, messages: list[TappedMessage]) -> list[tuple[int, Any]]:
+def _decode(ros_type: str, messages: Iterable[tuple[bytes, int, int]]) -> list[tuple[int, Any]]:
     message_type = find(ros_type)
     found = []
-    for message in messages:
+    for data, arrived, _ in messages:
         try:
-            found.append((message.arrived, deserialize(message.data, message_type)))
+            found.append((arrived, deserialize(data, message_type)))
         except DecodeError:
             continue
     return found

@@ -39,6 +39,9 @@ def find(observation: Observation) -> Iterator[Finding]:
                 severity=severity,
                 text=f"{which} {'is empty' if empty else 'is broken'}: {error}{later}",
                 fix=error.hint or "Check the file that is loaded: check_urdf FILE, or coframe robot FILE.",
+                harm="Programs that keep the first description that they are given have no robot."
+                if superseded
+                else "",
                 topic=_TOPIC,
             )
     if last is not None and observation.live:
@@ -67,5 +70,6 @@ def _meshes(robot: Robot) -> Iterator[Finding]:
             fix="Source the workspace that has the packages, or name their folder in ROS_PACKAGE_PATH; only "
             "displays need "
             "them.",
+            harm="Displays leave these parts of the robot out; its transforms are right all the same.",
             topic=_TOPIC,
         )

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF004"
+_LONGEST = 20  # names of a loop that are told
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -29,6 +30,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             severity=Severity.WARNING,
             text=f"{observation.damaged_messages} messages hold bytes that are no TFMessage",
             fix="Find the program that writes its own bytes on the topic, or copy the recording again.",
+            harm="Listeners throw such a message away: what it was to tell is not there.",
         )
     if observation.empty_messages:
         yield Finding(
@@ -36,30 +38,24 @@ def find(observation: Observation) -> Iterator[Finding]:
             severity=Severity.NOTE,
             text=f"a message without any transform was sent {times(observation.empty_messages)}",
             fix="Harmless; in its publisher: `if transforms: broadcaster.sendTransform(transforms)`.",
+            harm="It tells nobody anything; listeners take it and go on.",
         )
 
 
 def _loops(observation: Observation) -> Iterator[Finding]:
-    told: set[frozenset[str]] = set()
-    for frame in observation.frames:
-        path = observation.path(frame)
-        if not path or path[-1].parent not in {edge.child for edge in path}:
+    for root in observation.trees:
+        loop = observation.path(root)  # a root has no parent, unless it is in a loop
+        if not loop:
             continue
-        # The part of the way that comes back to itself.
-        start = [edge.child for edge in path].index(path[-1].parent)
-        loop = path[start:]
-        members = frozenset(edge.child for edge in loop)
-        if members in told:
-            continue
-        told.add(members)
-        way = " -> ".join([loop[-1].parent, *(edge.child for edge in reversed(loop))])
+        names = [loop[-1].parent, *(edge.child for edge in reversed(loop))]
+        way = " -> ".join(names if len(names) <= _LONGEST else [*names[:_LONGEST], f"and {len(loop) - _LONGEST} more"])
         yield Finding(
             code=CODE,
             severity=Severity.ERROR,
             text=f"the frames go round in a loop: {way}",
             fix=f"Take one of these transforms away, or turn it round; the last one was {loop[0].parent} -> "
             f"{loop[0].child}: swap its t.header.frame_id and t.child_frame_id.",
-            frames=members,
+            frames=frozenset(edge.child for edge in loop),
             edge=loop[0].key,
             first_stamp=max(edge.first_stamp for edge in loop),
             publishers=tuple(dict.fromkeys(name for edge in loop for name in edge.publishers)),

@@ -73,10 +73,11 @@ def _statics(observation: Observation, usual: str) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.NOTE,
             text=f"{len(odd)} of {len(observation.static)} static transforms are stamped by another clock than /tf "
-            f"({seconds(odd[0].first_stamp)}, {duration(abs(odd[0].first_stamp - high))} off), {zero} have the "
-            "stamp 0; "
-            "harmless to tf2",
+            f"({seconds(odd[0].first_stamp)}, {duration(abs(odd[0].first_stamp - high))} off), {zero} with the "
+            "stamp 0; harmless to tf2",
             fix="Start their publishers with --ros-args -p use_sim_time:=true, like the rest.",
+            harm="A static transform holds at all times whatever its stamp; but its publisher has another clock than "
+            "the rest, and whatever else it sends will not fit.",
             edge=odd[0].key,
             frames=frozenset(edge.child for edge in odd),
             first_stamp=odd[0].first_stamp,

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF006"
+_LEVELS = 5  # of prefixes in front of each other
 _PLAIN = re.compile(r"[\w./-]+")
 
 
@@ -78,19 +79,26 @@ def _half_a_prefix(observation: Observation) -> Iterator[Finding]:
     """A tree whose root, with or without a prefix, is a frame of another tree."""
     if len(observation.trees) < 2:
         return
-    for root in observation.trees:
-        for frame in observation.frames:
-            same = frame.endswith(f"/{root}") or root.endswith(f"/{frame}")
-            if same and observation.root(frame) != root:
-                prefixed, plain = (frame, root) if len(frame) > len(root) else (root, frame)
+    for prefixed in observation.frames:
+        for plain in _without_prefixes(prefixed):
+            roots = observation.roots.get(prefixed), observation.roots.get(plain)
+            if roots[1] is not None and roots[0] != roots[1] and {prefixed, plain} & set(roots):
                 prefix = prefixed.removesuffix(plain)
                 yield Finding(
                     code=CODE,
                     severity=Severity.WARNING,
                     text=f"half a prefix: {prefixed!r} and {plain!r} are in two trees",
-                    fix="Give every publisher of this robot the prefix (robot_state_publisher: "
-                    f"frame_prefix:={prefix}; "
+                    fix=f"Give all publishers of the robot the prefix (robot_state_publisher: frame_prefix:={prefix}; "
                     f"odometry: base_frame_id:={prefixed}), or none.",
-                    frames=frozenset({prefixed, plain, root}),
+                    frames=frozenset({prefixed, plain}),
                 )
                 return
+
+
+def _without_prefixes(frame: str) -> Iterator[str]:
+    """``a/b/c`` as ``b/c`` and ``c``."""
+    for _ in range(_LEVELS):
+        _, slash, frame = frame.partition("/")
+        if not slash:
+            return
+        yield frame

@@ -23,7 +23,7 @@ CODE = "TF020"
 _FAST = 30.0  # m/s
 _FAR = 0.5  # metres
 _TURNED = 1.5  # radians
-_SPINNING = 60.0  # rad/s
+_SPINNING = 30.0  # rad/s
 _UNUSUAL = 20.0  # times the usual step
 _LEAST = 10
 
@@ -56,7 +56,7 @@ def _jumps(edge: Edge) -> Iterator[Finding]:
     far = (edge.distances > _FAR) & (edge.distances > _UNUSUAL * np.median(edge.distances))
     far &= edge.distances / seconds > _FAST
     turned = (edge.turns > _TURNED) & (edge.turns > _UNUSUAL * np.median(edge.turns))
-    turned &= edge.turns / seconds > _SPINNING / 2
+    turned &= edge.turns / seconds > _SPINNING
     rows = np.flatnonzero(far | turned)
     if not len(rows):
         return

@@ -82,6 +82,7 @@ def _repeated_states(states: JointStates) -> Iterator[Finding]:
         "them with "
         "other positions",
         fix="Stamp each joint state when its joints are read; robot_state_publisher leaves repetitions out.",
+        harm="One time has two positions of a joint: which of them a program takes is chance.",
         topic=states.topic,
         first_stamp=int(states.stamp[order[again[0]]]),
     )

@@ -11,21 +11,26 @@ from coframe.doctor.wording import listed
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from coframe.doctor.edge import Edge
     from coframe.doctor.observation import Observation
 
 __all__ = ["CODE", "find"]
 
 CODE = "TF001"
+_MOST = 50  # trees that are told of one by one
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """One finding for every tree but the largest."""
+    """One finding for every tree but the largest, and one for all the rest of very many."""
     main, *others = observation.trees or [""]
-    for root in others:
+    by_root: dict[str, list[Edge]] = {}
+    for edge in observation.edges:
+        by_root.setdefault(observation.root(edge.child), []).append(edge)
+    for root in others[:_MOST]:
         link = missing_link(_from_root(observation, main), _from_root(observation, root))
         members = [frame for frame in observation.trees[root] if frame != root]
         below = f" with {listed(members)}" if members else ""
-        edges = [edge for edge in observation.edges if observation.root(edge.child) == root]
+        edges = by_root.get(root, [])
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
@@ -35,6 +40,15 @@ def find(observation: Observation) -> Iterator[Finding]:
             frames=frozenset({root, *observation.trees[root]}),
             first_stamp=min((edge.first_stamp for edge in edges), default=None),
             publishers=tuple(dict.fromkeys(name for edge in edges for name in edge.publishers)),
+        )
+    if rest := others[_MOST:]:
+        yield Finding(
+            code=CODE,
+            severity=Severity.WARNING,
+            text=f"{len(rest)} more trees: {listed(rest)}; names that are made anew all the time make so many",
+            fix="Find the publisher that numbers its frames without end, or give those of one robot one root.",
+            frames=frozenset(rest),
+            first_stamp=min((edge.first_stamp for root in rest for edge in by_root.get(root, [])), default=None),
         )
 
 

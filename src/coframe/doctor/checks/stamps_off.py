@@ -45,6 +45,7 @@ def find(observation: Observation) -> Iterator[Finding]:
                 severity=Severity.WARNING,
                 text=f"{unset} of {len(sensor.stamp)} messages have the stamp 0: it was never set",
                 fix="In the sensor's node: msg.header.stamp = self.get_clock().now().to_msg()",
+                harm="tf2 reads the time 0 as the latest one: as if the sensor had measured where it is now.",
                 topic=sensor.topic,
                 frames=frozenset({sensor.frame}),
                 first_stamp=0,

@@ -19,6 +19,9 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF016"
 _SECOND = 1_000_000_000
+_BROADCASTER = (
+    "Use tf2_ros.StaticTransformBroadcaster(node), or QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)."
+)
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -42,10 +45,14 @@ def _publisher(topic: str, node: str) -> Finding:
     return Finding(
         code=CODE,
         severity=Severity.ERROR,
-        text=f"{node or 'an unnamed node'} publishes on {topic} with the durability volatile: listeners with tf2's QoS "
-        "get nothing at all",
-        fix="Use tf2_ros.StaticTransformBroadcaster(node), or QoSProfile(depth=1, "
-        "durability=DurabilityPolicy.TRANSIENT_LOCAL).",
+        text=f"{node} publishes on {topic} with the durability volatile: listeners with tf2's QoS get nothing at all"
+        if node
+        else f"a publisher on {topic} offered the durability volatile: listeners with tf2's QoS got nothing of it, and "
+        "get nothing when it is played as it was recorded",
+        fix=_BROADCASTER
+        if node
+        else f"{_BROADCASTER} On the running robot `coframe doctor` names the node; play this one by coframe play, or "
+        "by ros2 bag play --qos-profile-overrides-path FILE.",
         topic=topic,
         publishers=(node,) if node else (),
     )
@@ -55,12 +62,11 @@ def _subscriber(topic: str, node: str) -> Finding:
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"{node or 'an unnamed node'} listens to {topic} with the durability volatile: it misses what was sent "
-        "before it started",
+        text=f"{node} listens to {topic} with the durability volatile: it misses what was sent before it started",
         fix="Use tf2_ros.TransformListener(buffer, node), or QoSProfile(depth=100, "
         "durability=DurabilityPolicy.TRANSIENT_LOCAL).",
         topic=topic,
-        publishers=(node,) if node else (),
+        publishers=(node,),
     )
 
 
@@ -90,18 +96,22 @@ def _overwritten(observation: Observation) -> Iterator[Finding]:
 
 
 def _told_again(edge: Edge) -> Iterator[Finding]:
-    stamps = np.unique(edge.stamp)
-    if len(stamps) < 2 or stamps[-1] - stamps[0] < _SECOND or len(edge.publishers) == 1:
+    """Messages that came late by very different times: what a process sends once more is as new as it was at first."""
+    set_ = edge.stamp != 0
+    stamps, lags = edge.stamp[set_], edge.arrived[set_] - edge.stamp[set_]
+    if len(lags) < 2 or lags.max() - lags.min() < _SECOND or len(edge.publishers) == 1:
         return
     yield Finding(
         code=CODE,
         severity=Severity.NOTE if edge.constant else Severity.WARNING,
-        text=f"told {times(edge.count)} with stamps up to {duration(int(stamps[-1] - stamps[0]))} apart"
+        text=f"told {times(len(stamps))} with stamps up to {duration(int(stamps.max() - stamps.min()))} apart"
         + (", always the same" if edge.constant else ", and not the same")
         + ": the older ones are of processes that were started before and still run",
+        harm="A late joiner is given what each of these processes has sent: where one of them says something else, the "
+        "last to be heard wins, by chance.",
         fix="End them, `ps` finds them (static_transform_publisher, robot_state_publisher); the one that is "
         "heard last wins.",
         edge=edge.key,
-        first_stamp=int(stamps[0]),
+        first_stamp=int(stamps.min()),
         publishers=edge.publishers,
     )

@@ -48,8 +48,7 @@ def _degrees(edge: Edge) -> Iterator[Finding]:
             yield _finding(
                 edge,
                 f"is turned by {degrees(angle) % 360:.1f} degrees about {'xyz'[about]}, which is {name} = "
-                f"{number} taken "
-                "as radians: degrees were meant",
+                f"{number} taken as radians: were degrees meant?",
                 f"Give radians: --{name} {number * pi / 180:.6f}; in code math.radians({number}).",
             )
             return

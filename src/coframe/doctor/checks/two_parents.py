@@ -47,6 +47,9 @@ def _finding(child: str, edges: list[Edge]) -> Finding:
         f"t.header.frame_id = {child!r}, t.child_frame_id = {others[0].parent!r}."
         if disagree
         else "Nothing, if the frame is meant to change its parent; else stop one of the publishers.",
+        harm=""
+        if disagree
+        else "Between the last transform in the one parent and the first in the other tf2 does not interpolate.",
         edge=latest.key,
         frames=frozenset(edge.parent for edge in edges),
         first_stamp=max(edge.first_stamp for edge in edges),

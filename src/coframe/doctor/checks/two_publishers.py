@@ -46,6 +46,7 @@ def _of_publishers(edge: Edge) -> Iterator[Finding]:
         + (f" that disagree{apart}" if differ else " that say the same, or nearly"),
         fix=f"Stop one of the two, {first} or {second}, or switch its transform off (lab: publish_arm:=false; "
         "robot_localization and diff_drive_controller: publish_tf / enable_odom_tf: false).",
+        harm="" if differ else "As soon as one of them lags behind or says something else, the link flickers.",
         edge=edge.key,
         first_stamp=edge.first_stamp,
         publishers=edge.publishers,

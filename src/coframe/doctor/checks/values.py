@@ -7,14 +7,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.observation import NORM_TOLERANCE
+from coframe.doctor.transforms import NORM_TOLERANCE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
-    from coframe.doctor.observation import Observation, Transforms
+    from coframe.doctor.observation import Observation
+    from coframe.doctor.transforms import Transforms
 
 __all__ = ["CODE", "find"]
 
@@ -68,6 +69,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         "{count} of {all} quaternions are not quite of length 1, by up to {off:.2g}: tf2 takes them",
         f"Write more digits (0.70710678 instead of 0.707), or {_NORMALIZE}.",
         off,
+        "It adds up along a chain of links, and other programs are stricter than tf2, which takes half a percent.",
     )
 
 
@@ -78,6 +80,7 @@ def _kind(
     text: str,
     fix: str,
     off: NDArray[np.float64],
+    harm: str = "",
 ) -> Iterator[Finding]:
     rows = np.flatnonzero(which)
     for link in np.unique(told.link[rows]).tolist():
@@ -89,6 +92,7 @@ def _kind(
             severity=severity,
             text=text.format(count=len(mine), all=int(np.count_nonzero(told.link == link)), off=worst),
             fix=fix,
+            harm=harm,
             edge=(parent.lstrip("/"), child.lstrip("/")),
             first_stamp=int(told.stamp[mine[0]]),
             publishers=told.senders(mine),

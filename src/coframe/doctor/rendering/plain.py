@@ -56,7 +56,7 @@ def _finding(finding: Finding) -> dict[str, Any]:
         "frames": sorted(finding.frames),
         "first_stamp_ns": finding.first_stamp,
         "publishers": list(finding.publishers),
-        "why": page(finding.code).why,
+        "why": finding.why,
         "fix": finding.fix,
         "explains": [_finding(effect) for effect in finding.explains],
     }

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
+from urllib.parse import quote
 
 import coframe
 from coframe.catalogue import codes, page
 from coframe.doctor.finding import Severity
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from coframe.doctor.diagnosis import Report
     from coframe.doctor.finding import Finding
 
@@ -18,12 +21,12 @@ _SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 _LEVELS = {Severity.NOTE: "note", Severity.WARNING: "warning", Severity.ERROR: "error"}
 
 
-def as_sarif(reports: dict[str, Report], artifact: str) -> dict[str, Any]:
+def as_sarif(reports: dict[str, Report], recording: Path | None) -> dict[str, Any]:
     """One run with a result for every finding.
 
     Args:
         reports: By namespace.
-        artifact: What was looked at: a path, or "live".
+        recording: What was looked at; None: the running system.
     """
     rules = [
         {
@@ -36,7 +39,7 @@ def as_sarif(reports: dict[str, Report], artifact: str) -> dict[str, Any]:
         for code in codes()
     ]
     results = [
-        _result(finding, namespace, artifact)
+        _result(finding, namespace, recording)
         for namespace, report in reports.items()
         for finding in report.every_finding()
     ]
@@ -52,9 +55,11 @@ def as_sarif(reports: dict[str, Report], artifact: str) -> dict[str, Any]:
     }
 
 
-def _result(finding: Finding, namespace: str, artifact: str) -> dict[str, Any]:
+def _result(finding: Finding, namespace: str, recording: Path | None) -> dict[str, Any]:
     subject = f"{finding.subject}: " if finding.subject else ""
-    location: dict[str, Any] = {"physicalLocation": {"artifactLocation": {"uri": artifact}}}
+    location: dict[str, Any] = {}
+    if recording is not None:
+        location["physicalLocation"] = {"artifactLocation": {"uri": _uri(recording)}}
     if finding.subject:
         location["logicalLocations"] = [{"name": finding.subject, "fullyQualifiedName": namespace + finding.subject}]
     return {
@@ -65,3 +70,8 @@ def _result(finding: Finding, namespace: str, artifact: str) -> dict[str, Any]:
         "locations": [location],
         "properties": {"first_stamp_ns": finding.first_stamp, "publishers": list(finding.publishers)},
     }
+
+
+def _uri(path: Path) -> str:
+    """Of a relative path a relative one, which code hosts look for in the repository."""
+    return path.as_uri() if path.is_absolute() else quote(path.as_posix())

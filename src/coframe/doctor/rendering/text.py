@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.catalogue import page
 from coframe.doctor.wording import duration, listed, seconds
 
 if TYPE_CHECKING:
@@ -12,6 +11,7 @@ if TYPE_CHECKING:
 
     from coframe.doctor.diagnosis import Report, SensorFacts
     from coframe.doctor.finding import Finding
+    from coframe.doctor.observation import Observation
 
 __all__ = ["lines"]
 
@@ -20,7 +20,7 @@ def lines(report: Report) -> Iterator[tuple[str, str]]:
     """Pairs of a style (``error``, ``warning``, ``note``, ``good``, ``dim`` or ``plain``) and a line."""
     for finding in report.findings:
         yield str(finding.severity), headline(finding)
-        yield "dim", f"      why: {page(finding.code).why}"
+        yield "dim", f"      why: {finding.why}"
         yield "plain", f"      do:  {finding.fix}"
         for effect in finding.explains:
             yield "dim", f"      so:  {headline(effect)}"
@@ -48,7 +48,10 @@ def _summary(report: Report) -> Iterator[tuple[str, str]]:
     )
     every = report.every_finding()
     if not len(seen.transforms):
-        yield "warning", f"no transforms at all in {duration(seen.duration)}: nothing could be judged"
+        yield (
+            "warning",
+            f"no transforms at all in {duration(seen.duration)}: nothing could be judged" + _elsewhere(seen),
+        )
     elif not every:
         yield "good", f"healthy: {looked_at}"
     else:
@@ -57,6 +60,12 @@ def _summary(report: Report) -> Iterator[tuple[str, str]]:
         }
         told = ", ".join(_count(count, kind) for kind, count in counts.items() if count)
         yield "plain", f"{told}; looked at {looked_at}. `coframe doctor --explain {every[0].code}` says more."
+
+
+def _elsewhere(seen: Observation) -> str:
+    """Where there are transforms, if not where they were looked for."""
+    topics = [topic.name for topic in seen.topics.values() if topic.type.endswith("/TFMessage") and topic.messages]
+    return f"; there are some on {listed(topics)}" if topics else ""
 
 
 def _count(number: int, what: str) -> str:
