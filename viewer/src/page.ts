@@ -5,6 +5,7 @@ import { Displays } from "./displays/manager";
 import { DisplaysPanel } from "./displays_panel";
 import { byId } from "./dom";
 import { ReplayExport, savePicture } from "./export";
+import { FindingsPanel, marksOf } from "./findings";
 import { Inspector } from "./inspector";
 import { JointsPanel } from "./joints";
 import { Forest, Model } from "./model";
@@ -33,10 +34,14 @@ export function showPage(source: Source): void {
   const replays = new ReplayExport(model, displays, rviz, view);
   const panel = new Panel(byId("panel"), [
     { id: "frames", title: "Frames", body: tree.element },
+    { id: "findings", title: "Findings", body: new FindingsPanel(model).element },
     { id: "displays", title: "Displays", body: new DisplaysPanel(model, displays).element },
     { id: "joints", title: "Joints", body: new JointsPanel(model, displays).element },
     { id: "rviz", title: "RViz file", body: rviz.element },
   ]);
+  model.on("findings", ({ findings }) =>
+    panel.entitle("findings", findings.length ? `Findings ${findings.length}` : "Findings"),
+  );
   const timeline = new Timeline(byId("timeline"), model);
   const overlay = new Overlay(byId("overlay"), byId("notice"), model, view);
   new Inspector(byId("inspector"), model, view);
@@ -95,6 +100,7 @@ export function showPage(source: Source): void {
         model.stats = null;
         model.topics = message.topics;
         model.robots.clear();
+        model.marks.clear();
         model.emit("hello", message);
         model.emit("topics", message.topics);
         break;
@@ -119,7 +125,12 @@ export function showPage(source: Source): void {
         model.robots.set(message.id, message);
         model.emit("robot", message);
         break;
+      case "findings":
+        model.marks = marksOf(message.findings);
+        model.emit("findings", message);
+        break;
       case "display":
+      case "page":
       case "rviz":
       case "relation":
       case "timeline":
