@@ -54,12 +54,20 @@ function replayPage(): Plugin {
   };
 }
 
+/** The first script asks for the second one when it runs: this has the browser fetch both at once. */
+function preload(): Plugin {
+  return {
+    name: "preload",
+    transformIndexHtml: (html) => html.replace("</head>", `  <link rel="modulepreload" href="./assets/page.js" />\n  </head>`),
+  };
+}
+
 export default defineConfig(({ mode }) => {
   const replay = mode === "replay";
   return {
     base: "./",
     publicDir: false,
-    plugins: replay ? [replayPage(), oneFile()] : [],
+    plugins: replay ? [replayPage(), oneFile()] : [preload()],
     build: {
       outDir: "../src/coframe/viewer/static",
       emptyOutDir: !replay,
@@ -70,9 +78,10 @@ export default defineConfig(({ mode }) => {
       // Fixed names: a rebuild gives the same files, and the server answers with an ETag.
       rollupOptions: {
         output: {
-          codeSplitting: false,
-          postBanner: NOTICE,
+          codeSplitting: !replay,
+          postBanner: ({ name }) => (replay || name === "page" ? NOTICE : ""),
           entryFileNames: "assets/viewer.js",
+          chunkFileNames: "assets/[name].js",
           assetFileNames: "assets/viewer[extname]",
         },
       },

@@ -24,10 +24,10 @@ def test_a_rebuild_gives_the_committed_bytes(tmp_path):
     assert _files(tmp_path / STATIC) == _files(ROOT / STATIC), "run `make page` and commit what it makes"
 
 
-def test_the_page_loads_its_own_two_files_and_nothing_else():
+def test_the_page_loads_its_own_files_and_nothing_else():
     page = (ROOT / STATIC / "index.html").read_text()
-    loaded = re.findall(r'<(?:script|link rel="stylesheet")[^>]*(?:src|href)="([^"]*)"', page)
-    assert loaded == ["./assets/viewer.js", "./assets/viewer.css"]
+    loaded = re.findall(r'<(?:script|link rel="(?:stylesheet|modulepreload)")[^>]*(?:src|href)="([^"]*)"', page)
+    assert loaded == ["./assets/viewer.js", "./assets/viewer.css", "./assets/page.js"]
     assert "<script>" not in page, "the server's policy allows no script inside the page"
 
 

@@ -1,6 +1,7 @@
 /** The bar at the top: what is shown, in which frame, and whether it is alive. */
 
 import { fillSelect, h, iconButton, select, setText } from "./dom";
+import * as format from "./format";
 import type { Model } from "./model";
 import { remember, remembered } from "./storage";
 
@@ -74,7 +75,7 @@ export class Bar {
       this.model.setFixed(frame);
       return;
     }
-    const names = forest.frames.map((frame) => frame.name).sort((a, b) => a.localeCompare(b));
+    const names = format.sorted(forest.frames.map((frame) => frame.name));
     if (fixed && !forest.index.has(fixed)) names.unshift(fixed);
     const key = JSON.stringify(names);
     if (key !== this.names) {

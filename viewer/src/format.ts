@@ -64,5 +64,12 @@ export function offset(ns: number): string {
 }
 
 export function count(n: number): string {
-  return n.toLocaleString("en-GB").replaceAll(",", " ");
+  return String(n).replace(/\B(?=(\d{3})+$)/g, " ");
+}
+
+/** Names as people look for them; the language's own order would take the browser a while to load. */
+export function sorted(names: string[]): string[] {
+  const keys = new Map(names.map((name) => [name, name.toLowerCase()]));
+  const order = (a: string, b: string): number => (a < b ? -1 : a > b ? 1 : 0);
+  return [...names].sort((a, b) => order(keys.get(a) as string, keys.get(b) as string) || order(a, b));
 }

@@ -22,6 +22,8 @@ export interface FrameOptions {
 
 export class FramesView {
   readonly object = new THREE.Group();
+  /** What every picture has. */
+  readonly usual: THREE.Object3D[];
   private readonly axes: THREE.InstancedMesh;
   private axesCapacity = 0;
   private fade = new THREE.InstancedBufferAttribute(new Float32Array(0), 1);
@@ -44,7 +46,8 @@ export class FramesView {
     this.chain.frustumCulled = false;
     this.chain.visible = false;
     this.chain.renderOrder = 10;
-    this.object.add(this.axes, this.edges, this.chain);
+    this.usual = [this.axes, this.edges];
+    this.object.add(...this.usual, this.chain);
     this.setPalette(palette);
   }
 

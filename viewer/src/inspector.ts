@@ -96,7 +96,7 @@ export class Inspector {
 
   private fillReference(): void {
     const { forest, selection } = this.model;
-    const names = forest.frames.map((frame) => frame.name).sort((a, b) => a.localeCompare(b));
+    const names = format.sorted(forest.frames.map((frame) => frame.name));
     const key = JSON.stringify(names);
     if (key !== this.names) {
       this.names = key;

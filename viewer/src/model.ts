@@ -1,10 +1,13 @@
 /** What the page knows: the last of each kind of message, and what the user has chosen. */
 
 import { Emitter } from "./emitter";
+import type { Mark } from "./findings";
 import type {
   ClientMessage,
+  CodePage,
   DisplayMessage,
   DisplayStatus,
+  Findings,
   Hello,
   Problem,
   Relation,
@@ -30,6 +33,8 @@ export interface ModelEvents {
   relation: Relation;
   timeline: Timeline;
   problem: Problem;
+  findings: Findings;
+  page: CodePage;
   replay: { looks: string };
   saved: { path?: string; text?: string };
   connected: boolean;
@@ -118,6 +123,8 @@ export class Model extends Emitter<ModelEvents> {
   statsReceived = 0;
   tick: Tick | null = null;
   topics: Topic[] = [];
+  /** By frame: what the doctor says of it. */
+  marks = new Map<string, Mark>();
   robots = new Map<string | number, Robot>();
   fixed = "";
   connected = false;

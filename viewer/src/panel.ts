@@ -64,6 +64,11 @@ export class Panel {
     remember("tab", chosen);
   }
 
+  entitle(id: string, title: string): void {
+    const button = this.buttons[this.tabs.findIndex((tab) => tab.id === id)];
+    if (button) button.textContent = title;
+  }
+
   open(id: string): void {
     this.show(true);
     this.choose(id);

@@ -146,6 +146,41 @@ export interface Problem {
   hint?: string | null;
 }
 
+export type Severity = "error" | "warning" | "note";
+
+export interface Finding {
+  code: string;
+  severity: Severity;
+  title: string;
+  subject: string;
+  /** Whose rows it concerns. */
+  frames: string[];
+  text: string;
+  why: string;
+  fix: string;
+  publishers: string[];
+  /** When it was seen first, in ns. */
+  first: number | null;
+  namespace: string;
+  /** What would go if it did. */
+  explains: Finding[];
+}
+
+export interface Findings {
+  type: "findings";
+  state: "none" | "waiting" | "told" | "failed";
+  text: string;
+  findings: Finding[];
+}
+
+/** The page of a finding's code, Markdown. */
+export interface CodePage {
+  type: "page";
+  code: string;
+  title: string;
+  text: string;
+}
+
 export type ServerMessage =
   | Hello
   | Tree
@@ -157,6 +192,8 @@ export type ServerMessage =
   | Relation
   | Timeline
   | Problem
+  | Findings
+  | CodePage
   | { type: "replay"; looks: string }
   | { type: "saved"; path?: string; text?: string };
 
@@ -187,6 +224,7 @@ export type ClientMessage =
       rviz: { displays: RvizDisplay[]; global: JsonObject; view: JsonObject | null };
     }
   | { type: "frame_timeout"; seconds: number }
+  | { type: "explain"; code: string }
   | { type: "ready"; drawn: number | null };
 
 export const FrameState = { ok: 0, stale: 1, gone: 2, otherTree: 3 } as const;

@@ -56,12 +56,11 @@ type Listener = <K extends keyof SourceEvents>(event: K, value: SourceEvents[K])
 
 const PICTURE_MS = 33;
 
-/** The recording that the server wrote into this page; null in a live one. */
-export function replayBlock(): ReplayBlock | null {
-  const text = document.getElementById("replay")?.textContent;
-  if (!text) return null;
-  const block = JSON.parse(text) as ReplayBlock | null;
-  return block?.format === "coframe-replay" ? block : null;
+/** The recording that the server wrote into this page. */
+export function replayBlock(): ReplayBlock {
+  const block = JSON.parse(document.getElementById("replay")?.textContent ?? "null") as ReplayBlock | null;
+  if (block?.format !== "coframe-replay") throw new Error("There is no recording in it.");
+  return block;
 }
 
 export class ReplaySource implements Source {

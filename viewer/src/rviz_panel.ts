@@ -70,7 +70,6 @@ export class RvizPanel {
     const global: JsonObject = {
       fixed_frame: this.model.fixed,
       background: [1, 3, 5].map((at) => Number.parseInt(background.slice(at, at + 2), 16)),
-      frame_rate: 30,
     };
     this.model.send({ type: "save_rviz", displays: this.displays.save(), global, view: this.camera() });
   }

@@ -2,7 +2,7 @@
 
 import * as THREE from "three";
 import { Camera } from "./camera";
-import { fatal } from "./fatal";
+import { drawingSize, opaqueContext, pixelRatio } from "./context";
 import type { Palette } from "./theme";
 
 const FPS_WINDOW_MS = 1000;
@@ -13,8 +13,8 @@ export class Stage {
   readonly renderer: THREE.WebGLRenderer;
   /** Whether pictures are made without a graphics card, which takes microseconds a point. */
   readonly software: boolean;
-  width = 1;
-  height = 1;
+  width = 0;
+  height = 0;
   private requested = false;
   private readonly drawn: number[] = [];
   private readonly light = new THREE.DirectionalLight(0xffffff, 1.6);
@@ -27,6 +27,8 @@ export class Stage {
   ) {
     THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
     this.renderer = new THREE.WebGLRenderer({ canvas, context: opaqueContext(canvas) });
+    // Asking how each program came out waits for the graphics card.
+    this.renderer.debug.checkShaderErrors = false;
     this.software = isSoftware(this.renderer.getContext());
     this.camera = new Camera(canvas, () => this.invalidate());
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f96, 1.7), this.light, this.light.target);
@@ -34,7 +36,12 @@ export class Stage {
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement as HTMLElement);
     canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     canvas.addEventListener("webglcontextrestored", () => this.invalidate());
-    this.resize();
+    this.invalidate();
+  }
+
+  /** Has programs made for things that are about to be drawn, which goes on beside all else. */
+  announce(things: THREE.Object3D[]): void {
+    for (const thing of things) this.renderer.compile(thing, this.camera.current, this.scene);
   }
 
   get fps(): number {
@@ -66,6 +73,7 @@ export class Stage {
   }
 
   private draw(): void {
+    if (this.width === 0) this.resize();
     this.beforeDraw();
     const camera = this.camera.current;
     this.light.position.copy(camera.position).add(new THREE.Vector3(1, 1, 3));
@@ -76,24 +84,15 @@ export class Stage {
   }
 
   private resize(): void {
-    const { clientWidth, clientHeight } = this.canvas.parentElement as HTMLElement;
-    this.width = Math.max(1, clientWidth);
-    this.height = Math.max(1, clientHeight);
-    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
-    this.renderer.setSize(this.width, this.height, false);
+    const { canvas, renderer } = this;
+    this.width = Math.max(1, canvas.clientWidth);
+    this.height = Math.max(1, canvas.clientHeight);
+    const { width, height } = drawingSize(canvas);
+    if (canvas.width !== width || canvas.height !== height || renderer.getPixelRatio() !== pixelRatio())
+      renderer.setDrawingBufferSize(this.width, this.height, pixelRatio());
     this.camera.resize(this.width, this.height);
     this.invalidate();
   }
-}
-
-/** three.js asks for a canvas that can be seen through, which a browser without a graphics card blends pixel by pixel. */
-function opaqueContext(canvas: HTMLCanvasElement): WebGL2RenderingContext {
-  const context = canvas.getContext("webgl2", { alpha: false, antialias: true, powerPreference: "high-performance" });
-  if (context) return context;
-  throw fatal(
-    "No 3D in this browser",
-    "The page needs WebGL 2. Switch on hardware acceleration in the browser’s settings, or try another browser.",
-  );
 }
 
 function isSoftware(context: WebGLRenderingContext | WebGL2RenderingContext): boolean {

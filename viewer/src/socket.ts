@@ -1,4 +1,4 @@
-/** The server's WebSocket, opened again whenever it closes. */
+/** The server's WebSocket, opened at once, and again whenever it closes. */
 
 import { decode, ProtocolError, type ClientMessage, type ServerMessage } from "./protocol";
 import type { Source, SourceEvents } from "./source";
@@ -12,13 +12,17 @@ export class SocketSource implements Source {
   readonly live = true;
   private socket: WebSocket | null = null;
   private wait = FIRST_WAIT_MS;
-  private listener: Listener = () => {};
+  /** What came before somebody listened. */
+  private early: (() => void)[] = [];
+  private listener: Listener = (event, value) => void this.early.push(() => this.listener(event, value));
 
-  constructor(private readonly url: string) {}
+  constructor(private readonly url: string) {
+    this.open();
+  }
 
   start(listener: Listener): void {
     this.listener = listener;
-    this.open();
+    for (const tell of this.early.splice(0)) tell();
   }
 
   send(message: ClientMessage): void {

@@ -29,6 +29,7 @@ export class Timeline {
   private edges: Edge[] = [];
   private sum: ArrayLike<number> = [];
   private asked = 0;
+  private drawing = 0;
   private dragging: number | null = null;
   /** Ends of the loop, while they are dragged with Shift. */
   private loopStart: number | null = null;
@@ -63,11 +64,11 @@ export class Timeline {
     );
     this.listen();
     model.on("tick", () => this.follow());
-    model.on("stats", () => this.draw());
+    model.on("stats", () => this.redraw());
     model.on("clock", () => this.tellButtons());
     model.on("hello", () => this.start());
     model.on("timeline", (message) => this.receive(message));
-    new ResizeObserver(() => this.draw()).observe(this.canvas.parentElement as HTMLElement);
+    new ResizeObserver(() => this.redraw()).observe(this.canvas.parentElement as HTMLElement);
     this.tellButtons();
   }
 
@@ -105,7 +106,7 @@ export class Timeline {
     remember("sparks", !this.sparks.hidden);
     this.tellButtons();
     this.asked = 0;
-    this.draw();
+    this.redraw();
   }
 
   /** A recording has no "now": it waits at its start. */
@@ -128,7 +129,7 @@ export class Timeline {
     this.message = message;
     this.edges = decodeEdges(message);
     this.sum = total(this.edges, Math.min(message.bins, 10_000));
-    this.draw();
+    this.redraw();
   }
 
   private follow(): void {
@@ -167,13 +168,21 @@ export class Timeline {
     this.loop.setAttribute("aria-pressed", String(loop !== null));
     this.sparksButton.setAttribute("aria-expanded", String(!this.sparks.hidden));
     this.sparksButton.style.transform = this.sparks.hidden ? "rotate(-90deg)" : "rotate(90deg)";
-    this.draw();
+    this.redraw();
   }
 
   private colours(): Colours {
     const style = getComputedStyle(document.documentElement);
     const read = (name: string): string => style.getPropertyValue(name).trim();
     return { text: read("--text"), muted: read("--muted"), bar: read("--accent"), gap: `${read("--bad")}44`, line: read("--line") };
+  }
+
+  /** Soon: what is asked for several times is drawn once. */
+  private redraw(): void {
+    this.drawing ||= requestAnimationFrame(() => {
+      this.drawing = 0;
+      this.draw();
+    });
   }
 
   private draw(): void {

@@ -4,9 +4,11 @@
  * Only the rows in view exist, so that ten thousand frames cost no more than ten.
  */
 
+import { severityIcon } from "./findings";
 import { h, icon, iconButton, setText, shorten } from "./dom";
 import * as format from "./format";
 import type { Model } from "./model";
+import type { Severity } from "./protocol";
 
 const ROW_PX = 40;
 const SPARE_ROWS = 4;
@@ -23,6 +25,7 @@ interface RowElements {
   element: HTMLElement;
   caret: HTMLButtonElement;
   box: HTMLInputElement;
+  mark: HTMLElement;
   name: HTMLElement;
   tag: HTMLElement;
   rate: HTMLElement;
@@ -81,6 +84,7 @@ export class TreePanel {
     );
     model.on("tree", () => this.rebuild());
     model.on("stats", () => this.render());
+    model.on("findings", () => this.render());
     model.on("selection", () => this.reveal());
     model.on("visibility", () => this.render());
     model.on("fixed", () => this.render());
@@ -193,6 +197,7 @@ export class TreePanel {
         change: () => this.model.setHidden([this.model.forest.name(row.frame)], !row.box.checked),
       },
     });
+    row.mark = h("span", { class: "mark", hidden: true });
     row.name = h("span", { class: "name" });
     row.tag = h("span", { class: "tag" });
     row.rate = h("span", { class: "rate numbers" });
@@ -206,6 +211,7 @@ export class TreePanel {
       row.caret,
       row.box,
       h("span", { class: "dot", aria: { hidden: "true" } }),
+      row.mark,
       h("div", { class: "cells" }, row.name, row.tag, row.rate, row.publisher, row.age),
       row.solo,
     );
@@ -231,7 +237,10 @@ export class TreePanel {
     row.element.setAttribute("aria-selected", String(name === model.selection.frame));
     if (data.hasChildren) row.element.setAttribute("aria-expanded", String(!this.folded.has(name)));
     else row.element.removeAttribute("aria-expanded");
-    row.element.title = describe(name, state, stats?.publisher ?? null, stats?.samples ?? null, stats?.longest_gap ?? null);
+    const mark = model.marks.get(name);
+    setMark(row.mark, mark?.severity);
+    const described = describe(name, state, stats?.publisher ?? null, stats?.samples ?? null, stats?.longest_gap ?? null);
+    row.element.title = [described, ...(mark?.lines ?? [])].join("\n");
     row.caret.hidden = !data.hasChildren;
     row.caret.setAttribute("aria-label", `${this.folded.has(name) ? "Open" : "Fold"} ${name.slice(0, 60)}`);
     row.box.checked = model.isShown(name);
@@ -293,6 +302,15 @@ export class TreePanel {
     }
     this.render();
   }
+}
+
+function setMark(element: HTMLElement, severity: Severity | undefined): void {
+  if (element.dataset.severity === severity) return;
+  element.hidden = !severity;
+  if (severity) element.dataset.severity = severity;
+  else delete element.dataset.severity;
+  element.replaceChildren(...(severity ? [severityIcon(severity)] : []));
+  element.setAttribute("aria-label", severity ?? "");
 }
 
 function ageText(state: string, age: number | null): string {

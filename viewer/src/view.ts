@@ -62,6 +62,7 @@ export class View {
       () => this.finish(),
     );
     this.stage.scene.add(this.frames.object, this.measure.object);
+    this.stage.announce(this.frames.usual);
     theme.onChange(() => this.recolour());
     model.on("tick", (tick) => {
       this.pending = tick;

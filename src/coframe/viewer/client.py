@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from coframe.errors import WireError
 from coframe.viewer import protocol
 from coframe.viewer.display import Display, Status
+from coframe.viewer.findings import Told, rows
 from coframe.viewer.playhead import Playhead
 from coframe.viewer.requests import READY, BadRequestError, Request, parse
 from coframe.viewer.scene import LocalOrigin
@@ -91,6 +92,7 @@ class Client:
         self._told_edition = 0
         self._told_tree: tuple[int, str] | None = None
         self._told_topics: object = None
+        self._told_findings: Told | None = None
         self._statistics_due = 0.0
         self._late_due = 0.0
         self._last_tick: tuple[Any, ...] | None = None
@@ -256,6 +258,7 @@ class Client:
             self._late_due = now + LATE_PERIOD
             self._open_late_displays()
             self._send_robots()
+            self._send_findings()
         at = self.at
         entries = self._send_displays(fixed, at) if self._displays else []
         self._send_tick(now, fixed, at, entries)
@@ -276,12 +279,22 @@ class Client:
                 self._told_problems[topic] = problem
                 self._socket.send(protocol.text("problem", text=problem[0], hint=problem[1]))
 
+    def _send_findings(self) -> None:
+        findings = self._stage.findings
+        findings.watch(self._stage.source)
+        told = findings.told
+        if told != self._told_findings:
+            self._told_findings = told
+            listed = rows(told, self.origin)
+            self._socket.send(protocol.text("findings", state=told.state, text=told.text, findings=listed))
+
     def _send_hello(self) -> None:
         stage = self._stage
         # All begins anew for the page.
         self._told_origin, self._told_edition, self._told_tree = stage.origin, stage.edition, None
         self._last_tick, self._late_due = None, 0.0
         self._told_robots.clear()
+        self._told_findings = None
         for wanted in self._displays.values():
             self._close_display(wanted)
             wanted.options = dataclasses.replace(wanted.options, origin=stage.origin)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 import weakref
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,9 @@ from coframe.viewer.messages import LiveMessages
 from coframe.viewer.sources import Mode, Topic
 
 if TYPE_CHECKING:
+    from collections.abc import Generator
+
+    from coframe.doctor import Report
     from coframe.wire.connection import Connection
     from coframe.wire.endpoints import Subscription
     from coframe.wire.qos import QoS
@@ -20,6 +24,11 @@ __all__ = ["LiveSource"]
 # What the viewer listens to besides what it displays.
 OTHER_TYPES = ("std_msgs/msg/String",)
 _TYPES = frozenset({*DISPLAYS, *OTHER_TYPES})
+# The doctor looks at the last seconds, and says something after some of them: half a window may look like a fault.
+_WINDOW = 10_000_000_000
+_FIRST_VERDICT, _VERDICT_PERIOD = 5.0, 2.0
+# Its verdicts, without the listening, take at most this part of a processor.
+_SHARE = 0.01
 _KEEP_EVERYTHING = 60_000_000_000  # where the buffer has no end, messages have
 
 
@@ -77,6 +86,34 @@ class LiveSource:
         """Listens to publishers that have come since, too."""
         for subscription in list(self._subscriptions):
             subscription.follow()
+
+    def examine(self) -> Generator[dict[str, Report] | None, None, None]:
+        """A running verdict, as `coframe doctor --watch` has it.
+
+        Raises:
+            WireError: The graph cannot be joined once more.
+        """
+        from coframe.doctor import diagnose  # noqa: PLC0415 - the first picture needs no doctor
+        from coframe.wire.observing import Listening  # noqa: PLC0415 - likewise
+
+        tf_topic, tf_static_topic = self._connection.tf_topics
+        with Listening(
+            self._connection.participant.domain_id,
+            window=_WINDOW,
+            tf_topic=tf_topic,
+            tf_static_topic=tf_static_topic,
+            node_name="coframe_view_doctor",
+        ) as listening:
+            due = time.monotonic() + _FIRST_VERDICT
+            while True:
+                listening.poll()
+                if time.monotonic() < due:
+                    yield None
+                    continue
+                begin = time.thread_time()
+                report = diagnose(listening.observe())
+                due = time.monotonic() + max(_VERDICT_PERIOD, (time.thread_time() - begin) / _SHARE)
+                yield {"": report}
 
     def close(self) -> None:
         """Leaves the graph, where that is the source's to do."""

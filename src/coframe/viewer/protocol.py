@@ -24,6 +24,10 @@ Server to page, text:
 * ``relation`` {id, ok, target, source, stamp, translation, quaternion, rpy_deg, matrix, static_command, chain, error,
   hint, broken_at}: the answer to ``relate``.
 * ``timeline`` {revision, bins, from, to, edges: [{frame, counts: base64 of uint16[bins], gaps: [[from, to]]}]}.
+* ``findings`` {state: "none" | "waiting" | "told" | "failed", text, findings: [{code, severity: "error" | "warning" |
+  "note", title, subject, frames, text, why, fix, publishers, first: ns | null, namespace, explains: [likewise]}]}: what
+  the doctor says, whenever that has changed; frames are those whose rows it concerns, text is why it says nothing.
+* ``page`` {code, title, text}: the page of a code, Markdown.
 * ``saved`` {text}, ``problem`` {text, hint}, ``replay`` {looks}: what to fetch the announced replay by, as
   ``/replay?from=&to=&rate=&fixed=&looks=``.
 
@@ -51,7 +55,7 @@ Page to server, text: ``fixed`` {frame}; ``time`` {mode: "live"} or {mode: "at",
 target, source}; ``timeline`` {from, to, bins}; ``joints`` {robot, positions, publish}; ``load_rviz`` {text};
 ``save_rviz`` {displays, global, view}; ``replay`` {displays: [{topic, options}], rviz: {displays, global, view}}:
 how a replay is to look; ``frame_timeout`` {seconds}; ``frame_rate`` {hertz}: ticks a second, 1 to 60, as a .rviz file's
-Frame Rate; ``ready`` {drawn}: the last tick is drawn, the next may come.
+Frame Rate; ``explain`` {code}; ``ready`` {drawn}: the last tick is drawn, the next may come.
 
 What is unknown or malformed is answered by a ``problem``; a message of more than 1 MiB ends the connection.
 """

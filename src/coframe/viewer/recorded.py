@@ -2,23 +2,30 @@
 
 from __future__ import annotations
 
+import shlex
 import threading
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe.errors import DecodeError
+from coframe.errors import DecodeError, ViewerError
 from coframe.viewer.displays import DISPLAYS
 from coframe.viewer.messages import Sighting
 from coframe.viewer.sources import Mode, Topic
 
 if TYPE_CHECKING:
+    from collections.abc import Generator
+
     from numpy.typing import NDArray
 
     from coframe.bags import Recording
+    from coframe.doctor import Report
     from coframe.wire.connection import Connection
 
 __all__ = ["RecordedSource"]
+
+# Samples: the doctor takes a few seconds of them, and 100 bytes each; more are left to who asks for it.
+_MOST_EXAMINED = 2_000_000
 
 
 class RecordedSource:
@@ -53,6 +60,22 @@ class RecordedSource:
 
     def refresh(self) -> None:
         """Nothing changes."""
+
+    def examine(self) -> Generator[dict[str, Report], None, None]:
+        """What `coframe doctor` says of it, once.
+
+        Raises:
+            RecordingError: It cannot be read any more.
+            ViewerError: It is too long to be examined beside.
+        """
+        samples = sum(info.samples for info in self.buffer.frames())
+        if samples > _MOST_EXAMINED:
+            hint = f"Run: coframe doctor {shlex.quote(str(self._recording.path))}"
+            raise ViewerError(f"the recording has {samples} samples, too many to examine them beside", hint=hint)
+        from coframe.doctor import diagnose, observe_recording  # noqa: PLC0415 - the first picture needs no doctor
+
+        observed = observe_recording(self._recording.path)
+        yield {name: diagnose(observation) for name, observation in observed.items()}
 
     def close(self) -> None:
         """Lets go of the files, where that is the source's to do."""

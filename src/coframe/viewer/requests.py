@@ -6,6 +6,7 @@ import json
 import math
 from typing import TYPE_CHECKING, Any
 
+from coframe.catalogue import codes, page
 from coframe.errors import ViewerError, WireError
 from coframe.viewer.displays import Options
 from coframe.viewer.relations import relate
@@ -234,6 +235,15 @@ async def _joints(client: Client, request: Request) -> None:
         raise BadRequestError(f"joint states cannot be sent: {error}", error.hint) from None
 
 
+async def _explain(client: Client, request: Request) -> None:
+    code = request.text("code")
+    try:
+        found = page(code)
+    except KeyError:
+        raise BadRequestError(f"there is no page for {_shown(code)}", f"There are {', '.join(codes())}.") from None
+    await client.answer("page", code=found.code, title=found.title, text=found.text)
+
+
 async def _load_rviz(client: Client, request: Request) -> None:
     try:
         config = await client.work(RvizConfig.parse, request.text("text"))
@@ -280,6 +290,7 @@ async def _save_rviz(client: Client, request: Request) -> None:
 
 
 _DEEDS: dict[str, Callable[[Client, Request], Awaitable[None]]] = {
+    "explain": _explain,
     "fixed": _fixed,
     "frame_rate": _frame_rate,
     "frame_timeout": _frame_timeout,

@@ -5,7 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
 if TYPE_CHECKING:
+    from collections.abc import Generator
+
     from coframe import Buffer
+    from coframe.doctor import Report
     from coframe.viewer.messages import Messages
     from coframe.wire.connection import Connection
 
@@ -48,6 +51,12 @@ class Source(Protocol):
     def refresh(self) -> None:
         """Takes in what has changed around it; to be called now and then."""
 
+    def examine(self) -> Generator[dict[str, Report] | None, None, None] | None:
+        """The doctor's reports by namespace, or None where there is none yet, to be asked for every half a second.
+
+        The generator may take long, in a thread of its own, and is to be closed. None: there is nothing to examine.
+        """
+
     def close(self) -> None:
         """Gives back what the source itself has opened."""
 
@@ -73,6 +82,9 @@ class BufferSource:
 
     def refresh(self) -> None:
         """Nothing: the buffer is looked at anyway."""
+
+    def examine(self) -> None:
+        """Nothing: a buffer does not tell who sent what, nor when it came."""
 
     def close(self) -> None:
         """The buffer is the caller's."""

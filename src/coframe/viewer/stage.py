@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from coframe.errors import ViewerError
 from coframe.viewer.descriptions import ROBOT_DESCRIPTION, Descriptions
+from coframe.viewer.findings import Findings
 from coframe.viewer.joints import JOINT_STATES, JointPublisher
 from coframe.viewer.meshes import MeshTable
 from coframe.viewer.replay import NO_LOOKS, ReplayLooks, ReplayRequest
@@ -63,6 +64,7 @@ class Stage:
         self.meshes = MeshTable(lambda _name: None) if meshes is None else meshes
         self.descriptions = Descriptions(robot, _description_topics(rviz), self.meshes)
         self.scene = Scene(source.buffer, ages=source.mode == "live")
+        self.findings = Findings()
         self.rviz = rviz
         self._joint_states = joint_states
         self.fixed = fixed or (rviz.fixed_frame if rviz is not None else "")
@@ -150,6 +152,7 @@ class Stage:
         """Ends what is still at work for tabs that have gone."""
         for topic in list(self._open):
             self._open.pop(topic).messages.close()
+        self.findings.close()
         self.executor.shutdown(wait=True, cancel_futures=True)
         self.descriptions.close()
 

@@ -144,6 +144,7 @@ class Connection:
         buffer: all transforms of the graph, as they arrive.
         participant: the process's membership in the graph, for everything else.
         node: the node.
+        tf_topics: where moving transforms come, and static ones.
     """
 
     def __init__(
@@ -160,6 +161,7 @@ class Connection:
     ) -> None:
         self._renaming = names = renaming(prefix, keep)
         self.buffer = Buffer(cache)
+        self.tf_topics = (tf_topic, tf_static_topic)
         self.participant = Participant.get(domain)
         self._closing = threading.Lock()
         self._closed = False

@@ -157,6 +157,6 @@ def test_it_comes_back_when_the_server_does(open_page):
 def test_it_asks_for_nothing_but_its_own_files(view, open_page):
     page = open_page(view(counted_buffer()).url).drawn()
     asked = page.ask("performance.getEntriesByType('resource').map((one) => new URL(one.name).pathname)")
-    assert set(asked) <= {"/assets/viewer.js", "/assets/viewer.css"}
+    assert set(asked) <= {"/assets/viewer.js", "/assets/page.js", "/assets/viewer.css"}
     assert page.ask("fetch('http://192.0.2.1/').then(() => 'reached', () => 'refused')") == "refused"
     page.errors.clear()  # of that question

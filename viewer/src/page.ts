@@ -1,0 +1,174 @@
+/** The page: what comes from the source goes to the model, and every part listens to that. */
+
+import { Bar } from "./bar";
+import { Displays } from "./displays/manager";
+import { DisplaysPanel } from "./displays_panel";
+import { byId } from "./dom";
+import { ReplayExport, savePicture } from "./export";
+import { FindingsPanel, marksOf } from "./findings";
+import { Inspector } from "./inspector";
+import { JointsPanel } from "./joints";
+import { Forest, Model } from "./model";
+import { Overlay } from "./overlay";
+import { Panel } from "./panel";
+import { exposeProbe } from "./probe";
+import type { BinaryMessage, ServerMessage } from "./protocol";
+import { RvizPanel } from "./rviz_panel";
+import { Shortcuts } from "./shortcuts";
+import type { Source } from "./source";
+import { Theme } from "./theme";
+import { Timeline } from "./timeline";
+import { toast } from "./toast";
+import { TreePanel } from "./tree_panel";
+import { View } from "./view";
+
+const HIDDEN_PING_MS = 1000;
+
+export function showPage(source: Source): void {
+  const theme = new Theme();
+  const model = new Model((message) => source.send(message));
+  const view = new View(model, theme, byId("canvas") as HTMLCanvasElement, byId("labels"));
+  const displays = new Displays(model, view, theme);
+  const tree = new TreePanel(model);
+  const rviz = new RvizPanel(model, displays, view, theme, source.live);
+  const replays = new ReplayExport(model, displays, rviz, view);
+  const panel = new Panel(byId("panel"), [
+    { id: "frames", title: "Frames", body: tree.element },
+    { id: "findings", title: "Findings", body: new FindingsPanel(model).element },
+    { id: "displays", title: "Displays", body: new DisplaysPanel(model, displays).element },
+    { id: "joints", title: "Joints", body: new JointsPanel(model, displays).element },
+    { id: "rviz", title: "RViz file", body: rviz.element },
+  ]);
+  model.on("findings", ({ findings }) =>
+    panel.entitle("findings", findings.length ? `Findings ${findings.length}` : "Findings"),
+  );
+  const timeline = new Timeline(byId("timeline"), model);
+  const overlay = new Overlay(byId("overlay"), byId("notice"), model, view);
+  new Inspector(byId("inspector"), model, view);
+
+  const shortcuts = new Shortcuts([
+    { key: " ", shown: "Space", text: "Pause or play", act: () => timeline.toggle() },
+    { key: "l", text: "Back to live", act: () => timeline.goLive() },
+    { key: ",", text: "One message back", act: () => timeline.step(-1) },
+    { key: ".", text: "One message on", act: () => timeline.step(1) },
+    { key: "ArrowLeft", shown: "←", text: "One second back", act: () => timeline.jump(-1) },
+    { key: "ArrowRight", shown: "→", text: "One second on", act: () => timeline.jump(1) },
+    { key: "o", text: "Loop", act: () => timeline.toggleLoop() },
+    { key: "t", text: "Rates over time", act: () => timeline.toggleSparks() },
+    { key: "a", text: "Show everything", act: () => view.fit() },
+    { key: "v", text: "Top-down or turning view", act: () => overlay.toggleTop() },
+    { key: "f", text: "Follow the selected frame", act: () => overlay.toggleFollow() },
+    { key: "m", text: "Measure", act: () => overlay.toggleMeasure() },
+    { key: "h", text: "Hide the selected frame", act: () => hideSelected() },
+    { key: "/", text: "Search frames", act: () => (panel.open("frames"), tree.focusSearch()) },
+    { key: "p", text: "Panel", act: () => panel.toggle() },
+    { key: "d", text: "Dark or light", act: () => theme.toggleDark() },
+    { key: "s", text: "Save a picture", act: () => void savePicture(view, model) },
+    { key: "Escape", shown: "Esc", text: "Let go", act: () => letGo() },
+    { key: "?", text: "This sheet", act: () => shortcuts.show() },
+  ]);
+
+  new Bar(
+    byId("bar"),
+    model,
+    {
+      toggleTheme: () => theme.toggleDark(),
+      toggleDistinct: () => theme.toggleDistinct(),
+      help: () => shortcuts.show(),
+      togglePanel: () => panel.toggle(),
+      savePicture: () => void savePicture(view, model),
+      saveReplay: () => replays.ask(),
+    },
+    source.live,
+  );
+  exposeProbe(model, view, displays);
+
+  function hideSelected(): void {
+    const { frame } = model.selection;
+    if (frame) model.setHidden([frame], model.isShown(frame));
+  }
+
+  function letGo(): void {
+    if (view.measure.active) overlay.toggleMeasure();
+    else model.select(null);
+  }
+
+  function receive(message: ServerMessage): void {
+    switch (message.type) {
+      case "hello":
+        model.hello = message;
+        model.stats = null;
+        model.topics = message.topics;
+        model.robots.clear();
+        model.marks.clear();
+        model.emit("hello", message);
+        model.emit("topics", message.topics);
+        break;
+      case "tree":
+        model.forest = new Forest(message.revision, message.frames, message.components);
+        if (message.fixed !== undefined && message.fixed !== model.fixed) {
+          model.fixed = message.fixed;
+          model.emit("fixed", model.fixed);
+        }
+        model.emit("tree", model.forest);
+        break;
+      case "stats":
+        model.stats = message;
+        model.statsReceived = performance.now();
+        model.emit("stats", message);
+        break;
+      case "topics":
+        model.topics = message.topics;
+        model.emit("topics", message.topics);
+        break;
+      case "robot":
+        model.robots.set(message.id, message);
+        model.emit("robot", message);
+        break;
+      case "findings":
+        model.marks = marksOf(message.findings);
+        model.emit("findings", message);
+        break;
+      case "display":
+      case "page":
+      case "rviz":
+      case "relation":
+      case "timeline":
+      case "replay":
+      case "saved":
+        model.emit(message.type, message as never);
+        break;
+      case "problem":
+        toast(String(message.text), message.hint);
+        break;
+    }
+  }
+
+  function receiveBinary(message: BinaryMessage): void {
+    if (message.kind !== "tick") {
+      model.emit("message", message);
+      return;
+    }
+    model.take(message);
+    // A hidden tab draws nothing; it still tells that it is there, and asks for the next tick once a second.
+    if (document.hidden) setTimeout(() => document.hidden && ready(message.time), HIDDEN_PING_MS);
+  }
+
+  function ready(time: number): void {
+    source.send({ type: "ready", drawn: Number.isFinite(time) ? time : null });
+  }
+
+  view.onTaken((tick) => ready(tick.time));
+
+  source.start((event, value) => {
+    if (event === "text") receive(value as ServerMessage);
+    else if (event === "binary") receiveBinary(value as BinaryMessage);
+    else if (event === "connected") {
+      model.connected = value as boolean;
+      model.emit("connected", model.connected);
+    } else {
+      model.broken++;
+      console.warn(`coframe: ${value as string}`);
+    }
+  });
+}
