@@ -54,10 +54,14 @@ def test_info_and_doctor_tell_of_sensors_in_the_renamed_tree(bag):
     assert {(sensor["frame"], sensor["root"]) for sensor in told["sensors"]} == {("robot1/lidar", "odom")}
 
 
-def test_a_cloud_and_a_batch(bag, tmp_path):
-    pytest.importorskip("pyarrow")
+def test_a_cloud(bag, tmp_path):
     code, out = run("cloud", bag, "/robot1/scan", "--frame", "robot1/base", "-o", tmp_path / "a.npz", *ROBOT1)
     assert (code, "of 1 messages, in robot1/base" in out) == (0, True)
+
+
+@pytest.mark.slow  # which starts processes
+def test_a_batch(bag, tmp_path):
+    pytest.importorskip("pyarrow")
     code, out = run("batch", "odom", "robot1/base", bag, "-o", tmp_path / "poses", *ROBOT1)
     assert (code, "50 poses of 1 recordings" in out) == (0, True)
 

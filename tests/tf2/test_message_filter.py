@@ -262,7 +262,9 @@ def test_older_than_the_whole_cache(buffer, insert):
             (
                 "Lookup would require extrapolation into the past.  Requested time 4.000000 but the earliest data is "
                 "at time 5.000000, when looking up transform from frame [laser] to frame [base] "
-                "base -> laser has forgotten that time: use a longer cache, or ask for a newer time. "
+                "base -> laser has forgotten that time: use a longer cache, "
+                'tf2_ros.Buffer(cache_time=Duration(seconds=30)) or coframe.Buffer(cache="30s"), '
+                "or ask for a newer time. "
                 "More: coframe doctor --explain TF015"
             ),
         )

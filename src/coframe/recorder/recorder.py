@@ -69,7 +69,7 @@ class Recorder:
         domain: int | None,
         backlog: int,
         on_topic: Callable[[str, str], None],
-        frames: RobotFrames | None,
+        frames: RobotFrames | None = None,
     ) -> None:
         self.writer = writer
         self._wanted = wanted
