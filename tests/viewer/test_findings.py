@@ -31,12 +31,12 @@ def told(tab):
 
 
 def test_a_recordings_findings_stand_on_the_rows_that_they_concern(view, open_tab, tmp_path):
-    tab = open_tab(view(jumping().write(tmp_path)))
+    tab = open_tab(view(coframe.open_bag(jumping().write(tmp_path), prefix="r1/", keep="odom")))
     origin = int(tab.wait("hello")["origin"])
     message = told(tab)
     (finding,) = message["findings"]
-    assert (finding["code"], finding["severity"], finding["frames"]) == ("TF020", "warning", ["base_link"])
-    assert finding["subject"] == "odom → base_link"
+    assert (finding["code"], finding["severity"], finding["frames"]) == ("TF020", "warning", ["r1/base_link"])
+    assert finding["subject"] == "odom → r1/base_link"
     assert "jumps once, at worst 2.99 m" in finding["text"]
     assert abs(finding["first"] + origin - (START + 6 * SECOND)) <= 20 * MS
     assert finding["why"] == page("TF020").why

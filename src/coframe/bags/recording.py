@@ -23,7 +23,7 @@ from coframe.bags.storage import Slices
 from coframe.bags.table import edge_table
 from coframe.bags.transforms import ingest_for
 from coframe.errors import RecordingError
-from coframe.frame_names import renaming
+from coframe.frame_names import kept, renaming
 
 if TYPE_CHECKING:
     import os
@@ -157,7 +157,10 @@ def open_bag(
         Traceback (most recent call last):
         coframe.errors.RecordingError: nowhere.mcap cannot be read: No such file or directory
     """
+    keep = kept(keep)
+    tf_topics = None if tf_topics is None else list(tf_topics)
     recording = Recording(Path(path))
+    recording.options = {"namespace": namespace, "tf_topics": tf_topics, "prefix": prefix, "keep": keep}
     recording._renaming = renaming(prefix, keep)  # noqa: SLF001 - the other half of __init__
     try:
         wanted = tree.Wanted(namespace, tf_topics)
@@ -177,11 +180,13 @@ class Recording:
             those of the first one only; see ``buffers``.
         buffers: The transforms of each namespace: ``""`` for ``/tf``, ``/robot1`` for ``/robot1/tf``.
         topics: By name.
+        options: What :func:`open_bag` was told of namespace, topics and names, for whoever opens it once more.
     """
 
     buffer: Buffer
     buffers: dict[str, Buffer]
     topics: dict[str, Topic]
+    options: dict[str, Any]
 
     def __init__(self, path: Path) -> None:
         self.path = path

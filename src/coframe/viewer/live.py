@@ -103,6 +103,8 @@ class LiveSource:
             tf_topic=tf_topic,
             tf_static_topic=tf_static_topic,
             node_name="coframe_view_doctor",
+            prefix=self._connection.prefix,
+            keep=self._connection.keep,
         ) as listening:
             due = time.monotonic() + _FIRST_VERDICT
             while True:

@@ -74,7 +74,7 @@ class RecordedSource:
             raise ViewerError(f"the recording has {samples} samples, too many to examine them beside", hint=hint)
         from coframe.doctor import diagnose, observe_recording  # noqa: PLC0415 - the first picture needs no doctor
 
-        observed = observe_recording(self._recording.path)
+        observed = observe_recording(self._recording.path, **self._recording.options)
         yield {name: diagnose(observation) for name, observation in observed.items()}
 
     def close(self) -> None:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 from coframe import _core
 from coframe.buffer import Buffer
 from coframe.errors import WireError
-from coframe.frame_names import renaming
+from coframe.frame_names import kept, renaming
 from coframe.time import duration_ns
 from coframe.wire.participant import Participant
 from coframe.wire.qos import DEFAULT, QoS
@@ -145,6 +145,8 @@ class Connection:
         participant: the process's membership in the graph, for everything else.
         node: the node.
         tf_topics: where moving transforms come, and static ones.
+        prefix: what goes in front of the names of frames.
+        keep: the frames that get no prefix.
     """
 
     def __init__(
@@ -162,6 +164,7 @@ class Connection:
         self._renaming = names = renaming(prefix, keep)
         self.buffer = Buffer(cache)
         self.tf_topics = (tf_topic, tf_static_topic)
+        self.prefix, self.keep = prefix, kept(keep)
         self.participant = Participant.get(domain)
         self._closing = threading.Lock()
         self._closed = False
