@@ -78,7 +78,7 @@ def test_what_the_doctor_finds_about_the_links_is_named(shared):
     code, out = why(bag, "odom", "base_link", "--prefix", "robot/")
     assert (code, "'robot/odom'" in out) == (1, True)
     code, out = why(bag, "robot/odom", "robot/base_link", "--prefix", "robot/")
-    assert (code, "TF011 warning: odom -> base_link: 182 of 780" in out) == (0, True)
+    assert (code, "TF011 warning: robot/odom -> robot/base_link: 182 of 780" in out) == (0, True)
 
 
 def test_a_frame_of_another_namespace(tmp_path):

@@ -8,7 +8,7 @@ from recordings import START
 from runs import SECOND, Run
 
 from coframe.doctor import Observation
-from coframe.doctor.observation import Transforms
+from coframe.doctor.transforms import Transforms
 from coframe.trees import changes, grow
 from coframe.trees.layout import Box, draw
 
