@@ -12,16 +12,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor.edge import Edge
-from coframe.doctor.transforms import bare
+from coframe.doctor.transforms import Transforms, bare
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
-    from coframe.doctor.transforms import Transforms
-
-__all__ = ["NEVER", "Clock", "Endpoint", "JointStates", "LogLine", "Observation", "Sensor", "TopicFacts"]
+__all__ = ["NEVER", "Clock", "Endpoint", "JointStates", "LogLine", "Observation", "Sensor", "TopicFacts", "Transforms"]
 
 DEFAULT_CACHE = 10_000_000_000
 _HOUR = 3_600_000_000_000
