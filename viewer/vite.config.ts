@@ -15,26 +15,30 @@ function oneFile(): Plugin {
   return {
     name: "one-file",
     enforce: "post",
-    generateBundle(_options, bundle) {
-      const page = bundle["index.html"];
-      if (page?.type !== "asset") throw new Error("the build made no index.html");
-      let html = String(page.source);
-      for (const [name, part] of Object.entries(bundle)) {
-        if (part.type === "chunk") {
-          // `</script` would end the element early; the escape means the same to JavaScript's strings.
-          const code = part.code.replaceAll("</script", "<\\/script");
-          const hash = createHash("sha256").update(code).digest("base64");
-          html = html
-            .replace(/<script type="module"[^>]*><\/script>/, "")
-            .replace("%SCRIPT_HASH%", () => `sha256-${hash}`)
-            .replace("</body>", () => `<script type="module">${code}</script></body>`);
-        } else if (name.endsWith(".css")) {
-          html = html.replace(/<link rel="stylesheet"[^>]*>/, () => `<style>${String(part.source)}</style>`);
-        } else continue;
-        delete bundle[name];
-      }
-      page.source = html;
-      page.fileName = "replay.html";
+    // After Vite has filled in what a script that is imported later has to load first.
+    generateBundle: {
+      order: "post",
+      handler(_options, bundle) {
+        const page = bundle["index.html"];
+        if (page?.type !== "asset") throw new Error("the build made no index.html");
+        let html = String(page.source);
+        for (const [name, part] of Object.entries(bundle)) {
+          if (part.type === "chunk") {
+            // `</script` would end the element early; the escape means the same to JavaScript's strings.
+            const code = part.code.replaceAll("</script", "<\\/script");
+            const hash = createHash("sha256").update(code).digest("base64");
+            html = html
+              .replace(/<script type="module"[^>]*><\/script>/, "")
+              .replace("%SCRIPT_HASH%", () => `sha256-${hash}`)
+              .replace("</body>", () => `<script type="module">${code}</script></body>`);
+          } else if (name.endsWith(".css")) {
+            html = html.replace(/<link rel="stylesheet"[^>]*>/, () => `<style>${String(part.source)}</style>`);
+          } else continue;
+          delete bundle[name];
+        }
+        page.source = html;
+        page.fileName = "replay.html";
+      },
     },
   };
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import deque
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -34,8 +35,10 @@ from coframe.wire.qos import TF, TF_STATIC_READER, QoS
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from numpy.typing import NDArray
     from typing_extensions import Self
 
+    from coframe.doctor.transforms import Transforms
     from coframe.wire.endpoints import Tap, TappedMessages
     from coframe.wire.graph import Endpoint as WireEndpoint
 
@@ -58,7 +61,7 @@ class _Head(NamedTuple):
     frame: str
     stamp: int
     arrived: int
-    publisher: str
+    writer: int
 
 
 class _Topic:
@@ -112,7 +115,7 @@ class Listening:
         self._collector = Collector(names)
         self._names: dict[int, str] = {}
         self._processes: dict[str, list[bytes]] = {}
-        self._travel: dict[str, deque[int]] = {}
+        self._travel: dict[int, deque[int]] = {}
         self._topics: dict[str, _Topic] = {}
         try:
             self._node = self._participant.add_node("/", node_name)
@@ -166,17 +169,19 @@ class Listening:
             live=True,
             start=start,
             end=end,
-            transforms=self._collector.transforms(),
+            transforms=self._named(self._collector.transforms()),
             empty_messages=self._collector.empty,
             damaged_messages=self._collector.damaged,
             topics=self._facts(),
-            sensors=tuple(s for topic in self._topics.values() for s in _sensors(topic, start, self._renamed)),
+            sensors=tuple(
+                s for topic in self._topics.values() for s in _sensors(topic, start, self._renamed, self._node_of)
+            ),
             descriptions=tuple(str(message.data) for _, message in self._decoded("std_msgs/msg/String")),
             joint_states=tuple(
                 _joints(topic, start) for topic in self._topics.values() if topic.type == "sensor_msgs/msg/JointState"
             ),
             clock=self._clock(start),
-            travel={name: np.array(travel, dtype=np.int64) for name, travel in self._travel.items()},
+            travel=self._travel_by_name(),
             log=tuple(
                 LogLine(_node(message.name), message.msg, arrived)
                 for arrived, message in self._decoded("rcl_interfaces/msg/Log")
@@ -201,23 +206,39 @@ class Listening:
         number = processes.index(process)
         self._names[handle] = name if number == 0 else f"{name} (copy {number + 1})"
 
+    def _node_of(self, handle: int) -> str:
+        """The full name of a writer's node; "" as long as it is not known, which may be after its first messages."""
+        return self._names.get(handle, "")
+
+    def _named(self, told: Transforms) -> Transforms:
+        """Publishers by name, of the collector's by the handles of their writers."""
+        names = [self._node_of(int(handle)) for handle in told.publishers]
+        number = {name: i for i, name in enumerate(dict.fromkeys(names))}
+        numbers = np.array([number[name] for name in names], dtype=np.int64)
+        return replace(told, publisher=numbers[told.publisher], publishers=tuple(number))
+
+    def _travel_by_name(self) -> dict[str, NDArray[np.int64]]:
+        by_name: dict[str, list[int]] = {}
+        for handle, travel in self._travel.items():
+            by_name.setdefault(self._node_of(handle), []).extend(travel)
+        return {name: np.array(travel, dtype=np.int64) for name, travel in by_name.items()}
+
     def _take_transforms(self, topic: str, messages: TappedMessages, static: bool) -> None:
         if not len(messages.ends):
             return
         handles, publisher = np.unique(messages.writers, return_inverse=True)
-        publishers = [self._names.get(handle, "") for handle in handles.tolist()]
         self._collector.add(
             topic,
             static,
             tf_columns(Slices.adjoining(messages.data, messages.ends)),
             messages.arrived,
             publisher,
-            publishers,
+            list(map(str, handles.tolist())),
         )
         if not static:  # what was sent before we came was long under way
             took = messages.arrived - messages.sent
-            for number, name in enumerate(publishers):
-                travel = self._travel.setdefault(name, deque(maxlen=_MOST_MESSAGES))
+            for number, handle in enumerate(handles.tolist()):
+                travel = self._travel.setdefault(handle, deque(maxlen=_MOST_MESSAGES))
                 travel.extend(took[publisher == number].tolist())
 
     def _listen(self, name: str, types: list[str]) -> None:
@@ -244,7 +265,7 @@ class Listening:
             header = header_of(data)
             if header is not None:
                 stamp, frame = header
-                heard.heads.append(_Head(frame.lstrip("/"), stamp, arrived, self._names.get(writer, "")))
+                heard.heads.append(_Head(frame.lstrip("/"), stamp, arrived, writer))
 
     def _decoded(self, ros_type: str) -> list[tuple[int, Any]]:
         return [pair for topic in self._topics.values() if topic.type == ros_type for pair in topic.decoded]
@@ -299,7 +320,7 @@ def _node(logger: str) -> str:
     return f"/{logger.replace('.', '/')}"
 
 
-def _sensors(topic: _Topic, start: int, renamed: Callable[[str], str]) -> list[Sensor]:
+def _sensors(topic: _Topic, start: int, renamed: Callable[[str], str], node_of: Callable[[int], str]) -> list[Sensor]:
     """One a frame: several devices may share a topic."""
     by_frame: dict[str, list[_Head]] = {}
     for head in topic.heads:
@@ -312,7 +333,7 @@ def _sensors(topic: _Topic, start: int, renamed: Callable[[str], str]) -> list[S
             renamed(frame),
             np.array([head.stamp for head in heads], dtype=np.int64),
             np.array([head.arrived for head in heads], dtype=np.int64),
-            heads[-1].publisher,
+            node_of(heads[-1].writer),
         )
         for frame, heads in by_frame.items()
     ]
