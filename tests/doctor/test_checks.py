@@ -593,6 +593,18 @@ def test_thousands_of_frames_take_seconds_and_tell_it_shortly(links, found, find
         assert len(report.every_finding()) == findings
 
 
+def test_frames_without_end_are_counted(examine, monkeypatch):
+    monkeypatch.setattr("coframe.doctor.collector._MOST_NAMES", 100)
+    run = Run()
+    for i in range(300):
+        run.tf("map", f"track_{i}", later(i / 50))
+    found = examine(run).every_finding()
+    (counted,) = [finding for finding in found if finding.code == "TF004"]
+    left_out, text = counted.text.split(" ", 1)
+    assert text == "messages were not looked at: there are too many names of frames"
+    assert 100 < int(left_out) <= 200  # many messages are taken at a time
+
+
 def test_a_loop_is_one_tree_and_is_told_in_order():
     report = diagnose(observed([("a", "b"), ("b", "c"), ("c", "a"), ("c", "tool"), ("tool", "tip")]))
     (finding,) = report.every_finding()

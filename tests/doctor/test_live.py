@@ -60,6 +60,7 @@ def test_two_publishers_of_one_link_are_named(start, only):
     assert finding["severity"] == "error"
 
 
+@pytest.mark.slow
 def test_a_misspelt_frame_is_answered_with_the_line_to_change(start, only):
     start("robot", ROBOT)
     start("mounts", 'StaticTransformBroadcaster(node).sendTransform(stamped("base_lnk", "camera_link"))')
@@ -68,6 +69,7 @@ def test_a_misspelt_frame_is_answered_with_the_line_to_change(start, only):
     assert "t.header.frame_id = 'base_link'" in finding["fix"]
 
 
+@pytest.mark.slow
 def test_a_look_up_at_now_without_waiting_is_answered_with_the_line_to_change(start, only):
     start("robot", ROBOT)
     body = """

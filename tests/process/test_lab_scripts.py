@@ -13,7 +13,7 @@ ATTEMPTS = 3  # a busy machine may spoil a measurement of rates, not three
 def rate(heard):
     """Messages per second, by their own stamps: the observer's clock also counts what it had to catch up with."""
     stamps = [stamp(message) for _, message in heard]
-    return (len(stamps) - 1) / (max(stamps) - min(stamps))
+    return (len(stamps) - 1) / (max(stamps) - min(stamps)) if len(stamps) > 1 else 0.0
 
 
 def stamp(message):

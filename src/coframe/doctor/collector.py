@@ -32,6 +32,7 @@ class Collector:
     Attributes:
         empty: How many messages held no transform.
         damaged: How many were no TFMessage.
+        left_out: How many came after too many names, and were not looked at.
         messages: How many there were, by topic.
     """
 
@@ -39,6 +40,7 @@ class Collector:
         self._renamed = renaming or str
         self.empty = 0
         self.damaged = 0
+        self.left_out = 0
         self.messages: dict[str, int] = {}
         self._names: dict[str, int] = {}
         self._publishers: dict[str, int] = {}
@@ -67,7 +69,10 @@ class Collector:
         self.messages[topic] = self.messages.get(topic, 0) + len(arrived)
         self.damaged += columns.damaged
         self.empty += len(arrived) - columns.damaged - len(np.unique(columns.message))
-        if not len(columns.stamp) or len(self._names) > _MOST_NAMES:
+        if len(self._names) > _MOST_NAMES:
+            self.left_out += len(arrived)
+            return
+        if not len(columns.stamp):
             return
         names, who = _numbers(self._names, map(self._renamed, columns.names)), _numbers(self._publishers, publishers)
         batch = Transforms(

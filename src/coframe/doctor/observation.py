@@ -119,6 +119,7 @@ class Observation:
         transforms: As they were sent.
         empty_messages: How many messages held no transform at all.
         damaged_messages: How many messages are no TFMessage.
+        messages_left_out: How many messages were not looked at, as too many names had come before them.
         topics: By name.
         sensors: Messages with a header that names a frame.
         descriptions: The robot descriptions, in the order in which they came.
@@ -137,6 +138,7 @@ class Observation:
     transforms: Transforms
     empty_messages: int = 0
     damaged_messages: int = 0
+    messages_left_out: int = 0
     topics: dict[str, TopicFacts] = field(default_factory=dict)
     sensors: tuple[Sensor, ...] = ()
     descriptions: tuple[str, ...] = ()

@@ -79,6 +79,7 @@ def observe_recording(
                 transforms=collector.transforms(),
                 empty_messages=collector.empty,
                 damaged_messages=collector.damaged,
+                messages_left_out=collector.left_out,
                 topics=facts.topics,
                 sensors=tuple(s for s in facts.sensors if _belongs(s.topic, name, collectors)),
                 descriptions=tuple(text for topic, text in facts.descriptions if _belongs(topic, name, collectors)),

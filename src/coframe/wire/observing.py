@@ -172,6 +172,7 @@ class Listening:
             transforms=self._named(self._collector.transforms()),
             empty_messages=self._collector.empty,
             damaged_messages=self._collector.damaged,
+            messages_left_out=self._collector.left_out,
             topics=self._facts(),
             sensors=tuple(
                 s for topic in self._topics.values() for s in _sensors(topic, start, self._renamed, self._node_of)

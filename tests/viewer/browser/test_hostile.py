@@ -141,9 +141,10 @@ def test_an_xml_bomb_is_a_sentence(domain_id, view, open_page):
     ("size", "sentence"),
     [
         (210 << 20, "larger than the 200 MB"),
-        pytest.param(300 << 20, "up to 256 MB are served", marks=pytest.mark.slow),
+        (300 << 20, "up to 256 MB are served"),
     ],
 )
+@pytest.mark.slow
 def test_a_mesh_of_hundreds_of_megabytes_is_refused(tmp_path, view, open_page, size, sentence):
     with (tmp_path / "huge.stl").open("wb") as file:
         file.truncate(size)

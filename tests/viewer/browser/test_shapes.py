@@ -204,6 +204,7 @@ def colours(page, points):
     )
 
 
+@pytest.mark.slow
 def test_a_poses_covariance_is_drawn_when_asked_for(view, open_page, tmp_path):
     pose = stamped("geometry_msgs/msg/PoseWithCovarianceStamped", "map", BEGIN)
     pose.pose.pose.position.x = 5.0

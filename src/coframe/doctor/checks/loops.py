@@ -32,6 +32,14 @@ def find(observation: Observation) -> Iterator[Finding]:
             fix="Find the program that writes its own bytes on the topic, or copy the recording again.",
             harm="Listeners throw such a message away: what it was to tell is not there.",
         )
+    if observation.messages_left_out:
+        yield Finding(
+            code=CODE,
+            severity=Severity.WARNING,
+            text=f"{observation.messages_left_out} messages were not looked at: there are too many names of frames",
+            fix="Find the publisher that numbers its frames without end; what is said here holds for the time before.",
+            harm="Every buffer that listens grows with each new name, for as long as it lives.",
+        )
     if observation.empty_messages:
         yield Finding(
             code=CODE,
