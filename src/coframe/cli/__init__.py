@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 import sys
 from typing import TYPE_CHECKING
 
@@ -10,10 +9,6 @@ if TYPE_CHECKING:
     import typer
 
 __all__ = ["main"]
-
-
-# Somebody waits for the picture: these start without what the other commands import.
-_ALONE = ("view",)
 
 
 def main() -> None:
@@ -29,12 +24,7 @@ def main() -> None:
 
 
 def _app(name: str) -> typer.Typer:
-    if name not in _ALONE:
-        from coframe.cli.app import app  # noqa: PLC0415 - the sentence above must come before what it is about
+    """A command by itself starts in half the time; without one that there is, it takes all to say so."""
+    from coframe.cli.commands import COMMANDS, app_with  # noqa: PLC0415 - the sentence above must come before it
 
-        return app
-    from coframe.cli.new_app import new_app  # noqa: PLC0415 - likewise
-
-    app = new_app()
-    app.command()(getattr(importlib.import_module(f"coframe.cli.{name}"), name))
-    return app
+    return app_with([name] if name in COMMANDS else COMMANDS)

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.console import Console, Group
 from rich.live import Live
-from rich.markdown import Markdown
 from rich.text import Text
 
 from coframe.cli.recordings import NamespaceOption, reading
@@ -106,6 +105,8 @@ def _explain(code: str) -> None:
         fail(f"there is no page for {code!r}", _nearest(code), code=2)
     console = Console()
     if console.is_terminal:
+        from rich.markdown import Markdown  # noqa: PLC0415 - a twentieth of a second, for this alone
+
         console.print(Markdown(text))
     else:
         print(text, end="")

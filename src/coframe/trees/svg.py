@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from html import escape
 from typing import TYPE_CHECKING
-from xml.sax.saxutils import escape, quoteattr
 
 from coframe.trees.layout import Box, Line, draw
 
@@ -42,11 +42,11 @@ def _shape(shape: Box | Line | Words) -> str:
         return f'<polyline points="{points}" fill="none" stroke="{shape.colour}"{dashes}/>'
     weight = ' font-weight="bold"' if shape.bold else ""
     return (
-        f'<text x="{shape.x:.1f}" y="{shape.y:.1f}" font-size="{shape.size:g}" fill={quoteattr(shape.colour)}{weight} '
+        f'<text x="{shape.x:.1f}" y="{shape.y:.1f}" font-size="{shape.size:g}" fill="{shape.colour}"{weight} '
         f'xml:space="preserve">{_text(shape.text)}</text>'
     )
 
 
 def _text(text: str) -> str:
     """Without what XML cannot hold at all."""
-    return escape("".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text))
+    return escape("".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text), quote=False)
