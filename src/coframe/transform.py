@@ -14,7 +14,7 @@ from coframe.errors import FrameMismatchException, InvalidArgumentException
 from coframe.time import stamp_ns
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from coframe.time import StampLike
 
@@ -335,17 +335,20 @@ def _single_pose(
 
     None for all else: batches, other kinds of numbers, and what is wrong.
     """
-    t = translation.tolist() if isinstance(translation, np.ndarray) else translation
-    q = quaternion.tolist() if isinstance(quaternion, np.ndarray) else quaternion
-    if not (isinstance(t, tuple | list) and isinstance(q, tuple | list) and len(t) == 3 and len(q) == 4):
-        return None
-    if not all(type(number) is float for number in (*t, *q)):
+    t, q = _few_numbers(translation, 3), _few_numbers(quaternion, 4)
+    if t is None or q is None or not all(type(number) is float for number in (*t, *q)):
         return None
     (x, y, z), (qx, qy, qz, qw) = t, q
     length = math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw)
     if not (_SHORT < length < _LONG and math.isfinite(x) and math.isfinite(y) and math.isfinite(z)):
         return None
     return x, y, z, qx / length, qy / length, qz / length, qw / length
+
+
+def _few_numbers(values: Any, count: int) -> Sequence[Any] | None:
+    if isinstance(values, np.ndarray):
+        return values.tolist() if values.shape == (count,) else None
+    return values if isinstance(values, tuple | list) and len(values) == count else None
 
 
 def _vectors(values: ArrayLike, size: int, what: str) -> Array:

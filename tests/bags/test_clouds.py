@@ -65,7 +65,7 @@ def sweep(stamp, kind):
         points[axis][:-1] = column
     points["intensity"] = np.arange(len(points))
     points[name][:-1] = values
-    points[name][-1] = values[0]
+    points[name][-1] = np.nan if kind == "velodyne" else values[0]  # where it saw nothing
     points["x"][-1] = np.nan
     return cloud_message(points, stamp)
 

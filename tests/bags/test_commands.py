@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import recordings
 from recordings import COUNT, SECOND, START
+from runs import Run
 from typer.testing import CliRunner
 
 import coframe
@@ -116,6 +117,24 @@ def test_a_time_outside_of_the_recording_tells_which_times_are_inside(bag, argum
     told = f"The recording tells of {frames} from 1700000000.000000000 to 1700000002.{last % SECOND:09d}"
     assert f"{told}, which is 0s to 2.{last % SECOND:09d}s." in error
     assert "wait for it" not in error
+
+
+@pytest.mark.parametrize(
+    ("stamps", "at", "text"),
+    [
+        ([START + i * SECOND // 10 for i in range(5)], "50s", "no time in common"),
+        ([0] * 5, "1s", "odom -> base"),
+    ],
+)
+def test_links_without_a_time_in_common_are_told_of_as_they_are(tmp_path, stamps, at, text):
+    run_ = Run()
+    for i, stamp in enumerate(stamps):
+        run_.tf("odom", "base", stamp, arrived=START + i)
+        run_.tf("base", "arm", START + 100 * SECOND + i, arrived=START + 100 * SECOND + i)
+    code, _, error = run("lookup", run_.write(tmp_path), "odom", "arm", "--at", at)
+    assert code == 1
+    assert text in error
+    assert "use a longer cache" not in error
 
 
 def test_ctrl_c_ends_work_that_is_not_done_with_another_code(bag, tmp_path, monkeypatch):

@@ -148,3 +148,13 @@ def test_parts_of_a_transform_cannot_be_written_to(rng):
     for a in (random_transform(rng), random_transform(rng, (3,))):
         with pytest.raises(ValueError, match="read-only"):
             a.translation[0] = 9
+
+
+class Loud(np.ndarray):
+    def tolist(self):
+        raise AssertionError("a batch becomes objects of Python")
+
+
+def test_a_batch_stays_in_arrays():
+    many = coframe.Transform(np.zeros((5, 3)).view(Loud), np.tile([0.0, 0.0, 0.0, 1.0], (5, 1)).view(Loud))
+    assert many.shape == (5,)

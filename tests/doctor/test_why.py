@@ -1,7 +1,10 @@
 """coframe why: of recordings as real robots make them, and of the lab's common errors as students make them."""
 
+import itertools
 import json
+import signal
 import subprocess
+import sys
 
 import pytest
 import recordings
@@ -10,6 +13,7 @@ from recordings import SECOND, START, TF
 from runs import Run
 from typer.testing import CliRunner
 
+import coframe
 from coframe.cli.app import app
 from coframe.messages import find, serialize
 
@@ -187,3 +191,33 @@ def test_watch_tells_again_and_again_and_ends_by_a_signal(start, inside):
             pass
         process.terminate()
         assert process.wait(20) == 0
+
+
+SIMULATED = """
+from rosgraph_msgs.msg import Clock
+clock, broadcaster, ticks = node.create_publisher(Clock, "/clock", 10), TransformBroadcaster(node), []
+def step():
+    ticks.append(Time(nanoseconds=10_000_000_000 + 20_000_000 * len(ticks)))
+    clock.publish(Clock(clock=ticks[-1].to_msg()))
+    broadcaster.sendTransform(stamped("odom", "base_link", 0.0, ticks[-1]))
+every(0.02, step)
+"""
+
+
+@pytest.mark.slow
+def test_watch_asks_by_the_clock_of_a_simulation(start, inside):
+    start("simulator", SIMULATED)
+    options = ("odom", "base_link", "--at", "-0.5s", "--watch", "--json")
+    with inside.start("-m", "coframe.cli", "why", *options, stdout=subprocess.PIPE, text=True) as process:
+        answers = iter(process.stdout.readline, "")
+        assert any(json.loads(line)["possible"] for line in itertools.islice(answers, 10))
+        process.terminate()
+
+
+def test_work_that_was_interrupted_is_no_answer(domain_id, eventually):
+    command = [sys.executable, "-m", "coframe.cli", "why", "a", "b", "--duration", "60s"]
+    with subprocess.Popen(command, stderr=subprocess.DEVNULL) as process:
+        with coframe.connect("observer", domain=domain_id) as ros:
+            eventually(lambda: ("/", "coframe_why_doctor") in ros.participant.nodes())
+        process.send_signal(signal.SIGINT)
+        assert process.wait(20) == 130

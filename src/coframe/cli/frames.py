@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.text import Text
 
 from coframe.cli.frames_screen import tree, watch
-from coframe.cli.recordings import NamespaceOption, reading
+from coframe.cli.recordings import NamespaceOption, reading, work
 from coframe.cli.session import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
@@ -88,7 +88,7 @@ def frames(
     if watching and (files or bag is not None):
         fail("--watch excludes a recording and --output", code=2)
     names: dict[str, Any] = {"prefix": prefix, "keep": keep}
-    with session():
+    with session() if watching else work():
         if bag is not None:
             topics = recorded_tf_topics(tf_topic, tf_static_topic)
             with reading() as progress:
@@ -96,7 +96,7 @@ def frames(
             forests = {name: grow(one) for name, one in seen.items()}
             for problem in dict.fromkeys(problem for one in seen.values() for problem in one.unread):
                 typer.echo(f"coframe: {printable(problem)}", err=True)
-            _finish(forests, files, as_json, bag.name)
+            _finish(forests, files, as_json, bag.resolve().name)
             return
         from coframe.wire.observing import Listening  # noqa: PLC0415 - recordings need no DDS
 

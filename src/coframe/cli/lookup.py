@@ -16,7 +16,7 @@ from coframe.cli.session import (
     RecordedTfTopicOption,
     fail,
 )
-from coframe.errors import ExtrapolationException
+from coframe.errors import ExtrapolationException, TransformException
 
 if TYPE_CHECKING:
     from coframe import Transform
@@ -65,14 +65,20 @@ def lookup(
                 then = instant("--source-time", source_time, recording)
                 found = buffer.lookup_full(target, when, source, then, fixed)
         except ExtrapolationException as error:
-            fail(str(error), _what_there_is(recording, {target, source, fixed or source}))
+            what = _what_there_is(recording, {target, source, fixed or source})
+            fail(str(error), what or buffer.why(target, source, when).hint)
         print(_json(found) if as_json else format_transform(found, precision))
 
 
 def _what_there_is(recording: Recording, frames: set[str]) -> str:
-    """From when to when the recording tells how frames lie to each other."""
+    """From when to when the recording tells how frames lie to each other; "" where there is no such time."""
     one, *others = sorted(frames)
-    spans = [span for other in others if (span := recording.buffer.span(one, other)) != _ALWAYS]
+    try:
+        spans = [span for other in others if (span := recording.buffer.span(one, other)) != _ALWAYS]
+    except TransformException:
+        return ""
+    if not spans:
+        return ""
     first, last = max(first for first, _ in spans), min(last for _, last in spans)
     offsets = [seconds(stamp - recording.span[0]).rstrip("0").rstrip(".") + "s" for stamp in (first, last)]
     return (

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import time
+from collections import deque
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple, NoReturn
 
@@ -18,7 +19,7 @@ from typer.core import TyperCommand
 
 import coframe
 from coframe.bags import parse_instant
-from coframe.cli.recordings import NamespaceOption, instant, opened
+from coframe.cli.recordings import NamespaceOption, instant, opened, work
 from coframe.cli.session import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
@@ -38,6 +39,8 @@ from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.text import headline
 from coframe.explanation.drawing import remark, verdict
 from coframe.frame_names import renaming
+from coframe.messages import find
+from coframe.time import stamp_ns
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -123,7 +126,7 @@ def why(
     patience = length("--duration", duration)
     renamed = _Names(prefix, keep)
     place = _Live(domain, tf_topic or TF_TOPIC, tf_static_topic or TF_STATIC_TOPIC, renamed)
-    with session():
+    with session() if watch else work():
         if bags:
             topics = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
             answer = _recorded(Path(bags[0]), target, source, at, namespace, topics, renamed)
@@ -173,9 +176,14 @@ def _heard(place: _Live, target: str, source: str, at: str | None, window: int) 
 
 def _watch(place: _Live, target: str, source: str, at: str | None, window: int, *, as_json: bool) -> NoReturn:
     """An answer a second, without the doctor; until Ctrl-C."""
+    from coframe.wire import QoS  # noqa: PLC0415 - recordings need no DDS
+
     with _connection(place) as ros, Live(console=Console(highlight=False), auto_refresh=False) as live:
+        ticks: deque[Any] = deque(maxlen=1)
+        ros.subscribe("/clock", find("rosgraph_msgs/msg/Clock"), ticks.append, QoS(depth=1, reliable=False))
         while True:
-            answer = _Answer(ros.buffer.why(target, source, _instant(at, None, window)), [], [])
+            clock = stamp_ns(ticks[0].clock) if ticks else None
+            answer = _Answer(ros.buffer.why(target, source, _instant(at, clock, window), now=clock), [], [])
             if as_json:
                 print(json.dumps(_data(answer)), flush=True)
             else:

@@ -19,6 +19,7 @@ __all__ = ["TIME_FIELDS", "UNITS", "PointTimes", "times_in"]
 TIME_FIELDS = ("t", "time", "timestamp", "offset_time")
 UNITS = {"s": 1_000_000_000, "ms": 1_000_000, "us": 1000, "ns": 1}
 
+NO_TIME = np.iinfo(np.int64).min  # as NaT
 _LONGEST_SWEEP = 10_000_000_000  # ns: what is further from the message's stamp is no time of a point of it
 _SECOND = 1_000_000_000
 _DAYS = 100_000_000  # more seconds than any sweep has, fewer than the system's clock
@@ -29,7 +30,7 @@ class PointTimes(NamedTuple):
     """When the points of a message were measured.
 
     Attributes:
-        times: (N,) nanoseconds.
+        times: (N,) nanoseconds; `NO_TIME` for a point whose time is not a number.
         field: That tells it.
         unit: That its values are taken for, one of `UNITS`.
         absolute: Whether they are stamps themselves; if not, they count from the message's.
@@ -62,10 +63,11 @@ def times_in(points: NDArray[Any], stamp: int, field: str | None = None, unit: s
     if name not in names:
         raise ValueError(f"there is no field {name!r} among {', '.join(names)}")
     found = _read(points[name], stamp, name, unit)
-    is_sweep = found is not None and np.abs(found.times - stamp).max() <= _LONGEST_SWEEP
+    known = found.times[found.times != NO_TIME] if found is not None else np.zeros(0, dtype=np.int64)
+    is_sweep = known.size > 0 and np.abs(known - stamp).max() <= _LONGEST_SWEEP
     if not is_sweep and unit is not None:
         raise ValueError(f"the field {name!r} in {unit} is more than {_LONGEST_SWEEP // _SECOND} s off the stamp")
-    if found is None or not is_sweep or (found.times == found.times[0]).all():
+    if found is None or not is_sweep or (known == known[0]).all():
         return None
     return found
 
@@ -75,11 +77,16 @@ def _read(values: NDArray[Any], stamp: int, field: str, unit: str | None) -> Poi
     if values.dtype.kind not in "iuf":
         return None
     is_float = values.dtype.kind == "f"
-    largest = np.abs(values.astype(np.float64)).max()
+    known = np.isfinite(values)
+    if not known.any():
+        return None
+    largest = np.abs(values[known].astype(np.float64)).max()
     unit = unit or ("s" if is_float and not largest > _DAYS * 100 else "ns")
     if not largest * UNITS[unit] < _END:
         return None
+    values = np.where(known, values, 0)
     # Seconds of today in a float64 are exact to a quarter of a microsecond.
     times = np.rint(values.astype(np.float64) * UNITS[unit]) if is_float else values.astype(np.int64) * UNITS[unit]
     absolute = bool(largest * UNITS[unit] > _DAYS * _SECOND)
-    return PointTimes((0 if absolute else stamp) + times.astype(np.int64), field, unit, absolute)
+    stamps = (0 if absolute else stamp) + times.astype(np.int64)
+    return PointTimes(np.where(known, stamps, NO_TIME), field, unit, absolute)
