@@ -13,7 +13,7 @@ from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
-from coframe.cli.recordings import NamespaceOption, reading, work
+from coframe.cli.recordings import NamespaceOption, check_live, reading, work
 from coframe.cli.session import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
@@ -77,6 +77,8 @@ def doctor(
     if (as_json and sarif) or (watch and (sarif or bag is not None)):
         fail("--json and --sarif, --watch and --sarif, and --watch and a recording exclude each other", code=2)
     shared: Any = {"cache": buffers, "prefix": prefix, "keep": keep}
+    if bag is None:
+        check_live(namespace)
     with session() if watch else work():
         if bag is not None:
             topics = recorded_tf_topics(tf_topic, tf_static_topic)

@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.text import Text
 
 from coframe.cli.frames_screen import tree, watch
-from coframe.cli.recordings import NamespaceOption, reading, work
+from coframe.cli.recordings import NamespaceOption, check_live, reading, work
 from coframe.cli.session import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
@@ -88,6 +88,8 @@ def frames(
     if watching and (files or bag is not None):
         fail("--watch excludes a recording and --output", code=2)
     names: dict[str, Any] = {"prefix": prefix, "keep": keep}
+    if bag is None:
+        check_live(namespace)
     with session() if watching else work():
         if bag is not None:
             topics = recorded_tf_topics(tf_topic, tf_static_topic)

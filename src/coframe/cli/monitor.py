@@ -102,9 +102,9 @@ def _report(
     while True:
         listening.listen(seconds)
         seen = listening.observe()
-        printer(seen, pair)
         if once and not len(seen.transforms):
             fail("no transforms came", "Is a broadcaster running, in the same ROS domain?")
+        printer(seen, pair)
         if once:
             return
 
@@ -116,7 +116,7 @@ def _console() -> Console:
 
 
 def _watch(listening: Listening, pair: Pair) -> NoReturn:
-    with Live(console=Console(highlight=False), auto_refresh=False) as live:
+    with Live(console=_console(), auto_refresh=False) as live:
         while True:
             live.update(_picture(listening.observe(), pair), refresh=True)
             listening.listen(1.0)
@@ -205,11 +205,13 @@ def _hertz(rate: float | None) -> str:
 
 
 def _texts(*cells: str) -> list[Text]:
-    return [Text(printable(cell)) for cell in cells]
+    return [Text(printable(cell), no_wrap=True, overflow="ellipsis") for cell in cells]
 
 
 def _table(*columns: str) -> Table:
     table = Table(box=None, pad_edge=False, header_style="dim")
     for column in columns:
-        table.add_column(column, justify="left" if column in {"link", "publisher"} else "right", no_wrap=True)
+        # On a narrow screen names are cut first: rich takes room from columns that may wrap, which no cell does.
+        is_name = column in {"link", "publisher"}
+        table.add_column(column, justify="left" if is_name else "right", no_wrap=not is_name)
     return table

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from coframe.bags import Recording
 
-__all__ = ["BagArgument", "NamespaceOption", "instant", "opened", "reading", "seconds", "work", "working"]
+__all__ = ["BagArgument", "NamespaceOption", "check_live", "instant", "opened", "reading", "seconds", "work", "working"]
 
 SECOND = 1_000_000_000
 
@@ -35,6 +35,14 @@ BagArgument = Annotated[Path, typer.Argument(metavar="BAG", help="A .mcap, .db3 
 NamespaceOption = Annotated[
     str | None, typer.Option(help="Only the transforms of this namespace, such as /robot1.", show_default=False)
 ]
+
+
+def check_live(namespace: str | None) -> None:
+    """Ends with a sentence where a namespace is chosen, and no recording that has several."""
+    if namespace is not None:
+        root = "/" + namespace.strip("/")
+        topics = f"--tf-topic {root}/tf --tf-static-topic {root}/tf_static"
+        fail("--namespace chooses among the robots of a recording", f"Live, give {topics}.", code=2)
 
 
 @contextmanager

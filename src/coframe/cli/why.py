@@ -19,7 +19,7 @@ from typer.core import TyperCommand
 
 import coframe
 from coframe.bags import parse_instant
-from coframe.cli.recordings import NamespaceOption, instant, opened, work
+from coframe.cli.recordings import NamespaceOption, check_live, instant, opened, work
 from coframe.cli.session import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
@@ -121,6 +121,10 @@ def why(
     if names is None or len(names) not in {2, 3}:
         fail("give TARGET and SOURCE, with a recording in front of them or without", code=2)
     *bags, target, source = names
+    if not bags:
+        check_live(namespace)
+        if Path(target).exists() and not {"/", "."}.isdisjoint(target):
+            fail(f"{target} is a file or a folder: give TARGET and SOURCE behind the recording", code=2)
     if watch and bags:
         fail("--watch and a recording exclude each other", code=2)
     patience = length("--duration", duration)

@@ -73,6 +73,8 @@ def summary(forest: Forest) -> str:
     """How many frames and trees there are, and the roots where there are several."""
     frames = f"{len(forest.frames)} frame{'s' * (len(forest.frames) != 1)}"
     over = f"{duration(forest.end - forest.start)}"
+    if not forest.frames:
+        return f"no transforms yet, {over}"
     loops = f"; {listed(map(shown, sorted(forest.loops)))}: in a loop" if forest.loops else ""
     if len(forest.trees) == 1:
         return f"{frames} in 1 tree, {over}{loops}"

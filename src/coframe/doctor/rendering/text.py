@@ -64,7 +64,8 @@ def _summary(report: Report) -> Iterator[tuple[str, str]]:
 
 def _elsewhere(seen: Observation) -> str:
     """Where there are transforms, if not where they were looked for."""
-    topics = [topic.name for topic in seen.topics.values() if topic.type.endswith("/TFMessage") and topic.messages]
+    told = (topic for topic in seen.topics.values() if topic.type.lower().endswith("/tfmessage"))  # ROS 1: tf/tfMessage
+    topics = [topic.name for topic in told if topic.messages]
     return f"; there are some on {listed(topics)}" if topics else ""
 
 
