@@ -1,15 +1,13 @@
-"""Numbers and names as findings tell them."""
+"""Names and counts as findings tell them; durations and stamps are in :mod:`coframe.wording`."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.wording import duration, seconds
-
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["duration", "listed", "quoted", "seconds", "times"]
+__all__ = ["listed", "quoted", "times"]
 
 _MOST_LISTED = 5
 
