@@ -11,6 +11,7 @@ from rosbags.interfaces import QosDurability
 from rosbags.rosbag2 import StoragePlugin
 from runs import MS, SECOND, Offered, Run, rpy, stamp_message, yaw
 
+from coframe.catalogue.missing_link import missing_link
 from coframe.doctor import Observation, Severity, codes, diagnose, observe_recording
 from coframe.doctor.diagnosis import all_checks
 from coframe.doctor.edge import Edge
@@ -194,6 +195,16 @@ def test_names(examine, frame, text):
     findings = examine(run).findings
     assert {finding.code for finding in findings} == {"TF006"}
     assert any(text in finding.text for finding in findings)
+
+
+def test_a_prefix_does_not_hide_the_slash_that_was_sent(tmp_path):
+    run = Run.healthy()
+    run.tf("/base_link", "/lidar2", START, static=True)
+    (observation,) = observe_recording(run.write(tmp_path), prefix="r/").values()
+    (finding,) = diagnose(observation).findings
+    assert finding.text == "2 names begin with a slash: '/base_link', '/lidar2'"
+    assert finding.frames == {"r/base_link", "r/lidar2"}
+    assert finding.first_stamp == START
 
 
 def test_half_a_prefix_explains_the_two_trees(only):
@@ -591,6 +602,19 @@ def test_thousands_of_frames_take_seconds_and_tell_it_shortly(links, found, find
     if found is not None:
         assert {finding.code for finding in report.every_finding()} == found
         assert len(report.every_finding()) == findings
+
+
+def test_a_likely_link_is_looked_for_only_where_the_root_may_be_its_child():
+    class Frames(list):
+        read = 0
+
+        def __iter__(self):
+            self.read += 1
+            return super().__iter__()
+
+    unlikely, likely = Frames(["track", "a", "odom"]), Frames(["base_link", "b"])
+    assert missing_link(unlikely, likely) == ("odom", "base_link", False)
+    assert (unlikely.read, likely.read) == (2, 0)  # for base_footprint -> base_link, too
 
 
 def test_frames_without_end_are_counted(examine, monkeypatch):

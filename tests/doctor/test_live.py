@@ -13,6 +13,10 @@ from subprocess import PIPE
 import pytest
 from nodes import ROBOT
 
+import coframe
+from coframe.messages import find
+from coframe.wire.observing import Listening
+
 # What a process asks the time, and everything in it.
 CLOCK = """
 #define _GNU_SOURCE
@@ -58,6 +62,25 @@ def test_two_publishers_of_one_link_are_named(start, only):
     assert sorted(finding["publishers"]) == ["/filter", "/wheel_odometry"]
     assert "Stop one of the two" in finding["fix"]
     assert finding["severity"] == "error"
+
+
+def test_who_has_left_is_forgotten_with_what_it_sent(domain_id, eventually):
+    pytest.importorskip("cyclonedds", reason="transforms come over DDS")
+    message = find("tf2_msgs/msg/TFMessage")
+    with Listening(domain_id, window=300_000_000) as listening:
+
+        def heard():
+            listening.poll()
+            seen = listening.observe()
+            return "/brief" in seen.travel, "/brief" in seen.transforms.publishers
+
+        with coframe.connect("brief", domain=domain_id) as ros:
+            publisher = ros.publisher("/tf", message)
+            link = find("geometry_msgs/msg/TransformStamped")(child_frame_id="base_link")
+            link.header.frame_id = "odom"
+            link.transform.rotation.w = 1.0
+            eventually(lambda: publisher.publish(message(transforms=[link])) or heard() == (True, True))
+        eventually(lambda: heard() == (False, False))
 
 
 @pytest.mark.slow

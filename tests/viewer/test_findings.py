@@ -13,7 +13,9 @@ from runs import MS, SECOND, Run
 
 import coframe
 from coframe.catalogue import page
+from coframe.errors import ViewerError
 from coframe.messages import find
+from coframe.viewer.recorded import RecordedSource
 
 PATIENCE = 30.0  # seconds
 
@@ -58,6 +60,19 @@ def test_a_recording_that_is_gone_is_a_sentence(view, open_tab, tmp_path):
     assert message["state"] == "failed"
     assert str(folder) in message["text"]
     tab.tick()
+
+
+def test_of_a_recording_that_is_too_long_all_namespaces_are_counted(tmp_path, monkeypatch):
+    run = Run()
+    for robot in ("/r1", "/r2"):
+        for i in range(6):
+            run.tf("odom", "base", START + i * SECOND, topic=f"{robot}/tf")
+    monkeypatch.setattr("coframe.viewer.recorded._MOST_EXAMINED", 10)
+    with (
+        coframe.open_bag(run.write(tmp_path)) as recording,
+        pytest.raises(ViewerError, match="has 12 samples, too many"),
+    ):
+        next(RecordedSource(recording).examine())
 
 
 def test_a_buffer_does_not_tell_who_sent_what(view, open_tab):

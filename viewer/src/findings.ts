@@ -3,7 +3,7 @@
 import { h, icon, iconButton, shorten, type IconName } from "./dom";
 import * as format from "./format";
 import type { Model } from "./model";
-import type { CodePage, Finding, Findings, Severity } from "./protocol";
+import type { CodePage, Finding, Findings, Hello, Severity } from "./protocol";
 
 /** What stands on a frame's row. */
 export interface Mark {
@@ -37,6 +37,16 @@ export function severityIcon(severity: Severity): SVGElement {
   return svg;
 }
 
+/** What the doctor says of the whole; nothing as long as it has not spoken. */
+export function verdict(told: Findings | null, mode: Hello["mode"] | undefined): string {
+  if (told === null) return "";
+  if (told.state === "failed") return shorten(told.text, TEXT);
+  if (told.state === "waiting") return mode === "live" ? "Listening for some seconds…" : "Examining the recording…";
+  if (told.state === "none") return "The doctor examines the ROS graph and recordings; of what is shown here it cannot tell who sent what.";
+  if (told.findings.length) return "What is wrong, why that matters, and what to do. Click one to see its frame.";
+  return mode === "live" ? "Nothing is wrong in the last 10 seconds." : "Nothing is wrong in this recording.";
+}
+
 function headline({ code, severity, text }: Finding): string {
   return `${code} ${severity}: ${shorten(text, 200)}`;
 }
@@ -61,17 +71,8 @@ export class FindingsPanel {
     if (key === this.shown) return;
     this.shown = key;
     const findings = told?.findings ?? [];
-    this.summary.textContent = this.verdict(told);
+    this.summary.textContent = verdict(told, this.model.hello?.mode);
     this.list.replaceChildren(...findings.map((finding) => this.card(finding)));
-  }
-
-  private verdict(told: Findings | null): string {
-    const mode = this.model.hello?.mode;
-    if (told?.state === "failed") return shorten(told.text, TEXT);
-    if (told?.state === "waiting") return mode === "live" ? "Listening for some seconds…" : "Examining the recording…";
-    if (told?.state === "told" && told.findings.length) return "What is wrong, why that matters, and what to do. Click one to see its frame.";
-    if (told?.state === "told") return mode === "live" ? "Nothing is wrong in the last 10 seconds." : "Nothing is wrong in this recording.";
-    return "The doctor examines the ROS graph and recordings; of what is shown here it cannot tell who sent what.";
   }
 
   private card(finding: Finding): HTMLElement {

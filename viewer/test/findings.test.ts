@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { marksOf } from "../src/findings";
-import type { Finding } from "../src/protocol";
+import { marksOf, verdict } from "../src/findings";
+import type { Finding, Findings } from "../src/protocol";
 
 const finding = (change: Partial<Finding>): Finding => ({
   ...{ code: "TF013", severity: "note", title: "", subject: "", frames: [], text: "rare", why: "", fix: "" },
@@ -21,5 +21,20 @@ describe("marks", () => {
       ["odom", "warning"],
     ]);
     expect(marks.get("base")?.lines).toEqual(["TF003 error: two publishers", "TF013 note: rare"]);
+  });
+});
+
+describe("the verdict", () => {
+  const told = (state: Findings["state"]): Findings => ({ type: "findings", state, text: "gone", findings: [] });
+
+  it("is empty until the doctor has spoken", () => {
+    expect(verdict(null, "live")).toBe("");
+    expect(verdict(null, "recording")).toBe("");
+  });
+
+  it("says what cannot be told only where that is so", () => {
+    expect(verdict(told("none"), "buffer")).toContain("cannot tell who sent what");
+    expect(verdict(told("told"), "live")).toBe("Nothing is wrong in the last 10 seconds.");
+    expect(verdict(told("failed"), "recording")).toBe("gone");
   });
 });

@@ -111,8 +111,10 @@ def missing_link(first: Sequence[str], second: Sequence[str]) -> MissingLink | N
             return MissingLink(alike[0], root, misspelt=True)
     for parent, child in _USUAL:
         for root, frames in sides:
+            if _bare(root) != child:
+                continue
             above = [frame for frame in frames if _bare(frame) == parent and _prefix(frame) == _prefix(root)]
-            if _bare(root) == child and above:
+            if above:
                 return MissingLink(above[0], root, misspelt=False)
     return None
 

@@ -13,7 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 from coframe.bags import COMPRESSIONS, mend, summarize
-from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, seconds, work, working
+from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, work, working
 from coframe.cli.session import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
@@ -26,6 +26,7 @@ from coframe.cli.session import (
     fail,
     printable,
 )
+from coframe.wording import seconds
 
 if TYPE_CHECKING:
     from coframe.bags import Summary

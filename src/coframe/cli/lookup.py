@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from coframe.cli.echo import MOST_DIGITS, format_transform
-from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, seconds, work
+from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, work
 from coframe.cli.session import (
     KeepOption,
     PrefixOption,
@@ -17,6 +17,7 @@ from coframe.cli.session import (
     fail,
 )
 from coframe.errors import ExtrapolationException, TransformException
+from coframe.wording import seconds
 
 if TYPE_CHECKING:
     from coframe import Transform

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from coframe.bags import Recording
 
-__all__ = ["BagArgument", "NamespaceOption", "check_live", "instant", "opened", "reading", "seconds", "work", "working"]
+__all__ = ["BagArgument", "NamespaceOption", "check_live", "instant", "opened", "reading", "work", "working"]
 
 SECOND = 1_000_000_000
 
@@ -114,9 +114,3 @@ def instant(option: str, text: str, recording: Recording) -> int:
         return parse_instant(text, recording.span)
     except ValueError as error:
         fail(f"{option}: {error}", code=2)
-
-
-def seconds(nanoseconds: int) -> str:
-    """All nine digits."""
-    sign, size = ("-", -nanoseconds) if nanoseconds < 0 else ("", nanoseconds)
-    return f"{sign}{size // SECOND}.{size % SECOND:09d}"

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from coframe.bags import FORMATS, Question, format_of, write_trajectory
-from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, seconds, work
+from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, work
 from coframe.cli.session import (
     KeepOption,
     PrefixOption,
@@ -17,6 +17,7 @@ from coframe.cli.session import (
     RecordedTfTopicOption,
     fail,
 )
+from coframe.wording import seconds
 
 __all__ = ["trajectory"]
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe.doctor.transforms import Transforms
+from coframe.doctor.transforms import Transforms, numbered
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     from numpy.typing import NDArray
 
@@ -24,7 +24,7 @@ _MOST_NAMES = 100_000
 
 
 class Collector:
-    """Gathers transforms; names and publishers become numbers.
+    """Gathers transforms; names become numbers.
 
     Args:
         renaming: What the frames are called from here on; None: as they come.
@@ -43,7 +43,6 @@ class Collector:
         self.left_out = 0
         self.messages: dict[str, int] = {}
         self._names: dict[str, int] = {}
-        self._publishers: dict[str, int] = {}
         self._static: deque[Transforms] = deque()
         self._moving: deque[Transforms] = deque()
 
@@ -74,15 +73,16 @@ class Collector:
             return
         if not len(columns.stamp):
             return
-        names, who = _numbers(self._names, map(self._renamed, columns.names)), _numbers(self._publishers, publishers)
+        names = numbered(self._names, columns.names)
         batch = Transforms(
             arrived=arrived[columns.message],
             stamp=columns.stamp,
             parent=names[columns.parent],
             child=names[columns.child],
-            publisher=who[publisher[columns.message]],
+            publisher=publisher[columns.message],
             static=np.full(len(columns.stamp), static),
             values=columns.values,
+            publishers=tuple(publishers),
         )
         (self._static if static else self._moving).append(batch)
 
@@ -97,9 +97,9 @@ class Collector:
 
     def transforms(self) -> Transforms:
         """All rows, in the order in which they came."""
-        return Transforms.joined([*self._static, *self._moving], tuple(self._names), tuple(self._publishers))
+        sent = tuple(self._names)
+        return Transforms.joined([*self._static, *self._moving], tuple(map(self._renamed, sent)), sent)
 
-
-def _numbers(known: dict[str, int], names: Iterable[str]) -> NDArray[np.int64]:
-    """Of names, new ones among them."""
-    return np.array([known.setdefault(name, len(known)) for name in names], dtype=np.int64)
+    def publishers(self) -> set[str]:
+        """Who sent what has not been let go of."""
+        return {name for batches in (self._static, self._moving) for batch in batches for name in batch.publishers}

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
-__all__ = ["NORM_TOLERANCE", "Transforms", "bare"]
+__all__ = ["NORM_TOLERANCE", "Transforms", "bare", "numbered"]
 
 # tf2 refuses a quaternion whose squared length differs from 1 by so much.
 NORM_TOLERANCE = 0.01
 _DENSE = 1_000_000  # keys up to here are counted rather than sorted
-_COLUMNS = ("arrived", "stamp", "parent", "child", "publisher", "static", "values")
+_COLUMNS = ("arrived", "stamp", "parent", "child", "static", "values")
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +33,9 @@ class Transforms:
         publisher: (N,) number of who sent it.
         static: (N,) bool, whether it came on a topic of static transforms.
         values: (N, 7) x, y, z in metres and qx, qy, qz, qw.
-        names: Of frames, as they were sent.
+        names: Of frames, as they were sent or as a prefix makes them; one that was sent with a slash and without is
+            there twice.
+        sent: The same, as they were sent; empty where they are the same.
         publishers: Full names of nodes; "" where nobody says who it was.
     """
 
@@ -46,18 +48,23 @@ class Transforms:
     values: NDArray[np.float64]
     names: tuple[str, ...] = ()
     publishers: tuple[str, ...] = ()
+    sent: tuple[str, ...] = ()
 
     @staticmethod
-    def joined(batches: Sequence[Transforms], names: tuple[str, ...], publishers: tuple[str, ...]) -> Transforms:
-        """The rows of all batches, whose numbers are those of these names, in the order in which they came."""
+    def joined(batches: Sequence[Transforms], names: tuple[str, ...], sent: tuple[str, ...] = ()) -> Transforms:
+        """The rows of all batches, whose frames' numbers are those of these names, in the order in which they came."""
         columns: dict[str, Any] = {
             name: np.concatenate([getattr(batch, name) for batch in (_NONE, *batches)]) for name in _COLUMNS
         }
+        publishers: dict[str, int] = {}
+        columns["publisher"] = np.concatenate(
+            [_NO_NUMBERS, *(numbered(publishers, batch.publishers)[batch.publisher] for batch in batches)]
+        )
         arrived = columns["arrived"]
         if (arrived[1:] < arrived[:-1]).any():
             order = np.argsort(arrived, kind="stable")
             columns = {name: column[order] for name, column in columns.items()}
-        return Transforms(**columns, names=names, publishers=publishers)
+        return Transforms(**columns, names=names, publishers=tuple(publishers), sent=sent)
 
     def __len__(self) -> int:
         return len(self.stamp)
@@ -103,7 +110,7 @@ class Transforms:
         return self._numbered[1]
 
     def pair(self, link: int) -> tuple[str, str]:
-        """The names of parent and child, as they were sent."""
+        """The names of parent and child."""
         child, parent = divmod(int(self.links[link]), len(self.names))
         return self.names[parent], self.names[child]
 
@@ -111,6 +118,11 @@ class Transforms:
         """Who sent some of the rows, as far as that is known."""
         numbers = np.unique(self.publisher[rows]).tolist()
         return tuple(self.publishers[number] for number in numbers if self.publishers[number])
+
+
+def numbered(known: dict[str, int], names: Iterable[str]) -> NDArray[np.int64]:
+    """The numbers of names; new ones get the next and are known from then on."""
+    return np.array([known.setdefault(name, len(known)) for name in names], dtype=np.int64)
 
 
 def bare(names: tuple[str, str]) -> tuple[str, str]:

@@ -1,15 +1,15 @@
-"""Numbers and names as findings tell them."""
+"""Names, counts and poses as findings tell them; durations and stamps are in :mod:`coframe.wording`."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.wording import duration, seconds
-
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["duration", "listed", "quoted", "seconds", "times"]
+    from coframe.doctor.edge import Edge
+
+__all__ = ["listed", "quoted", "static_arguments", "times"]
 
 _MOST_LISTED = 5
 
@@ -29,3 +29,11 @@ def quoted(names: Iterable[str]) -> str:
 def times(count: int) -> str:
     """``once``, ``twice``, ``3 times``."""
     return {1: "once", 2: "twice"}.get(count, f"{count} times")
+
+
+def static_arguments(edge: Edge) -> str:
+    """What `coframe static` takes to tell of a link as its last transform does."""
+    flags = ("--x", "--y", "--z", "--qx", "--qy", "--qz", "--qw")
+    numbers = (edge.values[-1] + 0.0).tolist()
+    pose = " ".join(f"{flag} {number}" for flag, number in zip(flags, numbers, strict=True))
+    return f"--frame-id {edge.parent} --child-frame-id {edge.child} {pose}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.catalogue.silences import usual_gap
 from coframe.wording import duration, seconds
 
 if TYPE_CHECKING:
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
 __all__ = ["draw", "remark", "verdict"]
 
 _DEEPEST = 20  # levels: beyond, there would be no room for the rest
-_GAP = 500_000_000  # as the doctor's: shorter ones are nothing to talk about
 _TITLES = ("  link", "oldest", "newest", "age", "rate", "from")
 
 
@@ -74,7 +74,7 @@ def _fault(found: Explanation, link: Link) -> str:
 def _oddity(found: Explanation, link: Link) -> str:
     if link.later:
         return f"later told in {link.later}"
-    if link.gap > max(_GAP, 10 * link.period):
+    if link.gap > usual_gap(link.period):
         return f"in a gap of {duration(link.gap)}"
     silent = found.stamp == 0 and link.age is not None and link.age > link.patience
     return f"silent for {duration(link.age or 0)}" if silent else ""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.catalogue.silences import usual_silence
 from coframe.explanation.drawing import draw
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ class Link(NamedTuple):
     @property
     def patience(self) -> int:
         """For how long it may be silent without having stopped, in nanoseconds."""
-        return max(_SECOND, 10 * self.period)
+        return usual_silence(self.period)
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.doctor.wording import duration
 from coframe.trees.wording import shown
+from coframe.wording import duration
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.doctor.wording import duration, listed
+from coframe.doctor.wording import listed
+from coframe.wording import duration
 
 if TYPE_CHECKING:
     from coframe.doctor.figures import LinkFigures

@@ -68,7 +68,7 @@ class RecordedSource:
             RecordingError: It cannot be read any more.
             ViewerError: It is too long to be examined beside.
         """
-        samples = sum(info.samples for info in self.buffer.frames())
+        samples = sum(info.samples for buffer in self._recording.buffers.values() for info in buffer.frames())
         if samples > _MOST_EXAMINED:
             hint = f"Run: coframe doctor {shlex.quote(str(self._recording.path))}"
             raise ViewerError(f"the recording has {samples} samples, too many to examine them beside", hint=hint)

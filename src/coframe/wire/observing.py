@@ -64,6 +64,11 @@ class _Head(NamedTuple):
     writer: int
 
 
+class _Writer(NamedTuple):
+    node: str  # its full name
+    process: bytes
+
+
 class _Topic:
     """A topic that is listened to beside those of transforms."""
 
@@ -113,8 +118,7 @@ class Listening:
         self.start = time.time_ns()
         self._participant = Participant.get(domain)
         self._collector = Collector(names)
-        self._names: dict[int, str] = {}
-        self._processes: dict[str, list[bytes]] = {}
+        self._writers: dict[int, _Writer] = {}
         self._travel: dict[int, deque[int]] = {}
         self._topics: dict[str, _Topic] = {}
         try:
@@ -143,7 +147,7 @@ class Listening:
         published = self._participant.published()
         for handles in published.values():
             for handle, endpoint in handles.items():
-                self._name(handle, endpoint)
+                self._meet(handle, endpoint)
         for topic, (tap, static) in self._transforms.items():
             self._take_transforms(topic, tap.take(), static)
         for name, handles in published.items():
@@ -152,7 +156,7 @@ class Listening:
         for heard in self._topics.values():
             self._take(heard)
         if self.window is not None:
-            self._collector.forget(time.time_ns() - self.window, _MOST_ROWS)
+            self._forget(time.time_ns() - self.window, {handle for handles in published.values() for handle in handles})
 
     def listen(self, seconds: float) -> None:
         """Polls for so long."""
@@ -195,21 +199,34 @@ class Listening:
     def _tap(self, topic: str, ros_type: str, qos: QoS, head: int) -> Tap:
         return self._participant.tap(self._node, topic, ros_type, qos, head=head)
 
-    def _name(self, handle: int, endpoint: WireEndpoint) -> None:
-        """A node's name for its writers; of several processes with one name the second one is called a copy."""
-        if endpoint.node.startswith("_NODE_NAME_UNKNOWN"):
-            return
-        name = full_name(endpoint.namespace, endpoint.node)
-        processes = self._processes.setdefault(name, [])
-        process = endpoint.guid[:12]
-        if process not in processes:
-            processes.append(process)
-        number = processes.index(process)
-        self._names[handle] = name if number == 0 else f"{name} (copy {number + 1})"
+    def _meet(self, handle: int, endpoint: WireEndpoint) -> None:
+        if not endpoint.node.startswith("_NODE_NAME_UNKNOWN"):
+            self._writers[handle] = _Writer(full_name(endpoint.namespace, endpoint.node), endpoint.guid[:12])
 
     def _node_of(self, handle: int) -> str:
-        """The full name of a writer's node; "" as long as it is not known, which may be after its first messages."""
-        return self._names.get(handle, "")
+        """The full name of a writer's node; "" as long as it is not known, which may be after its first messages.
+
+        Of several processes with one name the second one is called a copy.
+        """
+        writer = self._writers.get(handle)
+        if writer is None:
+            return ""
+        namesakes = dict.fromkeys(other.process for other in self._writers.values() if other.node == writer.node)
+        number = list(namesakes).index(writer.process)
+        return writer.node if number == 0 else f"{writer.node} (copy {number + 1})"
+
+    def _forget(self, before: int, present: set[int]) -> None:
+        """Lets go of what came before a time, and of the writers that have left and sent nothing since."""
+        self._collector.forget(before, _MOST_ROWS)
+        for topic in self._topics.values():
+            while topic.heads and topic.heads[0].arrived < before:
+                topic.heads.popleft()
+        if (self._writers.keys() | self._travel.keys()) <= present:
+            return
+        kept = present | set(map(int, self._collector.publishers()))
+        kept |= {head.writer for topic in self._topics.values() for head in topic.heads}
+        self._writers = {handle: writer for handle, writer in self._writers.items() if handle in kept}
+        self._travel = {handle: travel for handle, travel in self._travel.items() if handle in kept}
 
     def _named(self, told: Transforms) -> Transforms:
         """Publishers by name, of the collector's by the handles of their writers."""

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.catalogue.silences import usual_gap, usual_silence
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.wording import duration, listed
+from coframe.doctor.wording import listed, static_arguments
+from coframe.wording import duration
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,9 +22,6 @@ __all__ = ["CODE", "find"]
 CODE = "TF013"
 _MS = 1_000_000
 _SLOW = 400 * _MS  # between transforms of a link that moves
-_GAP = 500 * _MS
-_UNUSUAL = 10.0  # times the usual period
-_SILENT = 1_000 * _MS
 _LEAST = 5
 
 
@@ -32,10 +31,10 @@ def find(observation: Observation) -> Iterator[Finding]:
     silent = [
         edge
         for edge in edges
-        if observation.last[edge.child] is edge and _silence(observation, edge) > max(_SILENT, _UNUSUAL * edge.period)
+        if observation.last[edge.child] is edge and _silence(observation, edge) > usual_silence(edge.period)
     ]
     slow = [edge for edge in edges if edge.period > _SLOW]
-    gaps = [edge for edge in edges if int(edge.intervals.max()) > max(_GAP, _UNUSUAL * edge.period)]
+    gaps = [edge for edge in edges if int(edge.intervals.max()) > usual_gap(edge.period)]
     for edge in slow:
         yield _finding(
             [edge],
@@ -43,8 +42,7 @@ def find(observation: Observation) -> Iterator[Finding]:
             f"only every {duration(edge.period)}: a look-up at now() waits as long, or fails",
             "Send it at 10 Hz or more"
             + (
-                f"; as it never changes, better once: coframe static --frame-id {edge.parent} --child-frame-id "
-                f"{edge.child}"
+                f"; as it never changes, better once: coframe static {static_arguments(edge)}"
                 if edge.constant
                 else ": self.create_timer(0.02, self.broadcast)."
             ),

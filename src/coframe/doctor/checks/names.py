@@ -32,17 +32,18 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 def _slashes(observation: Observation) -> Iterator[Finding]:
     told = observation.transforms
-    numbers = [number for number, name in enumerate(told.names) if name.startswith("/") and name.lstrip("/")]
+    sent = told.sent or told.names
+    numbers = [number for number, name in enumerate(sent) if name.startswith("/") and name.lstrip("/")]
     if numbers:
         rows = np.flatnonzero(np.isin(told.parent, numbers) | np.isin(told.child, numbers))
-        names = [told.names[number] for number in numbers]
+        names = [sent[number] for number in numbers]
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
             text=f"{len(names)} names begin with a slash: {quoted(names)}",
             fix=f"Leave it off where they are set: {names[0].lstrip('/')!r}. tf2 refuses such names in look-ups; "
             "the setting frame_prefix is put in front as it is and needs its slash behind: 'robot1/'.",
-            frames=frozenset(name.lstrip("/") for name in names),
+            frames=frozenset(told.names[number].lstrip("/") for number in numbers),
             first_stamp=int(told.stamp[rows[0]]) if len(rows) else None,
             publishers=told.senders(rows),
         )

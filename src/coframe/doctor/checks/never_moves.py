@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
+from coframe.doctor.wording import static_arguments
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -31,16 +32,11 @@ def find(observation: Observation) -> Iterator[Finding]:
     for edge in filter(_should_be_static, observation.dynamic):
         stamps = np.concatenate(moving) if moving else edge.stamp[:0]
         if np.mean(np.isin(edge.stamp, stamps)) < _TOGETHER:
-            flags = ("--x", "--y", "--z", "--qx", "--qy", "--qz", "--qw")
-            pose = " ".join(
-                f"{flag} {value}" for flag, value in zip(flags, (edge.values[-1] + 0.0).tolist(), strict=True)
-            )
             yield Finding(
                 code=CODE,
                 severity=Severity.NOTE,
                 text=f"did not change in {edge.count} transforms on /tf: if it never does, it is a static one",
-                fix=f"Send it once: coframe static --frame-id {edge.parent} --child-frame-id {edge.child} "
-                f"{pose}; in code StaticTransformBroadcaster(self) instead of "
+                fix=f"Send it once: coframe static {static_arguments(edge)}; in code StaticTransformBroadcaster(self) instead of "
                 "TransformBroadcaster(self), and no timer.",
                 edge=edge.key,
                 first_stamp=edge.first_stamp,

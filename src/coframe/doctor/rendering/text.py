@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.doctor.wording import duration, listed, seconds
+from coframe.doctor.wording import listed
+from coframe.wording import duration, seconds
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
