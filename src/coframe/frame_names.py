@@ -22,7 +22,7 @@ from coframe import _core
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["belongs", "kept", "oddities", "prefix_advice", "renaming"]
+__all__ = ["absolute", "belongs", "kept", "oddities", "prefix_advice", "renaming"]
 
 
 def renaming(prefix: str = "", keep: Iterable[str] = ()) -> _core.Renaming | None:
@@ -60,16 +60,27 @@ def kept(keep: Iterable[str]) -> list[str]:
     return [bare for name in names if (bare := name.strip().removeprefix("/"))]
 
 
+def absolute(topic: str) -> str:
+    """A topic's name as the graph has it, with one slash in front: recorders and users may leave it out.
+
+    Example:
+        >>> absolute("tf"), absolute("/robot1/tf")
+        ('/tf', '/robot1/tf')
+    """
+    return f"/{topic.strip('/')}"
+
+
 def belongs(topic: str, tf_topic: str, tf_static_topic: str) -> bool:
     """Whether a topic is of the robot whose transforms are on these two: one of them, or in the first one's namespace.
 
     Example:
         >>> belongs("/robot1/scan", "/robot1/tf", "/tf_static"), belongs("/robot2/scan", "/robot1/tf", "/tf_static")
         (True, False)
-        >>> belongs("/robot2/scan", "/tf", "/tf_static")
-        True
+        >>> belongs("/robot2/scan", "/tf", "/tf_static"), belongs("tf", "/tf", "/tf_static")
+        (True, True)
     """
-    return topic in {tf_topic, tf_static_topic} or topic.startswith(f"{tf_topic.rpartition('/')[0]}/")
+    name, moving, static = map(absolute, (topic, tf_topic, tf_static_topic))
+    return name in {moving, static} or name.startswith(f"{moving.rpartition('/')[0]}/")
 
 
 def prefix_advice(prefix: str) -> str:

@@ -7,6 +7,7 @@ import pytest
 import recordings
 from recordings import COUNT, SECOND, START
 from rosbags.rosbag2 import Reader
+from runs import Run
 from typer.testing import CliRunner
 
 import coframe
@@ -122,6 +123,31 @@ def test_statics_come_first_and_from_another_recording(tmp_path):
     code, output = fix(without, tmp_path / "other", "--statics", without)
     assert code == 1
     assert "has no static transforms to add" in output
+
+
+def test_statics_are_added_to_one_robot(tmp_path):
+    run, plain = Run(), Run()
+    run.tf("odom", "base", START, topic="/robot1/tf")
+    run.tf("base", "camera", START, static=True, topic="/robot1/tf_static")
+    run.tf("base", "lidar", START, static=True)  # another robot's, of the same name
+    for child in ("lidar", "camera"):
+        plain.tf("base", child, START, static=True)
+    (tmp_path / "plain").mkdir()
+    robot1 = ["--tf-topic", "/robot1/tf", "--tf-static-topic", "robot1/tf_static", "--prefix", "robot1/"]
+    code, output = fix(run.write(tmp_path), tmp_path / "new", "--statics", plain.write(tmp_path / "plain"), *robot1)
+    assert code == 0
+    assert "mended: /robot1/tf_static: 1 static transforms added" in output
+    assert "1 static transforms not added, since the recording tells of their frames" in output
+    with coframe.open_bag(tmp_path / "new") as bag:
+        assert bag.buffers["/robot1"].can_transform("robot1/odom", "robot1/lidar")
+        assert [(edge.parent, edge.child) for edge in bag.buffers[""].edges() if edge.parent] == [("base", "lidar")]
+
+
+def test_a_topic_without_a_slash_is_the_robots_too(tmp_path):
+    run = Run()
+    run.tf("odom", "base", START, topic="tf")
+    code, output = fix(run.write(tmp_path), tmp_path / "new", "--prefix", "robot1/")
+    assert (code, "tf: 2 names of frames put under 'robot1/'" in output) == (0, True)
 
 
 def test_what_tf2_refuses_and_damaged_messages_go(tmp_path):

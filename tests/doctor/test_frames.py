@@ -34,6 +34,20 @@ def test_a_recording_in_the_terminal(shared):
     assert "5 frames in 2 trees that nothing joins: base_link (3), odom (2)" in result.stdout
 
 
+def test_chosen_topics_are_those_of_one_robot(tmp_path):
+    run = Run()
+    run.tf("odom", "base", START, topic="/robot1/tf")
+    run.tf("base", "lidar", START, static=True)
+    bag = run.write(tmp_path)
+    apart = frames(bag, "-o", tmp_path / "apart.json")
+    assert (apart.exit_code, "several namespaces" in apart.stderr) == (2, True)
+    result = frames(bag, "-o", tmp_path / "one.json", "--tf-topic", "robot1/tf")
+    assert result.exit_code == 0, result.output
+    told = frames(bag, "--json", "--tf-topic", "robot1/tf").stdout
+    assert list(json.loads(told)["namespaces"]) == ["/robot1"]
+    assert "3 frames in 1 tree" in frames(bag, "--tf-topic", "robot1/tf").stdout
+
+
 def test_every_format_of_a_recording(shared, tmp_path):
     paths = [tmp_path / f"frames{suffix}" for suffix in (".gv", ".svg", ".pdf", ".json", ".mmd", ".md")]
     options = [part for path in paths for part in ("-o", path)]

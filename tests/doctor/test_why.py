@@ -102,6 +102,16 @@ def test_a_frame_of_another_namespace(tmp_path):
     assert why(bag, "odom", "lidar", "--namespace", "/b")[0] == 0
 
 
+def test_the_doctor_takes_chosen_topics_for_one_robot(tmp_path):
+    run = Run()
+    for i in range(20):
+        run.tf("odom", "base", START + i * SECOND // 50, topic="/a/tf")
+    run.tf("odom", "base", START, static=True)
+    bag = run.write(tmp_path)
+    assert answer(bag, "odom", "base")["findings"] == []
+    assert [one["code"] for one in answer(bag, "odom", "base", "--tf-topic", "a/tf")["findings"]] == ["TF005"]
+
+
 def test_hostile_names_do_not_steer_the_terminal(tmp_path):
     run = Run()
     run.tf("odom", "base\x1b[2J", START, static=True)

@@ -201,6 +201,16 @@ def test_other_names(bag, hear):
     assert nothing() == []
 
 
+def test_topics_that_were_recorded_without_a_slash(hear, tmp_path):
+    moved = hear("/robot1/tf", TF)
+    rows = [(topic.strip("/"), at, data) for topic, at, data in recordings.messages()]
+    types = {topic: (TF, "ros2msg", b"", "cdr") for topic, *_ in rows}
+    bag = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types=types)
+    arguments = [str(bag), "--tf-topic", "robot1/tf", "--topics", "/tf", "--rate", "100", "--delay", SETTLED]
+    result = CliRunner().invoke(app, ["play", *arguments])
+    assert (result.exit_code, len(moved())) == (0, COUNT), result.output
+
+
 def test_a_bag_of_ros_1(shared, hear):
     moved, scans = hear("/tf", TF), hear("/scan", "sensor_msgs/msg/LaserScan")
     with coframe.play(shared / "recordings" / "tilt_laser.bag", delay=SETTLED, rate=30) as player:

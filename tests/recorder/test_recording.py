@@ -8,8 +8,11 @@ import recordings
 
 import coframe
 from coframe.bags import Writer, from_yaml
+from coframe.frame_names import renaming
 from coframe.messages import find, serialize
 from coframe.recorder import Recorder
+from coframe.recorder.backlog import Source
+from coframe.recorder.frames import RobotFrames
 from coframe.recorder.subscriptions import Wanted
 from coframe.wire import QoS
 
@@ -189,6 +192,14 @@ def test_one_robot_is_recorded_under_a_prefix(participant, node, eventually, tmp
         assert cut.data == b"\0\1\0\0cut off"
         assert [one.message.header.frame_id for one in bag.messages("/robot2/scan")] == ["lidar"]
         assert [one.data for one in bag.messages("/robot1/odd")] == [b"\0\1\0\0bytes"]
+
+
+def test_a_topic_of_two_unknown_types_is_told_of_once():
+    frames = RobotFrames(renaming("robot1/"), "/robot1/tf", "/robot1/tf_static")
+    for kind in ("my_pkg/msg/Odd", "my_pkg/msg/Other"):
+        for topic in ("/robot1/odd", "/robot1/b", "/robot2/odd"):
+            assert frames.renamed(Source(topic, kind, latched=False), b"bytes") == b"bytes"
+    assert list(frames.not_renamed) == ["/robot1/odd", "/robot1/b"]
 
 
 def test_a_recorded_walk_gives_the_same_answers(participant, node, eventually, tmp_path):

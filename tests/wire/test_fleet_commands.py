@@ -109,6 +109,7 @@ def test_prefixes_and_a_relay_as_they_are_typed(command, ros, eventually):
     [
         (["relay"], "a relay needs robots"),
         (["relay", "--robots", "a", "--to", "/a/tf"], "/a/tf would be read and written"),
+        (["demo", "--robots", "2", "--own-topics", "--tf-topic", "/robot1/tf"], "/robot1/tf would be read and written"),
         (["relay", "--robots", "a", "--split", "--from", "/tf=a/"], "--split reads one topic"),
         (["relay", "--from", "/a/tf=/a/"], "the prefix '/a/' begins with a slash"),
         (["echo", "a", "b", "--prefix", "/robot1/"], "the prefix '/robot1/' begins with a slash"),

@@ -15,10 +15,11 @@ from coframe.bags.recording import open_bag
 from coframe.bags.storage import Channel
 from coframe.bags.summary import summarize
 from coframe.bags.transforms import is_static
+from coframe.bags.tree import namespace_of
 from coframe.bags.writer import Writer
 from coframe.buffer import Buffer
 from coframe.errors import RecordingError
-from coframe.frame_names import belongs, renaming
+from coframe.frame_names import absolute, belongs, renaming
 from coframe.messages import deserialize, find, serialize
 from coframe.messages.conversions import to_transform_stamped
 
@@ -74,7 +75,8 @@ def mend(
     Args:
         source: A file, or a folder of rosbag2.
         target: The new folder, which must not be there yet.
-        statics: Another recording, whose static transforms are added as far as this one says nothing of their children.
+        statics: Another recording, whose static transforms are added to those of the robot, as far as its topics say
+            nothing of their children.
         tf_topic: Where the transforms of the robot are that `prefix` is for; the other topics of its namespace are
             that robot's, too: of ``/tf`` all.
         tf_static_topic: Where its static transforms are.
@@ -88,12 +90,13 @@ def mend(
         RecordingError: Nothing can be read, or the new one cannot be written.
         ValueError: The prefix begins with a slash.
     """
-    rename = _Renaming(prefix, keep, tf_topic, tf_static_topic)
+    robot = _Robot(absolute(tf_topic), absolute(tf_static_topic))
+    rename = _Renaming(prefix, keep, robot)
     with open_bag(source, progress=partial(progress, "reading")) as recording:
         added = [] if statics is None else _statics_of(statics)
         found = recording.problems
         writer = Writer(target, compression=compression)
-        work = _Mending(recording, writer, rename)
+        work = _Mending(recording, writer, robot, rename)
         try:
             with writer:
                 work.run(added, partial(progress, "writing"))
@@ -106,17 +109,24 @@ def mend(
         return Mended(Path(target), writer.messages, found, work.done(), left)
 
 
+class _Robot(NamedTuple):
+    """Whose frames get the prefix, and are given the other recording's statics."""
+
+    tf_topic: str
+    tf_static_topic: str
+
+
 class _Renaming:
     """A frame's new name: without slashes in front, and with the prefix where one is wanted."""
 
-    def __init__(self, prefix: str, keep: Iterable[str], *robot: str) -> None:
+    def __init__(self, prefix: str, keep: Iterable[str], robot: _Robot) -> None:
         self._renamed = renaming(prefix, keep)
         self._robot = robot
         self.what = f"put under {prefix!r}" if prefix else "freed of '/' in front"
 
     def on(self, topic: str) -> _Renaming:
         """That of the messages of a topic: only those of the robot get the prefix."""
-        return self if self._renamed is None or belongs(topic, *self._robot) else _Renaming("", (), *self._robot)
+        return self if self._renamed is None or belongs(topic, *self._robot) else _Renaming("", (), self._robot)
 
     @property
     def has_prefix(self) -> bool:
@@ -133,15 +143,17 @@ class _Route(NamedTuple):
     topic: int
     convert: Callable[[bytes], bytes]
     names: FrameNames | None
+    rename: _Renaming
     transforms: bool
 
 
 class _Mending:
     """One recording on its way into another."""
 
-    def __init__(self, recording: Recording, writer: Writer, rename: _Renaming) -> None:
+    def __init__(self, recording: Recording, writer: Writer, robot: _Robot, rename: _Renaming) -> None:
         self._recording = recording
         self._writer = writer
+        self._robot = robot
         self._rename = rename
         self._routes: dict[Channel, _Route | None] = {}
         self._counts: Counter[str] = Counter()  # by what was done, "{}" standing for how often
@@ -184,6 +196,7 @@ class _Mending:
 
     def _new_route(self, channel: Channel) -> _Route | None:
         offered = from_yaml(channel.offered_qos)
+        rename = self._rename.on(channel.topic)
         converted = as_cdr(channel)
         if converted is None:
             if channel.encoding == "ros1":
@@ -197,7 +210,7 @@ class _Mending:
                 definition=text,
                 definition_format=channel.definition_format,
             )
-            return _Route(topic, bytes, None, transforms=False)
+            return _Route(topic, bytes, None, rename, transforms=False)
         ros_type, convert = converted
         described = channel.encoding == "cdr" and channel.definition
         topic = self._writer.add_topic(
@@ -208,7 +221,7 @@ class _Mending:
             definition_format=channel.definition_format if described else "ros2msg",
         )
         names = FrameNames.of(channel, ros_type)
-        return _Route(topic, convert, names if names and names.are_there else None, ros_type == _TF)
+        return _Route(topic, convert, names if names and names.are_there else None, rename, ros_type == _TF)
 
     def _mended(self, channel: Channel, route: _Route, data: bytes) -> bytes | None:
         """The message as it is to be; None if it is to go."""
@@ -225,11 +238,10 @@ class _Mending:
         """A message of ROS 2 without what tf2 refuses, and with the new names of frames."""
         if route.transforms:
             message = self._without_refused(channel, message)
-        rename = self._rename.on(channel.topic)
-        if route.names is not None and (rename.has_prefix or b"/" in message):
-            message, changed = route.names.renamed(message, rename)
+        if route.names is not None and (route.rename.has_prefix or b"/" in message):
+            message, changed = route.names.renamed(message, route.rename)
             if changed:
-                self._note(channel, f"names of frames {rename.what}", changed)
+                self._note(channel, f"names of frames {route.rename.what}", changed)
         return message
 
     def _without_refused(self, channel: Channel, data: bytes) -> bytes:
@@ -239,7 +251,7 @@ class _Mending:
         if refused := len(message.transforms) - len(good):
             self._note(channel, "transforms left out that tf2 refuses", refused)
         if is_static(channel.topic):
-            moving = self._moving.get(channel.topic.rpartition("/")[0], set())
+            moving = self._moving.get(namespace_of(channel.topic), set())
             still = [transform for transform in good if transform.child_frame_id.lstrip("/") not in moving]
             if len(still) < len(good):
                 self._note(channel, "static transforms left out of frames that also move", len(good) - len(still))
@@ -252,9 +264,11 @@ class _Mending:
             route = self._route(channel)
             if route is not None:
                 self._write_statics(channel, route, transforms, "static transforms put in front, which came later")
-        known = {edge.child for edge in self._recording.buffer.edges() if edge.parent}
-        if new := [transform for transform in added if transform.child_frame_id.lstrip("/") not in known]:
-            channel = next((each for each in self._routes if each.topic == _STATIC_TOPIC), _STATIC_CHANNEL)
+        known = self._known()
+        if new := [transform for transform in added if self._rename(transform.child_frame_id) not in known]:
+            topic = self._robot.tf_static_topic
+            default = Channel(topic, _TF, "cdr", offered_qos=to_yaml([_STATIC_QOS]))
+            channel = next((each for each in self._routes if absolute(each.topic) == topic), default)
             route = self._route(channel)
             if route is not None:
                 self._write_statics(channel, route, new, "static transforms added")
@@ -262,6 +276,12 @@ class _Mending:
             self._counts["{} static transforms not added, since the recording tells of their frames"] += len(
                 added
             ) - len(new)
+
+    def _known(self) -> set[str]:
+        """The new names of the frames that the robot's topics tell of, or the namespaces that these are in."""
+        buffers = self._recording.buffers
+        there = [buffers[name] for name in {*map(namespace_of, self._robot)} if name in buffers]
+        return {self._rename(edge.child) for buffer in there for edge in buffer.edges() if edge.parent}
 
     def _write_statics(self, channel: Channel, route: _Route, transforms: list[TransformStamped], what: str) -> None:
         message = self._amended(channel, route, serialize(find(_TF)(transforms=transforms)))
@@ -284,10 +304,6 @@ class _Mending:
                 elif key not in early:
                     known.setdefault(transform.child_frame_id, transform)
         return {channel: list(known.values()) for channel, known in found.values() if known}
-
-
-_STATIC_TOPIC = "/tf_static"
-_STATIC_CHANNEL = Channel(_STATIC_TOPIC, _TF, "cdr", offered_qos=to_yaml([_STATIC_QOS]))
 
 
 def _statics_of(path: str | os.PathLike[str]) -> list[TransformStamped]:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from coframe.bags.storage import Channel, Slices
     from coframe.buffer import EdgeInfo
 
-__all__ = ["Transforms", "Wanted", "report", "span"]
+__all__ = ["Transforms", "Wanted", "namespace_of", "report", "span"]
 
 _HOUR = 3_600_000_000_000
 
@@ -37,7 +37,7 @@ class Wanted:
 
     def __call__(self, topic: str) -> bool:
         """Whether this topic's are."""
-        in_namespace = self._namespace in {None, _namespace(topic)}
+        in_namespace = self._namespace in {None, namespace_of(topic)}
         return in_namespace and (self._topics is None or _bare(topic) in self._topics)
 
 
@@ -94,7 +94,7 @@ class Transforms:
 
     def ingest(self, channel: Channel) -> Callable[[NDArray[np.int64], Slices], None] | None:
         """What takes in a channel's messages with the times of their receipt; None if they are not wanted."""
-        namespace = _namespace(channel.topic)
+        namespace = namespace_of(channel.topic)
         take = ingest_for(channel, self._renaming)
         if take is None or not self._wanted(channel.topic):
             return None
@@ -150,7 +150,8 @@ class Transforms:
         return tree.joined(self._problems)
 
 
-def _namespace(topic: str) -> str:
+def namespace_of(topic: str) -> str:
+    """What a topic is in: ``""`` for ``/tf``, ``/robot1`` for ``/robot1/tf``."""
     return _bare(topic.rpartition("/")[0])
 
 

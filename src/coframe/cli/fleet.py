@@ -103,9 +103,12 @@ def _relay(
 ) -> contextlib.AbstractContextManager[Relay | None]:
     if not wanted:
         return contextlib.nullcontext()
-    return coframe.relay(
-        names, common=common, common_static=common_static, prefix_each=True, keep=SHARED, domain=domain, warn=warn
-    )
+    try:
+        return coframe.relay(
+            names, common=common, common_static=common_static, prefix_each=True, keep=SHARED, domain=domain, warn=warn
+        )
+    except ValueError as error:
+        fail(str(error), code=2)
 
 
 def _command(name: str, number: int, count: int, topics: tuple[str, str] | None) -> NodeCommand:

@@ -31,6 +31,7 @@ from coframe.cli.session import (
     fail,
     length,
     printable,
+    recorded_tf_topics,
     session,
 )
 from coframe.doctor import Observation, diagnose
@@ -146,7 +147,7 @@ def _recorded(
     bag: Path, target: str, source: str, at: str | None, namespace: str | None, topics: dict[str, Any], names: _Names
 ) -> _Answer:
     collectors: dict[str, Collector] = {}
-    heard = collecting(collectors, renaming(**names._asdict()))
+    heard = collecting(collectors, renaming(**names._asdict()), recorded_tf_topics(**topics))
     with opened(bag, namespace, **topics, **names._asdict(), heard=heard) as recording:
         found = recording.buffer.why(target, source, None if at is None else instant("--at", at, recording))
         seen = [

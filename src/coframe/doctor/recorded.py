@@ -9,6 +9,7 @@ import numpy as np
 
 from coframe.bags import from_yaml, open_bag
 from coframe.bags.transforms import ingest_for, is_static
+from coframe.bags.tree import namespace_of
 from coframe.doctor.collector import Collector
 from coframe.doctor.joints import joint_states
 from coframe.doctor.observation import (
@@ -22,11 +23,11 @@ from coframe.doctor.observation import (
     TopicFacts,
 )
 from coframe.errors import DecodeError
-from coframe.frame_names import renaming
+from coframe.frame_names import absolute, renaming
 
 if TYPE_CHECKING:
     import os
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -56,7 +57,7 @@ def observe_recording(
     Args:
         path: A file, or a folder of rosbag2.
         namespace: Only transforms of this one; None: all.
-        tf_topics: Only transforms of these topics; None: all.
+        tf_topics: Only transforms of these topics, as those of one robot: in the namespace of the first; None: all.
         prefix: In front of the names of frames, as it is; those that sensors name, too.
         keep: The frames that get no prefix, as they are shared.
         cache: How far back a listener's buffer is taken to reach, in nanoseconds.
@@ -68,8 +69,9 @@ def observe_recording(
     """
     names = renaming(prefix, keep)
     collectors: dict[str, Collector] = {}
+    tf_topics = None if tf_topics is None else list(tf_topics)
     chosen: Any = {"namespace": namespace, "tf_topics": tf_topics, "prefix": prefix, "keep": keep}
-    with open_bag(path, **chosen, progress=progress, heard=collecting(collectors, names)) as recording:
+    with open_bag(path, **chosen, progress=progress, heard=collecting(collectors, names, tf_topics)) as recording:
         facts = _Facts(recording)
         return {
             name: Observation(
@@ -95,14 +97,19 @@ def observe_recording(
 
 
 def collecting(
-    collectors: dict[str, Collector], names: _core.Renaming | None = None
+    collectors: dict[str, Collector], names: _core.Renaming | None = None, tf_topics: Sequence[str] | None = None
 ) -> Callable[[Channel, NDArray[np.int64], Slices], None]:
-    """What :func:`coframe.open_bag` takes as ``heard``: it fills a collector for each namespace."""
+    """What :func:`coframe.open_bag` takes as ``heard``: it fills a collector for each namespace.
+
+    With `tf_topics` it fills one, as they are one robot's: that of the first one's namespace.
+    """
+    together = namespace_of(tf_topics[0]) if tf_topics else None
 
     def heard(channel: Channel, received: NDArray[np.int64], messages: Slices) -> None:
         take = ingest_for(channel)
         if take is not None:
-            collector = collectors.setdefault(channel.topic.rpartition("/")[0], Collector(names))
+            namespace = namespace_of(channel.topic) if together is None else together
+            collector = collectors.setdefault(namespace, Collector(names))
             nobody = np.zeros(len(received), dtype=np.int64)
             collector.add(channel.topic, take.static, take.columns(messages), received, nobody, [""])
 
@@ -111,7 +118,7 @@ def collecting(
 
 def _belongs(topic: str, namespace: str, namespaces: dict[str, Collector]) -> bool:
     """Whether a namespace is the longest one that the topic is in."""
-    around = [name for name in namespaces if topic.startswith(f"{name}/")]
+    around = [name for name in namespaces if absolute(topic).startswith(f"{name}/")]
     return namespace == max(around, key=len, default=namespace)
 
 

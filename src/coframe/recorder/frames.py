@@ -24,11 +24,12 @@ class RobotFrames:
         tf_static_topic: Where its static transforms are sent.
 
     Attributes:
-        unknown: Topics whose frames keep their names, as nobody says what their messages are made of.
+        not_renamed: Topics whose frames keep their names, as nobody says what their messages are made of; keys, since
+            they are in order and there once.
     """
 
     def __init__(self, names: _core.Renaming, tf_topic: str, tf_static_topic: str) -> None:
-        self.unknown: list[str] = []
+        self.not_renamed: dict[str, None] = {}
         self._names = names
         self._topics = (tf_topic, tf_static_topic)
         self._plans: dict[Source, FrameNames | None] = {}
@@ -50,5 +51,5 @@ class RobotFrames:
             return None
         frames = FrameNames.of(Channel(source.topic, source.type, "cdr"), source.type)
         if frames is None:
-            self.unknown.append(source.topic)
+            self.not_renamed[source.topic] = None
         return frames if frames and frames.are_there else None

@@ -9,6 +9,7 @@ from coframe.bags.as_cdr import as_cdr, transforms_of
 from coframe.bags.message_frames import FrameNames
 from coframe.bags.transforms import is_static
 from coframe.errors import WireError
+from coframe.frame_names import absolute
 from coframe.messages import deserialize, find
 from coframe.wire import QoS
 
@@ -143,7 +144,7 @@ class Outlets:
             )
             return None
         ros_type, convert = converted[0], self._renamed(channel, *converted)
-        topic = self._remap.get(channel.topic, channel.topic)
+        topic = self._remap.get(absolute(channel.topic), channel.topic)
         if is_static(channel.topic) and ros_type == _TF:
             writer = self._participant.static_broadcaster(self._node, topic)
             self._statics[channel.topic] = writer

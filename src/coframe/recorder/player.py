@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from coframe.bags import RecordingError, open_bag
-from coframe.frame_names import renaming
+from coframe.frame_names import absolute, renaming
 from coframe.messages import find, serialize
 from coframe.recorder.outlets import Outlets
 from coframe.recorder.playback import PlaybackClock
@@ -197,10 +197,6 @@ def _checked_rate(rate: float) -> float:
     return rate
 
 
-def _absolute(topic: str) -> str:
-    return topic if topic.startswith("/") else f"/{topic}"
-
-
 def play(
     path: str | os.PathLike[str],
     *,
@@ -254,7 +250,7 @@ def play(
         return Player(
             recording,
             topics=chosen - {_CLOCK} if clock is not None else chosen,
-            remap={_absolute(old): _absolute(new) for old, new in (remap or {}).items()},
+            remap={absolute(old): absolute(new) for old, new in (remap or {}).items()},
             rate=rate,
             loop=loop,
             start=_start(recording, duration_ns(start_offset)),
@@ -271,13 +267,15 @@ def play(
 
 def _chosen(recording: Recording, topics: Iterable[str] | None) -> set[str]:
     there = set(recording.topics)
-    chosen = there if topics is None else {_absolute(topic) for topic in topics}
-    if chosen - there:
+    if topics is None:
+        return there
+    wanted = set(map(absolute, topics))
+    if missing := wanted - set(map(absolute, there)):
         raise RecordingError(
-            f"{recording.path} has no topic {', '.join(sorted(chosen - there))}",
+            f"{recording.path} has no topic {', '.join(sorted(missing))}",
             hint=f"It has {', '.join(sorted(there)) or 'none'}.",
         )
-    return chosen
+    return {topic for topic in there if absolute(topic) in wanted}
 
 
 def _start(recording: Recording, offset: int) -> int:

@@ -110,7 +110,7 @@ class Recorder:
             dropped=dict(self._backlog.dropped),
             missing=self._wanted.missing(joined),
             refused=sorted(self._subscriptions.refused()),
-            not_renamed=[] if self._frames is None else sorted(self._frames.unknown),
+            not_renamed=[] if self._frames is None else list(self._frames.not_renamed),
         )
 
     def wait(self, timeout: float | None = None) -> bool:
