@@ -36,8 +36,8 @@ def find(observation: Observation) -> Iterator[Finding]:
                 code=CODE,
                 severity=Severity.NOTE,
                 text=f"did not change in {edge.count} transforms on /tf: if it never does, it is a static one",
-                fix=f"Send it once: coframe static {static_arguments(edge)}; in code StaticTransformBroadcaster(self) instead of "
-                "TransformBroadcaster(self), and no timer.",
+                fix=f"Send it once: coframe static {static_arguments(edge)}; in code "
+                "StaticTransformBroadcaster(self) instead of TransformBroadcaster(self), and no timer.",
                 edge=edge.key,
                 first_stamp=edge.first_stamp,
                 publishers=edge.publishers,
