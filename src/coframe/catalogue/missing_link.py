@@ -56,7 +56,8 @@ class MissingLink(NamedTuple):
                 f"In the node that sends {self.child!r}, change the line to t.header.frame_id = {self.parent!r} "
                 f"(or t.child_frame_id); the two names must be the same."
             )
-        command = f"coframe static --frame-id {shlex.quote(self.parent)} --child-frame-id {shlex.quote(self.child)}"
+        names = f"--frame-id {shlex.quote(self.parent)} --child-frame-id {shlex.quote(self.child)}"
+        command = f"coframe static {names} --x ... --yaw ..."
         return f"If {self.parent} -> {self.child} never moves: `{command}`; else start the node that publishes it."
 
 
@@ -64,7 +65,7 @@ def unknown_mount(root: str) -> str:
     """What to do about a tree whose root nobody tells of, where no link is more likely than others."""
     return (
         f"Publish a transform with child_frame_id = {root!r}; if it never moves: "
-        f"coframe static --frame-id PARENT --child-frame-id {shlex.quote(root)}"
+        f"coframe static --frame-id PARENT --child-frame-id {shlex.quote(root)} --x ... --yaw ..."
     )
 
 

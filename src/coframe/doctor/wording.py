@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -36,4 +37,4 @@ def static_arguments(edge: Edge) -> str:
     flags = ("--x", "--y", "--z", "--qx", "--qy", "--qz", "--qw")
     numbers = (edge.values[-1] + 0.0).tolist()
     pose = " ".join(f"{flag} {number}" for flag, number in zip(flags, numbers, strict=True))
-    return f"--frame-id {edge.parent} --child-frame-id {edge.child} {pose}"
+    return f"--frame-id {shlex.quote(edge.parent)} --child-frame-id {shlex.quote(edge.child)} {pose}"
