@@ -73,6 +73,8 @@ def test_two_robots_one_tree_and_what_becomes_of_it(robot, fleet, eventually):
         assert ros.buffer.lookup("map", f"{name}/lidar").translation[0] == x
     assert "odom" not in ros.buffer
 
+    # A node's name may come later than what it sends.
+    eventually(lambda: all(edge[5] == f"/{edge[3]}/driver" for edge in relay.edges()))
     edges = {edge.child: edge for edge in relay.edges()}
     assert set(edges) == {f"{name}/{frame}" for name in ("robot1", "robot2") for frame in ("odom", "base", "lidar")}
     for name in ("robot1", "robot2"):
