@@ -289,7 +289,7 @@ def _guess(failure: Failure) -> str:
     if not close:
         return f"The frames are: {', '.join(known)}."
     asked = (failure.target, failure.source)
-    target, source = (close[0] if name == failure.name else name for name in asked)
+    target, source = (name if name in failure.parents else (_alike(name, known) or [name])[0] for name in asked)
     line = f" In a node: lookup_transform({target!r}, {source!r}, ...)." if failure.name in asked else ""
     return f"Did you mean {' or '.join(map(repr, close))}? The frames are: {', '.join(known)}.{line}"
 

@@ -54,6 +54,13 @@ def test_info_and_doctor_tell_of_sensors_in_the_renamed_tree(bag):
     assert {(sensor["frame"], sensor["root"]) for sensor in told["sensors"]} == {("robot1/lidar", "odom")}
 
 
+def test_a_misspelt_topic_is_no_healthy_recording(bag):
+    for command in (["doctor", bag], ["frames", bag], ["lookup", bag, "odom", "base"]):
+        result = CliRunner().invoke(app, [*map(str, command), "--tf-topic", "/robot3/tf"])
+        assert result.exit_code == 1
+        assert "has no topic /robot3/tf\n  It has transforms on /robot1/tf, /robot1/tf_static, " in result.stderr
+
+
 def test_a_cloud(bag, tmp_path):
     code, out = run("cloud", bag, "/robot1/scan", "--frame", "robot1/base", "-o", tmp_path / "a.npz", *ROBOT1)
     assert (code, "of 1 messages, in robot1/base" in out) == (0, True)

@@ -127,6 +127,9 @@ def test_unknown_frame_hint_guesses_and_lists(buffer):
         buffer.lookup("odom", "lidr")
     assert "Did you mean 'lidar'?" in caught.value.hint
     assert "base, lidar, map2, odom, other" in caught.value.hint
+    with pytest.raises(coframe.LookupException) as caught:
+        buffer.lookup("odm", "lidr")
+    assert "lookup_transform('odom', 'lidar', ...)" in caught.value.hint
 
 
 def test_loop_is_reported_not_followed():

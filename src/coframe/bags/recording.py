@@ -23,7 +23,7 @@ from coframe.bags.storage import Slices
 from coframe.bags.table import edge_table
 from coframe.bags.transforms import ingest_for
 from coframe.errors import RecordingError
-from coframe.frame_names import kept, renaming
+from coframe.frame_names import absolute, kept, renaming
 
 if TYPE_CHECKING:
     import os
@@ -148,7 +148,7 @@ def open_bag(
         The recording. What could not be read of it is among its ``problems``.
 
     Raises:
-        RecordingError: Nothing of it can be read.
+        RecordingError: Nothing of it can be read, or it lacks a topic of ``tf_topics`` that is not /tf or /tf_static.
         ValueError: The prefix begins with a slash.
 
     Example:
@@ -165,6 +165,7 @@ def open_bag(
     try:
         wanted = tree.Wanted(namespace, tf_topics)
         recording._scan(wanted, progress or (lambda _done, _total: None), heard)  # noqa: SLF001 - likewise
+        recording._check_tf_topics(tf_topics or [])  # noqa: SLF001 - likewise
     except BaseException:
         recording.close()
         raise
@@ -233,6 +234,14 @@ class Recording:
                 track.stamps.frombytes(stamps.tobytes())
                 if ingest is not None:
                     ingest(received, messages)
+
+    def _check_tf_topics(self, chosen: list[str]) -> None:
+        """Of a misspelt topic nothing wrong could be found; those that are usual need not be there."""
+        missing = set(map(absolute, chosen)) - set(map(absolute, self._tracks)) - {"/tf", "/tf_static"}
+        if missing:
+            there = sorted(name for name, tracks in self._tracks.items() if _has_transforms(tracks[0].channel))
+            hint = f"It has transforms on {', '.join(there) or 'none'}."
+            raise RecordingError(f"{self.path} has no topic {', '.join(sorted(missing))}", hint=hint)
 
     def _transform_messages(self) -> Iterator[tuple[Channel, Slices]]:
         """All messages with transforms once more, as they lie in their files."""
