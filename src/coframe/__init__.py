@@ -4,6 +4,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from coframe.buffer import Buffer, EdgeInfo, FrameInfo, Subscription
+from coframe.connection import Connection, connect
 from coframe.errors import (
     ConnectivityException,
     DecodeError,
@@ -21,14 +22,13 @@ from coframe.errors import (
     WireError,
 )
 from coframe.transform import Transform
-from coframe.wire.connection import Connection, connect
 
 if TYPE_CHECKING:
     from coframe.bags import open_bag
     from coframe.frozen import load
     from coframe.recorder import play, record
+    from coframe.tf_relay import relay
     from coframe.viewer.show import show
-    from coframe.wire.relay import relay
 
 __version__ = "0.1.0"
 
@@ -68,7 +68,7 @@ _LATE = {
     "open_bag": "coframe.bags",
     "play": "coframe.recorder",
     "record": "coframe.recorder",
-    "relay": "coframe.wire.relay",
+    "relay": "coframe.tf_relay",
     "show": "coframe.viewer",
 }
 

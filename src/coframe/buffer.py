@@ -177,7 +177,7 @@ class Buffer(_core.Buffer):
         facts = (parent, child, _stamp_of(transform, stamp), *transform.values)
         errors_found = [text for level, text in _core.insert_texts(refusals, *facts, authority) if level == "error"]
         if errors_found:
-            raise InvalidArgumentException.telling(
+            raise InvalidArgumentException.with_details(
                 "\n".join(errors_found), target=parent, source=child, edge=(parent, child), hint=_REFUSED_HINT
             )
         return False
@@ -195,7 +195,7 @@ class Buffer(_core.Buffer):
             raise InvalidArgumentException("set() takes a single transform, not a batch")
         _check_frames(parent, child, transform)
         if stamp is None and transform.stamp is None and not static:
-            raise InvalidArgumentException.telling(
+            raise InvalidArgumentException.with_details(
                 f"a dynamic transform from {parent!r} to {child!r} needs a stamp",
                 hint="Give stamp=..., or static=True if it never changes.",
             )
@@ -235,7 +235,7 @@ class Buffer(_core.Buffer):
             poses = np.concatenate([poses.translation, poses.quaternion], axis=-1)
         values = np.ascontiguousarray(poses, dtype=np.float64)
         if stamps is None:
-            raise InvalidArgumentException.telling(
+            raise InvalidArgumentException.with_details(
                 f"dynamic transforms from {parent!r} to {child!r} need stamps", hint="Give an array of nanoseconds."
             )
         times = np.ascontiguousarray(stamps_of(stamps))
@@ -249,7 +249,7 @@ class Buffer(_core.Buffer):
             x, y, z, qx, qy, qz, qw = values[row].tolist()
             texts = _core.insert_texts(refusals, parent, child, int(times[row]), x, y, z, qx, qy, qz, qw, authority)
             text = "\n".join(line for _, line in texts)
-            raise InvalidArgumentException.telling(
+            raise InvalidArgumentException.with_details(
                 f"row {row}: {text}", target=parent, source=child, edge=(parent, child), hint=_REFUSED_HINT
             )
         return stored
@@ -550,7 +550,7 @@ class Buffer(_core.Buffer):
 
     def _check_not_frozen(self, parent: str, child: str) -> None:
         if self.frozen:
-            raise InvalidArgumentException.telling(
+            raise InvalidArgumentException.with_details(
                 f"the buffer is frozen: the transform from {parent!r} to {child!r} was not stored",
                 target=parent,
                 source=child,
@@ -610,7 +610,7 @@ def _edge_info(
 
 
 def _in_vain(target: str, source: str, timeout: DurationLike | None, error: TransformException) -> TimeoutException:
-    return TimeoutException.telling(
+    return TimeoutException.with_details(
         f"waited {timeout} in vain for the transform from {source!r} to {target!r}: {error}",
         target=error.target,
         source=error.source,
@@ -636,7 +636,7 @@ def _stamp_of(transform: Transform, stamp: StampLike | None) -> int:
 def _check_frames(parent: str, child: str, transform: Transform) -> None:
     told = (transform.target or parent, transform.source or child)
     if told != (parent, child):
-        raise InvalidArgumentException.telling(
+        raise InvalidArgumentException.with_details(
             f"the transform is {told[0]} <- {told[1]}, but is set as {parent} <- {child}",
             target=parent,
             source=child,

@@ -26,8 +26,8 @@ import difflib
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe import _core
-from coframe.catalogue.hints import hint
-from coframe.catalogue.missing_link import missing_link, tree_of
+from coframe.analysis.missing_edges import missing_edge, tree_of
+from coframe.lookup_hints import hint
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -77,7 +77,7 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
     _told: _Facts = _NO_FACTS
 
     @classmethod
-    def telling(
+    def with_details(
         cls,
         reason: str,
         *,
@@ -251,7 +251,7 @@ class RecordingError(_Hinting, ValueError):
 
 def _restore(kind: str | type[TransformException], text: str, facts: dict[str, object]) -> TransformException:
     chosen: type[TransformException] = globals()[kind] if isinstance(kind, str) else kind
-    return chosen.telling(text, **facts)  # type: ignore[arg-type]
+    return chosen.with_details(text, **facts)  # type: ignore[arg-type]
 
 
 _MOST_GUESSES = 3
@@ -306,7 +306,7 @@ def _trees(failure: Failure) -> str:
     trees = [tree_of(root, failure.parents) for root in roots]
     told = " and ".join(f"{root!r} with {', '.join(below)}" if below else f"{root!r} alone" for root, *below in trees)
     target_root, source_root = roots
-    link = missing_link(*sorted(trees, key=len, reverse=True))
+    link = missing_edge(*sorted(trees, key=len, reverse=True))
     return (
         f"The trees are {told}. The missing link is a transform with the child {source_root!r} (or {target_root!r})."
         + (f" {link.fix}" if link else "")

@@ -201,7 +201,7 @@ class Transform(_core.Transform):
 
     def _compose(self, other: Transform) -> Transform:
         if self.source is not None and other.target is not None and self.source != other.target:
-            raise FrameMismatchException.telling(
+            raise FrameMismatchException.with_details(
                 f"cannot compose {_arrow(self)} with {_arrow(other)}: {self.source!r} is not {other.target!r}",
                 target=self.target,
                 source=other.source,
@@ -356,7 +356,7 @@ def _vectors(values: ArrayLike, size: int, what: str) -> Array:
     if array.ndim == 0 or array.shape[-1] != size:
         raise ValueError(f"{what} must have the shape (..., {size}), not {array.shape}")
     if not np.isfinite(array).all():
-        raise InvalidArgumentException.telling(
+        raise InvalidArgumentException.with_details(
             f"{what} must be finite", hint="Look for NaN or inf where the numbers come from."
         )
     return array
@@ -382,7 +382,7 @@ def _normalised(q: Array) -> Array:
     if not ((length > _SHORT) & (length < _LONG)).all():  # squares that left the range of float64
         largest = np.abs(q).max(axis=-1, keepdims=True, initial=0.0)
         if not (largest > 0.0).all():
-            raise InvalidArgumentException.telling(
+            raise InvalidArgumentException.with_details(
                 "a quaternion of length zero is no rotation", hint="Is w unset? It is 1 at rest."
             )
         q = q / largest

@@ -119,7 +119,7 @@ def test_values_survive_pickle_and_copy(rng):
     buffer.set("odom", "base", Transform(), 1)
     guess = buffer.lookup("odom", "base", 4, extrapolate=10)
     assert copy.copy(guess).extrapolated == pickle.loads(pickle.dumps(guess)).extrapolated == 3
-    error = pickle.loads(pickle.dumps(coframe.LookupException.telling("text", target="a", hint="do")))
+    error = pickle.loads(pickle.dumps(coframe.LookupException.with_details("text", target="a", hint="do")))
     assert (str(error), error.target, error.hint) == ("text", "a", "do")
 
 

@@ -11,7 +11,7 @@ from rosbags.interfaces import QosDurability
 from rosbags.rosbag2 import StoragePlugin
 from runs import MS, SECOND, Offered, Run, rpy, stamp_message, yaw
 
-from coframe.catalogue.missing_link import missing_link
+from coframe.analysis.missing_edges import missing_edge
 from coframe.doctor import Observation, Severity, codes, diagnose, observe_recording
 from coframe.doctor.diagnosis import all_checks
 from coframe.doctor.edge import Edge
@@ -59,7 +59,7 @@ def test_every_code_has_a_fault_that_is_found_and_nothing_else():
 
 def test_every_code_is_in_the_documents_table(request):
     table = (request.config.rootpath / "docs" / "doctor.md").read_text("utf-8")
-    rows = re.findall(r"^\| \[(TF\d+)\]\(\.\./src/coframe/catalogue/pages/(TF\d+)\.md\) \| \S", table, re.MULTILINE)
+    rows = re.findall(r"^\| \[(TF\d+)\]\(\.\./src/coframe/doctor/code_pages/(TF\d+)\.md\) \| \S", table, re.MULTILINE)
     assert rows == [(code, code) for code in codes()]
 
 
@@ -613,7 +613,7 @@ def test_a_likely_link_is_looked_for_only_where_the_root_may_be_its_child():
             return super().__iter__()
 
     unlikely, likely = Frames(["track", "a", "odom"]), Frames(["base_link", "b"])
-    assert missing_link(unlikely, likely) == ("odom", "base_link", False)
+    assert missing_edge(unlikely, likely) == ("odom", "base_link", False)
     assert (unlikely.read, likely.read) == (2, 0)  # for base_footprint -> base_link, too
 
 

@@ -16,7 +16,7 @@ from typer.testing import CliRunner
 from coframe.cli.app import app
 from coframe.cli.frames_screen import tree
 from coframe.doctor import observe_recording
-from coframe.trees import grow
+from coframe.tree_drawing import grow
 
 
 def frames(*arguments):

@@ -14,8 +14,8 @@ import pytest
 from nodes import ROBOT
 
 import coframe
+from coframe.doctor.live import LiveObserver
 from coframe.messages import find
-from coframe.wire.observing import Listening
 
 # What a process asks the time, and everything in it.
 CLOCK = """
@@ -67,7 +67,7 @@ def test_two_publishers_of_one_link_are_named(start, only):
 def test_who_has_left_is_forgotten_with_what_it_sent(domain_id, eventually):
     pytest.importorskip("cyclonedds", reason="transforms come over DDS")
     message = find("tf2_msgs/msg/TFMessage")
-    with Listening(domain_id, window=300_000_000) as listening:
+    with LiveObserver(domain_id, window=300_000_000) as listening:
 
         def heard():
             listening.poll()

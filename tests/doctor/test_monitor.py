@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from coframe.cli.app import app
 from coframe.cli.monitor import _print_classic
 from coframe.doctor import observe_recording
-from coframe.doctor.figures import chain_figures, link_figures, publisher_figures
+from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
 
 
 @pytest.fixture
@@ -26,7 +26,7 @@ def seen(tmp_path):
 
 
 def test_rate_jitter_and_delay_of_links(seen):
-    rows = {(row.parent, row.child): row for row in link_figures(seen)}
+    rows = {(row.parent, row.child): row for row in edge_figures(seen)}
     drive, arm, mount = rows["odom", "base_link"], rows["base_link", "arm"], rows["base_link", "lidar"]
     assert drive.rate == pytest.approx(50.0)
     assert arm.rate == pytest.approx(10.0)
@@ -102,7 +102,7 @@ def irregular(tmp_path):
 
 
 def test_figures_of_links_are_those_of_the_numbers(irregular):
-    for row in link_figures(irregular.seen):
+    for row in edge_figures(irregular.seen):
         sent, took = irregular.sent[row.parent, row.child], irregular.took[row.parent, row.child]
         intervals = np.diff(np.sort(sent + took))
         assert row.transforms == len(sent)

@@ -12,7 +12,7 @@ from recordings import START
 from runs import MS, SECOND, Run
 
 import coframe
-from coframe.catalogue import page
+from coframe.doctor.codes import page
 from coframe.errors import ViewerError
 from coframe.messages import find
 from coframe.viewer.recorded import RecordedSource

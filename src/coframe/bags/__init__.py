@@ -5,10 +5,10 @@ from coframe.bags.cloud_files import CLOUD_FORMATS, write_clouds
 from coframe.bags.clouds import Cloud, Clouds
 from coframe.bags.instants import parse_instant
 from coframe.bags.mcap_writer import COMPRESSIONS
-from coframe.bags.mending import Mended, mend
 from coframe.bags.offered_qos import OfferedQos, from_yaml
 from coframe.bags.questions import Question
 from coframe.bags.recording import RecordedMessage, Recording, Topic, open_bag
+from coframe.bags.repair import Mended, mend
 from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
 from coframe.bags.trajectories import FORMATS, format_of, write_trajectory
 from coframe.bags.writer import Writer

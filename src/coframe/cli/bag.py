@@ -26,7 +26,7 @@ from coframe.cli.session import (
     fail,
     printable,
 )
-from coframe.wording import seconds
+from coframe.formatting import seconds
 
 if TYPE_CHECKING:
     from coframe.bags import Summary

@@ -35,7 +35,7 @@ from coframe.doctor.rendering.text import lines
 
 if TYPE_CHECKING:
     from coframe.doctor import Report
-    from coframe.wire.observing import Listening
+    from coframe.doctor.live import LiveObserver
 
 __all__ = ["doctor"]
 
@@ -86,10 +86,10 @@ def doctor(
                 seen = observe_recording(bag, namespace=namespace, tf_topics=topics, progress=progress, **shared)
             reports = {name: diagnose(one, ignore=unwanted) for name, one in seen.items()}
             _finish(reports, as_json, sarif, bag)
-        from coframe.wire.observing import Listening  # noqa: PLC0415 - recordings need no DDS
+        from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
         shared |= {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
-        with Listening(domain, window=window if watch else None, **shared) as listening:
+        with LiveObserver(domain, window=window if watch else None, **shared) as listening:
             if watch:
                 _watch(listening, unwanted, as_json)
                 return
@@ -155,7 +155,7 @@ def _texts(report: Report) -> list[Text]:
     return every
 
 
-def _watch(listening: Listening, ignore: list[str], as_json: bool) -> None:
+def _watch(listening: LiveObserver, ignore: list[str], as_json: bool) -> None:
     """A verdict a second, or less often where it takes long; until Ctrl-C."""
     console = Console(highlight=False)
     with Live(console=console, auto_refresh=False, screen=False, transient=False) as live:

@@ -19,14 +19,14 @@ from coframe.cli.view import viewer_beside
 from coframe.errors import TransformException
 from coframe.frame_names import renaming
 from coframe.lab.launcher import Launcher, NodeCommand
-from coframe.wire.publishers import state_of
+from coframe.tf_publishers import state_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from coframe.lab.launcher import FailedNode
-    from coframe.wire.publishers import TfPublisher
-    from coframe.wire.relay import Relay
+    from coframe.tf_publishers import TfPublisher
+    from coframe.tf_relay import Relay
 
 __all__ = ["fleet"]
 

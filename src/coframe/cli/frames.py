@@ -27,17 +27,17 @@ from coframe.cli.session import (
     session,
 )
 from coframe.doctor import observe_recording
-from coframe.trees import grow
-from coframe.trees.graphviz import as_graphviz
-from coframe.trees.mermaid import MOST_LINKS, as_markdown, as_mermaid
-from coframe.trees.plain import as_data
-from coframe.trees.svg import as_svg
-from coframe.trees.wording import summary
+from coframe.tree_drawing import grow
+from coframe.tree_drawing.graphviz import as_graphviz
+from coframe.tree_drawing.labels import summary
+from coframe.tree_drawing.mermaid import MOST_LINKS, as_markdown, as_mermaid
+from coframe.tree_drawing.plain import as_data
+from coframe.tree_drawing.svg import as_svg
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.trees import Forest
+    from coframe.tree_drawing import Forest
 
 __all__ = ["frames"]
 
@@ -45,7 +45,7 @@ SECOND = 1_000_000_000
 
 
 def _pdf(forest: Forest, title: str) -> bytes:
-    from coframe.trees.pdf import as_pdf  # noqa: PLC0415 - its library is an extra
+    from coframe.tree_drawing.pdf import as_pdf  # noqa: PLC0415 - its library is an extra
 
     return as_pdf(forest, title)
 
@@ -100,10 +100,10 @@ def frames(
                 typer.echo(f"coframe: {printable(problem)}", err=True)
             _finish(forests, files, as_json, bag.resolve().name)
             return
-        from coframe.wire.observing import Listening  # noqa: PLC0415 - recordings need no DDS
+        from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
         names |= {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
-        with Listening(domain, window=window, node_name="coframe_frames", **names) as listening:
+        with LiveObserver(domain, window=window, node_name="coframe_frames", **names) as listening:
             if watching:
                 watch(listening, as_json)
                 return

@@ -11,16 +11,16 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-from coframe.trees import changes, grow
-from coframe.trees.plain import as_data
-from coframe.trees.text import COLUMNS, rows
-from coframe.trees.wording import summary
+from coframe.tree_drawing import changes, grow
+from coframe.tree_drawing.labels import summary
+from coframe.tree_drawing.plain import as_data
+from coframe.tree_drawing.text import COLUMNS, rows
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.trees import Change, Forest
-    from coframe.wire.observing import Listening
+    from coframe.doctor.live import LiveObserver
+    from coframe.tree_drawing import Change, Forest
 
 __all__ = ["tree", "watch"]
 
@@ -62,7 +62,7 @@ def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None
     return Group(table, *more, Text(summary(forest), style=style))
 
 
-def watch(listening: Listening, as_json: bool) -> None:
+def watch(listening: LiveObserver, as_json: bool) -> None:
     """Shows the trees until Ctrl-C; where nobody looks at a screen a line a change, or with JSON a line each second."""
     console = Console(highlight=False)
     if as_json:
@@ -74,7 +74,7 @@ def watch(listening: Listening, as_json: bool) -> None:
         _tell(_steps(listening))
 
 
-def _steps(listening: Listening) -> Iterator[tuple[Forest, list[Change]]]:
+def _steps(listening: LiveObserver) -> Iterator[tuple[Forest, list[Change]]]:
     """The forest of each second, and how it differs from the one before."""
     before: Forest | None = None
     while True:

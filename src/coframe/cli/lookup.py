@@ -17,7 +17,7 @@ from coframe.cli.session import (
     fail,
 )
 from coframe.errors import ExtrapolationException, TransformException
-from coframe.wording import seconds
+from coframe.formatting import seconds
 
 if TYPE_CHECKING:
     from coframe import Transform

@@ -25,7 +25,7 @@ from coframe.cli.session import (
     printable,
     session,
 )
-from coframe.doctor.figures import chain_figures, link_figures, publisher_figures
+from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from coframe.doctor import Observation
     from coframe.doctor.figures import ChainFigures
-    from coframe.wire.observing import Listening
+    from coframe.doctor.live import LiveObserver
 
     Pair: TypeAlias = tuple[str, str] | None
 
@@ -68,9 +68,9 @@ def monitor(
     window = length("--duration", duration)
     pair = (target, source) if target is not None and source is not None else None
     with session():
-        from coframe.wire.observing import Listening  # noqa: PLC0415 - 100 ms
+        from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - 100 ms
 
-        with Listening(
+        with LiveObserver(
             domain,
             window=window,
             tf_topic=tf_topic,
@@ -96,7 +96,7 @@ def _printer(as_json: bool, classic: bool) -> Callable[[Observation, Pair], None
 
 
 def _report(
-    listening: Listening, pair: Pair, seconds: float, printer: Callable[[Observation, Pair], None], *, once: bool
+    listening: LiveObserver, pair: Pair, seconds: float, printer: Callable[[Observation, Pair], None], *, once: bool
 ) -> None:
     """Reports one after the other, or one."""
     while True:
@@ -115,7 +115,7 @@ def _console() -> Console:
     return console if console.is_terminal else Console(highlight=False, width=200)
 
 
-def _watch(listening: Listening, pair: Pair) -> NoReturn:
+def _watch(listening: LiveObserver, pair: Pair) -> NoReturn:
     with Live(console=_console(), auto_refresh=False) as live:
         while True:
             live.update(_picture(listening.observe(), pair), refresh=True)
@@ -124,7 +124,7 @@ def _watch(listening: Listening, pair: Pair) -> NoReturn:
 
 def _picture(seen: Observation, pair: Pair) -> Group:
     links = _table("link", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms", "count")
-    for row in link_figures(seen):
+    for row in edge_figures(seen):
         figures = (row.jitter, row.delay, row.delay_p99, row.age)
         shown = ("static", "", "", "", "") if row.static else (_hertz(row.rate), *map(_ms, figures))
         links.add_row(*_texts(f"{row.parent} -> {row.child}", row.publisher or "unknown", *shown, str(row.transforms)))
@@ -151,7 +151,7 @@ def _data(seen: Observation, pair: Pair) -> dict[str, Any]:
     data: dict[str, Any] = {
         "start_ns": seen.start,
         "end_ns": seen.end,
-        "links": [row._asdict() for row in link_figures(seen)],
+        "links": [row._asdict() for row in edge_figures(seen)],
         "publishers": [row._asdict() for row in publisher_figures(seen)],
     }
     if pair is not None:
@@ -181,7 +181,7 @@ def _classic(seen: Observation, pair: Pair) -> Iterator[str]:
     else:
         yield "RESULTS: for all Frames"
     yield "\nFrames:"
-    for row in link_figures(seen):
+    for row in edge_figures(seen):
         name = printable(row.publisher) or "<no authority available>"
         frame = printable(row.child)
         yield f"Frame: {frame}, published by {name}, Average Delay: {_g(row.delay)}, Max Delay: {_g(row.delay_max)}"

@@ -28,7 +28,7 @@ from coframe.cli.session import (
 )
 
 if TYPE_CHECKING:
-    from coframe.wire.relay import Relay, RelayedEdge
+    from coframe.tf_relay import Relay, RelayedEdge
 
 __all__ = ["relay"]
 

@@ -17,7 +17,7 @@ from coframe.cli.session import (
     RecordedTfTopicOption,
     fail,
 )
-from coframe.wording import seconds
+from coframe.formatting import seconds
 
 __all__ = ["trajectory"]
 

@@ -158,11 +158,11 @@ def _recorded(
 
 
 def _heard(place: _Live, target: str, source: str, at: str | None, window: int) -> _Answer:
-    from coframe.wire.observing import Listening  # noqa: PLC0415 - recordings need no DDS
+    from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
     with (
         _connection(place) as ros,
-        Listening(
+        LiveObserver(
             place.domain,
             tf_topic=place.tf_topic,
             tf_static_topic=place.tf_static_topic,

@@ -12,13 +12,13 @@ if TYPE_CHECKING:
     from coframe.doctor.edge import Edge
     from coframe.doctor.observation import Observation
 
-__all__ = ["ChainFigures", "LinkFigures", "PublisherFigures", "chain_figures", "link_figures", "publisher_figures"]
+__all__ = ["ChainFigures", "EdgeFigures", "PublisherFigures", "chain_figures", "edge_figures", "publisher_figures"]
 
 _SECOND = 1e9
 _SAMPLES = 1000
 
 
-class LinkFigures(NamedTuple):
+class EdgeFigures(NamedTuple):
     """What one publisher tells of one link. Times are nanoseconds; None where they mean nothing.
 
     Attributes:
@@ -80,7 +80,7 @@ class ChainFigures(NamedTuple):
     limit_share: float
 
 
-def link_figures(observation: Observation) -> list[LinkFigures]:
+def edge_figures(observation: Observation) -> list[EdgeFigures]:
     """One row a link and publisher, in the order in which they came up."""
     return [
         _link(observation, edge, publisher, edge.publisher == publisher)
@@ -135,15 +135,15 @@ def _newest(edge: Edge, times: NDArray[np.int64]) -> NDArray[np.int64]:
     return np.asarray(np.maximum.accumulate(edge.stamp)[np.maximum(row, 0)])
 
 
-def _link(observation: Observation, edge: Edge, publisher: int, rows: NDArray[np.bool_]) -> LinkFigures:
+def _link(observation: Observation, edge: Edge, publisher: int, rows: NDArray[np.bool_]) -> EdgeFigures:
     names = observation.transforms.publishers
     count = int(np.count_nonzero(rows))
     if edge.static:
-        return LinkFigures(edge.parent, edge.child, names[publisher], True, count, *[None] * 6)
+        return EdgeFigures(edge.parent, edge.child, names[publisher], True, count, *[None] * 6)
     stamp, arrived = edge.stamp[rows], edge.arrived[rows]
     age = observation.lags(np.array([stamp.max()]), np.array([observation.end]))
     jitter = float(np.std(arrived[1:] - arrived[:-1])) if count > 2 else None
-    return LinkFigures(
+    return EdgeFigures(
         edge.parent,
         edge.child,
         names[publisher],

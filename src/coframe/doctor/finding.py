@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
-from coframe.catalogue import page
+from coframe.doctor.codes import page
 
 if TYPE_CHECKING:
     from typing_extensions import Self

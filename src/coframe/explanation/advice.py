@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.catalogue.hints import hint
 from coframe.errors import looks_like_seconds
-from coframe.wording import duration, seconds
+from coframe.formatting import duration, seconds
+from coframe.lookup_hints import hint
 
 if TYPE_CHECKING:
     from coframe.errors import TransformException

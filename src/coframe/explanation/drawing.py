@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.catalogue.silences import usual_gap
-from coframe.wording import duration, seconds
+from coframe.analysis.liveness import usual_gap
+from coframe.formatting import duration, seconds
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -10,7 +10,7 @@ import time as system_time
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.catalogue.missing_link import MissingLink, missing_link, tree_of
+from coframe.analysis.missing_edges import MissingEdge, missing_edge, tree_of
 from coframe.errors import TransformException
 from coframe.explanation.advice import advice
 from coframe.explanation.facts import Explanation, Link
@@ -171,13 +171,13 @@ def _span(links: tuple[Link, ...]) -> tuple[int, int] | None:
     return (first, last) if first <= last else None
 
 
-def _missing(buffer: Buffer, roots: tuple[str, str]) -> MissingLink | None:
+def _missing(buffer: Buffer, roots: tuple[str, str]) -> MissingEdge | None:
     """The likely link by the names of the frames; without a likely one, that between the roots."""
     parents = {frame.name: frame.parent for frame in buffer.frames()}
     if not all(root in parents for root in roots):
         return None
     trees = [tree_of(root, parents) for root in roots]
-    return missing_link(*sorted(trees, key=len, reverse=True)) or MissingLink(*roots, misspelt=False)
+    return missing_edge(*sorted(trees, key=len, reverse=True)) or MissingEdge(*roots, misspelt=False)
 
 
 def _possible_at(buffer: Buffer, target: str, source: str, links: tuple[Link, ...]) -> int | None:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.catalogue.silences import usual_silence
+from coframe.analysis.liveness import usual_silence
 from coframe.explanation.drawing import draw
 
 if TYPE_CHECKING:
-    from coframe.catalogue.missing_link import MissingLink
+    from coframe.analysis.missing_edges import MissingEdge
 
 __all__ = ["Explanation", "Link"]
 
@@ -106,7 +106,7 @@ class Explanation:
     links: tuple[Link, ...]
     frames: tuple[str, ...]
     roots: tuple[str, str] | None
-    missing: MissingLink | None
+    missing: MissingEdge | None
     limit: tuple[str, str] | None
     span: tuple[int, int] | None
     possible_at: int | None

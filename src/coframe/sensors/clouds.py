@@ -161,7 +161,7 @@ def to_transform(transform: Any) -> Transform:
 def check_source(transform: Transform, frame: str | None) -> None:
     """Raises FrameMismatchException if points in `frame` are not what the transform is for."""
     if frame and transform.source is not None and transform.source != frame:
-        raise FrameMismatchException.telling(
+        raise FrameMismatchException.with_details(
             f"the points are in {frame!r}, but the transform is {transform.target} <- {transform.source}",
             target=transform.target,
             source=frame,

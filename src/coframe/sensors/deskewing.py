@@ -183,7 +183,7 @@ def _deskew_fields(buffer: _core.Buffer, fixed: str, source: str, arguments: tup
 
 
 def _of_point(error: TransformException, point: int, stamps: NDArray[np.int64]) -> TransformException:
-    return type(error).telling(
+    return type(error).with_details(
         f"point {point} of {len(stamps)}, measured at {int(stamps[point])} ns: {error}",
         target=error.target,
         source=error.source,

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from coframe.connection import Connection
     from coframe.robots import Robot
-    from coframe.wire.connection import Connection
 
 __all__ = ["JOINT_STATES", "PERIOD", "JointPublisher"]
 

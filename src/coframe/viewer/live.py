@@ -14,8 +14,8 @@ from coframe.viewer.sources import Mode, Topic
 if TYPE_CHECKING:
     from collections.abc import Generator
 
+    from coframe.connection import Connection
     from coframe.doctor import Report
-    from coframe.wire.connection import Connection
     from coframe.wire.endpoints import Subscription
     from coframe.wire.qos import QoS
 
@@ -94,10 +94,10 @@ class LiveSource:
             WireError: The graph cannot be joined once more.
         """
         from coframe.doctor import diagnose  # noqa: PLC0415 - the first picture needs no doctor
-        from coframe.wire.observing import Listening  # noqa: PLC0415 - likewise
+        from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - likewise
 
         tf_topic, tf_static_topic = self._connection.tf_topics
-        with Listening(
+        with LiveObserver(
             self._connection.participant.domain_id,
             window=_WINDOW,
             tf_topic=tf_topic,

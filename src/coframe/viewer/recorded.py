@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe.bags import Recording
+    from coframe.connection import Connection
     from coframe.doctor import Report
-    from coframe.wire.connection import Connection
 
 __all__ = ["RecordedSource"]
 

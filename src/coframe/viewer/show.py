@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from coframe.buffer import Buffer
+from coframe.connection import Connection
 from coframe.errors import ViewerError
 from coframe.robots import load
 from coframe.viewer.joints import JOINT_STATES
@@ -15,7 +16,6 @@ from coframe.viewer.robots import mesh_table
 from coframe.viewer.rviz import RvizConfig
 from coframe.viewer.sources import BufferSource
 from coframe.viewer.stage import Stage
-from coframe.wire.connection import Connection
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

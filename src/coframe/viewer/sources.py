@@ -8,9 +8,9 @@ if TYPE_CHECKING:
     from collections.abc import Generator
 
     from coframe import Buffer
+    from coframe.connection import Connection
     from coframe.doctor import Report
     from coframe.viewer.messages import Messages
-    from coframe.wire.connection import Connection
 
 __all__ = ["BufferSource", "Mode", "Source", "Topic"]
 

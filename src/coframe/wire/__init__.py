@@ -7,7 +7,6 @@ Example:
     >>> participant.close()                                                  # doctest: +SKIP
 """
 
-from coframe.wire.connection import Connection, connect
 from coframe.wire.endpoints import (
     GraphNode,
     Publisher,
@@ -24,7 +23,6 @@ from coframe.wire.qos import QoS
 from coframe.wire.statics import StaticWriter
 
 __all__ = [
-    "Connection",
     "Endpoint",
     "GraphNode",
     "Participant",
@@ -37,5 +35,4 @@ __all__ = [
     "Tap",
     "TappedMessages",
     "TfReader",
-    "connect",
 ]

@@ -10,10 +10,10 @@ import numpy as np
 
 from coframe import _core
 from coframe.errors import WireError
+from coframe.tf_publishers import TfPublisher, publisher_of
 from coframe.wire import names
 from coframe.wire.discovery_info import NodeInfo
 from coframe.wire.graph import DdsEndpoint, Graph
-from coframe.wire.publishers import TfPublisher, publisher_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from coframe import _core
 from coframe.errors import WireError
+from coframe.tf_publishers import OnceEach
 from coframe.wire import config, dds, names, types
 from coframe.wire.discovery_info import MAX_NAME, TOPIC, encode_info, gid_size
 from coframe.wire.endpoints import (
@@ -24,7 +25,6 @@ from coframe.wire.endpoints import (
 )
 from coframe.wire.graph import DdsEndpoint, Endpoint, Graph
 from coframe.wire.mismatch import MismatchWatch
-from coframe.wire.publishers import OnceEach
 from coframe.wire.qos import GRAPH_WRITER, TF, TF_STATIC_READER, QoS
 from coframe.wire.refusals import RefusalWatch
 from coframe.wire.statics import StaticTopic, StaticWriter
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from coframe import Buffer
+    from coframe.tf_publishers import TfPublisher
     from coframe.wire.names import Kind
-    from coframe.wire.publishers import TfPublisher
 
 _logger = logging.getLogger("coframe.wire")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.wording import times
+from coframe.doctor.phrases import times
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

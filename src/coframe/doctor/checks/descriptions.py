@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.models import parsed
-from coframe.doctor.wording import listed
+from coframe.doctor.phrases import listed
+from coframe.doctor.robot_model import parsed
 from coframe.errors import PackageError, RobotDescriptionError
 from coframe.robots import Mesh, Packages
 

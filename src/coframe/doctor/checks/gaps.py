@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe.catalogue.silences import usual_gap, usual_silence
+from coframe.analysis.liveness import usual_gap, usual_silence
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.wording import listed, static_arguments
-from coframe.wording import duration
+from coframe.doctor.phrases import listed, static_arguments
+from coframe.formatting import duration
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.models import model
-from coframe.doctor.wording import listed
+from coframe.doctor.phrases import listed
+from coframe.doctor.robot_model import model
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.wording import quoted, times
+from coframe.doctor.phrases import quoted, times
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

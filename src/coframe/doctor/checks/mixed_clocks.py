@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.wording import listed
-from coframe.wording import duration, seconds
+from coframe.doctor.phrases import listed
+from coframe.formatting import duration, seconds
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,7 +9,7 @@ import numpy as np
 
 from coframe.doctor.edge import angles_between
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.models import model
+from coframe.doctor.robot_model import model
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.wording import static_arguments
+from coframe.doctor.phrases import static_arguments
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

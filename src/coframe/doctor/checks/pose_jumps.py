@@ -9,7 +9,7 @@ import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
 from coframe.doctor.flicker import flicker
-from coframe.doctor.wording import times
+from coframe.doctor.phrases import times
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -9,8 +9,8 @@ import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
 from coframe.doctor.observation import NEVER
-from coframe.doctor.wording import listed
-from coframe.wording import duration
+from coframe.doctor.phrases import listed
+from coframe.formatting import duration
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

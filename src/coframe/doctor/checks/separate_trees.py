@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.catalogue.missing_link import missing_link, unknown_mount
+from coframe.analysis.missing_edges import missing_edge, unknown_mount
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.wording import listed
+from coframe.doctor.phrases import listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -27,7 +27,7 @@ def find(observation: Observation) -> Iterator[Finding]:
     for edge in observation.edges:
         by_root.setdefault(observation.root(edge.child), []).append(edge)
     for root in others[:_MOST]:
-        link = missing_link(_from_root(observation, main), _from_root(observation, root))
+        link = missing_edge(_from_root(observation, main), _from_root(observation, root))
         members = [frame for frame in observation.trees[root] if frame != root]
         below = f" with {listed(members)}" if members else ""
         edges = by_root.get(root, [])

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
-from coframe.wording import duration
+from coframe.formatting import duration
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.wording import listed, times
-from coframe.wording import duration
+from coframe.doctor.phrases import listed, times
+from coframe.formatting import duration
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.wording import listed
+from coframe.doctor.phrases import listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from coframe.catalogue import page
+from coframe.doctor.codes import page
 
 if TYPE_CHECKING:
     from coframe.doctor.diagnosis import Report

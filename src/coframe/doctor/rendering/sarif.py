@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
 import coframe
-from coframe.catalogue import codes, page
+from coframe.doctor.codes import codes, page
 from coframe.doctor.finding import Severity
 
 if TYPE_CHECKING:

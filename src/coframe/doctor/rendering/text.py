@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.doctor.wording import listed
-from coframe.wording import duration, seconds
+from coframe.doctor.phrases import listed
+from coframe.formatting import duration, seconds
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

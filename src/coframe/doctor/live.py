@@ -13,7 +13,6 @@ from coframe.bags.header_stamps import opens_with_header
 from coframe.bags.storage import Slices
 from coframe.bags.transforms import tf_columns
 from coframe.doctor.collector import Collector
-from coframe.doctor.heads import HEAD, header_of
 from coframe.doctor.joints import joint_states
 from coframe.doctor.observation import (
     DEFAULT_CACHE,
@@ -28,6 +27,7 @@ from coframe.doctor.observation import (
 from coframe.errors import DecodeError
 from coframe.frame_names import renaming
 from coframe.messages import deserialize, find
+from coframe.messages.header_peek import HEAD, header_of
 from coframe.wire.names import full_name
 from coframe.wire.participant import Participant
 from coframe.wire.qos import TF, TF_STATIC_READER, QoS
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from coframe.wire.endpoints import Tap, TappedMessages
     from coframe.wire.graph import Endpoint as WireEndpoint
 
-__all__ = ["Listening"]
+__all__ = ["LiveObserver"]
 
 TF_TYPE = "tf2_msgs/msg/TFMessage"
 _ANY = QoS(depth=100, reliable=False)  # best-effort and volatile: what every publisher offers
@@ -81,7 +81,7 @@ class _Topic:
         self.decoded: deque[tuple[int, Any]] = deque(maxlen=_MOST_MESSAGES)
 
 
-class Listening:
+class LiveObserver:
     """Joins the graph and listens; usable as a context manager.
 
     Args:

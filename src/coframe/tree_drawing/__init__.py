@@ -11,8 +11,8 @@ How it is made, from bottom to top:
 - `changes` compares two forests.
 """
 
-from coframe.trees.changes import Change, changes
-from coframe.trees.forest import Forest, Frame
-from coframe.trees.growing import grow
+from coframe.tree_drawing.build import grow
+from coframe.tree_drawing.changes import Change, changes
+from coframe.tree_drawing.forest import Forest, Frame
 
 __all__ = ["Change", "Forest", "Frame", "changes", "grow"]

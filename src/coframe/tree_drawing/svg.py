@@ -5,11 +5,11 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
-from coframe.trees.layout import Box, Line, draw
+from coframe.tree_drawing.layout import Box, Line, draw
 
 if TYPE_CHECKING:
-    from coframe.trees.forest import Forest
-    from coframe.trees.layout import Words
+    from coframe.tree_drawing.forest import Forest
+    from coframe.tree_drawing.layout import Words
 
 __all__ = ["as_svg"]
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.trees.wording import shown
-from coframe.wording import duration
+from coframe.formatting import duration
+from coframe.tree_drawing.labels import shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.trees.forest import Forest, Frame
+    from coframe.tree_drawing.forest import Forest, Frame
 
 __all__ = ["Change", "changes"]
 

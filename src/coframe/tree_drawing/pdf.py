@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 
 import pydyf
 
-from coframe.trees.layout import Box, Line, draw
-from coframe.trees.wording import shown
+from coframe.tree_drawing.labels import shown
+from coframe.tree_drawing.layout import Box, Line, draw
 
 if TYPE_CHECKING:
-    from coframe.trees.forest import Forest
-    from coframe.trees.layout import Words
+    from coframe.tree_drawing.forest import Forest
+    from coframe.tree_drawing.layout import Words
 
 __all__ = ["as_pdf"]
 

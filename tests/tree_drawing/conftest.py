@@ -5,7 +5,7 @@ from recordings import START
 from runs import MS, SECOND, Run
 
 from coframe.doctor import observe_recording
-from coframe.trees import grow
+from coframe.tree_drawing import grow
 
 HOSTILE = (
     '"quoted" \\ back\\',

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.doctor.figures import LinkFigures
+    from coframe.doctor.figures import EdgeFigures
 
 __all__ = ["Forest", "Frame"]
 
@@ -34,8 +34,8 @@ class Frame:
     root: str
     depth: int
     children: tuple[str, ...]
-    links: tuple[LinkFigures, ...]
-    others: tuple[LinkFigures, ...]
+    links: tuple[EdgeFigures, ...]
+    others: tuple[EdgeFigures, ...]
     silence: int | None
 
     @property

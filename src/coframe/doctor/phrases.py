@@ -1,4 +1,4 @@
-"""Names, counts and poses as findings tell them; durations and stamps are in :mod:`coframe.wording`."""
+"""Names, counts and poses as findings tell them; durations and stamps are in :mod:`coframe.formatting`."""
 
 from __future__ import annotations
 

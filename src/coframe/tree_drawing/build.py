@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.doctor.figures import link_figures
-from coframe.trees.forest import Forest, Frame
+from coframe.doctor.figures import edge_figures
+from coframe.tree_drawing.forest import Forest, Frame
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from coframe.doctor import Observation
     from coframe.doctor.edge import Edge
-    from coframe.doctor.figures import LinkFigures
+    from coframe.doctor.figures import EdgeFigures
 
 __all__ = ["grow"]
 
@@ -36,8 +36,8 @@ def grow(observation: Observation) -> Forest:
             loops.append(root)
             trees[root] = _below(root, children)
             drawn.update(trees[root])
-    told: dict[str, list[LinkFigures]] = {}
-    for link in link_figures(observation):
+    told: dict[str, list[EdgeFigures]] = {}
+    for link in edge_figures(observation):
         told.setdefault(link.child, []).append(link)
     ordered = {root: trees[root] for root in sorted(trees, key=lambda root: (-len(trees[root]), root))}
     frames = {
@@ -82,7 +82,7 @@ def _frame(
     parent: str,
     children: Iterable[str],
     trees: dict[str, dict[str, int]],
-    told: list[LinkFigures],
+    told: list[EdgeFigures],
     seen: Observation,
 ) -> Frame:
     edge = seen.last.get(name)

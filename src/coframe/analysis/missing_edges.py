@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-__all__ = ["MissingLink", "missing_link", "tree_of", "unknown_mount"]
+__all__ = ["MissingEdge", "missing_edge", "tree_of", "unknown_mount"]
 
 _ALIKE = 0.8
 _COMPARED = 1_000  # names: each takes microseconds
@@ -28,7 +28,7 @@ _USUAL = (
 )
 
 
-class MissingLink(NamedTuple):
+class MissingEdge(NamedTuple):
     """A link that would make one tree of two.
 
     Attributes:
@@ -88,7 +88,7 @@ def tree_of(root: str, parents: Mapping[str, str]) -> list[str]:
     return [root, *sorted(found - {root})]
 
 
-def missing_link(first: Sequence[str], second: Sequence[str]) -> MissingLink | None:
+def missing_edge(first: Sequence[str], second: Sequence[str]) -> MissingEdge | None:
     """The most likely link between two trees: a misspelt name, or what is usual; None if none is likely.
 
     Args:
@@ -96,10 +96,10 @@ def missing_link(first: Sequence[str], second: Sequence[str]) -> MissingLink | N
         second: Those of the other one, likewise.
 
     Example:
-        >>> missing_link(["odom", "base_link"], ["base_lnk", "lidar"])
-        MissingLink(parent='base_link', child='base_lnk', misspelt=True)
-        >>> missing_link(["odom", "base_footprint"], ["base_link", "wheel"])
-        MissingLink(parent='base_footprint', child='base_link', misspelt=False)
+        >>> missing_edge(["odom", "base_link"], ["base_lnk", "lidar"])
+        MissingEdge(parent='base_link', child='base_lnk', misspelt=True)
+        >>> missing_edge(["odom", "base_footprint"], ["base_link", "wheel"])
+        MissingEdge(parent='base_footprint', child='base_link', misspelt=False)
     """
     sides = ((second[0], first), (first[0], second))
     for root, frames in sides:
@@ -109,14 +109,14 @@ def missing_link(first: Sequence[str], second: Sequence[str]) -> MissingLink | N
             if _is_slip(root, frame)
         ]
         if alike:
-            return MissingLink(alike[0], root, misspelt=True)
+            return MissingEdge(alike[0], root, misspelt=True)
     for parent, child in _USUAL:
         for root, frames in sides:
             if _bare(root) != child:
                 continue
             above = [frame for frame in frames if _bare(frame) == parent and _prefix(frame) == _prefix(root)]
             if above:
-                return MissingLink(above[0], root, misspelt=False)
+                return MissingEdge(above[0], root, misspelt=False)
     return None
 
 

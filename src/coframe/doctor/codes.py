@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 __all__ = ["Page", "codes", "page"]
 
-_PAGES = Path(__file__).with_name("pages")
+_PAGES = Path(__file__).with_name("code_pages")
 _CODE = re.compile(r"TF\d{3}")
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.trees.wording import shown
+from coframe.tree_drawing.labels import shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.doctor.figures import LinkFigures
-    from coframe.trees.forest import Forest, Frame
+    from coframe.doctor.figures import EdgeFigures
+    from coframe.tree_drawing.forest import Forest, Frame
 
 __all__ = ["COLUMNS", "Row", "rows"]
 
@@ -71,7 +71,7 @@ def _branches(frame: Frame, last: list[bool]) -> tuple[str, str]:
     return trunks + deep + ("└─ " if last[-1] else "├─ "), trunks + deep + ("   " if last[-1] else "│  ") + stem
 
 
-def _cells(link: LinkFigures | None) -> tuple[str, ...]:
+def _cells(link: EdgeFigures | None) -> tuple[str, ...]:
     if link is None:
         return ("", "root", *[""] * 4)
     if link.static:

@@ -7,13 +7,13 @@ from xml.etree import ElementTree
 
 import pytest
 
-from coframe.trees.graphviz import as_graphviz
-from coframe.trees.layout import Box, draw
-from coframe.trees.mermaid import as_markdown, as_mermaid
-from coframe.trees.pdf import as_pdf
-from coframe.trees.plain import as_data
-from coframe.trees.svg import as_svg
-from coframe.trees.text import rows
+from coframe.tree_drawing.graphviz import as_graphviz
+from coframe.tree_drawing.layout import Box, draw
+from coframe.tree_drawing.mermaid import as_markdown, as_mermaid
+from coframe.tree_drawing.pdf import as_pdf
+from coframe.tree_drawing.plain import as_data
+from coframe.tree_drawing.svg import as_svg
+from coframe.tree_drawing.text import rows
 
 SVG = "{http://www.w3.org/2000/svg}"
 LINKS = 24 - 2  # frames less roots that are no loop's

@@ -9,12 +9,12 @@ from __future__ import annotations
 import unicodedata
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.trees.wording import alarms, figures, shown, summary
+from coframe.tree_drawing.labels import alarms, figures, shown, summary
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from coframe.trees.forest import Forest, Frame
+    from coframe.tree_drawing.forest import Forest, Frame
 
 __all__ = ["Box", "Line", "Picture", "Words", "draw"]
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from coframe.trees.wording import alarms, figures, shown, summary
+from coframe.tree_drawing.labels import alarms, figures, shown, summary
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from coframe.trees.forest import Forest
+    from coframe.tree_drawing.forest import Forest
 
 __all__ = ["MOST_LINKS", "as_markdown", "as_mermaid"]
 

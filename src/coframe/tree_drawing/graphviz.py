@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.trees.wording import alarms, figures, link_figures, shown, summary
+from coframe.tree_drawing.labels import alarms, edge_figures, figures, shown, summary
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from coframe.doctor.figures import LinkFigures
-    from coframe.trees.forest import Forest, Frame
+    from coframe.doctor.figures import EdgeFigures
+    from coframe.tree_drawing.forest import Forest, Frame
 
 __all__ = ["as_graphviz"]
 
@@ -45,7 +45,7 @@ def _edges(forest: Forest, ids: dict[str, str]) -> Iterator[str]:
             label = _quoted([*figures(frame), *alarms(frame)])
             yield f"  {_quoted([ids[frame.parent]])} -> {_quoted([ids[frame.name]])} [label={label}{style}];"
         for parent, links in _by_parent(frame.others).items():
-            told = [line for link in links[:_MOST] for line in link_figures(link)]
+            told = [line for link in links[:_MOST] for line in edge_figures(link)]
             ends = f"{_quoted([ids[parent]])} -> {_quoted([ids[frame.name]])}"
             yield f"  {ends} [label={_quoted(told)}, color=red, constraint=false];"
 
@@ -58,8 +58,8 @@ def _style(forest: Forest, frame: Frame) -> str:
     return ", style=dashed" if frame.static else ""
 
 
-def _by_parent(links: Iterable[LinkFigures]) -> dict[str, list[LinkFigures]]:
-    found: dict[str, list[LinkFigures]] = {}
+def _by_parent(links: Iterable[EdgeFigures]) -> dict[str, list[EdgeFigures]]:
+    found: dict[str, list[EdgeFigures]] = {}
     for link in links:
         found.setdefault(link.parent, []).append(link)
     return found

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.doctor.wording import listed
-from coframe.wording import duration
+from coframe.doctor.phrases import listed
+from coframe.formatting import duration
 
 if TYPE_CHECKING:
-    from coframe.doctor.figures import LinkFigures
-    from coframe.trees.forest import Forest, Frame
+    from coframe.doctor.figures import EdgeFigures
+    from coframe.tree_drawing.forest import Forest, Frame
 
-__all__ = ["alarms", "figures", "link_figures", "shown", "summary"]
+__all__ = ["alarms", "edge_figures", "figures", "shown", "summary"]
 
 _LONGEST = 60
 _MOST_LINKS = 5
@@ -35,7 +35,7 @@ def _shortened(name: str) -> str:
 
 def figures(frame: Frame) -> list[str]:
     """What is told of the link that leads to a frame, by publisher; of many only the first ones."""
-    told = [line for link in frame.links[:_MOST_LINKS] for line in link_figures(link)]
+    told = [line for link in frame.links[:_MOST_LINKS] for line in edge_figures(link)]
     more = len(frame.links) - _MOST_LINKS
     return [*told, f"and {more} more publishers"] if more > 0 else told
 
@@ -50,7 +50,7 @@ def alarms(frame: Frame) -> list[str]:
     return [*told, f"and {more} more such"] if more > 0 else told
 
 
-def link_figures(link: LinkFigures) -> list[str]:
+def edge_figures(link: EdgeFigures) -> list[str]:
     """One publisher's figures; of a static link none, as they mean nothing there."""
     if link.static:
         return [f"static{_by(link)}"]
@@ -65,7 +65,7 @@ def link_figures(link: LinkFigures) -> list[str]:
     return [line for line in (shown(link.publisher), ", ".join(pace), ", ".join(ages)) if line]
 
 
-def _by(link: LinkFigures) -> str:
+def _by(link: EdgeFigures) -> str:
     """Who tells of it, where that is known: a recording of ROS 2 does not say."""
     return f", by {shown(link.publisher)}" if link.publisher else ""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from coframe.trees.forest import Forest, Frame
+    from coframe.tree_drawing.forest import Forest, Frame
 
 __all__ = ["as_data"]
 

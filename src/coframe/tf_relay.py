@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from coframe import _core
 from coframe.errors import WireError
 from coframe.frame_names import kept, renaming
+from coframe.tf_publishers import SILENT_AFTER, OnceEach, TfPublisher, publisher_of, state_of
 from coframe.wire.participant import Participant
-from coframe.wire.publishers import SILENT_AFTER, OnceEach, TfPublisher, publisher_of, state_of
 from coframe.wire.qos import TF_STATIC_WRITER, QoS
 
 if TYPE_CHECKING:

@@ -9,8 +9,8 @@ from runs import SECOND, Run
 
 from coframe.doctor import Observation
 from coframe.doctor.transforms import Transforms
-from coframe.trees import changes, grow
-from coframe.trees.layout import Box, draw
+from coframe.tree_drawing import changes, grow
+from coframe.tree_drawing.layout import Box, draw
 
 
 def moving(run, parent, child, seconds, start=0, rate=10):

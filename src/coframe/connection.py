@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe.messages.message import Message
+    from coframe.tf_publishers import TfPublisher
     from coframe.wire.endpoints import Publisher, Subscription
-    from coframe.wire.publishers import TfPublisher
 
 _logger = logging.getLogger("coframe.wire")
 
