@@ -561,7 +561,7 @@ class Buffer(_core.Buffer):
         return isinstance(frame, str) and self.frame_exists(frame)
 
     def __repr__(self) -> str:
-        cache = "everything" if self.cache_ns < 0 else f"{self.cache_ns / time.NANOSECONDS_PER_SECOND:g}s"
+        cache = "everything" if self.cache_ns < 0 else f"{self.cache_ns / time.SECOND:g}s"
         return f"Buffer(cache={cache}, frames={len(self.frame_names())})"
 
 
@@ -599,7 +599,7 @@ def _edge_info(
         oldest=oldest,
         newest=newest,
         age=None if static or not samples else now - newest,
-        rate=time.NANOSECONDS_PER_SECOND / mean if mean else 0.0,
+        rate=time.SECOND / mean if mean else 0.0,
         jitter=deviation,
         longest_gap=round(longest),
         stored=stored,

@@ -12,17 +12,28 @@ from typing import Any, Protocol, SupportsIndex, TypeAlias
 
 import numpy as np
 
-__all__ = ["DurationLike", "StampLike", "duration_ns", "stamp_ns"]
+__all__ = [
+    "DAY",
+    "HOUR",
+    "MICROSECOND",
+    "MILLISECOND",
+    "MINUTE",
+    "SECOND",
+    "DurationLike",
+    "StampLike",
+    "duration_ns",
+    "stamp_ns",
+]
 
-NANOSECONDS_PER_SECOND = 1_000_000_000
-_UNITS = {
-    "ns": 1,
-    "us": 1_000,
-    "ms": 1_000_000,
-    "s": NANOSECONDS_PER_SECOND,
-    "min": 60 * NANOSECONDS_PER_SECOND,
-    "h": 3600 * NANOSECONDS_PER_SECOND,
-}
+# Units of time in nanoseconds. These are the only definitions in the package: import them, do not repeat them.
+MICROSECOND = 1_000
+MILLISECOND = 1_000_000
+SECOND = 1_000_000_000
+MINUTE = 60 * SECOND
+HOUR = 3_600 * SECOND
+DAY = 86_400 * SECOND
+
+_UNITS = {"ns": 1, "us": MICROSECOND, "ms": MILLISECOND, "s": SECOND, "min": MINUTE, "h": HOUR}
 _DURATION = re.compile(r"\s*(\d+)(?:\.(\d+))?\s*([a-z]+)\s*", re.ASCII)
 
 
@@ -108,7 +119,7 @@ def _parse_duration(text: str) -> int:
 
 
 def _timedelta_ns(delta: datetime.timedelta) -> int:
-    return (delta.days * 86_400 + delta.seconds) * NANOSECONDS_PER_SECOND + delta.microseconds * 1_000
+    return (delta.days * 86_400 + delta.seconds) * SECOND + delta.microseconds * 1_000
 
 
 def _number_ns(value: Any, what: str, wanted: str) -> int:
@@ -117,7 +128,7 @@ def _number_ns(value: Any, what: str, wanted: str) -> int:
     except TypeError:
         pass
     if hasattr(value, "nanosec") and hasattr(value, "sec"):
-        return int(value.sec) * NANOSECONDS_PER_SECOND + int(value.nanosec)
+        return int(value.sec) * SECOND + int(value.nanosec)
     if hasattr(value, "nanoseconds"):
         return int(value.nanoseconds)
     reason = "; a float of seconds cannot hold today's time to the nanosecond" if isinstance(value, float) else ""

@@ -55,7 +55,7 @@ class StampPlace:
         seconds, nanoseconds = np.ascontiguousarray(raw).view("<u4").T.astype(np.int64)
         if self._is_cdr:
             seconds = seconds.astype(np.int32).astype(np.int64)
-        stamps[there] = seconds * time.NANOSECONDS_PER_SECOND + nanoseconds
+        stamps[there] = seconds * time.SECOND + nanoseconds
         return stamps
 
 

@@ -9,7 +9,7 @@ from coframe import time
 
 __all__ = ["parse_instant"]
 
-SECOND = time.NANOSECONDS_PER_SECOND
+SECOND = time.SECOND
 _NUMBER = re.compile(r"(\d+)(?:\.(\d*))?", re.ASCII)
 _OFFSET = re.compile(r"([+-]?)\s*(\d.*[a-z])", re.ASCII)
 _ISO = re.compile(r"(\d{4}-\d\d-\d\d[T ]\d\d:\d\d(?::\d\d)?)(?:\.(\d*))?\s*(Z|[+-]\d\d:?\d\d)?", re.ASCII)

@@ -97,6 +97,6 @@ def _at_rate(span: tuple[int, int], start: int | None, stop: int | None, rate: f
     last = span[1] if stop is None else min(stop, span[1])
     if last < first:
         return np.empty(0, dtype=np.int64)
-    count = int((last - first) * rate / time.NANOSECONDS_PER_SECOND) + 1
-    offsets = np.rint(np.arange(count) * (time.NANOSECONDS_PER_SECOND / rate))
+    count = int((last - first) * rate / time.SECOND) + 1
+    offsets = np.rint(np.arange(count) * (time.SECOND / rate))
     return np.asarray(first + offsets.astype(np.int64))

@@ -258,7 +258,7 @@ class Recording:
         if len(types) > 1:
             self._problems.add(f"{name} has messages of several types: {', '.join(sorted(types))}")
         received = self._index(name).received
-        seconds = (int(received[-1]) - int(received[0])) / time.NANOSECONDS_PER_SECOND if len(received) else 0.0
+        seconds = (int(received[-1]) - int(received[0])) / time.SECOND if len(received) else 0.0
         rate = (len(received) - 1) / seconds if seconds > 0 else 0.0
         return Topic(name, main.channel.type, len(received), rate, main.channel.encoding)
 
@@ -511,7 +511,7 @@ class Recording:
         self.close()
 
     def __repr__(self) -> str:
-        seconds = self.duration / time.NANOSECONDS_PER_SECOND
+        seconds = self.duration / time.SECOND
         return f"Recording({str(self.path)!r}, {len(self.topics)} topics, {seconds:.1f} s)"
 
 

@@ -104,7 +104,7 @@ _TEXT = {"tum": _tum, "kitti": _kitti, "csv": _csv}
 def _seconds(stamp: int) -> str:
     """All nine digits: a float of seconds would lose some."""
     sign, size = ("-", -stamp) if stamp < 0 else ("", stamp)
-    return f"{sign}{size // time.NANOSECONDS_PER_SECOND}.{size % time.NANOSECONDS_PER_SECOND:09d}"
+    return f"{sign}{size // time.SECOND}.{size % time.SECOND:09d}"
 
 
 def _write_parquet(poses: Transform, stamps: NDArray[np.int64], values: NDArray[np.float64], path: Path) -> None:
