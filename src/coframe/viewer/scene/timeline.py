@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe import Buffer, FrameInfo
-    from coframe.viewer.messages import Messages
+    from coframe.viewer.sources.messages import Messages
 
 __all__ = ["MOST_BINS", "edge_rows", "next_stamp"]
 

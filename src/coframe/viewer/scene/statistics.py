@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from coframe.viewer.scene import STALE
+from coframe.viewer.scene.scene import STALE
 
 if TYPE_CHECKING:
-    from coframe.viewer.scene import Scene
+    from coframe.viewer.scene.scene import Scene
 
 __all__ = ["frame_rows"]
 
