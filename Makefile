@@ -59,6 +59,8 @@ conformance: $(STAMP) ## check tf2's semantics case by case
 lint: $(STAMP) ## check style, words, import directions and generated files
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/python scripts/check_words.py
+	$(BIN)/lint-imports --no-cache
 	$(BIN)/python scripts/generate_messages.py --check
 
 typecheck: $(STAMP) ## run mypy --strict, and compare the stub with the native module
