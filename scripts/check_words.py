@@ -17,7 +17,9 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
 WORD_LIST = ROOT / "scripts" / "banned_words.toml"
-CHECKED = {".md", ".py", ".pyi", ".cpp", ".hpp", ".inc", ".ts", ".css", ".html", ".toml", ".sh", ".cff", ".yml", ".yaml"}
+CHECKED = set(
+    [".md", ".py", ".pyi", ".cpp", ".hpp", ".inc", ".ts", ".css", ".html", ".toml", ".sh", ".cff", ".yml", ".yaml"]
+)
 SKIPPED = ("scripts/banned_words.toml", "src/coframe/viewer/static/*", "*/generated/*", "interfaces/*", "*.json")
 
 

@@ -39,7 +39,8 @@ def test_the_recording_example_reads_a_real_recording(shared):
     assert "odom -> base_footprint: 579 transforms" in output
 
 
-def test_broadcasters_and_listener_work_together(domain_id):
+@pytest.mark.usefixtures("domain_id")
+def test_broadcasters_and_listener_work_together():
     nodes = [subprocess.Popen([sys.executable, EXAMPLES / name], stderr=subprocess.PIPE, text=True) for name in NODES]
     try:
         heights = []
