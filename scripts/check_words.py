@@ -17,9 +17,7 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
 WORD_LIST = ROOT / "scripts" / "banned_words.toml"
-CHECKED = set(
-    [".md", ".py", ".pyi", ".cpp", ".hpp", ".inc", ".ts", ".css", ".html", ".toml", ".sh", ".cff", ".yml", ".yaml"]
-)
+CHECKED = re.compile(r"\.(md|pyi?|cpp|hpp|inc|ts|css|html|toml|sh|cff|ya?ml)$")
 SKIPPED = ("scripts/banned_words.toml", "src/coframe/viewer/static/*", "*/generated/*", "interfaces/*", "*.json")
 
 
@@ -66,7 +64,7 @@ def read_words() -> list[Word]:
 
 
 def is_checked(path: str) -> bool:
-    return Path(path).suffix in CHECKED and not any(fnmatch.fnmatch(path, pattern) for pattern in SKIPPED)
+    return bool(CHECKED.search(path)) and not any(fnmatch.fnmatch(path, pattern) for pattern in SKIPPED)
 
 
 def problems(path: str, words: list[Word]) -> list[str]:
