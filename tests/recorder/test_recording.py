@@ -11,8 +11,8 @@ from coframe.bags import Writer, from_yaml
 from coframe.frame_names import renaming
 from coframe.messages import find, serialize
 from coframe.recorder import Recorder
-from coframe.recorder.message_queue import Source
 from coframe.recorder.frame_renaming import FrameRenamer
+from coframe.recorder.message_queue import Source
 from coframe.recorder.topic_subscriptions import Wanted
 from coframe.wire import QoS
 

@@ -70,7 +70,7 @@ def test_a_domain_that_is_none(text):
 def test_a_range_that_is_none():
     with pytest.raises(WireError, match="'GALAXY': it must be one of OFF, LOCALHOST, SUBNET, SYSTEM_DEFAULT") as caught:
         config.discovery_range({"ROS_AUTOMATIC_DISCOVERY_RANGE": "galaxy"})
-    assert "SUBNET opens the local network" in caught.value.hint
+    assert "SUBNET includes the local network" in caught.value.hint
     with pytest.raises(WireError, match="ROS_LOCALHOST_ONLY is 'yes': it must be 0 or 1"):
         config.discovery_range({"ROS_LOCALHOST_ONLY": "yes"})
 

@@ -37,8 +37,8 @@ def test_a_best_effort_publisher_for_a_reliable_subscription(participant, node, 
     eventually(lambda: warnings)
     assert warnings == [
         (
-            "Node /talker offers best-effort on /scan, but this subscription requests reliable: no messages will arrive. "
-            "Request best-effort (qos_profile_sensor_data), or make the publisher reliable."
+            "Node /talker offers best-effort on /scan, but this subscription requests reliable: no messages will "
+            "arrive. Request best-effort (qos_profile_sensor_data), or make the publisher reliable."
         )
     ]
 
@@ -49,8 +49,8 @@ def test_a_reliable_subscriber_for_a_best_effort_publisher(participant, node, ch
     eventually(lambda: warnings)
     assert warnings == [
         (
-            "Node /listener requests reliable on /scan, but this publisher offers best-effort: no messages will arrive. "
-            "Request best-effort (qos_profile_sensor_data), or make the publisher reliable."
+            "Node /listener requests reliable on /scan, but this publisher offers best-effort: no messages will "
+            "arrive. Request best-effort (qos_profile_sensor_data), or make the publisher reliable."
         )
     ]
 
@@ -119,8 +119,8 @@ def test_a_different_definition_of_the_same_type(participant, node, child, warni
     eventually(lambda: warnings)
     assert warnings == [
         (
-            "Node /other on /scan has a different definition of std_msgs/msg/String from this subscription: no messages will "
-            "arrive. Use the same message definitions and the same quality of service on both sides."
+            "Node /other on /scan has a different definition of std_msgs/msg/String from this subscription: "
+            "no messages will arrive. Use the same message definitions and the same quality of service on both sides."
         )
     ]
 

@@ -128,7 +128,11 @@ def test_one_frame_of_two_robots_is_named_and_the_first_ones(robot, fleet, event
     ros = fleet(coframe.connect, "listener")
     eventually(lambda: ros.buffer.can_transform("map", "base"))
     robot("robot2", 2.0)
-    eventually(lambda: {edge.child for edge in relay.edges() if edge.conflicting_robot == "robot2"} >= {"odom", "base", "lidar"})
+    eventually(
+        lambda: (
+            {edge.child for edge in relay.edges() if edge.conflicting_robot == "robot2"} >= {"odom", "base", "lidar"}
+        )
+    )
     eventually(lambda: any("robot1 and robot2 both publish a transform to 'odom'" in text for text in warned))
     assert ros.buffer.lookup("map", "odom").translation[0] == 1.0
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from coframe.bags import RecordingError, open_bag
 from coframe.frame_names import absolute, renaming
 from coframe.messages import find, serialize
-from coframe.recorder.topic_publishers import TopicPublishers
 from coframe.recorder.playback_clock import PlaybackClock
+from coframe.recorder.topic_publishers import TopicPublishers
 from coframe.time import duration_ns
 from coframe.wire import Participant, QoS
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from coframe import _core
 from coframe.bags import OfferedQos, RecordingError, Writer
 from coframe.frame_names import renaming
-from coframe.recorder.message_queue import MessageQueue, ReceivedMessage
 from coframe.recorder.frame_renaming import FrameRenamer
+from coframe.recorder.message_queue import MessageQueue, ReceivedMessage
 from coframe.recorder.topic_subscriptions import Subscriptions, Wanted
 from coframe.wire import Participant
 
