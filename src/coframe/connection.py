@@ -13,6 +13,7 @@ from coframe.errors import WireError
 from coframe.frame_names import kept, renaming
 from coframe.tf_publishers import TfPublisher, publishers_of
 from coframe.time import SECOND, duration_ns
+from coframe.wire.names import any_ros_name
 from coframe.wire.participant import Participant
 from coframe.wire.qos import DEFAULT, QoS
 
@@ -52,7 +53,8 @@ class MessagePublisher(Generic[M]):
         """
         if not isinstance(message, self._message_type):
             expected = self._message_type.__name__
-            raise TypeError(f"cannot publish {type(message).__name__} on {self._publisher.topic}: expected {expected}")
+            topic = any_ros_name(self._publisher.topic)
+            raise TypeError(f"cannot publish {type(message).__name__} on {topic}: expected {expected}")
         from coframe.messages.codec import serialize  # noqa: PLC0415 - `import coframe` must be cheap
 
         self._publisher.write(serialize(message))

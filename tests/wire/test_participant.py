@@ -136,7 +136,7 @@ def test_names_that_the_graph_cannot_carry(participant):
         participant.add_node("/", "x" * 300)
     with pytest.raises(WireError, match="Namespace 'robot' is not absolute") as caught:
         participant.add_node("robot", "x")
-    assert caught.value.hint == "Write it as '/robot'."
+    assert caught.value.hint == "Use '/robot'."
 
 
 def test_a_domain_that_is_none():

@@ -219,10 +219,10 @@ def test_a_writer_that_gets_its_name_late_does_not_bring_its_transforms_again(pa
 def test_writers_that_left_are_forgotten(participant, node, eventually):
     reader = participant.tf_reader(node, "/tf", coframe.Buffer(), static=False, authority=None)
     publishers = [participant.publisher(node, "/tf", TF_MESSAGE, TF) for _ in range(3)]
-    eventually(lambda: len(reader._named) == 3)
+    eventually(lambda: len(reader._node_names) == 3)
     for publisher in publishers:
         publisher.close()
-    eventually(lambda: not reader._named)
+    eventually(lambda: not reader._node_names)
 
 
 def test_a_reader_is_whole_when_other_threads_first_see_it(participant, node, monkeypatch):
