@@ -318,10 +318,10 @@ class TestAsyncio:
         async def main():
             task = asyncio.ensure_future(buffer.wait_async("odom", "base", 20 * SECOND))
             await asyncio.sleep(0)
-            assert not buffer.dispatcher.is_idle
+            assert not buffer._dispatcher.is_idle
             task.cancel()
             with pytest.raises(asyncio.CancelledError):
                 await task
-            assert buffer.dispatcher.is_idle
+            assert buffer._dispatcher.is_idle
 
         asyncio.run(main())
