@@ -75,7 +75,19 @@ _LAZY = {
     "relay": "coframe.tf_relay",
     "show": "coframe.viewer",
 }
-_PUBLIC_MODULES = {"bags", "doctor", "messages", "quaternion", "recorder", "robots", "sensors", "time", "viewer"}
+_PUBLIC_MODULES = {
+    "bags",
+    "doctor",
+    "frame_names",
+    "messages",
+    "quaternion",
+    "recorder",
+    "robots",
+    "sensors",
+    "time",
+    "tree_drawing",
+    "viewer",
+}
 _RENAMED = {"Subscription": "CallbackHandle"}
 
 

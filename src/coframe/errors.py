@@ -20,7 +20,7 @@
 Wrong arguments of Python calls (a wrong type, shape or unit) raise TypeError and ValueError as usual.
 
 The names of the transform exceptions are tf2's, and so are their texts (``str(error)``). Every exception also has a
-``hint``, which says what to do next, and a ``doctor_code``, which names the page of ``coframe.doctor`` about the problem.
+``hint``, which says what to do next, and a ``doctor_code``, which names the doctor's page about the problem.
 Transform exceptions carry the facts behind their text as well.
 """
 
@@ -90,7 +90,7 @@ class _Facts(NamedTuple):
 _NO_FACTS = _Facts()
 
 
-class TransformException(CoframeError):
+class TransformException(CoframeError):  # noqa: N818 - tf2's name
     """A transform could not be looked up or stored.
 
     ``str(error)`` is the text; the properties are the facts behind it, None where they do not apply.

@@ -89,7 +89,7 @@ def test_out_is_filled(tree):
     batch = buffer.lookup_many("map", "odom", samples)
     np.testing.assert_array_equal(poses[:, :3], batch.translation)
     np.testing.assert_array_equal(matrices, batch.matrix)
-    with pytest.raises(ValueError, match=r"out must be float64 of the shape \(700, 7\)"):
+    with pytest.raises(ValueError, match=r"out must be float64 of shape \(700, 7\)"):
         buffer.lookup_many("map", "odom", samples, out=np.empty((700, 6)))
 
 
@@ -127,7 +127,9 @@ def test_rows_are_right_while_others_insert():
         while not stop.is_set():
             stamp += 100_000
             for child in ("b", "c"):
-                buffer.set_values("a" if child == "b" else "b", child, stamp, stamp * 1e-9, *(0.0,) * 5, 1.0, False, "")
+                buffer._set_values(
+                    "a" if child == "b" else "b", child, stamp, stamp * 1e-9, *(0.0,) * 5, 1.0, False, ""
+                )
 
     feeder = threading.Thread(target=feed)
     feeder.start()
@@ -152,7 +154,7 @@ class TestSetMany:
         many, single = coframe.Buffer(cache), coframe.Buffer(cache)
         stored = many.set_many("a", "b", stamps, poses, authority="me")
         for i in np.argsort(stamps, kind="stable"):
-            single.set_values("a", "b", int(stamps[i]), *poses[i].tolist(), False, "me")
+            single._set_values("a", "b", int(stamps[i]), *poses[i].tolist(), False, "me")
         assert many.all_frames_as_yaml() == single.all_frames_as_yaml()
         assert stored == single.statistics["stored"]
         asked = rng.integers(SECOND, 11 * SECOND, 500)
@@ -178,7 +180,7 @@ class TestSetMany:
         assert buffer.frame_names() == []
 
     def test_shapes_are_checked(self):
-        with pytest.raises(ValueError, match=r"stamps of the shape \(N,\) and poses \(N, 7\)"):
+        with pytest.raises(ValueError, match=r"stamps must have shape \(N,\) and poses \(N, 7\)"):
             coframe.Buffer().set_many("a", "b", [1, 2], np.zeros((3, 7)))
 
     def test_it_wakes_who_waits(self):

@@ -168,7 +168,7 @@ def test_a_thousand_links_are_walked_and_one_more_is_a_loop():
 )
 def test_refused_transforms_leave_no_trace_but_tf2s_text(parent, child, values, text):
     buffer = coframe.Buffer()
-    refusals = buffer.set_values(parent, child, SECOND, *map(float, values), False, "me")
+    refusals = buffer._set_values(parent, child, SECOND, *map(float, values), False, "me")
     lines = coframe._core.insert_texts(refusals, parent, child, SECOND, *map(float, values), "me")
     assert any(level == "error" and line.startswith(text) for level, line in lines)
     assert buffer.frame_names() == []
@@ -182,7 +182,7 @@ def test_set_raises_what_tf2_logs():
 
 def test_unnormalised_quaternion_is_normalised_and_made_canonical():
     buffer = coframe.Buffer()
-    assert buffer.set_values("a", "b", SECOND, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -2.0, False, "me") == 0
+    assert buffer._set_values("a", "b", SECOND, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -2.0, False, "me") == 0
     assert buffer.lookup("a", "b").values[3:] == (0.0, 0.0, 0.0, 1.0)
 
 
@@ -207,7 +207,7 @@ def test_long_histories_are_searched_exactly():
     rng = np.random.default_rng(0)
     stamps = np.sort(rng.choice(10**9, 5000, replace=False)).astype(np.int64) + 1
     for stamp in rng.permutation(stamps).tolist():
-        buffer.set_values("a", "b", stamp, float(stamp), 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, False, "me")
+        buffer._set_values("a", "b", stamp, float(stamp), 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, False, "me")
     asked = rng.integers(stamps[0], stamps[-1], 2000)
     answers = [buffer.lookup("a", "b", stamp).values[0] for stamp in asked.tolist()]
     np.testing.assert_allclose(answers, asked, rtol=0, atol=1e-5)
@@ -244,7 +244,7 @@ def test_clear_keeps_statics_and_names(buffer):
     buffer.clear()
     assert buffer.can_transform("base", "lidar")
     assert "odom" in buffer
-    assert buffer.why_not("odom", "base", 11 * SECOND) == (
+    assert buffer._why_not("odom", "base", 11 * SECOND) == (
         ", when looking up transform from frame [base] to frame [odom]"
     )
 
@@ -288,14 +288,14 @@ def answers(buffer, stamp):
 
 
 def test_time_travel(buffer):
-    transform = buffer.lookup_full("base", 12 * SECOND, "base", 10 * SECOND, "odom")
+    transform = buffer._lookup_full("base", 12 * SECOND, "base", 10 * SECOND, "odom")
     assert transform.translation == pytest.approx([-2, 0, 0])
     assert transform.stamp == 12 * SECOND
 
 
 def test_can_transform_says_why_not_in_its_own_words(buffer):
-    assert buffer.why_not("odom", "lidar") == ""
-    assert buffer.why_not("nobody", "lidar") == (
+    assert buffer._why_not("odom", "lidar") == ""
+    assert buffer._why_not("nobody", "lidar") == (
         'Invalid frame ID "nobody" passed to canTransform argument target_frame - frame does not exist'
     )
 
@@ -314,7 +314,9 @@ def test_timeout_waits_for_another_thread_and_no_longer(buffer):
 
 
 def test_wait_gives_up_with_the_reason(buffer):
-    with pytest.raises(coframe.TimeoutException, match=r"waited 20ms in vain .* does not exist") as caught:
+    with pytest.raises(
+        coframe.TimeoutException, match=r"timed out after 20 ms waiting for .* does not exist"
+    ) as caught:
         buffer.wait("odom", "nobody", timeout="20ms")
     assert isinstance(caught.value.__cause__, coframe.LookupException)
 
@@ -341,19 +343,19 @@ def test_set_checks_the_frames_a_transform_names():
     transform = coframe.Transform(target="a", source="b", stamp=1)
     buffer = coframe.Buffer()
     assert buffer.set("a", "b", transform)
-    with pytest.raises(coframe.InvalidArgumentException, match="is a <- b, but is set as b <- a"):
+    with pytest.raises(coframe.InvalidArgumentException, match="cannot store the transform a <- b as b <- a"):
         buffer.set("b", "a", transform)
 
 
 def test_a_dynamic_transform_needs_a_stamp():
-    with pytest.raises(coframe.InvalidArgumentException, match="needs a stamp"):
+    with pytest.raises(coframe.InvalidArgumentException, match="has no stamp"):
         coframe.Buffer().set("a", "b", coframe.Transform())
 
 
 def test_readers_and_a_writer_at_once():
     """Each sample's seven numbers belong together whatever the threads do."""
     buffer = coframe.Buffer(None)
-    buffer.set_values("a", "b", 1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, False, "me")
+    buffer._set_values("a", "b", 1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, False, "me")
     stop = threading.Event()
     wrong = []
 
@@ -367,7 +369,7 @@ def test_readers_and_a_writer_at_once():
     for thread in threads:
         thread.start()
     for i in range(2, 20_000):
-        buffer.set_values("a", "b", i, float(i), float(i), float(i), 0.0, 0.0, 0.0, 1.0, False, "me")
+        buffer._set_values("a", "b", i, float(i), float(i), float(i), 0.0, 0.0, 0.0, 1.0, False, "me")
     stop.set()
     for thread in threads:
         thread.join()
@@ -405,11 +407,11 @@ def test_seconds_where_nanoseconds_are_wanted_are_noticed():
         buffer.set("a", "b", coframe.Transform(), stamp=stamp)
     with pytest.raises(coframe.ExtrapolationException) as caught:
         buffer.lookup("a", "b", 2)
-    assert caught.value.hint == "Stamps are nanoseconds: 2 s would be 2_000_000_000."
+    assert caught.value.hint == "Stamps are in nanoseconds: 2 s is 2_000_000_000."
     assert repr(caught.value).startswith("ExtrapolationException('Lookup would require extrapolation into the past.")
     with pytest.raises(coframe.ExtrapolationException) as caught:
         buffer.lookup("a", "b", 500_000_000)
-    assert "has forgotten that time" in caught.value.hint
+    assert "no longer has a sample" in caught.value.hint
 
 
 @pytest.mark.parametrize("wrong", [{"timeout": 0.5}, {"timeout": "soon"}, {"extrapolate": 0.1}, {"timeout": [1]}])
@@ -432,4 +434,4 @@ def test_of_several_values_that_are_no_numbers_the_first_is_told():
             return 1.0
 
     with pytest.raises(TypeError, match="must be real number, not str"):
-        coframe.Buffer().set_values("a", "b", 1, "x", Number(), None, 0.0, 0.0, 0.0, 1.0, False, "me")
+        coframe.Buffer()._set_values("a", "b", 1, "x", Number(), None, 0.0, 0.0, 0.0, 1.0, False, "me")

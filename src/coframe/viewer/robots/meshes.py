@@ -1,0 +1,178 @@
+"""Meshes and textures that robots and markers name: found, and served only from below folders that were declared."""
+
+from __future__ import annotations
+
+import re
+import secrets
+import threading
+from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
+from urllib.parse import quote, unquote, urlsplit
+
+from coframe.errors import CoframeError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+__all__ = ["LARGEST_FILE", "MESH_TYPES", "MeshError", "MeshTable"]
+
+LARGEST_FILE = 256 << 20
+MESH_TYPES = {
+    ".bin": "application/octet-stream",
+    ".bmp": "image/bmp",
+    ".dae": "model/vnd.collada+xml",
+    ".gif": "image/gif",
+    ".glb": "model/gltf-binary",
+    ".gltf": "model/gltf+json",
+    ".jpeg": "image/jpeg",
+    ".jpg": "image/jpeg",
+    ".mtl": "model/mtl",
+    ".obj": "model/obj",
+    ".ply": "application/octet-stream",
+    ".png": "image/png",
+    ".stl": "model/stl",
+    ".tga": "image/x-tga",
+    ".webp": "image/webp",
+}
+"""By ending: only such files are served."""
+
+_PACKAGE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
+
+
+class MeshError(CoframeError, ValueError):
+    """A mesh that is not served; the text says why, in a sentence."""
+
+
+class _Root(NamedTuple):
+    token: str
+    folder: Path
+
+
+class MeshTable:
+    """Which files may be fetched, under names that nobody guesses; for any number of threads.
+
+    Args:
+        find_package: The folder of a ROS package; None where there is none of that name.
+        roots: Folders below which everything may be fetched that looks like a mesh or a texture.
+    """
+
+    def __init__(self, find_package: Callable[[str], Path | None], roots: Iterable[Path] = ()) -> None:
+        self._find_package = find_package
+        self._lock = threading.Lock()
+        self._roots: dict[Path, _Root] = {}
+        self._packages: dict[str, Path | None] = {}
+        for root in roots:
+            self.declare(root)
+
+    def declare(self, folder: Path) -> None:
+        """From now on what is below a folder may be fetched."""
+        resolved = folder.resolve()
+        with self._lock:
+            self._roots.setdefault(resolved, _Root(secrets.token_urlsafe(12), resolved))
+
+    def url(self, reference: str, beside: Path | None = None) -> str:
+        """The address of the mesh that a robot or marker names.
+
+        Args:
+            reference: ``package://NAME/...``, ``file:///...`` or a path.
+            beside: The folder that a relative path begins at.
+
+        Raises:
+            MeshError: There is no such file, or it must not be fetched.
+        """
+        file = self._file_of(reference, beside)
+        root = self._root_of(file, reference)
+        _check_file(file, reference)
+        return f"/mesh/{root.token}/{quote(file.relative_to(root.folder).as_posix())}"
+
+    def url_or_problem(self, reference: str) -> tuple[str | None, str | None]:
+        """The address, or why there is none."""
+        try:
+            return self.url(reference), None
+        except MeshError as error:
+            return None, str(error)
+
+    def file(self, path: str) -> Path:
+        """The file that a request's path behind ``/mesh/`` names: the token, and where it is below its folder.
+
+        A name behind that of a file is meant beside that file, as textures are.
+
+        Raises:
+            MeshError: There is no such file, or it must not be fetched.
+        """
+        token, _, below = path.partition("/")
+        with self._lock:
+            root = next((root for root in self._roots.values() if secrets.compare_digest(root.token, token)), None)
+        if root is None:
+            raise MeshError("there is no such mesh")
+        file = root.folder
+        for part in below.split("/"):
+            file = (file.parent if file.suffix.lower() in MESH_TYPES and _is_file(file) else file) / part
+        resolved = _resolved(file)
+        self._root_of(resolved, below)
+        _check_file(resolved, below)
+        return resolved
+
+    def _file_of(self, reference: str, beside: Path | None) -> Path:
+        parts = urlsplit(reference) if "://" in reference else None
+        if parts is None:
+            if beside is None:
+                raise MeshError(f"{_shown(reference)} is neither package:// nor file://")
+            return _resolved(beside / reference)
+        if parts.scheme == "file":
+            if parts.netloc not in {"", "localhost"}:
+                raise MeshError(f"{_shown(reference)} is on another machine")
+            return _resolved(Path(unquote(parts.path)))
+        if parts.scheme == "package":
+            return _resolved(self._package(parts.netloc) / unquote(parts.path).lstrip("/"))
+        raise MeshError(f"{_shown(reference)} is neither package:// nor file://")
+
+    def _package(self, name: str) -> Path:
+        with self._lock:
+            known = name in self._packages
+            folder = self._packages.get(name)
+        if not known:
+            folder = self._find_package(name) if _PACKAGE.fullmatch(name) else None
+            with self._lock:
+                self._packages[name] = folder
+            if folder is not None:
+                self.declare(folder)
+        if folder is None:
+            raise MeshError(f"there is no ROS package {_shown(name)} here")
+        return folder
+
+    def _root_of(self, file: Path, reference: str) -> _Root:
+        with self._lock:
+            for folder, root in self._roots.items():
+                if file.is_relative_to(folder):
+                    return root
+        raise MeshError(f"{_shown(reference)} is outside the served folders. Add its folder to the mesh roots.")
+
+
+def _resolved(path: Path) -> Path:
+    """Without links and dots: where it really is."""
+    try:
+        return path.resolve()
+    except (OSError, RuntimeError, ValueError) as error:  # a loop of links, a NUL, too long a name
+        raise MeshError(f"{_shown(str(path))} is no path: {error}") from None
+
+
+def _check_file(file: Path, reference: str) -> None:
+    if file.suffix.lower() not in MESH_TYPES:
+        raise MeshError(f"{_shown(reference)} is no mesh or texture that the viewer knows")
+    if not _is_file(file):
+        raise MeshError(f"there is no file {_shown(reference)}")
+    if (size := file.stat().st_size) > LARGEST_FILE:
+        raise MeshError(f"{_shown(reference)} has {size >> 20} MB: up to {LARGEST_FILE >> 20} MB are served")
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+def _shown(text: str) -> str:
+    shown = repr(text)
+    return shown if len(shown) <= 120 else f"{shown[:117]}..."
