@@ -80,7 +80,7 @@ class TfReader(LocalEndpoint):
 
     def writer_statistics(self) -> list[WriterStatistics]:
         """Return what was received from each writer, including writers that have left; nothing after `close`."""
-        return [] if self._closed else [WriterStatistics(*facts) for facts in self._reader.heard()]
+        return [] if self._closed else [WriterStatistics(*facts) for facts in self._reader.writers()]
 
     def name_writers(self, graph: Graph) -> None:
         """Set the names of the publishing nodes in the buffer, as far as they are known from the graph."""
