@@ -19,8 +19,8 @@ from rclpy.qos import (
     QoSProfile,
     QoSReliabilityPolicy,
     ReliabilityPolicy,
-    qos_check_compatible,
     as_qos_profile,
+    qos_check_compatible,
     qos_profile_sensor_data,
     qos_profile_system_default,
 )

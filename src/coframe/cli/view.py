@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import coframe
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
@@ -22,7 +23,6 @@ from coframe.cli.session import (
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
     recorded_tf_topics,
-    session,
 )
 from coframe.viewer import expect
 from coframe.wire import dds
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from coframe.viewer import Viewer
-    from coframe.viewer.recorded import RecordedSource
+    from coframe.viewer.sources.recorded import RecordedSource
 
 __all__ = ["announce", "view", "viewer_beside"]
 
@@ -67,7 +67,7 @@ def view(
     Example: coframe view run.mcap -d lab.rviz
     """
     live = bag == "live"
-    with session():
+    with run_until_interrupted():
         if live:
             dds.check()
         viewer = expect(
@@ -86,7 +86,7 @@ def view(
                 announce(viewer, browser=not no_browser)
                 topics = {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
                 node = coframe.connect("coframe_view", domain=domain, **topics, prefix=prefix, keep=keep)
-                from coframe.viewer.live import LiveSource  # noqa: PLC0415 - who reads a recording needs no graph
+                from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415 - who reads a recording needs no graph
 
                 viewer.show(LiveSource(node, own=True))
             else:
@@ -122,7 +122,7 @@ class _Reading:
 
 
 def _read(bag: Path, reading: _Reading, **chosen: Any) -> RecordedSource:
-    from coframe.viewer.recorded import RecordedSource  # noqa: PLC0415 - who looks at the graph needs no recordings
+    from coframe.viewer.sources.recorded import RecordedSource  # noqa: PLC0415 - who looks at the graph needs no recordings
 
     recording = coframe.open_bag(bag, progress=lambda done, total: reading.tell(done, total, bag.name), **chosen)
     reading.announce()

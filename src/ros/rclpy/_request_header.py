@@ -5,6 +5,8 @@ from __future__ import annotations
 import struct
 from typing import Final, NamedTuple
 
+from coframe.messages.encapsulation import byte_order
+
 ENCAPSULATION_SIZE: Final = 4  # The CDR header remains in front of the request header.
 _LITTLE: Final = struct.Struct("<Qq")
 _BIG: Final = struct.Struct(">Qq")
@@ -23,9 +25,12 @@ def join(header: RequestHeader, cdr: bytes) -> bytes:
 
 
 def split(data: bytes) -> tuple[RequestHeader, bytes] | None:
-    """Return the header and the message without it, or None if the data are too short for a header."""
+    """Return the header and the message without it, or None if the data are too short or not plain CDR."""
     if len(data) < ENCAPSULATION_SIZE + _LITTLE.size:
         return None
-    layout = _LITTLE if data[1] & 1 else _BIG
+    order = byte_order(data)
+    if order is None:
+        return None
+    layout = _LITTLE if order == "<" else _BIG
     header = RequestHeader(*layout.unpack_from(data, ENCAPSULATION_SIZE))
     return header, data[:ENCAPSULATION_SIZE] + data[ENCAPSULATION_SIZE + layout.size :]
