@@ -75,7 +75,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             transform: The transform.
             authority: Who says so.
         """
-        with self._coframe_buffer.dispatcher.inserting():
+        with self._coframe_buffer._dispatcher.inserting():
             super().set_transform(transform, authority)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
@@ -85,7 +85,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             transform: The transform.
             authority: Who says so.
         """
-        with self._coframe_buffer.dispatcher.inserting():
+        with self._coframe_buffer._dispatcher.inserting():
             super().set_transform_static(transform, authority)
 
     def lookup_transform(
@@ -204,7 +204,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
         stamp = _convert.nanoseconds(time, "time")
         return _transform_futures.wait(
-            self._coframe_buffer.dispatcher,
+            self._coframe_buffer._dispatcher,
             lambda mailbox, token: _core.wait(self._coframe_buffer, mailbox, token, target, source, stamp),
             lambda found: transform_stamped(target, source, found.stamp or 0, found.values),
             lambda: self._coframe_lookup(target, source, stamp),
@@ -224,7 +224,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         """The same between two times."""
         query = _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         return _transform_futures.wait(
-            self._coframe_buffer.dispatcher,
+            self._coframe_buffer._dispatcher,
             lambda mailbox, token: _core.wait_full(self._coframe_buffer, mailbox, token, *query),
             lambda found: transform_stamped(query[0], query[2], found.stamp or 0, found.values),
             lambda: self._coframe_lookup_full(query),
