@@ -223,8 +223,8 @@ def record(
 ) -> Recorder:
     """Record topics in the background until the recorder is closed.
 
-    Messages of any type are written unchanged, unless their frames are renamed. They are flushed to the operating system
-    twice per second: if the process is killed, at most the last second is lost, and the files are readable.
+    Messages of any type are written unchanged, unless their frames are renamed. The files are flushed twice per second:
+    if the process is killed, at most the last second is lost, and the files are readable.
 
     Args:
         path: The folder to create. If None, its name is ``rosbag2_`` with the current time.
