@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from coframe import _core
     from coframe.bags import Recording
     from coframe.bags.storage import Channel
-    from coframe.wire import GraphNode, Participant, Publisher, StaticWriter
+    from coframe.wire import GraphNode, Participant, Publisher, StaticBroadcaster
 
-__all__ = ["Outlets"]
+__all__ = ["TopicPublishers"]
 
 _TF = "tf2_msgs/msg/TFMessage"
 _DEPTH = 100  # messages that a publisher keeps until they have been delivered
@@ -36,7 +36,7 @@ class _Outlet(NamedTuple):
     latched: bool
 
 
-class Outlets:
+class TopicPublishers:
     """Publishers for the topics of a recording.
 
     Args:
@@ -68,7 +68,7 @@ class Outlets:
         self._recording = recording
         self._remap = remap
         self._names = names
-        self._statics: dict[str, StaticWriter] = {}
+        self._statics: dict[str, StaticBroadcaster] = {}
         self._publishers: dict[tuple[str, str], Publisher] = {}
         self._outlets: dict[tuple[str, str], _Outlet | None] = {}
         self._open()
@@ -171,7 +171,7 @@ class Outlets:
         return self._publishers[key]
 
 
-def _sending(writer: StaticWriter) -> Callable[[bytes], None]:
+def _sending(writer: StaticBroadcaster) -> Callable[[bytes], None]:
     kind = find(_TF)
     return lambda data: writer.send(deserialize(data, kind).transforms)
 

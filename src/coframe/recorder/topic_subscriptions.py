@@ -8,14 +8,14 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import WireError
-from coframe.recorder.backlog import Received, Source
+from coframe.recorder.message_queue import ReceivedMessage, Source
 from coframe.wire.qos import QoS
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from coframe import _core
-    from coframe.wire import Endpoint, GraphNode, Participant, Subscription
+    from coframe.wire import EndpointInfo, GraphNode, Participant, Subscription
 
 __all__ = ["Subscriptions", "Wanted"]
 
@@ -104,21 +104,23 @@ class Subscriptions:
         """Those that cannot be joined: their type is not ROS's, or there are too many."""
         return {offer.topic for offer in list(self._refused)}
 
-    def take(self) -> Iterator[Received]:
+    def take(self) -> Iterator[ReceivedMessage]:
         """What has arrived, first that of latched topics, which others build upon."""
         for offer, reader in sorted(self._readers.items(), key=lambda pair: not pair[0].transient_local):
             source = Source(offer.topic, offer.type, offer.transient_local)
             while reader.pending():
                 for sample in reader.take(_TAKE):
                     if self._is_for(offer, sample.writer):
-                        yield Received(source, sample.data, time.time_ns(), sample.source_timestamp, sample.writer)
+                        yield ReceivedMessage(
+                            source, sample.data, time.time_ns(), sample.source_timestamp, sample.writer
+                        )
 
     def close(self) -> None:
         """Leaves all topics."""
         for reader in self._readers.values():
             reader.close()
 
-    def _join(self, topic: str, handle: int, publisher: Endpoint, new: dict[tuple[str, str], list[QoS]]) -> None:
+    def _join(self, topic: str, handle: int, publisher: EndpointInfo, new: dict[tuple[str, str], list[QoS]]) -> None:
         key = (topic, publisher.ros_type)
         offer = _Offer(*key, publisher.qos.reliable, publisher.qos.transient_local)
         self._offers[handle] = offer

@@ -7,7 +7,7 @@ import time
 from collections import Counter, deque
 from typing import NamedTuple
 
-__all__ = ["Backlog", "Received", "Source"]
+__all__ = ["MessageQueue", "ReceivedMessage", "Source"]
 
 _OVERHEAD = 200  # bytes of a message in Python besides its own
 
@@ -26,7 +26,7 @@ class Source(NamedTuple):
     latched: bool
 
 
-class Received(NamedTuple):
+class ReceivedMessage(NamedTuple):
     """A message. Times are nanoseconds."""
 
     source: Source
@@ -36,7 +36,7 @@ class Received(NamedTuple):
     publisher: int
 
 
-class Backlog:
+class MessageQueue:
     """A queue of messages. When it is full, the oldest message makes room, and is counted.
 
     Latched messages stay, for they are not said again: they go only if they alone fill the queue.
@@ -48,13 +48,13 @@ class Backlog:
     def __init__(self, limit: int) -> None:
         self._limit = limit
         self._changed = threading.Condition()
-        self._messages: deque[Received] = deque()
-        self._latched: deque[Received] = deque()
+        self._messages: deque[ReceivedMessage] = deque()
+        self._latched: deque[ReceivedMessage] = deque()
         self._closed = False
         self.size = 0  # bytes
         self.dropped: Counter[str] = Counter()  # by topic
 
-    def put(self, message: Received) -> None:
+    def put(self, message: ReceivedMessage) -> None:
         """Takes a message in, without waiting."""
         with self._changed:
             (self._latched if message.source.latched else self._messages).append(message)
@@ -65,7 +65,7 @@ class Backlog:
                 self.dropped[oldest.source.topic] += 1
             self._changed.notify()
 
-    def take(self, timeout: float, limit: int) -> list[Received]:
+    def take(self, timeout: float, limit: int) -> list[ReceivedMessage]:
         """The oldest messages in the order in which they were received; none after `timeout` seconds, or once closed.
 
         Args:
@@ -79,7 +79,7 @@ class Backlog:
                 if left <= 0:
                     break
                 self._changed.wait(left)
-            taken: list[Received] = []
+            taken: list[ReceivedMessage] = []
             while limit > 0 and (queue := self._older()):
                 taken.append(queue.popleft())
                 self.size -= _size(taken[-1])
@@ -98,12 +98,12 @@ class Backlog:
             self._closed = True
             self._changed.notify_all()
 
-    def _older(self) -> deque[Received]:
+    def _older(self) -> deque[ReceivedMessage]:
         """The queue with the older message in front; an empty one if there is none."""
         if not self._latched or not self._messages:
             return self._latched or self._messages
         return self._latched if self._latched[0].received <= self._messages[0].received else self._messages
 
 
-def _size(message: Received) -> int:
+def _size(message: ReceivedMessage) -> int:
     return len(message.data) + _OVERHEAD

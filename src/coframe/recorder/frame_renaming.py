@@ -10,12 +10,12 @@ from coframe.frame_names import belongs
 
 if TYPE_CHECKING:
     from coframe import _core
-    from coframe.recorder.backlog import Source
+    from coframe.recorder.message_queue import Source
 
-__all__ = ["RobotFrames"]
+__all__ = ["FrameRenamer"]
 
 
-class RobotFrames:
+class FrameRenamer:
     """Renames the frames in the messages of a robot's topics.
 
     Args:
