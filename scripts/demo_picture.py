@@ -10,7 +10,7 @@ from rich.console import Console, Group
 from rich.text import Text
 
 import coframe
-from coframe.cli.demo import Clouds
+from coframe.cli.demo import CloudCounter
 from coframe.cli.live import tree_table
 from coframe.lab.launcher import Launcher
 from coframe.messages.generated.sensor_msgs.msg import PointCloud2
@@ -21,8 +21,8 @@ SECONDS = 8.0
 def main() -> None:
     console = Console(record=True, width=104, force_terminal=True)
     with coframe.connect("coframe_demo") as ros, Launcher() as nodes:
-        clouds = Clouds()
-        ros.subscribe("/scan_base_frame", PointCloud2, clouds.take)
+        clouds = CloudCounter()
+        ros.subscribe("/scan_base_frame", PointCloud2, clouds.add)
         time.sleep(SECONDS)
         table = tree_table(ros.buffer, "base_link")
         console.print(Group(table, Text(str(clouds)), Text(f"{', '.join(nodes.names)}", style="dim")))
