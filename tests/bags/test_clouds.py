@@ -136,9 +136,7 @@ def test_the_command_says_how_times_were_read(path, tmp_path):
     command = ["cloud", str(path), "/points_velodyne", "--frame", "map", "-o", str(tmp_path / "out.ply")]
     ended = CliRunner().invoke(app, command)
     assert ended.exit_code == 0
-    told = (
-        "coframe: points of 16 messages moved by their own times: the field time, taken for s from the message's stamp"
-    )
+    told = "coframe: deskewed the points of 16 messages by their own times: the field time, taken for s from the message's stamp"
     assert told in ended.stderr
     for option in ("time:h", ":s"):
         ended = CliRunner().invoke(app, [*command, "--point-times", option])

@@ -85,7 +85,7 @@ def test_time_travel(bag):
     expected = recordings.expected()._lookup_full("base", START + 2 * SECOND, "base", START + SECOND, "odom")
     assert json.loads(out)["translation"] == pytest.approx(expected.translation.tolist(), abs=1e-12)
     code, _, error = run("lookup", bag, "base", "base", "--fixed", "odom")
-    assert (code, error) == (2, "coframe: time travel takes both --fixed and --source-time\n")
+    assert (code, error) == (2, "coframe: --fixed requires --source-time\n  Time travel needs both options.\n")
 
 
 @pytest.mark.parametrize(
@@ -114,8 +114,8 @@ def test_a_time_outside_of_the_recording_tells_which_times_are_inside(bag, argum
     last = (COUNT - 1) * (SECOND // 20 + 1)
     code, _, error = run("lookup", bag, *arguments)
     assert code == 1
-    told = f"The recording tells of {frames} from 1700000000.000000000 to 1700000002.{last % SECOND:09d}"
-    assert f"{told}, which is 0s to 2.{last % SECOND:09d}s." in error
+    told = f"The recording has transforms between {frames} from 1700000000.000000000 to 1700000002.{last % SECOND:09d}"
+    assert f"{told}, i.e. --at 0s to 2.{last % SECOND:09d}s." in error
     assert "wait for it" not in error
 
 
@@ -208,15 +208,15 @@ def test_trajectories_at_other_times(bag, tmp_path):
     assert code == 0
     assert out.splitlines()[1].startswith(f"{START + SECOND},")
     assert len(out.splitlines()) == 2
-    assert error == "coframe: 1 of 2 times have no transform and were left out\n"
+    assert error == "coframe: no transform at 1 of 2 times; those are omitted\n"
 
 
 @pytest.mark.parametrize(
     ("arguments", "code", "reason"),
     [
         (("-o", "x.mat"), 2, "does not say which format"),
-        (("-f", "xls"), 2, "no format 'xls'"),
-        (("-f", "npz"), 2, "name a file with -o"),
+        (("-f", "xls"), 2, "unknown format 'xls'"),
+        (("-f", "npz"), 2, "Give a file: -o FILE"),
         (("--rate", "0"), 2, "must be above 0"),
         (("--rate", "nan"), 2, "must be above 0"),
         (("--rate", "1", "--stamps-of", "tf"), 2, "exclude each other"),
@@ -236,7 +236,7 @@ def test_bag_info(bag):
     code, out, error = run("bag", "info", bag)
     assert (code, error) == (0, "")
     assert "received  2023-11-14 22:13:20.000 UTC to 2023-11-14 22:13:22.950 UTC, 2.950000059 s" in out
-    assert "tree of odom: 3 frames" in out
+    assert "tree with root odom: 3 frames" in out
     code, out, _ = run("bag", "info", bag, "--json")
     summary = json.loads(out)
     assert summary["trees"] == [{"root": "odom", "size": 3}]
@@ -260,8 +260,8 @@ def test_bag_info_tells_which_sensors_could_be_transformed(shared):
 def test_bag_info_of_two_trees(shared):
     code, out, _ = run("bag", "info", shared / "recordings" / "tb3_tf_missing_static")
     assert code == 0
-    assert "tree of base_link: 3 frames" in out
-    assert "tree of odom: 2 frames" in out
+    assert "tree with root base_link: 3 frames" in out
+    assert "tree with root odom: 2 frames" in out
 
 
 def test_problems_go_to_stderr(bag, tmp_path):

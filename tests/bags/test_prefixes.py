@@ -70,12 +70,12 @@ def test_a_cloud(bag, tmp_path):
 def test_a_batch(bag, tmp_path):
     pytest.importorskip("pyarrow")
     code, out = run("batch", "odom", "robot1/base", bag, "-o", tmp_path / "poses", *ROBOT1)
-    assert (code, "50 poses of 1 recordings" in out) == (0, True)
+    assert (code, "50 poses from 1 recording" in out) == (0, True)
 
 
 def test_only_one_robot_is_mended_under_a_prefix(bag, tmp_path):
     code, out = run("bag", "fix", bag, tmp_path / "new", *ROBOT1)
-    assert (code, re.findall(r"mended: (\S+): \d+ names of frames", out)) == (
+    assert (code, re.findall(r"repaired: (\S+): \d+ names of frames", out)) == (
         0,
         ["/robot1/tf_static", "/robot1/tf", "/robot1/scan"],
     )

@@ -39,7 +39,7 @@ def test_a_recording_that_breaks_off(tmp_path):
     assert "found: cut.mcap: it breaks off at byte 3000 of 3000" in output
     messages = assert_clean(tmp_path / "new")
     assert 20 < len(messages) < COUNT
-    assert f"mended: {len(messages)} messages of 2 topics written anew, with an index and metadata.yaml" in output
+    assert f"repaired: {len(messages)} messages of 2 topics written anew, with an index and metadata.yaml" in output
     assert [bytes(data) for *_, data in messages] == [data for *_, data in recordings.messages()[: len(messages)]]
 
 
@@ -95,7 +95,7 @@ def test_prefixes(tmp_path):
     )
     code, output = fix(source, tmp_path / "new", "--prefix", "r1/", "--keep", "odom")
     assert code == 0
-    assert "mended: /odom: 1 names of frames put under 'r1/'" in output
+    assert "repaired: /odom: 1 names of frames put under 'r1/'" in output
     assert_clean(tmp_path / "new")
     with coframe.open_bag(tmp_path / "new") as bag:
         poses = bag.buffer.trajectory("odom", "r1/lidar").matrix
@@ -116,7 +116,7 @@ def test_statics_come_first_and_from_another_recording(tmp_path):
     without = recordings.write_mcap(tmp_path / "without.mcap", rows=moving)
     code, output = fix(without, tmp_path / "new", "--statics", late)
     assert code == 0
-    assert "mended: /tf_static: 1 static transforms added" in output
+    assert "repaired: /tf_static: 1 static transforms added" in output
     assert_clean(tmp_path / "new")
     with coframe.open_bag(tmp_path / "new") as bag:
         recordings.assert_same(bag.buffer)
@@ -136,7 +136,7 @@ def test_statics_are_added_to_one_robot(tmp_path):
     robot1 = ["--tf-topic", "/robot1/tf", "--tf-static-topic", "robot1/tf_static", "--prefix", "robot1/"]
     code, output = fix(run.write(tmp_path), tmp_path / "new", "--statics", plain.write(tmp_path / "plain"), *robot1)
     assert code == 0
-    assert "mended: /robot1/tf_static: 1 static transforms added" in output
+    assert "repaired: /robot1/tf_static: 1 static transforms added" in output
     assert "1 static transforms not added, since the recording tells of their frames" in output
     with coframe.open_bag(tmp_path / "new") as bag:
         assert bag.buffers["/robot1"].can_transform("robot1/odom", "robot1/lidar")
@@ -172,7 +172,7 @@ def test_what_cannot_be_mended_is_told(tmp_path):
     source = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/odd": ("my_pkg/msg/Odd", "", b"", "cdr")})
     code, output = fix(source, tmp_path / "new")
     assert code == 0
-    assert "still odd: /odd: messages of the type my_pkg/msg/Odd are given as bytes" in output
+    assert "remaining: /odd: messages of the type my_pkg/msg/Odd are given as bytes" in output
     with coframe.open_bag(tmp_path / "new") as bag:
         assert next(bag.messages("/odd")).data == b"\0\1\0\0abcd"
 

@@ -129,7 +129,7 @@ def test_what_cannot_be_transformed_says_why(ros, robot, view, open_tab):
     early = Talker(ros, tab, "/early", scan("lidar", robot - 60 * SECOND, [1.0]))
     told = early.until("display", lambda told: told["id"] == 1 and told["state"] == "error")
     assert "extrapolation into the past" in told["text"]
-    assert "map -> base has forgotten that time" in told["text"], "the hint"
+    assert "map -> base no longer has a sample" in told["text"], "the hint"
     lost = Talker(ros, tab, "/lost", scan("lider", robot, [1.0]))
     told = lost.until("display", lambda told: told["id"] == 2 and told["state"] == "error")
     assert "Did you mean 'lidar'?" in told["text"]

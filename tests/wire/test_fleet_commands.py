@@ -71,7 +71,7 @@ def test_a_fleet_of_which_one_dies(command, ros, eventually, own_topics):
     assert newest("robot2") < killed + 10**9
     code, text, errors = interrupted(demo)
     assert code == 0, errors
-    assert "robot2 has gone: its process ended with exit code -9, its frames are stale" in text
+    assert "robot2 stopped: its process ended with exit code -9; its frames are stale" in text
     states = dict(re.findall(r"^(robot\d) +(\w+) +9 ", text, re.MULTILINE))
     assert states == {"robot1": "live", "robot2": "stale"}, text
     assert ("relay: robot2" in text) == own_topics
@@ -116,7 +116,7 @@ def test_prefixes_and_a_relay_as_they_are_typed(command, ros, eventually):
         (["relay", "--robots", "a", "--tf-static-topic", "a/tf_static"], "/a/tf_static would be read and written"),
         (["robot", ARM, "--prefx", "robot1/"], "there is no option or argument '--prefx'"),
         (["joints", ARM, "first_length:=0.5", "surplus"], "there is no option or argument 'surplus'"),
-        (["record", "--tf-topic", "/robot1/tf"], "say whose frames get the prefix"),
+        (["record", "--tf-topic", "/robot1/tf"], "--tf-topic and --tf-static-topic require --prefix"),
         (["static", "--frame-id", "a", "--child-frame-id", "b", "--prefix", "/r/"], "the prefix '/r/' begins"),
     ],
 )

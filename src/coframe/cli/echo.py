@@ -20,7 +20,7 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import fail, log
+from coframe.cli.output import fail, log, with_doctor_command
 from coframe.errors import TransformException
 from coframe.time import SECOND
 
@@ -145,7 +145,7 @@ def _wait_until_possible(buffer: Buffer, source: str, target: str, period: int) 
                 log("INFO", NODE, f"Waiting for transform {source} ->  {target}: {buffer._why_not(source, target)}")
                 if error.hint != logged_hint:  # The reason is repeated every second, the hint only when it changes.
                     logged_hint = error.hint
-                    log("INFO", NODE, error.hint)
+                    log("INFO", NODE, with_doctor_command(error.hint))
         else:
             return
 

@@ -33,7 +33,7 @@ from coframe.cli.options import (
     recorded_tf_topics,
     reject_namespace_of_live_graph,
 )
-from coframe.cli.output import fail, printable
+from coframe.cli.output import fail, printable, with_doctor_command
 from coframe.cli.recordings import open_recording, parse_time
 from coframe.doctor import Observation, diagnose
 from coframe.doctor.recorded import collecting
@@ -268,7 +268,7 @@ def _print(answer: _Answer, *, as_json: bool) -> None:
 
 
 def _texts(answer: _Answer, console: Console) -> list[Text]:
-    first, *rest = str(answer.found).split("\n")
+    first, *rest = with_doctor_command(_with_fix(answer.found, str(answer.found))).split("\n")
     lines = [("green" if answer.found.possible else "bold red", first), *(("", line) for line in rest)]
     for report in answer.reports:
         for finding in report.findings:
@@ -278,6 +278,11 @@ def _texts(answer: _Answer, console: Console) -> list[Text]:
     if console.options.ascii_only:
         shown = [(style, line.translate(_ASCII)) for style, line in shown]
     return [Text(line, style=style) for style, line in shown]
+
+
+def _with_fix(found: Explanation, text: str) -> str:
+    """Replace what the library says about a missing edge by the command that publishes it."""
+    return text if found.missing is None else text.replace(found.missing.hint, found.missing.fix)
 
 
 def _data(answer: _Answer) -> dict[str, Any]:
@@ -291,7 +296,7 @@ def _data(answer: _Answer) -> dict[str, Any]:
         "code": found.code or None,
         "verdict": verdict(found),
         "text": found.text or None,
-        "hint": found.hint or None,
+        "hint": with_doctor_command(_with_fix(found, found.hint)) or None,
         "frames": list(found.frames),
         "edges": [_edge_data(found, edge) for edge in found.links],
         "unknown": list(found.unknown),

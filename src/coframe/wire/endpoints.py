@@ -302,7 +302,7 @@ class TfReader(WireEndpoint):
         topic = names.any_ros_name(self.topic)
         return [
             publisher_of(heard, graph.writer_node(heard[0]), topic, static=self._static, present=heard[0] in present)
-            for heard in self._reader.heard()
+            for heard in self._reader.writers()
         ]
 
     def name_writers(self, graph: Graph) -> None:
