@@ -122,11 +122,11 @@ def test_a_time_outside_of_the_recording_tells_which_times_are_inside(bag, argum
 @pytest.mark.parametrize(
     ("stamps", "at", "text"),
     [
-        ([START + i * SECOND // 10 for i in range(5)], "50s", "no time in common"),
+        ([START + i * SECOND // 10 for i in range(5)], "50s", "no common time"),
         ([0] * 5, "1s", "odom -> base"),
     ],
 )
-def test_links_without_a_time_in_common_are_told_of_as_they_are(tmp_path, stamps, at, text):
+def test_hint_names_edges_without_a_common_time(tmp_path, stamps, at, text):
     run_ = Run()
     for i, stamp in enumerate(stamps):
         run_.tf("odom", "base", stamp, arrived=START + i)
@@ -137,7 +137,7 @@ def test_links_without_a_time_in_common_are_told_of_as_they_are(tmp_path, stamps
     assert "use a longer cache" not in error
 
 
-def test_ctrl_c_ends_work_that_is_not_done_with_another_code(bag, tmp_path, monkeypatch):
+def test_ctrl_c_before_completion_exits_with_130(bag, tmp_path, monkeypatch):
     from coframe.bags import recording, repair
 
     def interrupted(*_arguments):
@@ -151,7 +151,7 @@ def test_ctrl_c_ends_work_that_is_not_done_with_another_code(bag, tmp_path, monk
         assert run(*command) == (130, "", "")
 
 
-def test_a_recording_that_is_not_there(tmp_path):
+def test_missing_recording_is_reported(tmp_path):
     for command in (
         ("lookup", tmp_path / "x", "a", "b"),
         ("trajectory", tmp_path / "x", "a", "b"),

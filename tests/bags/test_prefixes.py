@@ -63,7 +63,7 @@ def test_a_misspelt_topic_is_no_healthy_recording(bag):
 
 def test_a_cloud(bag, tmp_path):
     code, out = run("cloud", bag, "/robot1/scan", "--frame", "robot1/base", "-o", tmp_path / "a.npz", *ROBOT1)
-    assert (code, "of 1 messages, in robot1/base" in out) == (0, True)
+    assert (code, "of 1 message, in frame 'robot1/base'" in out) == (0, True)
 
 
 @pytest.mark.slow  # which starts processes

@@ -71,7 +71,7 @@ def test_namespaces_are_apart(tmp_path):
     assert sorted(json.loads(frames(bag, "--json").stdout)["namespaces"]) == ["/r1", "/r2"]
     refused = frames(bag, "-o", tmp_path / "x.svg")
     assert refused.exit_code == 2
-    assert "--namespace: /r1, /r2" in refused.output
+    assert "in several namespaces: /r1, /r2\n  Choose one with --namespace." in refused.output
     assert frames(bag, "-o", tmp_path / "x.svg", "--namespace", "/r1").exit_code == 0
     data = json.loads(frames(bag, "--namespace", "r2", "--prefix", "r2/", "--keep", "odom", "--json").stdout)
     data = data["namespaces"]["/r2"] if "namespaces" in data else data

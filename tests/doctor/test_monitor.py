@@ -152,7 +152,11 @@ def test_the_classic_format_is_tf2_monitors(seen, capsys):
 
 @pytest.mark.parametrize(
     ("arguments", "text"),
-    [(["a"], "give two frames, or none"), (["--json", "--classic"], "exclude"), (["--duration", "0s"], "more than 0")],
+    [
+        (["a"], "SOURCE is missing"),
+        (["--json", "--classic"], "--json cannot be combined with --classic"),
+        (["--duration", "0s"], "greater than 0"),
+    ],
 )
 def test_wrong_usage_is_a_sentence(arguments, text):
     result = CliRunner().invoke(app, ["monitor", *arguments])
