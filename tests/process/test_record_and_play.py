@@ -157,7 +157,7 @@ def test_keys_steer_what_is_played(network, shared):
         (("record", "--max-size", "big"), 2, "--max-size: 'big' is not a size"),
         (("record", "--compression", "zip"), 2, "there is no compression 'zip'"),
         (("record", "-a", "/tf"), 2, "--all cannot be combined with TOPIC"),
-        (("record", "-e", "["), 2, "is no regular expression"),
+        (("record", "-e", "["), 2, "is not a valid regular expression"),
         (("play", "gone"), 1, "gone cannot be read"),
         (("play", "gone", "--rate", "0"), 2, "above 0"),
         (("play", "gone", "--remap", "/tf"), 2, "is not OLD:=NEW"),

@@ -148,7 +148,7 @@ class _Rates:
     def update(self, edges: list[RelayedEdge]) -> dict[tuple[str, str, str], float]:
         """Return the rates in Hz by target, parent and child."""
         now = time.monotonic()
-        seen = {(edge.target, edge.parent, edge.child): edge.passed for edge in edges}
+        seen = {(edge.target, edge.parent, edge.child): edge.forwarded for edge in edges}
         elapsed = max(now - self._at, 1e-9)
         rates = {key: (passed - self._seen.get(key, 0)) / elapsed for key, passed in seen.items() if self._seen}
         self._seen, self._at = seen, now
@@ -163,8 +163,8 @@ def _table(running: Relay, rates: _Rates) -> Table:
     edges = sorted(running.edges(), key=lambda edge: (edge.target, edge.robot, edge.parent, edge.child))
     each = rates.update(edges)
     for edge in edges:
-        note = f"also published by {edge.rival}, which is ignored" if edge.rival else ""
-        if states[edge.robot] in {"gone", "silent"}:
+        note = f"also published by {edge.conflicting_robot}, which is ignored" if edge.conflicting_robot else ""
+        if states[edge.robot] in {"gone", "stale"}:
             has_left = states[edge.robot] == "gone"
             note = f"stale: {edge.robot} {'is no longer there' if has_left else 'stopped publishing'}"
         hertz = each.get((edge.target, edge.parent, edge.child))
