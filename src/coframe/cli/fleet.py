@@ -180,7 +180,9 @@ class _View:
         else:
             every = self._ros.publishers()
             publishers = {name: [one for one in every if one.node.startswith(f"/{name}/")] for name in self._names}
-        return [_Row(name, publisher_state(publishers[name]), publishers[name], ended.get(name)) for name in self._names]
+        return [
+            _Row(name, publisher_state(publishers[name]), publishers[name], ended.get(name)) for name in self._names
+        ]
 
     def missing(self) -> list[str]:
         """Return the robots whose frames have not been received."""
