@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from coframe.bags import COMPRESSIONS, mend, summarize
+from coframe.bags import COMPRESSIONS, repair, summarize
 from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, work, working
 from coframe.cli.session import (
     TF_STATIC_TOPIC,
@@ -76,20 +76,20 @@ def fix(
     keep: KeepOption = "",
     compression: Annotated[str, typer.Option(help="none, zstd or lz4.")] = "zstd",
 ) -> None:
-    """Write the recording BAG anew into the folder OUT, as far as it can be read, and tell what was mended.
+    """Write the recording BAG anew into the folder OUT, as far as it can be read, and tell what was report.
 
     OUT has an index, metadata, its static transforms in front and no names that begin with a slash; BAG stays as it is.
     --prefix goes in front of the frames that any message names; with --tf-topic /robot1/tf, any of the topics in
     /robot1.
 
-    Example: coframe bag fix broken.mcap mended
+    Example: coframe bag fix broken.mcap repaired
     """
     if compression not in COMPRESSIONS:
         fail(f"--compression: there is no {compression!r}: it is one of {', '.join(COMPRESSIONS)}", code=2)
     with work():
         robot: dict[str, str] = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
         with working() as progress:
-            mended = mend(
+            report = repair(
                 bag,
                 output,
                 statics=statics,
@@ -99,10 +99,14 @@ def fix(
                 compression=compression,
                 progress=progress,
             )
-        for title, sentences in (("found", mended.found), ("mended", mended.done), ("still odd", mended.left)):
+        for title, sentences in (
+            ("found", report.problems),
+            ("fixed", report.changes),
+            ("remaining", report.remaining),
+        ):
             for sentence in sentences:
                 print(printable(f"{title}: {sentence}"))
-        print(f"{mended.path}: {mended.messages} messages")
+        print(f"{report.path}: {report.messages} messages")
 
 
 def _print(summary: Summary) -> None:

@@ -19,7 +19,7 @@ from rich.progress import (
     TimeRemainingColumn,
 )
 
-from coframe.bags import open_bag, parse_instant
+from coframe.bags import open_bag, parse_time_point
 from coframe.cli.session import fail, recorded_tf_topics, session
 
 if TYPE_CHECKING:
@@ -111,6 +111,6 @@ def opened(
 def instant(option: str, text: str, recording: Recording) -> int:
     """The time that an option names, in nanoseconds; anything else ends the command."""
     try:
-        return parse_instant(text, recording.span)
+        return parse_time_point(text, recording.span)
     except ValueError as error:
         fail(f"{option}: {error}", code=2)

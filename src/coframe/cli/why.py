@@ -18,7 +18,7 @@ from rich.text import Text
 from typer.core import TyperCommand
 
 import coframe
-from coframe.bags import parse_instant
+from coframe.bags import parse_time_point
 from coframe.cli.recordings import NamespaceOption, check_live, instant, opened, work
 from coframe.cli.session import (
     TF_STATIC_TOPIC,
@@ -212,7 +212,7 @@ def _instant(at: str | None, clock: int | None, window: int) -> int | None:
         return None
     now = time.time_ns() if clock is None else clock
     try:
-        return now if at.strip() == "now" else parse_instant(at, (now - window, now))
+        return now if at.strip() == "now" else parse_time_point(at, (now - window, now))
     except ValueError as error:
         fail(f"--at: {error}", code=2)
 

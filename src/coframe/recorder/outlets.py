@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.bags import from_yaml
-from coframe.bags.as_cdr import as_cdr, transforms_of
+from coframe.bags.cdr_conversion import cdr_converter, decode_transforms
 from coframe.bags.message_frames import FrameNames
 from coframe.bags.transforms import is_static
 from coframe.errors import WireError
@@ -116,7 +116,7 @@ class Outlets:
             if outlet is None:
                 continue
             known = found[channel.topic]
-            for transform in transforms_of(outlet.convert, data):
+            for transform in decode_transforms(outlet.convert, data):
                 if received < start or transform.child_frame_id not in known:
                     known[transform.child_frame_id] = transform
         return {topic: list(known.values()) for topic, known in found.items() if known}
@@ -137,7 +137,7 @@ class Outlets:
                 self.problems.append(f"{channel.topic} is not played: {error}")
 
     def _outlet(self, channel: Channel, offered: list[QoS]) -> _Outlet | None:
-        converted = as_cdr(channel)
+        converted = cdr_converter(channel)
         if converted is None:
             self.problems.append(
                 f"{channel.topic} is not played: ROS 2 has no {channel.type} as it was recorded ({channel.encoding})"
