@@ -55,7 +55,7 @@ def test_no_digit_of_a_time_is_lost(bag, text, stamp):
     ("text", "reason"),
     [
         ("soon", "is not a point in time"),
-        ("1.0000000001", "nine after the point"),
+        ("1.0000000001", "more than nine decimals"),
         ("2023-11-14T22:13:21", "has no time zone"),
         ("2023-13-14T22:13:21Z", "is not a point in time"),
         ("10 parsecs", "is not a duration"),
@@ -122,7 +122,7 @@ def test_a_time_outside_of_the_recording_tells_which_times_are_inside(bag, argum
 @pytest.mark.parametrize(
     ("stamps", "at", "text"),
     [
-        ([START + i * SECOND // 10 for i in range(5)], "50s", "no time in common"),
+        ([START + i * SECOND // 10 for i in range(5)], "50s", "no common time"),
         ([0] * 5, "1s", "odom -> base"),
     ],
 )
@@ -221,8 +221,8 @@ def test_trajectories_at_other_times(bag, tmp_path):
         (("--rate", "nan"), 2, "must be above 0"),
         (("--rate", "1", "--stamps-of", "tf"), 2, "mutually exclusive"),
         (("--stamps-of", "gone"), 1, "has no topic 'gone'"),
-        (("--rate", "1", "--start", "1h"), 1, "nothing between these times"),
-        (("--start", "1h"), 1, "nothing between these times"),
+        (("--rate", "1", "--start", "1h"), 1, "No stamps between"),
+        (("--start", "1h"), 1, "No stamps between"),
         (("-o", "/nowhere/x.tum"), 1, "cannot be written: No such file"),
     ],
 )

@@ -45,7 +45,7 @@ def test_one_finding_a_line_then_why_and_what_to_do(ill):
     assert first.endswith("; first stamp 1700000000.000000000")
     assert why.startswith("      why: A look-up between frames of two trees never succeeds")
     assert fix.startswith(
-        "      do:  In the node that sends 'base_lnk', change the line to t.header.frame_id = 'base_link'"
+        "      do:  In the node that publishes 'base_lnk', change the line to t.header.frame_id = 'base_link'"
     )
 
 
@@ -153,7 +153,7 @@ def test_every_page_is_printed(code):
         (["nowhere.mcap"], 1, "nowhere.mcap cannot be read"),
         (["--duration", "soon"], 2, "--duration"),
         (["--json", "--sarif"], 2, "exclude each other"),
-        (["--namespace", "/robot1"], 2, "Live, give --tf-topic /robot1/tf"),
+        (["--namespace", "/robot1"], 2, "For live transforms, use --tf-topic /robot1/tf"),
     ],
 )
 def test_wrong_usage_is_a_sentence(arguments, code, text):

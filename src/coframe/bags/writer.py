@@ -68,9 +68,9 @@ class _Contents:
 class Writer:
     """Writes a recording that rosbag2, Foxglove and other tools open.
 
-    A context manager; not thread-safe. Each file begins with the latched (transient-local) messages that are valid then,
-    such as static transforms. Flushed messages survive the end of the process, and the files are valid after each
-    flush.
+    A context manager; not thread-safe. Each file begins with the latched (transient-local) messages that are valid at
+    that time, such as static transforms. Flushed messages survive the end of the process, and the files are valid after
+    each flush.
 
     Args:
         path: The folder, which must not exist.

@@ -38,8 +38,8 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe.doctor.transforms import Transforms
-    from coframe.wire.endpoints import Tap, TappedMessages
-    from coframe.wire.graph import Endpoint as WireEndpoint
+    from coframe.wire.batch_subscription import BatchSubscription, MessageBatch
+    from coframe.wire.graph import EndpointInfo
 
 __all__ = ["LiveObserver"]
 
@@ -71,10 +71,10 @@ class _Writer(NamedTuple):
 class _Topic:
     """A topic that is listened to beside those of transforms."""
 
-    def __init__(self, name: str, ros_type: str, tap: Tap) -> None:
+    def __init__(self, name: str, ros_type: str, subscription: BatchSubscription) -> None:
         self.name = name
         self.type = ros_type
-        self.tap = tap
+        self.subscription = subscription
         self.messages = 0
         self.heads: deque[_Head] = deque(maxlen=_MOST_MESSAGES)
         self.decoded: deque[tuple[int, Any]] = deque(maxlen=_MOST_MESSAGES)
@@ -123,7 +123,7 @@ class LiveObserver:
         try:
             self._node = self._participant.add_node("/", node_name)
             self._transforms = {
-                topic: (self._tap(topic, TF_TYPE, qos, _WHOLE), static)
+                topic: (self._subscribe(topic, TF_TYPE, qos, _WHOLE), static)
                 for topic, qos, static in ((tf_topic, TF, False), (tf_static_topic, TF_STATIC_READER, True))
             }
         except BaseException:
@@ -147,8 +147,8 @@ class LiveObserver:
         for handles in published.values():
             for handle, endpoint in handles.items():
                 self._meet(handle, endpoint)
-        for topic, (tap, static) in self._transforms.items():
-            self._take_transforms(topic, tap.take(), static)
+        for topic, (subscription, static) in self._transforms.items():
+            self._take_transforms(topic, subscription.take(), static)
         for name, handles in published.items():
             if name not in self._topics and name not in self._transforms:
                 self._listen(name, sorted({endpoint.ros_type for endpoint in handles.values()}))
@@ -195,10 +195,10 @@ class LiveObserver:
             link_name=self._renamed,
         )
 
-    def _tap(self, topic: str, ros_type: str, qos: QoS, head: int) -> Tap:
-        return self._participant.tap(self._node, topic, ros_type, qos, head=head)
+    def _subscribe(self, topic: str, ros_type: str, qos: QoS, max_bytes: int) -> BatchSubscription:
+        return self._participant.batch_subscription(self._node, topic, ros_type, qos, max_bytes=max_bytes)
 
-    def _meet(self, handle: int, endpoint: WireEndpoint) -> None:
+    def _meet(self, handle: int, endpoint: EndpointInfo) -> None:
         if not endpoint.node.startswith("_NODE_NAME_UNKNOWN"):
             self._writers[handle] = _Writer(full_name(endpoint.namespace, endpoint.node), endpoint.guid[:12])
 
@@ -240,7 +240,7 @@ class LiveObserver:
             by_name.setdefault(self._node_of(handle), []).extend(travel)
         return {name: np.array(travel, dtype=np.int64) for name, travel in by_name.items()}
 
-    def _take_transforms(self, topic: str, messages: TappedMessages, static: bool) -> None:
+    def _take_transforms(self, topic: str, messages: MessageBatch, static: bool) -> None:
         if not len(messages.ends):
             return
         handles, publisher = np.unique(messages.writers, return_inverse=True)
@@ -261,17 +261,17 @@ class LiveObserver:
     def _listen(self, name: str, types: list[str]) -> None:
         ros_type = types[0]
         if name.endswith(_DESCRIPTION) and ros_type == "std_msgs/msg/String":
-            tap = self._tap(name, ros_type, _LATCHED, _WHOLE)
+            subscription = self._subscribe(name, ros_type, _LATCHED, _WHOLE)
         elif ros_type in _DECODED:
-            tap = self._tap(name, ros_type, _ANY, _WHOLE)
+            subscription = self._subscribe(name, ros_type, _ANY, _WHOLE)
         elif ros_type not in _TOO_LARGE and opens_with_header(ros_type):
-            tap = self._tap(name, ros_type, _ANY, HEADER_BYTES)
+            subscription = self._subscribe(name, ros_type, _ANY, HEADER_BYTES)
         else:
             return
-        self._topics[name] = _Topic(name, ros_type, tap)
+        self._topics[name] = _Topic(name, ros_type, subscription)
 
     def _take(self, heard: _Topic) -> None:
-        messages = heard.tap.take()
+        messages = heard.subscription.take()
         heard.messages += len(messages.ends)
         whole = Slices.contiguous(messages.data, messages.ends).each()
         rows = zip(map(bytes, whole), messages.arrived.tolist(), messages.writers.tolist(), strict=True)
@@ -312,7 +312,7 @@ class LiveObserver:
         facts |= {topic.name: TopicFacts(topic.name, topic.type, topic.messages) for topic in self._topics.values()}
         return facts
 
-    def _endpoints(self, endpoints: Iterable[WireEndpoint]) -> tuple[Endpoint, ...]:
+    def _endpoints(self, endpoints: Iterable[EndpointInfo]) -> tuple[Endpoint, ...]:
         """Named ones: one without a node is no ROS program, or has just come."""
         return tuple(
             Endpoint(full_name(endpoint.namespace, endpoint.node), endpoint.qos.transient_local)
