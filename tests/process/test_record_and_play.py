@@ -155,7 +155,7 @@ def test_keys_steer_what_is_played(network, shared):
         (("record", "--max-size", "big"), 2, "--max-size: 'big' is no amount of bytes"),
         (("record", "--compression", "zip"), 2, "there is no compression 'zip'"),
         (("record", "-a", "/tf"), 2, "exclude each other"),
-        (("record", "-e", "["), 2, "is no regular expression"),
+        (("record", "-e", "["), 2, "is not a valid regular expression"),
         (("play", "gone"), 1, "gone cannot be read"),
         (("play", "gone", "--rate", "0"), 2, "above 0"),
         (("play", "gone", "--remap", "/tf"), 2, "is no renaming"),
