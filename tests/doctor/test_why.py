@@ -128,7 +128,7 @@ def test_hostile_names_do_not_steer_the_terminal(tmp_path):
         (["x.mcap", "a", "b", "--watch"], 2, "--watch cannot be combined with a recording"),
         ([__file__, "a"], 2, "Give TARGET and SOURCE after the recording"),
         (["a", "b", "--duration", "0s"], 2, "greater than 0"),
-        (["a", "b", "--at", "soon", "--duration", "1ms"], 2, "--at: 'soon' is no point in time"),
+        (["a", "b", "--at", "soon", "--duration", "1ms"], 2, "--at: 'soon' is not a point in time"),
     ],
 )
 @pytest.mark.usefixtures("domain_id")

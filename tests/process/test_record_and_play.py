@@ -99,9 +99,7 @@ def test_ctrl_c_ends_it_with_an_index_and_a_sentence(processes, tmp_path):
         assert make_reader(stream).get_summary().statistics.message_count == assert_others_open_it(tmp_path / "run")
     processes.start("again", *CLI, "record", "-o", tmp_path / "run")
     eventually(lambda: not processes.running("again"), lambda: processes.text("again"))
-    assert processes.text("again").startswith(
-        f"coframe: {tmp_path / 'run'} is there already, and nothing is overwritten"
-    )
+    assert processes.text("again").startswith(f"coframe: {tmp_path / 'run'} already exists and is not overwritten")
 
 
 def test_a_full_disk_ends_it_with_a_sentence(processes, tmp_path):

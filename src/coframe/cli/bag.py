@@ -11,7 +11,7 @@ import typer
 from rich.table import Table
 from rich.text import Text
 
-from coframe.bags import COMPRESSIONS, mend, summarize
+from coframe.bags import COMPRESSIONS, repair, summarize
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
@@ -103,7 +103,7 @@ def fix(
     with run_to_completion():
         robot: dict[str, str] = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
         with task_progress() as progress:
-            repaired = mend(
+            report = repair(
                 bag,
                 output,
                 statics=statics,
@@ -113,10 +113,14 @@ def fix(
                 compression=compression,
                 progress=progress,
             )
-        for title, sentences in (("found", repaired.found), ("repaired", repaired.done), ("remaining", repaired.left)):
+        for title, sentences in (
+            ("found", report.problems),
+            ("fixed", report.changes),
+            ("remaining", report.remaining),
+        ):
             for sentence in sentences:
                 print(printable(f"{title}: {sentence}"))
-        print(f"{repaired.path}: {count(repaired.messages, 'message')}")
+        print(f"{report.path}: {count(report.messages, 'message')}")
 
 
 def _print(summary: Summary) -> None:

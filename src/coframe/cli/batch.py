@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from coframe.bags import Question, answer_all
+from coframe.bags import TrajectoryQuery, query_recordings
 from coframe.bags.batch import ENGINES
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
@@ -23,7 +23,7 @@ from coframe.cli.output import count, fail, printable, warn
 from coframe.cli.progress import item_progress
 
 if TYPE_CHECKING:
-    from coframe.bags import Answer
+    from coframe.bags import QueryResult
 
 __all__ = ["batch"]
 
@@ -67,13 +67,13 @@ def batch(
     """
     try:
         topics = recorded_tf_topics(tf_topic, tf_static_topic)
-        question = Question(target, source, rate, stamps_of, start, stop, namespace, topics, prefix, keep)
+        query = TrajectoryQuery(target, source, rate, stamps_of, start, stop, namespace, topics, prefix, keep)
     except ValueError as error:
         fail(str(error), code=2)
     if on not in ENGINES:
         fail(f"--on: unknown engine {on!r}. Engines: {', '.join(ENGINES)}", code=2)
     with run_to_completion():
-        answers = _run(bags, question, output, on, workers)
+        answers = _run(bags, query, output, on, workers)
         bad = [one for one in answers if one.error]
         for one in answers:
             _print_problems(one)
@@ -86,13 +86,13 @@ def batch(
             fail(f"{len(bad)} of {count(len(answers), 'recording')} failed, for the reasons above")
 
 
-def _run(bags: list[Path], question: Question, output: Path, on: str, workers: int | None) -> list[Answer]:
+def _run(bags: list[Path], query: TrajectoryQuery, output: Path, on: str, workers: int | None) -> list[QueryResult]:
     done = itertools.count(1)
     with item_progress("recordings", len(bags)) as show:
-        return answer_all(bags, question, output, on=on, workers=workers, progress=lambda _: show(next(done)))
+        return query_recordings(bags, query, output, on=on, workers=workers, progress=lambda _: show(next(done)))
 
 
-def _print_problems(one: Answer) -> None:
+def _print_problems(one: QueryResult) -> None:
     if one.error:
         warn(one.error if one.bag in one.error else f"{one.bag}: {one.error}")
     if one.missing:
