@@ -95,7 +95,7 @@ def publisher_of(heard: Heard, node: str | None, topic: str, *, static: bool, pr
     _, messages, heard_at, lag, *examples = heard
     node = node or "an unnamed node"
     age = max(0, time.monotonic_ns() - heard_at) / _NS
-    odd = frame_names.oddities(f"{node} on {topic}", *examples)
+    odd = frame_names.naming_problems(f"{node} on {topic}", *examples)
     return TfPublisher(node, topic, static, messages, age, lag, present, odd)
 
 
