@@ -128,7 +128,7 @@ def test_hostile_names_do_not_steer_the_terminal(tmp_path):
         (["x.mcap", "a", "b", "--watch"], 2, "exclude each other"),
         ([__file__, "a"], 2, "give TARGET and SOURCE behind the recording"),
         (["a", "b", "--duration", "0s"], 2, "more than 0"),
-        (["a", "b", "--at", "soon", "--duration", "1ms"], 2, "--at: 'soon' is no point in time"),
+        (["a", "b", "--at", "soon", "--duration", "1ms"], 2, "--at: 'soon' is not a point in time"),
     ],
 )
 @pytest.mark.usefixtures("domain_id")

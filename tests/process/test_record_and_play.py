@@ -99,9 +99,7 @@ def test_ctrl_c_ends_it_with_an_index_and_a_sentence(processes, tmp_path):
         assert make_reader(stream).get_summary().statistics.message_count == assert_others_open_it(tmp_path / "run")
     processes.start("again", *CLI, "record", "-o", tmp_path / "run")
     eventually(lambda: not processes.running("again"), lambda: processes.text("again"))
-    assert processes.text("again").startswith(
-        f"coframe: {tmp_path / 'run'} is there already, and nothing is overwritten"
-    )
+    assert processes.text("again").startswith(f"coframe: {tmp_path / 'run'} already exists and is not overwritten")
 
 
 def test_a_full_disk_ends_it_with_a_sentence(processes, tmp_path):
@@ -157,7 +155,7 @@ def test_keys_steer_what_is_played(network, shared):
         (("record", "--max-size", "big"), 2, "--max-size: 'big' is no amount of bytes"),
         (("record", "--compression", "zip"), 2, "there is no compression 'zip'"),
         (("record", "-a", "/tf"), 2, "exclude each other"),
-        (("record", "-e", "["), 2, "is no regular expression"),
+        (("record", "-e", "["), 2, "is not a valid regular expression"),
         (("play", "gone"), 1, "gone cannot be read"),
         (("play", "gone", "--rate", "0"), 2, "above 0"),
         (("play", "gone", "--remap", "/tf"), 2, "is no renaming"),

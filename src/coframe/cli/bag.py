@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from coframe.bags import COMPRESSIONS, mend, summarize
+from coframe.bags import COMPRESSIONS, repair, summarize
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
@@ -86,20 +86,20 @@ def fix(
     keep: KeepOption = "",
     compression: Annotated[str, typer.Option(help="none, zstd or lz4.")] = "zstd",
 ) -> None:
-    """Write the recording BAG anew into the folder OUT, as far as it can be read, and tell what was mended.
+    """Write a repaired copy of the recording BAG into the folder OUT and list the changes.
 
     OUT has an index, metadata, its static transforms in front and no names that begin with a slash; BAG stays as it is.
     --prefix goes in front of the frames that any message names; with --tf-topic /robot1/tf, any of the topics in
     /robot1.
 
-    Example: coframe bag fix broken.mcap mended
+    Example: coframe bag fix broken.mcap repaired
     """
     if compression not in COMPRESSIONS:
         fail(f"--compression: there is no {compression!r}: it is one of {', '.join(COMPRESSIONS)}", code=2)
     with run_to_completion():
         robot: dict[str, str] = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
         with task_progress() as progress:
-            mended = mend(
+            report = repair(
                 bag,
                 output,
                 statics=statics,
@@ -109,10 +109,14 @@ def fix(
                 compression=compression,
                 progress=progress,
             )
-        for title, sentences in (("found", mended.found), ("mended", mended.done), ("still odd", mended.left)):
+        for title, sentences in (
+            ("found", report.problems),
+            ("fixed", report.changes),
+            ("remaining", report.remaining),
+        ):
             for sentence in sentences:
                 print(printable(f"{title}: {sentence}"))
-        print(f"{mended.path}: {mended.messages} messages")
+        print(f"{report.path}: {report.messages} messages")
 
 
 def _print(summary: Summary) -> None:

@@ -10,7 +10,7 @@ import typer
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from coframe.bags import Question, answer_all
+from coframe.bags import TrajectoryQuery, query_recordings
 from coframe.bags.batch import ENGINES
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
@@ -24,7 +24,7 @@ from coframe.cli.options import (
 from coframe.cli.output import fail, printable
 
 if TYPE_CHECKING:
-    from coframe.bags import Answer
+    from coframe.bags import QueryResult
 
 __all__ = ["batch"]
 
@@ -56,13 +56,13 @@ def batch(
     """
     try:
         topics = recorded_tf_topics(tf_topic, tf_static_topic)
-        question = Question(target, source, rate, stamps_of, start, stop, namespace, topics, prefix, keep)
+        query = TrajectoryQuery(target, source, rate, stamps_of, start, stop, namespace, topics, prefix, keep)
     except ValueError as error:
         fail(str(error), code=2)
     if on not in ENGINES:
         fail(f"--on is one of {', '.join(ENGINES)}, not {on!r}", code=2)
     with run_to_completion():
-        answers = _ask(bags, question, output, on, workers)
+        answers = _ask(bags, query, output, on, workers)
         bad = [one for one in answers if one.error]
         for one in answers:
             _tell(one)
@@ -75,15 +75,15 @@ def batch(
             fail(f"{len(bad)} of {len(answers)} recordings have no answer: see above")
 
 
-def _ask(bags: list[Path], question: Question, output: Path, on: str, workers: int | None) -> list[Answer]:
+def _ask(bags: list[Path], query: TrajectoryQuery, output: Path, on: str, workers: int | None) -> list[QueryResult]:
     console = Console(stderr=True)
     columns = (TextColumn("recordings"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("recordings", total=len(bags))
-        return answer_all(bags, question, output, on=on, workers=workers, progress=lambda _: bar.advance(task))
+        return query_recordings(bags, query, output, on=on, workers=workers, progress=lambda _: bar.advance(task))
 
 
-def _tell(one: Answer) -> None:
+def _tell(one: QueryResult) -> None:
     if one.error:
         whose = "" if one.bag in one.error else f"{one.bag}: "
         print(f"coframe: {printable(whose + one.error)}", file=sys.stderr)

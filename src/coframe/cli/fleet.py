@@ -20,7 +20,7 @@ from coframe.cli.view import viewer_beside
 from coframe.errors import TransformException
 from coframe.frame_names import renaming
 from coframe.lab.launcher import Launcher, NodeCommand
-from coframe.tf_publishers import state_of
+from coframe.tf_publishers import publisher_state
 from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
@@ -149,7 +149,7 @@ class _Row(NamedTuple):
         if self.ended is not None:
             code = self.ended.exit_code
             return f"{self.name} has gone: its process ended with exit code {code}, its frames are stale"
-        if self.state in {"gone", "silent"}:
+        if self.state in {"gone", "stale"}:
             return f"{self.name} is {self.state}: its frames are stale"
         return next((f"{self.name}: {told}" for each in self.publishers if (told := each.clock_problem())), "")
 
@@ -179,7 +179,7 @@ class _View:
         else:
             everyone = self._ros.publishers()
             heard = {name: [one for one in everyone if one.node.startswith(f"/{name}/")] for name in self._names}
-        return [_Row(name, state_of(heard[name]), heard[name], ended.get(name)) for name in self._names]
+        return [_Row(name, publisher_state(heard[name]), heard[name], ended.get(name)) for name in self._names]
 
     def missing(self) -> list[str]:
         """The robots whose frames have not come."""
@@ -202,7 +202,7 @@ class _View:
             moving = [publisher for publisher in row.publishers if not publisher.static]
             age = min((publisher.age for publisher in moving), default=math.nan)
             lag = next((publisher.lag for publisher in moving if publisher.lag is not None), None)
-            stale = row.ended is not None or row.state in {"gone", "silent"}
+            stale = row.ended is not None or row.state in {"gone", "stale"}
             table.add_row(
                 Text(row.name, style="dim" if stale else "bold"),
                 Text("stale" if stale else row.state, style="red" if stale else "green"),

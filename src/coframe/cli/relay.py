@@ -134,7 +134,7 @@ class _Rates:
     def take(self, edges: list[RelayedEdge]) -> dict[tuple[str, str, str], float]:
         """By target, parent and child."""
         now = time.monotonic()
-        seen = {(edge.target, edge.parent, edge.child): edge.passed for edge in edges}
+        seen = {(edge.target, edge.parent, edge.child): edge.forwarded for edge in edges}
         elapsed = max(now - self._at, 1e-9)
         rates = {key: (passed - self._seen.get(key, 0)) / elapsed for key, passed in seen.items() if self._seen}
         self._seen, self._at = seen, now
@@ -149,9 +149,9 @@ def _table(running: Relay, rates: _Rates) -> Table:
     edges = sorted(running.edges(), key=lambda edge: (edge.target, edge.robot, edge.parent, edge.child))
     each = rates.take(edges)
     for edge in edges:
-        note = f"also told of by {edge.rival}, which is left out" if edge.rival else ""
-        if states[edge.robot] in {"gone", "silent"}:
-            note = f"stale: {edge.robot} {'has gone' if states[edge.robot] == 'gone' else 'is silent'}"
+        note = f"also told of by {edge.conflicting_robot}, which is left out" if edge.conflicting_robot else ""
+        if states[edge.robot] in {"gone", "stale"}:
+            note = f"{edge.robot} {'has gone' if states[edge.robot] == 'gone' else 'is stale'}"
         hertz = each.get((edge.target, edge.parent, edge.child))
         cells = [
             f"{edge.parent} -> {edge.child}",

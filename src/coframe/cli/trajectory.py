@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from coframe.bags import FORMATS, Question, format_of, write_trajectory
+from coframe.bags import FORMATS, TrajectoryQuery, format_of, write_trajectory
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     BagArgument,
@@ -55,13 +55,13 @@ def trajectory(
     """
     kind = _format(output, format_)
     try:
-        question = Question(target, source, rate, stamps_of, start, stop)
+        query = TrajectoryQuery(target, source, rate, stamps_of, start, stop)
     except ValueError as error:
         fail(str(error), code=2)
     with run_to_completion(), open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         for text in filter(None, (start, stop)):
             parse_time("--start/--stop", text, recording)
-        poses, missing = question.ask(recording)
+        poses, missing = query.run(recording)
         if missing:
             times = f"{missing} of {missing + len(poses)} times have no transform and were left out"
             print(f"coframe: {times}", file=sys.stderr)

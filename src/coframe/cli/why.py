@@ -17,7 +17,7 @@ from rich.live import Live
 from rich.text import Text
 
 import coframe
-from coframe.bags import parse_instant
+from coframe.bags import parse_time_point
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
@@ -204,7 +204,7 @@ def _instant(at: str | None, clock: int | None, window: int) -> int | None:
         return None
     now = time.time_ns() if clock is None else clock
     try:
-        return now if at.strip() == "now" else parse_instant(at, (now - window, now))
+        return now if at.strip() == "now" else parse_time_point(at, (now - window, now))
     except ValueError as error:
         fail(f"--at: {error}", code=2)
 
