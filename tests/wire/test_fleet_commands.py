@@ -93,7 +93,7 @@ def test_prefixes_and_a_relay_as_they_are_typed(command, ros, eventually):
         assert ros.buffer.lookup("map", f"{name}/odom").translation[0] == x
     out, errors = named.process.communicate(timeout=20)
     assert "- Translation: [2.000, 0.000, 0.000]" in out
-    assert "the prefix 'r1' makes 'r1base_link' of 'base_link': write 'r1/'" in errors
+    assert "the prefix 'r1' turns 'base_link' into 'r1base_link'; write 'r1/'" in errors
     row = relay.read()
     while "map -> robot1/odom" not in row:
         row = relay.read()
