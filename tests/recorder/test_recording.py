@@ -161,7 +161,7 @@ def test_a_slow_disk_costs_the_oldest_messages_but_no_statics(participant, node,
 
 def test_what_cannot_be_started_leaves_nothing_behind(participant, tmp_path):
     (tmp_path / "run").mkdir()
-    with pytest.raises(coframe.RecordingError, match="is there already"):
+    with pytest.raises(coframe.RecordingError, match="already exists"):
         coframe.record(tmp_path / "run")
     with pytest.raises(ValueError, match="not a valid regular expression"):
         coframe.record(tmp_path / "other", regex="[")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.bags import from_yaml
-from coframe.bags.as_cdr import as_cdr, transforms_of
+from coframe.bags.cdr_conversion import cdr_converter, decode_transforms
 from coframe.bags.message_frames import FrameNames
 from coframe.bags.transforms import is_static
 from coframe.errors import WireError
@@ -118,7 +118,7 @@ class TopicPublishers:
             if publisher is None:
                 continue
             known = found[channel.topic]
-            for transform in transforms_of(publisher.convert, data):
+            for transform in decode_transforms(publisher.convert, data):
                 if received < start or transform.child_frame_id not in known:
                     known[transform.child_frame_id] = transform
         return {topic: list(known.values()) for topic, known in found.items() if known}
@@ -139,7 +139,7 @@ class TopicPublishers:
                 self.problems.append(f"{channel.topic} is not replayed: {error}")
 
     def _channel_publisher(self, channel: Channel, offered: list[QoS]) -> _ChannelPublisher | None:
-        converted = as_cdr(channel)
+        converted = cdr_converter(channel)
         if converted is None:
             self.problems.append(
                 f"{channel.topic} is not replayed: messages of type {channel.type} with the encoding "
