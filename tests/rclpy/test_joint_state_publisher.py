@@ -90,7 +90,7 @@ def test_the_node_with_a_file_of_parameters(context, heard, wait_until, tmp_path
 @pytest.mark.parametrize(
     ("arguments", "reason"),
     [
-        (["rate:=0"], "parameter 'rate' must be more than 0 per second, but is 0"),
+        (["rate:=0"], "parameter 'rate' must be above 0 Hz, but is 0"),
         (["rate:=fast"], "parameter 'rate' must be a number, but is 'fast'"),
         (["use_mimic_tags:=1"], "parameter 'use_mimic_tags' must be true or false, but is 1"),
         (["source_list:=a"], "parameter 'source_list' must be a list of topics, but is 'a'"),

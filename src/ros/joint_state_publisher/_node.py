@@ -67,7 +67,7 @@ class JointStatePublisher(Node):
         self._delta = self._number("delta")
         rate = self._number("rate")
         if not 0.0 < rate <= 1e6:
-            raise ValueError(f"parameter 'rate' must be more than 0 per second, but is {rate:g}")
+            raise ValueError(f"parameter 'rate' must be above 0 Hz, but is {rate:g}")
         if robot is None:
             self.get_logger().info("Waiting for robot_description to be published on the robot_description topic...")
         else:
