@@ -121,7 +121,7 @@ def _tell(clouds: Clouds) -> None:
     """What was guessed, and what is not in the output, and why."""
     for how, count in clouds.times_read.items():
         print(f"coframe: points of {count} messages moved by their own times: {printable(how)}", file=sys.stderr)
-    for reason, count in clouds.left_out.items():
+    for reason, count in clouds.skipped.items():
         print(f"coframe: {count} messages of {clouds.topic} left out: {printable(reason)}", file=sys.stderr)
-    for reason, count in clouds.points_left_out.items():
+    for reason, count in clouds.points_skipped.items():
         print(f"coframe: {count} points of {clouds.topic} left out: they {printable(reason)}", file=sys.stderr)
