@@ -112,9 +112,8 @@ class Clouds:
         self._fixed = fixed
         self._fields = None if fields is None else [name for name in fields if name not in {"x", "y", "z"}]
         if self._type == _SCAN and (unknown := set(self._fields or ()) - _SCAN_FIELDS):
-            raise ValueError(
-                f"Scans have no field named {', '.join(sorted(unknown))}. Known fields: {', '.join(sorted(_SCAN_FIELDS))}."
-            )
+            known = ", ".join(sorted(_SCAN_FIELDS))
+            raise ValueError(f"Scans have no field named {', '.join(sorted(unknown))}. Known fields: {known}.")
         self._reset()
 
     def _reset(self) -> None:

@@ -106,13 +106,11 @@ def _fill(columns: _Columns, rows: slice, buffer: Buffer, edge: EdgeInfo) -> Non
 
 
 def _arrow(pyarrow: Any, columns: _Columns) -> Any:
-    return pyarrow.table(
-        _named(columns, lambda column: pyarrow.DictionaryArray.from_arrays(column.codes, column.names))
-    )
+    return pyarrow.table(_named(columns, lambda names: pyarrow.DictionaryArray.from_arrays(names.codes, names.names)))
 
 
 def _pandas(pandas: Any, columns: _Columns) -> Any:
-    return pandas.DataFrame(_named(columns, lambda column: pandas.Categorical.from_codes(column.codes, column.names)))
+    return pandas.DataFrame(_named(columns, lambda names: pandas.Categorical.from_codes(names.codes, names.names)))
 
 
 def _named(columns: _Columns, names: Callable[[_NameColumn], Any]) -> dict[str, Any]:
