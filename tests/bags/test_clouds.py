@@ -157,7 +157,7 @@ def test_unknown_formats_and_frames_are_errors(path, tmp_path):
 
 def test_scans_have_two_fields(shared):
     with coframe.open_bag(shared / "recordings" / "tb3_gazebo_walker") as recording:
-        with pytest.raises(ValueError, match="Scans have no field named ring. Known fields: index, intensity"):
+        with pytest.raises(ValueError, match=r"Scans have no field named ring. Known fields: index, intensity"):
             Clouds(recording, "/scan", "odom", fields=["ring"])
         (cloud,) = Clouds(recording, "/scan", "odom", fields=["index"], at=recording.span[1])
         assert cloud.points.dtype.names == ("x", "y", "z", "index")
@@ -276,7 +276,7 @@ def test_other_topics_and_unknown_fields_are_errors_with_hints(path, tmp_path):
         assert "/points_ouster" in caught.value.hint
         with pytest.raises(coframe.RecordingError, match="has no topic 'nothing'"):
             Clouds(recording, "nothing", "map")
-        with pytest.raises(coframe.RecordingError, match="No message on /points can be tra.* attic: LookupExc"):
+        with pytest.raises(coframe.RecordingError, match=r"No message on /points can be tra.* attic: LookupExc"):
             write_clouds(Clouds(recording, "/points", "attic"), tmp_path / "a.ply")
         clouds = Clouds(recording, "/points", "map", fields=["colour"])
         assert list(clouds) == []
