@@ -170,7 +170,7 @@ def test_publishers_that_come_later_are_heard_whatever_they_offer(ros, robot, vi
         assert tab.wait("shapes", lambda shown: shown.payload[0] == 2.0)
     else:
         assert later.until("shapes", lambda shown: shown.payload[0] == 2.0)
-    assert "this subscription asks for" not in caplog.text
+    assert "this subscription requests" not in caplog.text
 
 
 def test_what_was_published_before_is_heard_beside_publishers_that_keep_nothing(ros, view, open_tab):

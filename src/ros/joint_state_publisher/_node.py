@@ -107,7 +107,7 @@ class JointStatePublisher(Node):
             return
         try:
             with self.lock:
-                self.states.take(message.name, message.position, message.velocity, message.effort)
+                self.states.update(message.name, message.position, message.velocity, message.effort)
         except ValueError as error:
             self.get_logger().warning(f"Ignored an invalid JointState message: {error}", throttle_duration_sec=5.0)
 
@@ -117,7 +117,7 @@ class JointStatePublisher(Node):
         with self.lock:
             if self._delta > 0.0:
                 self.states.step(self._delta)
-            names, positions, velocities, efforts = self.states.told()
+            names, positions, velocities, efforts = self.states.fields()
         if not names:
             return
         message = JointState(name=names, position=positions, velocity=velocities, effort=efforts)

@@ -8,7 +8,7 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 
 if TYPE_CHECKING:
-    from coframe.wire import Endpoint, GraphNode, Participant
+    from coframe.wire import EndpointInfo, GraphNode, Participant
     from coframe.wire import QoS as WireQoS
 
 
@@ -92,7 +92,7 @@ class NodeGraph:
         )
 
 
-def _types_by_node(endpoints: dict[str, list[Endpoint]], name: str, namespace: str) -> list[tuple[str, list[str]]]:
+def _types_by_node(endpoints: dict[str, list[EndpointInfo]], name: str, namespace: str) -> list[tuple[str, list[str]]]:
     found: list[tuple[str, list[str]]] = []
     for topic in sorted(endpoints):
         types = {end.ros_type for end in endpoints[topic] if (end.node, end.namespace) == (name, namespace)}
@@ -101,7 +101,7 @@ def _types_by_node(endpoints: dict[str, list[Endpoint]], name: str, namespace: s
     return found
 
 
-def _info(endpoint: Endpoint, kind: TopicEndpointTypeEnum) -> TopicEndpointInfo:
+def _info(endpoint: EndpointInfo, kind: TopicEndpointTypeEnum) -> TopicEndpointInfo:
     return TopicEndpointInfo(
         node_name=endpoint.node or "_NODE_NAME_UNKNOWN_",
         node_namespace=endpoint.namespace or "_NODE_NAMESPACE_UNKNOWN_",

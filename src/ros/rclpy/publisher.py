@@ -12,7 +12,7 @@ from rclpy.exceptions import InvalidHandle, RCLError
 
 if TYPE_CHECKING:
     from coframe.wire import Publisher as WirePublisher
-    from coframe.wire import StaticWriter
+    from coframe.wire import StaticBroadcaster
     from rclpy.context import Context
     from rclpy.qos import QoSProfile
 
@@ -22,13 +22,13 @@ class Publisher:
 
     def __init__(
         self,
-        wire: WirePublisher | StaticWriter,
+        wire: WirePublisher | StaticBroadcaster,
         msg_type: type[Any],
         topic: str,
         qos_profile: QoSProfile,
         context: Context,
     ) -> None:
-        self._wire: WirePublisher | StaticWriter | None = wire
+        self._wire: WirePublisher | StaticBroadcaster | None = wire
         self._context = context
         self.msg_type = msg_type
         self.topic = topic
@@ -75,7 +75,7 @@ class Publisher:
             self._wire.close()
             self._wire = None
 
-    def _require_wire(self) -> WirePublisher | StaticWriter:
+    def _require_wire(self) -> WirePublisher | StaticBroadcaster:
         if self._wire is None:
             raise InvalidHandle(f"cannot use Publisher of '{self.topic}' because destruction was requested")
         return self._wire
