@@ -233,8 +233,8 @@ def test_arm_and_mounts_can_be_disabled(start):
         ("static_tf_broadcaster", "imu_rotation:=[0.0, 0.0, 0.0, 0.0]", "parameter 'imu_rotation'"),
         ("static_tf_broadcaster", "imu_rotation:=upwards", "of type 'STRING', expecting type 'DOUBLE_ARRAY'"),
         ("dynamic_tf_broadcaster", "link_lengths:=[0.5]", "'link_lengths' must have two entries"),
-        ("dynamic_tf_broadcaster", "rate:=0.0", "parameter 'rate' must be above 0 Hz"),
-        ("complete_tf_tree", "rate:=0.0", "parameter 'rate' must be above 0 Hz"),
+        ("dynamic_tf_broadcaster", "rate:=0.0", "parameter 'rate' must be greater than 0 Hz"),
+        ("complete_tf_tree", "rate:=0.0", "parameter 'rate' must be greater than 0 Hz"),
     ],
 )
 @pytest.mark.usefixtures("domain_id")

@@ -58,7 +58,7 @@ class CompleteTFTree(Node):
         super().__init__("complete_tf_tree")
         rate = self.declare_parameter("rate", 50.0).value
         if not rate > 0.0:
-            raise ValueError(f"parameter 'rate' must be above 0 Hz, but is {rate}")
+            raise ValueError(f"parameter 'rate' must be greater than 0 Hz, but is {rate}")
         self.period = 1.0 / rate
         self.frames = {
             frame: self.declare_parameter(f"{frame}_frame", default).value for frame, default in FRAMES.items()

@@ -35,7 +35,7 @@ class DynamicFramePublisher(Node):
         super().__init__("dynamic_tf_broadcaster")
         rate = self.declare_parameter("rate", 50.0).value
         if not rate > 0.0:
-            raise ValueError(f"parameter 'rate' must be above 0 Hz, but is {rate}")
+            raise ValueError(f"parameter 'rate' must be greater than 0 Hz, but is {rate}")
         self.period = 1.0 / rate
         self.joint_timeout = self.declare_parameter("joint_timeout", 1.0).value
         self.joint_names = list(self.declare_parameter("joint_names", ["joint1", "joint2"]).value)

@@ -52,7 +52,7 @@ class SimulatedLidar(Node):
         super().__init__("simulated_lidar")
         rate = self.declare_parameter("rate", 10.0).value
         if not rate > 0.0:
-            raise ValueError(f"parameter 'rate' must be above 0 Hz, but is {rate}")
+            raise ValueError(f"parameter 'rate' must be greater than 0 Hz, but is {rate}")
         self.period = 1.0 / rate
         self.beams = self.declare_parameter("beams", 360).value
         if self.beams < 1:

@@ -32,7 +32,7 @@ class TransformListenerNode(Node):
         super().__init__("tf_listener")
         rate = self.declare_parameter("rate", 10.0).value
         if not rate > 0.0:
-            raise ValueError(f"parameter 'rate' must be above 0 Hz, but is {rate}")
+            raise ValueError(f"parameter 'rate' must be greater than 0 Hz, but is {rate}")
         self.target_frame = self.declare_parameter("target_frame", "base_link").value
         self.source_frame = self.declare_parameter("source_frame", "end_effector").value
 
