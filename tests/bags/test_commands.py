@@ -82,7 +82,7 @@ def test_lookup_prints_as_echo_does(bag):
 def test_time_travel(bag):
     code, out, _ = run("lookup", bag, "base", "base", "--at", "2s", "--fixed", "odom", "--source-time", "1s", "--json")
     assert code == 0
-    expected = recordings.expected().lookup_full("base", START + 2 * SECOND, "base", START + SECOND, "odom")
+    expected = recordings.expected()._lookup_full("base", START + 2 * SECOND, "base", START + SECOND, "odom")
     assert json.loads(out)["translation"] == pytest.approx(expected.translation.tolist(), abs=1e-12)
     code, _, error = run("lookup", bag, "base", "base", "--fixed", "odom")
     assert (code, error) == (2, "coframe: time travel takes both --fixed and --source-time\n")

@@ -15,7 +15,7 @@ from coframe.viewer.displays import CannotDrawError, Options
 from coframe.viewer.displays.grids import draw_grid
 from coframe.viewer.displays.images import MOST_PIXELS, draw_compressed_image, draw_image
 from coframe.viewer.displays.points import draw_cloud, draw_scan
-from coframe.viewer.messages import header_stamp
+from coframe.viewer.sources.messages import header_stamp
 from coframe.wire.qos import QoS
 
 SECOND = 1_000_000_000

@@ -5,8 +5,8 @@ import pytest
 
 import coframe
 from coframe.viewer import expect
-from coframe.viewer.recorded import RecordedSource
-from coframe.viewer.sources import BufferSource
+from coframe.viewer.sources.recorded import RecordedSource
+from coframe.viewer.sources.source import BufferSource
 
 SECOND = 1_000_000_000
 

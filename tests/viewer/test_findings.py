@@ -15,7 +15,7 @@ import coframe
 from coframe.doctor.codes import page
 from coframe.errors import ViewerError
 from coframe.messages import find
-from coframe.viewer.recorded import RecordedSource
+from coframe.viewer.sources.recorded import RecordedSource
 
 PATIENCE = 30.0  # seconds
 

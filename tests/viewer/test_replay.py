@@ -14,9 +14,9 @@ import pytest
 import coframe
 from coframe.messages import find
 from coframe.viewer.displays import Options
-from coframe.viewer.http import STATIC
-from coframe.viewer.messages import Sighting
-from coframe.viewer.replay_displays import Pictures, ReplayDisplay, display_blocks
+from coframe.viewer.replay.displays import Pictures, ReplayDisplay, display_blocks
+from coframe.viewer.server.http import STATIC
+from coframe.viewer.sources.messages import Sighting
 
 SECOND = 1_000_000_000
 BEGIN = 1_700_000_000 * SECOND

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import coframe
-from coframe.viewer.meshes import MeshError, MeshTable
+from coframe.viewer.robots.meshes import MeshError, MeshTable
 
 URDF = """<robot name="arm">
   <link name="base"><visual><geometry><mesh filename="{mesh}"/></geometry></visual></link>

@@ -8,7 +8,7 @@ import pytest
 import yaml
 
 import coframe
-from coframe.viewer.rviz import RvizConfig
+from coframe.viewer.rviz.config import RvizConfig
 
 SECOND = 1_000_000_000
 

@@ -17,10 +17,10 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 import coframe
-from coframe.viewer.http import Visitors
-from coframe.viewer.server import ViewerServer
-from coframe.viewer.sources import BufferSource
-from coframe.viewer.stage import Stage
+from coframe.viewer.server.http import Visitors
+from coframe.viewer.server.server import ViewerServer
+from coframe.viewer.sources.source import BufferSource
+from coframe.viewer.state import Stage
 
 SECOND = 1_000_000_000
 

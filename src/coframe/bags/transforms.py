@@ -148,7 +148,7 @@ class Ingest:
     def _set(self, buffer: Buffer, transform: _Stamped) -> None:
         names = (transform.parent, transform.child)
         parent, child = names if self._renaming is None else map(self._renaming, names)
-        buffer.set_values(parent, child, transform.stamp, *transform.values, self.static, self._authority)
+        buffer._set_values(parent, child, transform.stamp, *transform.values, self.static, self._authority)
 
 
 def is_static(topic: str) -> bool:

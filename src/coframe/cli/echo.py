@@ -128,7 +128,7 @@ def _wait_until_possible(buffer: Buffer, source: str, target: str, period: int) 
         except TransformException as error:
             if told_at is None or time.monotonic() - told_at >= 1.0:
                 told_at = time.monotonic()
-                log("INFO", NODE, f"Waiting for transform {source} ->  {target}: {buffer.why_not(source, target)}")
+                log("INFO", NODE, f"Waiting for transform {source} ->  {target}: {buffer._why_not(source, target)}")
                 if error.hint != told:  # the reason is repeated every second, the advice when it is news
                     told = error.hint
                     log("INFO", NODE, error.hint)

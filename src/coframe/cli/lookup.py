@@ -64,7 +64,7 @@ def lookup(
                 found = buffer.lookup(target, source, when)
             else:
                 then = instant("--source-time", source_time, recording)
-                found = buffer.lookup_full(target, when, source, then, fixed)
+                found = buffer._lookup_full(target, when, source, then, fixed)
         except ExtrapolationException as error:
             what = _what_there_is(recording, {target, source, fixed or source})
             fail(str(error), what or buffer.why(target, source, when).hint)

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from coframe.viewer import Viewer
-    from coframe.viewer.recorded import RecordedSource
+    from coframe.viewer.sources.recorded import RecordedSource
 
 __all__ = ["announce", "view", "viewer_beside"]
 
@@ -86,7 +86,7 @@ def view(
                 announce(viewer, browser=not no_browser)
                 topics = {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
                 node = coframe.connect("coframe_view", domain=domain, **topics, prefix=prefix, keep=keep)
-                from coframe.viewer.live import LiveSource  # noqa: PLC0415 - who reads a recording needs no graph
+                from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415 - who reads a recording needs no graph
 
                 viewer.show(LiveSource(node, own=True))
             else:
@@ -122,7 +122,7 @@ class _Reading:
 
 
 def _read(bag: Path, reading: _Reading, **chosen: Any) -> RecordedSource:
-    from coframe.viewer.recorded import RecordedSource  # noqa: PLC0415 - who looks at the graph needs no recordings
+    from coframe.viewer.sources.recorded import RecordedSource  # noqa: PLC0415 - who looks at the graph needs no recordings
 
     recording = coframe.open_bag(bag, progress=lambda done, total: reading.tell(done, total, bag.name), **chosen)
     reading.announce()

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Generator
 
     from coframe.doctor import Report
-    from coframe.viewer.sources import Source
+    from coframe.viewer.sources.source import Source
 
 __all__ = ["Findings", "Told", "rows"]
 

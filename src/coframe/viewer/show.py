@@ -11,11 +11,11 @@ from coframe.buffer import Buffer
 from coframe.connection import Connection
 from coframe.errors import ViewerError
 from coframe.robots import load
-from coframe.viewer.joints import JOINT_STATES
-from coframe.viewer.robots import mesh_table
-from coframe.viewer.rviz import RvizConfig
-from coframe.viewer.sources import BufferSource
-from coframe.viewer.stage import Stage
+from coframe.viewer.robots.joints import JOINT_STATES
+from coframe.viewer.robots.robot_message import mesh_table
+from coframe.viewer.rviz.config import RvizConfig
+from coframe.viewer.sources.source import BufferSource
+from coframe.viewer.state import Stage
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe.robots import Robot
-    from coframe.viewer.sources import Mode, Source
+    from coframe.viewer.sources.source import Mode, Source
 
 __all__ = ["Viewer", "expect", "show"]
 
@@ -41,7 +41,7 @@ class Viewer:
 
     def __init__(self, stage: Stage, *, host: str, port: int | None) -> None:
         try:
-            from coframe.viewer.server import ViewerServer  # noqa: PLC0415 - the sentence below must be possible
+            from coframe.viewer.server.server import ViewerServer  # noqa: PLC0415 - the sentence below must be possible
         except ModuleNotFoundError as error:
             if error.name != "websockets":
                 raise
@@ -177,11 +177,11 @@ def _source_of(source: Any) -> Source:
     if isinstance(source, Buffer):
         return BufferSource(source)
     if isinstance(source, Connection):
-        from coframe.viewer.live import LiveSource  # noqa: PLC0415 - each kind needs what the others do not
+        from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415 - each kind needs what the others do not
 
         return LiveSource(source)
     from coframe.bags import Recording, open_bag  # noqa: PLC0415 - likewise
-    from coframe.viewer.recorded import RecordedSource  # noqa: PLC0415 - likewise
+    from coframe.viewer.sources.recorded import RecordedSource  # noqa: PLC0415 - likewise
 
     if isinstance(source, Recording):
         return RecordedSource(source)

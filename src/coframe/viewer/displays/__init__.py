@@ -1,7 +1,7 @@
 """Messages as what the page can draw: one family a file.
 
 Each drawing is told in a frame of its message and at the message's own stamp; where that frame was then is the viewer's
-to find out (`coframe.viewer.display`).
+to find out (`coframe.viewer.displays.display`).
 """
 
 from __future__ import annotations

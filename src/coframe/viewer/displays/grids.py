@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from coframe.time import stamp_ns
-from coframe.viewer import protocol
 from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options, pose_row
+from coframe.viewer.protocol import binary
 
 __all__ = ["draw_grid"]
 
@@ -20,5 +20,5 @@ def draw_grid(grid: Any, _options: Options) -> Drawing:
     if cells.size != info.width * info.height:
         raise CannotDrawError(f"a grid of {info.width} x {info.height} cells comes with {cells.size}")
     corner = pose_row(info.origin)
-    data = protocol.grid(float(info.resolution), corner, cells.reshape(info.height, info.width))
+    data = binary.grid(float(info.resolution), corner, cells.reshape(info.height, info.width))
     return Drawing(grid.header.frame_id, stamp_ns(grid.header.stamp), data)

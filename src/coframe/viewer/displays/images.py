@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from coframe.time import stamp_ns
-from coframe.viewer import protocol
 from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options
+from coframe.viewer.protocol import binary
 
 __all__ = ["MOST_PIXELS", "draw_compressed_image", "draw_image"]
 
@@ -49,7 +49,7 @@ def draw_image(image: Any, options: Options) -> Drawing:
         raise CannotDrawError("an image without pixels")
     every = max(1, math.ceil(math.sqrt(width * height / MOST_PIXELS)))
     pixels = data[: height * step].reshape(height, step)[::every, : width * size].reshape(-1, width, size)[:, ::every]
-    kind = protocol.GREY if len(channels) == 1 else protocol.RGB
+    kind = binary.GREY if len(channels) == 1 else binary.RGB
     return _drawn(image, kind, pixels[:, :, channels], options, every)
 
 
@@ -62,15 +62,15 @@ def draw_compressed_image(image: Any, options: Options) -> Drawing:
     width, height = _size_of_png(head) if head.startswith(_PNG) else _size_of_jpeg(head)
     if width * height > MOST_COMPRESSED_PIXELS or len(data) > MOST_COMPRESSED_BYTES:
         raise CannotDrawError(f"an image of {width} x {height} pixels in {len(data)} bytes: that is too large to draw")
-    kind = protocol.PNG if head.startswith(_PNG) else protocol.JPEG
-    message = protocol.image(kind, width, height, data, float(stamp_ns(image.header.stamp) - options.origin))
+    kind = binary.PNG if head.startswith(_PNG) else binary.JPEG
+    message = binary.image(kind, width, height, data, float(stamp_ns(image.header.stamp) - options.origin))
     return Drawing(image.header.frame_id, stamp_ns(image.header.stamp), message, placed=False)
 
 
 def _drawn(image: Any, kind: int, pixels: Any, options: Options, every: int) -> Drawing:
     stamp = stamp_ns(image.header.stamp)
     height, width = pixels.shape[:2]
-    data = protocol.image(kind, width, height, pixels, float(stamp - options.origin), every)
+    data = binary.image(kind, width, height, pixels, float(stamp - options.origin), every)
     return Drawing(image.header.frame_id, stamp, data, placed=False)
 
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from coframe.time import stamp_ns
-from coframe.viewer import protocol
 from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options, finite, pose_row, rgba_of
+from coframe.viewer.protocol import binary
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -107,7 +107,7 @@ class MarkerSet:
             payload = np.concatenate(numbers).astype(np.float32) if numbers else np.zeros(0, np.float32)
         stamp = group.stamp - options.origin
         description = {"kind": "markers", "frame": group.frame, "stamp": stamp, "items": items}
-        return Drawing(group.frame, group.stamp, protocol.shapes(description, payload), group.locked)
+        return Drawing(group.frame, group.stamp, binary.shapes(description, payload), group.locked)
 
 
 def _shown(marker: Any, time: int) -> _Shown:

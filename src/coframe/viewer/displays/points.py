@@ -9,8 +9,8 @@ import numpy as np
 from coframe.sensors import project_scan
 from coframe.sensors.layout import field_of, grid_of
 from coframe.time import stamp_ns
-from coframe.viewer import protocol
 from coframe.viewer.displays.drawing import MOST_POINTS, CannotDrawError, Drawing, Options
+from coframe.viewer.protocol import binary
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,7 +24,7 @@ def draw_scan(scan: Any, options: Options) -> Drawing:
     points = hits.points.astype(np.float32)
     intensities = hits.intensities if options.color_by in {None, "intensity"} else None
     scalars = _scalars(points, options, intensities)
-    return Drawing(hits.frame, hits.stamp, protocol.cloud(float(hits.stamp - options.origin), points, scalars, None))
+    return Drawing(hits.frame, hits.stamp, binary.cloud(float(hits.stamp - options.origin), points, scalars, None))
 
 
 def draw_cloud(cloud: Any, options: Options) -> Drawing:
@@ -54,7 +54,7 @@ def draw_cloud(cloud: Any, options: Options) -> Drawing:
             scalars = _scalars(points, options, intensities)
     except ValueError as error:
         raise CannotDrawError(str(error)) from None
-    data = protocol.cloud(float(stamp - options.origin), points, scalars, colours, step)
+    data = binary.cloud(float(stamp - options.origin), points, scalars, colours, step)
     return Drawing(cloud.header.frame_id, stamp, data)
 
 

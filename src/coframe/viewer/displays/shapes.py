@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.time import stamp_ns
-from coframe.viewer import protocol
 from coframe.viewer.displays.drawing import Drawing, Options, finite, pose_row
+from coframe.viewer.protocol import binary
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -76,4 +76,4 @@ def _posed(message: Any, kind: str, rows: Sequence[Row], facts: dict[str, Any], 
 def _described(message: Any, kind: str, facts: dict[str, Any], payload: Any, origin: int) -> Drawing:
     stamp = stamp_ns(message.header.stamp)
     description = {"kind": kind, "frame": message.header.frame_id, "stamp": stamp - origin, **facts}
-    return Drawing(message.header.frame_id, stamp, protocol.shapes(description, payload))
+    return Drawing(message.header.frame_id, stamp, binary.shapes(description, payload))

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any
 from coframe.doctor.codes import codes, page
 from coframe.errors import ViewerError, WireError
 from coframe.viewer.displays import Options
-from coframe.viewer.relations import relate
-from coframe.viewer.replay import MOST_DISPLAYS, ReplayLooks
-from coframe.viewer.replay_displays import ReplayDisplay
-from coframe.viewer.rviz import RvizConfig
-from coframe.viewer.timeline import MOST_BINS, edge_rows, next_stamp
+from coframe.viewer.replay.displays import ReplayDisplay
+from coframe.viewer.replay.page import MOST_DISPLAYS, ReplayLooks
+from coframe.viewer.rviz.config import RvizConfig
+from coframe.viewer.scene.relations import relate
+from coframe.viewer.scene.timeline import MOST_BINS, edge_rows, next_stamp
 
 if TYPE_CHECKING:
     from collections.abc import Awaitable, Callable
 
-    from coframe.viewer.client import Client
+    from coframe.viewer.clients.client import Client
 
 __all__ = ["READY", "BadRequestError", "Request", "parse"]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from coframe.robots import Mesh, PackageError, Packages
-from coframe.viewer.meshes import MeshError, MeshTable
+from coframe.viewer.robots.meshes import MeshError, MeshTable
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

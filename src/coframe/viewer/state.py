@@ -9,20 +9,20 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from coframe.errors import ViewerError
-from coframe.viewer.descriptions import ROBOT_DESCRIPTION, Descriptions
 from coframe.viewer.findings import Findings
-from coframe.viewer.joints import JOINT_STATES, JointPublisher
-from coframe.viewer.meshes import MeshTable
-from coframe.viewer.replay import NO_LOOKS, ReplayLooks, ReplayRequest
-from coframe.viewer.scene import Scene
+from coframe.viewer.replay.page import NO_LOOKS, ReplayLooks, ReplayRequest
+from coframe.viewer.robots.descriptions import ROBOT_DESCRIPTION, Descriptions
+from coframe.viewer.robots.joints import JOINT_STATES, JointPublisher
+from coframe.viewer.robots.meshes import MeshTable
+from coframe.viewer.scene.scene import Scene
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from coframe.robots import Robot
-    from coframe.viewer.messages import Messages
-    from coframe.viewer.rviz import RvizConfig
-    from coframe.viewer.sources import Source, Topic
+    from coframe.viewer.rviz.config import RvizConfig
+    from coframe.viewer.sources.messages import Messages
+    from coframe.viewer.sources.source import Source, Topic
 
 __all__ = ["Stage"]
 

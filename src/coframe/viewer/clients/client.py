@@ -17,23 +17,23 @@ from collections import deque
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe.errors import WireError
-from coframe.viewer import protocol
-from coframe.viewer.display import Display, Status
+from coframe.viewer.clients.playback import Playhead
+from coframe.viewer.clients.requests import READY, BadRequestError, Request, parse
+from coframe.viewer.displays.display import Display, Status
 from coframe.viewer.findings import Told, rows
-from coframe.viewer.playhead import Playhead
-from coframe.viewer.requests import READY, BadRequestError, Request, parse
-from coframe.viewer.scene import LocalOrigin
-from coframe.viewer.stage import FRAME_TIMEOUT
-from coframe.viewer.statistics import frame_rows
+from coframe.viewer.protocol import binary
+from coframe.viewer.scene.scene import LocalOrigin
+from coframe.viewer.scene.statistics import frame_rows
+from coframe.viewer.state import FRAME_TIMEOUT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.viewer.descriptions import Description
     from coframe.viewer.displays import Options
-    from coframe.viewer.joints import JointPublisher
-    from coframe.viewer.stage import Stage
-    from coframe.viewer.websocket import WebSocket
+    from coframe.viewer.robots.descriptions import Description
+    from coframe.viewer.robots.joints import JointPublisher
+    from coframe.viewer.server.websocket import WebSocket
+    from coframe.viewer.state import Stage
 
 __all__ = ["Client"]
 
@@ -140,7 +140,7 @@ class Client:
     async def answer(self, kind: str, **fields: Any) -> None:
         """Sends something that was asked for; waits where the tab does not read."""
         await self._socket.cleared()
-        self._socket.send(protocol.text(kind, **fields))
+        self._socket.send(binary.text(kind, **fields))
 
     async def work(self, deed: Callable[..., T], *args: Any) -> T:
         """Does what takes long where it keeps nobody waiting."""
@@ -273,11 +273,11 @@ class Client:
         for number, known in list(descriptions.known.items()):
             if self._told_robots.get(number) is not known:
                 self._told_robots[number] = known
-                self._socket.send(protocol.text("robot", **known.told))
+                self._socket.send(binary.text("robot", **known.told))
         for topic, problem in list(descriptions.problems.items()):
             if self._told_problems.get(topic) != problem:
                 self._told_problems[topic] = problem
-                self._socket.send(protocol.text("problem", text=problem[0], hint=problem[1]))
+                self._socket.send(binary.text("problem", text=problem[0], hint=problem[1]))
 
     def _send_findings(self) -> None:
         findings = self._stage.findings
@@ -286,7 +286,7 @@ class Client:
         if told != self._told_findings:
             self._told_findings = told
             listed = rows(told, self.origin)
-            self._socket.send(protocol.text("findings", state=told.state, text=told.text, findings=listed))
+            self._socket.send(binary.text("findings", state=told.state, text=told.text, findings=listed))
 
     def _send_hello(self) -> None:
         stage = self._stage
@@ -300,9 +300,9 @@ class Client:
             wanted.options = dataclasses.replace(wanted.options, origin=stage.origin)
         self._told_topics = topics = stage.topics
         self._socket.send(
-            protocol.text(
+            binary.text(
                 "hello",
-                version=protocol.VERSION,
+                version=binary.VERSION,
                 mode=stage.source.mode,
                 title=stage.source.title,
                 origin=str(stage.origin),
@@ -323,7 +323,7 @@ class Client:
             sizes[component] += 1
         frames = zip(structure.names, structure.parents, structure.static, structure.components, strict=True)
         self._socket.send(
-            protocol.text(
+            binary.text(
                 "tree",
                 revision=scene.revision,
                 fixed=fixed,
@@ -339,21 +339,21 @@ class Client:
         stage = self._stage
         if self._told_topics != stage.topics:
             self._told_topics = stage.topics
-            self._socket.send(protocol.text("topics", topics=[topic._asdict() for topic in stage.topics]))
+            self._socket.send(binary.text("topics", topics=[topic._asdict() for topic in stage.topics]))
         rows = frame_rows(stage.scene, stage.origin, self.frame_timeout)
         revision = stage.scene.revision
-        self._socket.send(protocol.text("stats", revision=revision, span=stage.relative_span(), frames=rows))
+        self._socket.send(binary.text("stats", revision=revision, span=stage.relative_span(), frames=rows))
 
     def _open_late_displays(self) -> None:
         for number, wanted in self._displays.items():
             if wanted.display is None:
                 self._open_display(number, wanted)
 
-    def _send_displays(self, fixed: str, at: int) -> list[protocol.EntryPose]:
+    def _send_displays(self, fixed: str, at: int) -> list[binary.EntryPose]:
         """What is new of the displays, one message each, and what became of them; where it is all to be seen."""
         buffer = self._stage.scene.buffer
         now = self._stage.span[1] if self._stage.span is not None else 0
-        entries: list[protocol.EntryPose] = []
+        entries: list[binary.EntryPose] = []
         for number, wanted in self._displays.items():
             display = wanted.display
             if display is None:
@@ -366,22 +366,20 @@ class Client:
                 status = display.status
             if status != wanted.told:
                 wanted.told = status
-                self._socket.send(protocol.text("display", id=number, **status._asdict()))
+                self._socket.send(binary.text("display", id=number, **status._asdict()))
         return entries
 
-    def _send_tick(self, now: float, fixed: str, at: int, entries: list[protocol.EntryPose]) -> None:
+    def _send_tick(self, now: float, fixed: str, at: int, entries: list[binary.EntryPose]) -> None:
         scene = self._stage.scene
         listed = [(entry.display, entry.sequence) for entry in entries]
-        state = (scene.revision, fixed, at, scene.buffer.changes, listed)
+        state = (scene.revision, fixed, at, scene.buffer._changes, listed)
         if state == self._last_tick and now - self._ticked < IDLE_PERIOD:
             return
         self._last_tick, self._ticked = state, now
         placed = scene.place(fixed, at, self.frame_timeout)
         near = self._origin.bring_near(placed, scene.structure.places.get(fixed))
         self._ready = False
-        self._socket.send(
-            protocol.tick(scene.revision, self._moment(at), self._origin.xyz, near, placed.states, entries)
-        )
+        self._socket.send(binary.tick(scene.revision, self._moment(at), self._origin.xyz, near, placed.states, entries))
 
     def _moment(self, at: int) -> float:
         """The time that is shown, relative to the origin; NaN where there is nothing yet."""

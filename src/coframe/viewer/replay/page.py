@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from coframe.errors import ViewerError
-from coframe.viewer.meshes import MESH_TYPES, MeshError
-from coframe.viewer.protocol import near
-from coframe.viewer.replay_displays import Pictures, display_blocks, packed
-from coframe.viewer.scene import LocalOrigin, Scene
-from coframe.viewer.statistics import frame_rows
-from coframe.viewer.timeline import edge_rows
+from coframe.viewer.protocol.binary import near
+from coframe.viewer.replay.displays import Pictures, display_blocks, packed
+from coframe.viewer.robots.meshes import MESH_TYPES, MeshError
+from coframe.viewer.scene.scene import LocalOrigin, Scene
+from coframe.viewer.scene.statistics import frame_rows
+from coframe.viewer.scene.timeline import edge_rows
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe import Buffer
-    from coframe.viewer.descriptions import Description
-    from coframe.viewer.meshes import MeshTable
-    from coframe.viewer.messages import Messages
-    from coframe.viewer.replay_displays import ReplayDisplay
+    from coframe.viewer.replay.displays import ReplayDisplay
+    from coframe.viewer.robots.descriptions import Description
+    from coframe.viewer.robots.meshes import MeshTable
+    from coframe.viewer.sources.messages import Messages
 
 __all__ = ["FASTEST", "MOST_DISPLAYS", "NO_LOOKS", "ReplayLooks", "ReplayRequest", "Sights", "replay_page"]
 

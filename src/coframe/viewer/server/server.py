@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qsl, unquote, urlsplit
 
 from coframe.errors import ViewerError
-from coframe.viewer.http import STATIC, Visitors, file_response, page_file, response, sentence
-from coframe.viewer.meshes import MESH_TYPES, MeshError
-from coframe.viewer.replay import Sights, replay_page
-from coframe.viewer.ticker import Ticker
-from coframe.viewer.websocket import WebSocket
+from coframe.viewer.replay.page import Sights, replay_page
+from coframe.viewer.robots.meshes import MESH_TYPES, MeshError
+from coframe.viewer.server.http import STATIC, Visitors, file_response, page_file, response, sentence
+from coframe.viewer.server.scheduler import Ticker
+from coframe.viewer.server.websocket import WebSocket
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
     from websockets.http11 import Request, Response
 
-    from coframe.viewer.stage import Stage
+    from coframe.viewer.state import Stage
 
 __all__ = ["DEFAULT_PORT", "ViewerServer"]
 

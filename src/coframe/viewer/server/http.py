@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = ["STATIC", "Visitors", "file_response", "page_file", "response", "sentence"]
 
-STATIC = Path(__file__).with_name("static")
+STATIC = Path(__file__).resolve().parents[1] / "static"
 
 _TYPES = {
     ".html": "text/html; charset=utf-8",

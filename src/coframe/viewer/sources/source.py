@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from coframe import Buffer
     from coframe.connection import Connection
     from coframe.doctor import Report
-    from coframe.viewer.messages import Messages
+    from coframe.viewer.sources.messages import Messages
 
 __all__ = ["BufferSource", "Mode", "Source", "Topic"]
 

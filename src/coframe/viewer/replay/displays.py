@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from coframe.viewer.display import Display
 from coframe.viewer.displays import DISPLAYS
-from coframe.viewer.protocol import near
+from coframe.viewer.displays.display import Display
+from coframe.viewer.protocol.binary import near
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
     from coframe import Buffer
     from coframe.viewer.displays import Options
-    from coframe.viewer.messages import Messages
+    from coframe.viewer.sources.messages import Messages
 
     P = ParamSpec("P")
 

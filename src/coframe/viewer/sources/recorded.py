@@ -10,8 +10,8 @@ import numpy as np
 
 from coframe.errors import DecodeError, ViewerError
 from coframe.viewer.displays import DISPLAYS
-from coframe.viewer.messages import Sighting
-from coframe.viewer.sources import Mode, Topic
+from coframe.viewer.sources.messages import Sighting
+from coframe.viewer.sources.source import Mode, Topic
 
 if TYPE_CHECKING:
     from collections.abc import Generator

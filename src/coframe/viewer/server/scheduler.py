@@ -5,13 +5,13 @@ from __future__ import annotations
 import logging
 from typing import TYPE_CHECKING
 
-from coframe.viewer.client import Client
+from coframe.viewer.clients.client import Client
 
 if TYPE_CHECKING:
     import asyncio
 
-    from coframe.viewer.stage import Stage
-    from coframe.viewer.websocket import WebSocket
+    from coframe.viewer.server.websocket import WebSocket
+    from coframe.viewer.state import Stage
 
 __all__ = ["Ticker"]
 

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 import numpy as np
 
 from coframe.errors import ConnectivityException, ExtrapolationException, LookupException, TransformException
-from coframe.viewer import protocol
-from coframe.viewer.artists import artist_for
+from coframe.viewer.displays.renderers import artist_for
+from coframe.viewer.protocol import binary
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe import Buffer
-    from coframe.viewer.artists import Artist, MeshUrl
     from coframe.viewer.displays import Drawing, Options
-    from coframe.viewer.messages import Messages, Sighting
+    from coframe.viewer.displays.renderers import Artist, MeshUrl
+    from coframe.viewer.sources.messages import Messages, Sighting
 
 __all__ = ["Display", "Status"]
 
@@ -156,13 +156,13 @@ class Display:
             if not entry.sent:
                 entry.sent = True
                 data = entry.drawing.take_data()
-                protocol.stamp_drawing(data, self.number, entry.sequence)
+                binary.stamp_drawing(data, self.number, entry.sequence)
                 drawings.append((entry.sequence, data))
         return drawings
 
-    def poses(self) -> list[protocol.EntryPose]:
+    def poses(self) -> list[binary.EntryPose]:
         """Where everything is that is to be seen."""
-        return [protocol.EntryPose(self.number, entry.sequence, entry.pose) for entry in self._entries()]
+        return [binary.EntryPose(self.number, entry.sequence, entry.pose) for entry in self._entries()]
 
     def stamps(self) -> list[int | None]:
         """When each of those was where it is, in nanoseconds; None for what moves on, or was told without a stamp."""

@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.errors import DecodeError, RobotDescriptionError
 from coframe.robots import parse_urdf
-from coframe.viewer.robots import describe
+from coframe.viewer.robots.robot_message import describe
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from concurrent.futures import Executor, Future
 
     from coframe.robots import Robot
-    from coframe.viewer.meshes import MeshTable
-    from coframe.viewer.messages import Messages, Sighting
-    from coframe.viewer.sources import Source
+    from coframe.viewer.robots.meshes import MeshTable
+    from coframe.viewer.sources.messages import Messages, Sighting
+    from coframe.viewer.sources.source import Source
 
 __all__ = ["ROBOT_DESCRIPTION", "Descriptions"]
 

@@ -13,7 +13,7 @@ from coframe.viewer.displays.shapes import Row, draw_odometry
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe.viewer.messages import Messages, Sighting
+    from coframe.viewer.sources.messages import Messages, Sighting
 
 __all__ = ["Artist", "MeshUrl", "artist_for"]
 

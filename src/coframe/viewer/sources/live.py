@@ -6,10 +6,10 @@ import time
 import weakref
 from typing import TYPE_CHECKING
 
-from coframe.viewer.adaptive_subscription import AdaptiveSubscription
 from coframe.viewer.displays import DISPLAYS
-from coframe.viewer.messages import LiveMessages
-from coframe.viewer.sources import Mode, Topic
+from coframe.viewer.sources.adaptive_subscription import AdaptiveSubscription
+from coframe.viewer.sources.messages import LiveMessages
+from coframe.viewer.sources.source import Mode, Topic
 
 if TYPE_CHECKING:
     from collections.abc import Generator

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from coframe.viewer.adaptive_subscription import AdaptiveSubscription
+    from coframe.viewer.sources.adaptive_subscription import AdaptiveSubscription
 
 __all__ = ["LiveMessages", "Messages", "Sighting", "header_stamp"]
 

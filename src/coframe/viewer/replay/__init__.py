@@ -1,0 +1,1 @@
+"""Replays: a time span as one HTML file."""

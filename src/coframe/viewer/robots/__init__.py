@@ -1,0 +1,1 @@
+"""Robot descriptions, their meshes and joint states."""

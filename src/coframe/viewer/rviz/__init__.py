@@ -1,0 +1,1 @@
+"""RViz configuration files."""

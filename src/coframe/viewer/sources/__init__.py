@@ -1,0 +1,1 @@
+"""Sources that the viewer can show: the ROS graph, a recording or a buffer."""
