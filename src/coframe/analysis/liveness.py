@@ -26,7 +26,9 @@ __all__ = [
     "LivenessTracker",
     "buffered_period",
     "is_stale",
+    "median_interval",
     "stale_limit",
+    "stamp_intervals",
     "usual_gap",
     "usual_period",
 ]
@@ -54,9 +56,20 @@ def usual_period(stamps: NDArray[np.int64]) -> float:
         >>> usual_period(np.array([0, 100, 200, 900]))
         100.0
     """
-    intervals = np.diff(stamps)
-    if not (intervals > 0).all():
-        intervals = np.diff(np.unique(stamps))
+    return median_interval(stamp_intervals(stamps))
+
+
+def stamp_intervals(stamps: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the intervals between consecutive different stamps in the order of time, in nanoseconds."""
+    intervals = stamps[1:] - stamps[:-1]
+    if (intervals > 0).all():
+        return intervals
+    stamps = np.unique(stamps)
+    return stamps[1:] - stamps[:-1]
+
+
+def median_interval(intervals: NDArray[np.int64]) -> float:
+    """Return the median of the intervals between stamps; 0.0 if there are none."""
     return float(np.median(intervals)) if len(intervals) else 0.0
 
 
@@ -135,7 +148,7 @@ def buffered_period(buffer: Buffer, parent: str, child: str, oldest: int, newest
     if samples < 2:
         return 0.0
     try:
-        return usual_period(np.frombuffer(buffer.stamps_between(parent, child, oldest, newest), np.int64))
+        return usual_period(np.frombuffer(buffer._stamps_between(parent, child, oldest, newest), np.int64))
     except Exception:  # noqa: BLE001 - the lookup fails where the parent has changed; this module is below errors
         return (newest - oldest) / (samples - 1)
 

@@ -57,10 +57,8 @@ class MissingEdge(NamedTuple):
                 f"In the node that publishes {self.child!r}, change the line to t.header.frame_id = {self.parent!r} "
                 f"(or t.child_frame_id); both names must be the same."
             )
-        command = static_command(self.parent, self.child)
-        return (
-            f"If {self.parent} -> {self.child} never moves, run `{command}`; otherwise start the node that publishes it."
-        )
+        edge, command = f"{self.parent} -> {self.child}", static_command(self.parent, self.child)
+        return f"If {edge} never moves, run `{command}`; otherwise start the node that publishes it."
 
 
 def unknown_mount(root: str) -> str:
@@ -99,9 +97,7 @@ def missing_edge(first: Sequence[str], second: Sequence[str]) -> MissingEdge | N
         for root, frames in sides:
             if _without_prefix(root) != child:
                 continue
-            above = [
-                frame for frame in frames if _without_prefix(frame) == parent and _prefix(frame) == _prefix(root)
-            ]
+            above = [frame for frame in frames if _without_prefix(frame) == parent and _prefix(frame) == _prefix(root)]
             if above:
                 return MissingEdge(above[0], root, misspelt=False)
     return None

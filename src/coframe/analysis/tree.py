@@ -69,28 +69,16 @@ class FrameTrees:
         order: list[int] = []
         roots: list[int] = []
 
-        def add_tree(root: int) -> None:
-            number = len(roots)
-            roots.append(root)
-            components[root] = number
-            pending = [root]
-            while pending:
-                frame = pending.pop()
-                order.append(frame)
-                below = depths[frame] + 1
-                for child in reversed(children[frame]):
-                    if child != root:  # a loop leads back to its root
-                        components[child] = number
-                        depths[child] = below
-                        pending.append(child)
-
         for frame, parent in enumerate(above):
             if parent == _NONE:
-                add_tree(frame)
+                _add_tree(frame, len(roots), children, components, depths, order)
+                roots.append(frame)
         proper = len(roots)
         for frame in range(len(names)):
             if components[frame] == _NONE:
-                add_tree(_first_of_loop(frame, above, names))
+                root = _first_of_loop(frame, above, names)
+                _add_tree(root, len(roots), children, components, depths, order)
+                roots.append(root)
         return cls(
             names, index, above, children, order, depths, components, roots, frozenset(range(proper, len(roots)))
         )
@@ -149,6 +137,23 @@ class FrameTrees:
             passed[frame] = None
             frame = self.parents[frame]
         return list(passed)
+
+
+def _add_tree(
+    root: int, number: int, children: list[list[int]], components: list[int], depths: list[int], order: list[int]
+) -> None:
+    """Note the number, the depths and the order of the frames of one tree, depth first."""
+    components[root] = number
+    pending = [root]
+    while pending:
+        frame = pending.pop()
+        order.append(frame)
+        below = depths[frame] + 1
+        for child in reversed(children[frame]):
+            if child != root:  # the children lead back to the root in a loop
+                components[child] = number
+                depths[child] = below
+                pending.append(child)
 
 
 def _first_of_loop(frame: int, parents: list[int], names: tuple[str, ...]) -> int:

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.doctor.phrases import listed
-from coframe.formatting import duration
+from coframe.formatting import count, duration, listed
 
 if TYPE_CHECKING:
     from coframe.doctor.figures import EdgeFigures
@@ -35,8 +34,8 @@ def _shortened(name: str) -> str:
 
 def figures(frame: Frame) -> list[str]:
     """What is told of the link that leads to a frame, by publisher; of many only the first ones."""
-    told = [line for link in frame.links[:_MOST_LINKS] for line in edge_figures(link)]
-    more = len(frame.links) - _MOST_LINKS
+    told = [line for link in frame.edges[:_MOST_LINKS] for line in edge_figures(link)]
+    more = len(frame.edges) - _MOST_LINKS
     return [*told, f"and {more} more publishers"] if more > 0 else told
 
 
@@ -45,8 +44,8 @@ def alarms(frame: Frame) -> list[str]:
     told = [f"in a loop: below {shown(frame.parent)}"] if frame.is_root and frame.parent else []
     if frame.silence is not None:
         told.append(f"stale: silent for {duration(frame.silence)}")
-    told += [f"also below {shown(link.parent)}{_by(link)}" for link in frame.others[:_MOST_LINKS]]
-    more = len(frame.others) - _MOST_LINKS
+    told += [f"also below {shown(link.parent)}{_by(link)}" for link in frame.other_edges[:_MOST_LINKS]]
+    more = len(frame.other_edges) - _MOST_LINKS
     return [*told, f"and {more} more such"] if more > 0 else told
 
 
