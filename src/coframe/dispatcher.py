@@ -93,7 +93,7 @@ class Dispatcher:
         """
         token = next(self._tokens)
         native = start(self._mailbox, token)
-        found = native.answer()
+        found = native.transform()
         if found is not None:
             _call(on_end, found)
         else:
@@ -179,7 +179,7 @@ class Dispatcher:
 
     def _end_if_answered(self, token: int) -> None:
         entry = self._entries.get(token)
-        found = entry.native.answer() if isinstance(entry, _Wait) else None
+        found = entry.native.transform() if isinstance(entry, _Wait) else None
         if isinstance(entry, _Wait) and found is not None and self._forget(token) is not None:
             _call(entry.on_end, found)
 
@@ -198,7 +198,7 @@ class Dispatcher:
                 _, token = heapq.heappop(self._deadlines)
             entry = self._forget(token)
             if isinstance(entry, _Wait):
-                _call(entry.on_end, entry.native.answer())
+                _call(entry.on_end, entry.native.transform())
 
     def turn(self) -> int | None:
         """One round of the thread: nanoseconds that it may sleep now (negative: for ever), None if it may end."""

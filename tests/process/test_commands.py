@@ -43,7 +43,7 @@ def test_echo_of_an_unknown_frame_says_what_there_is(processes):
     processes.start("static", "python", "-m", "coframe.cli", "static", "--frame-id", "a", "--child-frame-id", "lidar")
     start_echo(processes, "a", "lider")
     eventually(lambda: "Did you mean" in processes.text("echo"), lambda: processes.text("echo"))
-    assert "Did you mean 'lidar'? The frames are: a, lidar." in processes.text("echo")
+    assert "Did you mean 'lidar'? Known frames: a, lidar." in processes.text("echo")
     code, text = processes.end("echo", signal.SIGINT)
     assert code == 0
     assert "Traceback" not in text

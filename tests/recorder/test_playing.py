@@ -12,7 +12,7 @@ import coframe
 from coframe.bags import OfferedQos, Writer
 from coframe.cli.app import app
 from coframe.messages import deserialize, find, serialize
-from coframe.recorder.playback import PlaybackClock
+from coframe.recorder.playback_clock import PlaybackClock
 from coframe.wire import QoS
 
 STRING, CLOCK = "std_msgs/msg/String", "rosgraph_msgs/msg/Clock"

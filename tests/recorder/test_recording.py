@@ -11,9 +11,9 @@ from coframe.bags import Writer, from_yaml
 from coframe.frame_names import renaming
 from coframe.messages import find, serialize
 from coframe.recorder import Recorder
-from coframe.recorder.backlog import Source
-from coframe.recorder.frames import RobotFrames
-from coframe.recorder.subscriptions import Wanted
+from coframe.recorder.frame_renaming import FrameRenamer
+from coframe.recorder.message_queue import Source
+from coframe.recorder.topic_subscriptions import Wanted
 from coframe.wire import QoS
 
 STRING, TF_MESSAGE = find("std_msgs/msg/String"), find("tf2_msgs/msg/TFMessage")
@@ -195,7 +195,7 @@ def test_one_robot_is_recorded_under_a_prefix(participant, node, eventually, tmp
 
 
 def test_a_topic_of_two_unknown_types_is_told_of_once():
-    frames = RobotFrames(renaming("robot1/"), "/robot1/tf", "/robot1/tf_static")
+    frames = FrameRenamer(renaming("robot1/"), "/robot1/tf", "/robot1/tf_static")
     for kind in ("my_pkg/msg/Odd", "my_pkg/msg/Other"):
         for topic in ("/robot1/odd", "/robot1/b", "/robot2/odd"):
             assert frames.renamed(Source(topic, kind, latched=False), b"bytes") == b"bytes"

@@ -101,7 +101,7 @@ def test_prefixes_and_a_relay_as_they_are_typed(command, ros, eventually):
     assert re.search(pattern, row), row
     code, _, errors = interrupted(relay)
     assert code == 0, errors
-    assert "/robot1/tf -> /tf, with robot1/" in errors
+    assert "/robot1/tf -> /tf, adding prefix robot1/" in errors
 
 
 @pytest.mark.parametrize(
@@ -114,8 +114,8 @@ def test_prefixes_and_a_relay_as_they_are_typed(command, ros, eventually):
         (["relay", "--from", "/a/tf=/a/"], "the prefix '/a/' begins with a slash"),
         (["echo", "a", "b", "--prefix", "/robot1/"], "the prefix '/robot1/' begins with a slash"),
         (["relay", "--robots", "a", "--tf-static-topic", "a/tf_static"], "/a/tf_static would be read and written"),
-        (["robot", ARM, "--prefx", "robot1/"], "there is no option or argument '--prefx'"),
-        (["joints", ARM, "first_length:=0.5", "surplus"], "there is no option or argument 'surplus'"),
+        (["robot", ARM, "--prefx", "robot1/"], "No option or argument '--prefx'"),
+        (["joints", ARM, "first_length:=0.5", "surplus"], "No option or argument 'surplus'"),
         (["record", "--tf-topic", "/robot1/tf"], "say whose frames get the prefix"),
         (["static", "--frame-id", "a", "--child-frame-id", "b", "--prefix", "/r/"], "the prefix '/r/' begins"),
     ],

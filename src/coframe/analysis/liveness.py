@@ -178,7 +178,7 @@ class LivenessTracker:
         """Note which edges have received transforms since the last update.
 
         Args:
-            frames: All frames of the buffer, from :meth:`coframe.Buffer.frames`.
+            frames: All frames of the buffer in its order, from :meth:`coframe.Buffer.frames`.
         """
         count, before = len(frames), len(self._newest)
         newest = np.fromiter((frame.newest for frame in frames), np.int64, count)

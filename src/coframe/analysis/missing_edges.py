@@ -51,14 +51,25 @@ class MissingEdge(NamedTuple):
 
     @property
     def fix(self) -> str:
-        """What to do: the line of code to change, or the command to run."""
+        """What to do, for findings: the line of code to change, or the command to run."""
+        if self.misspelt:
+            return self.hint
+        edge, command = f"{self.parent} -> {self.child}", static_command(self.parent, self.child)
+        return f"If {edge} never moves, run `{command}`; otherwise start the node that publishes it."
+
+    @property
+    def hint(self) -> str:
+        """What to do, as an exception says it: in terms of the Python API."""
         if self.misspelt:
             return (
                 f"In the node that publishes {self.child!r}, change the line to t.header.frame_id = {self.parent!r} "
-                f"(or t.child_frame_id); both names must be the same."
+                f"(or t.child_frame_id); the two names must be the same."
             )
-        edge, command = f"{self.parent} -> {self.child}", static_command(self.parent, self.child)
-        return f"If {edge} never moves, run `{command}`; otherwise start the node that publishes it."
+        return (
+            f"If {self.parent} -> {self.child} never moves, publish it with a StaticTransformBroadcaster or insert it "
+            f"with buffer.set({self.parent!r}, {self.child!r}, ..., static=True); otherwise start the node that "
+            "publishes it."
+        )
 
 
 def unknown_mount(root: str) -> str:

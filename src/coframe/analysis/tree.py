@@ -61,22 +61,21 @@ class FrameTrees:
         index = {name: number for number, name in enumerate(names)}
         above = [index[parent] if (parent := parents.get(name, "")) else _NONE for name in names]
         children: list[list[int]] = [[] for _ in names]
-        for frame, parent in enumerate(above):
-            if parent != _NONE:
-                children[parent].append(frame)
+        for number, parent_number in enumerate(above):
+            if parent_number != _NONE:
+                children[parent_number].append(number)
         components = [_NONE] * len(names)
         depths = [0] * len(names)
         order: list[int] = []
         roots: list[int] = []
-
-        for frame, parent in enumerate(above):
-            if parent == _NONE:
-                _add_tree(frame, len(roots), children, components, depths, order)
-                roots.append(frame)
+        for number, parent_number in enumerate(above):
+            if parent_number == _NONE:
+                _add_tree(number, len(roots), children, components, depths, order)
+                roots.append(number)
         proper = len(roots)
-        for frame in range(len(names)):
-            if components[frame] == _NONE:
-                root = _first_of_loop(frame, above, names)
+        for number in range(len(names)):
+            if components[number] == _NONE:
+                root = _first_of_loop(number, above, names)
                 _add_tree(root, len(roots), children, components, depths, order)
                 roots.append(root)
         return cls(

@@ -8,7 +8,7 @@ import importlib
 import io
 from typing import TYPE_CHECKING, Any
 
-from coframe.errors import RecordingError
+from coframe.errors import CoframeError, RecordingError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,7 +18,7 @@ __all__ = ["LARGEST", "DamagedError", "unpack"]
 LARGEST = 512 << 20  # bytes: no chunk or message that anybody writes is as large
 
 
-class DamagedError(Exception):
+class DamagedError(CoframeError):
     """A piece of a file that cannot be read; the text says why."""
 
 

@@ -7,7 +7,7 @@ import json
 import re
 from typing import TYPE_CHECKING, Any
 
-from coframe.errors import DecodeError
+from coframe.errors import CoframeError, DecodeError
 from coframe.messages import deserialize, find
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def decoder(channel: Channel, problems: Problems) -> Callable[[bytes], Any]:
         return bytes
 
 
-class UnknownTypeError(Exception):
+class UnknownTypeError(CoframeError):
     """Nobody says how messages of a type are to be read."""
 
 

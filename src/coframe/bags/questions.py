@@ -56,9 +56,9 @@ class Question:
 
     def __post_init__(self) -> None:
         if self.rate is not None and self.stamps_of is not None:
-            raise ValueError("--rate and --stamps-of exclude each other")
+            raise ValueError("rate and stamps_of exclude each other")
         if self.rate is not None and not 0 < self.rate <= FASTEST:
-            raise ValueError(f"--rate must be above 0 and at most {FASTEST:g} Hz, not {self.rate:g}")
+            raise ValueError(f"rate must be above 0 and at most {FASTEST:g} Hz, not {self.rate:g}")
 
     def ask(self, recording: Recording) -> tuple[Transform, int]:
         """The poses there are, one at least, and how many times were left out because there is no transform.

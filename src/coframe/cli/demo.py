@@ -13,9 +13,11 @@ from rich.live import Live
 from rich.text import Text
 
 import coframe
+from coframe.analysis.liveness import LivenessTracker
 from coframe.cli.fleet import fleet
+from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.live import tree_table
-from coframe.cli.session import (
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
@@ -23,9 +25,8 @@ from coframe.cli.session import (
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    fail,
-    session,
 )
+from coframe.cli.output import fail
 from coframe.cli.view import PortOption, viewer_beside
 from coframe.frame_names import renaming
 from coframe.lab.launcher import COMPLETE_LAB, DESCRIBED_LAB, Launcher
@@ -101,12 +102,13 @@ def demo(
     commands = tuple(command._replace(arguments=(*command.arguments, *remaps)) for command in lab)
     name = renaming(prefix, keep) or str
     with (
-        session(),
+        run_until_interrupted(),
         coframe.connect("coframe_demo", domain=domain, **listening) as ros,
         Launcher(commands, domain=domain) as nodes,
         viewer_beside(ros, port, browser=not no_browser),
     ):
         clouds = Clouds()
+        liveness = LivenessTracker(ros.buffer)
         ros.subscribe("/scan_base_frame", PointCloud2, clouds.take)
         start = time.monotonic()
 
@@ -114,7 +116,7 @@ def demo(
             running = time.monotonic() - start
             state = f"{running:.0f} s, Ctrl-C to leave: {', '.join(nodes.names)}"
             return Group(
-                tree_table(ros.buffer, name("base_link"), wide=console.width >= 100),
+                tree_table(ros.buffer, name("base_link"), liveness, wide=console.width >= 100),
                 Text(str(clouds)),
                 *(Text(warning, style="red") for warning in _others(ros, nodes)),
                 Text(state, style="dim", no_wrap=True),

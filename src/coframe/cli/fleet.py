@@ -14,12 +14,14 @@ from rich.table import Table
 from rich.text import Text
 
 import coframe
-from coframe.cli.session import fail, printable, session
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.output import fail, printable
 from coframe.cli.view import viewer_beside
 from coframe.errors import TransformException
 from coframe.frame_names import renaming
 from coframe.lab.launcher import Launcher, NodeCommand
-from coframe.tf_publishers import state_of
+from coframe.tf_publishers import publisher_state
+from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,7 +37,6 @@ START_TIMEOUT = 30.0
 SHARED = ("world", "map")
 # Of the lab's tree, whose node has a parameter for the name of each.
 FRAMES = ("odom", "base", "link1", "link2", "end_effector", "imu", "lidar", "camera", "gripper")
-_NS = 1_000_000_000
 
 
 def fleet(
@@ -73,7 +74,7 @@ def fleet(
     commands = tuple(_command(name, number, count, topics) for number, name in enumerate(names))
     warnings: list[str] = []
     with (
-        session(),
+        run_until_interrupted(),
         coframe.connect("coframe_demo", domain=domain, **listening) as ros,
         _relay(names, tf_topic, tf_static_topic, domain, warnings.append, wanted=own_topics) as relay,
         Launcher(commands, domain=domain) as nodes,
@@ -148,7 +149,7 @@ class _Row(NamedTuple):
         if self.ended is not None:
             code = self.ended.exit_code
             return f"{self.name} has gone: its process ended with exit code {code}, its frames are stale"
-        if self.state in {"gone", "silent"}:
+        if self.state in {"gone", "stale"}:
             return f"{self.name} is {self.state}: its frames are stale"
         return next((f"{self.name}: {told}" for each in self.publishers if (told := each.clock_problem())), "")
 
@@ -178,7 +179,7 @@ class _View:
         else:
             everyone = self._ros.publishers()
             heard = {name: [one for one in everyone if one.node.startswith(f"/{name}/")] for name in self._names}
-        return [_Row(name, state_of(heard[name]), heard[name], ended.get(name)) for name in self._names]
+        return [_Row(name, publisher_state(heard[name]), heard[name], ended.get(name)) for name in self._names]
 
     def missing(self) -> list[str]:
         """The robots whose frames have not come."""
@@ -201,14 +202,14 @@ class _View:
             moving = [publisher for publisher in row.publishers if not publisher.static]
             age = min((publisher.age for publisher in moving), default=math.nan)
             lag = next((publisher.lag for publisher in moving if publisher.lag is not None), None)
-            stale = row.ended is not None or row.state in {"gone", "silent"}
+            stale = row.ended is not None or row.state in {"gone", "stale"}
             table.add_row(
                 Text(row.name, style="dim" if stale else "bold"),
                 Text("stale" if stale else row.state, style="red" if stale else "green"),
                 str(len(own)),
                 f"{rate:.1f}",
                 f"{age * 1e3:.0f}",
-                "-" if lag is None else f"{-lag * 1e-6:+.0f}",
+                "-" if lag is None else f"{-lag / MILLISECOND:+.0f}",
                 *self._pose(row.name),
             )
         return table

@@ -12,7 +12,8 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
@@ -20,12 +21,11 @@ from coframe.cli.session import (
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    fail,
-    length,
-    printable,
-    session,
+    positive_duration,
 )
+from coframe.cli.output import fail, printable
 from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
+from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -39,8 +39,6 @@ if TYPE_CHECKING:
 
 __all__ = ["monitor"]
 
-SECOND = 1_000_000_000
-_MS = 1e6
 _BROADCASTERS = "\nAll Broadcasters:"
 
 
@@ -65,9 +63,9 @@ def monitor(
         fail("give two frames, or none", code=2)
     if as_json and classic:
         fail("--json and --classic exclude each other", code=2)
-    window = length("--duration", duration)
+    window = positive_duration("--duration", duration)
     pair = (target, source) if target is not None and source is not None else None
-    with session():
+    with run_until_interrupted():
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - 100 ms
 
         with LiveObserver(
@@ -126,8 +124,9 @@ def _picture(seen: Observation, pair: Pair) -> Group:
     links = _table("link", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms", "count")
     for row in edge_figures(seen):
         figures = (row.jitter, row.delay, row.delay_p99, row.age)
-        shown = ("static", "", "", "", "") if row.static else (_hertz(row.rate), *map(_ms, figures))
-        links.add_row(*_texts(f"{row.parent} -> {row.child}", row.publisher or "unknown", *shown, str(row.transforms)))
+        rate = "static" if row.static else "stale" if row.stale else _hertz(row.rate)
+        cells = (f"{row.parent} -> {row.child}", row.publisher or "unknown", rate, *map(_ms, figures))
+        links.add_row(*_texts(*cells, str(row.transforms)), style="red" if row.stale else "")
     publishers = _table("publisher", "messages/s", "delay ms", "p99 ms")
     for node in publisher_figures(seen):
         delays = (_ms(node.delay), _ms(node.delay_p99))
@@ -193,11 +192,11 @@ def _classic(seen: Observation, pair: Pair) -> Iterator[str]:
 
 def _g(nanoseconds: float | None) -> str:
     """Seconds with six digits, as C++ prints them."""
-    return f"{(nanoseconds or 0.0) * 1e-9:g}"
+    return f"{(nanoseconds or 0.0) / SECOND:g}"
 
 
 def _ms(nanoseconds: float | None) -> str:
-    return "" if nanoseconds is None else f"{nanoseconds / _MS:.1f}"
+    return "" if nanoseconds is None else f"{nanoseconds / MILLISECOND:.1f}"
 
 
 def _hertz(rate: float | None) -> str:

@@ -14,18 +14,9 @@ from rich.table import Table
 from rich.text import Text
 
 import coframe
-from coframe.cli.session import (
-    TF_TOPIC,
-    DomainOption,
-    KeepOption,
-    PrefixOption,
-    check_prefix,
-    fail,
-    log,
-    printable,
-    qualified,
-    session,
-)
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.options import TF_TOPIC, DomainOption, KeepOption, PrefixOption, checked_prefix, with_leading_slash
+from coframe.cli.output import fail, log, printable
 
 if TYPE_CHECKING:
     from coframe.tf_relay import Relay, RelayedEdge
@@ -48,11 +39,15 @@ def relay(
     ] = None,
     tf_topic: Annotated[
         str,
-        typer.Option("--to", "--tf-topic", help="Where all are written, or read with --split.", callback=qualified),
+        typer.Option(
+            "--to", "--tf-topic", help="Where all are written, or read with --split.", callback=with_leading_slash
+        ),
     ] = TF_TOPIC,
     tf_static_topic: Annotated[
         str | None,
-        typer.Option(help="The static ones likewise.", callback=qualified, show_default="as --to, with _static"),
+        typer.Option(
+            help="The static ones likewise.", callback=with_leading_slash, show_default="as --to, with _static"
+        ),
     ] = None,
     prefix: PrefixOption = "",
     prefix_each: Annotated[
@@ -82,7 +77,7 @@ def relay(
         if len(prefixes) > 1 or any(prefixes.values()):
             fail("--split reads one topic, and names the robots by --robots", code=2)
         prefixes = {}
-    with session(), contextlib.ExitStack() as stack:
+    with run_until_interrupted(), contextlib.ExitStack() as stack:
         try:
             running = coframe.relay(
                 robots,
@@ -111,7 +106,7 @@ def relay(
 def _prefixes(sources: list[str]) -> dict[str, str]:
     """By topic."""
     pairs = [source.partition("=") for source in sources]
-    return {topic: check_prefix(prefix) for topic, _, prefix in pairs}
+    return {topic: checked_prefix(prefix) for topic, _, prefix in pairs}
 
 
 def _show(running: Relay) -> None:
@@ -139,7 +134,7 @@ class _Rates:
     def take(self, edges: list[RelayedEdge]) -> dict[tuple[str, str, str], float]:
         """By target, parent and child."""
         now = time.monotonic()
-        seen = {(edge.target, edge.parent, edge.child): edge.passed for edge in edges}
+        seen = {(edge.target, edge.parent, edge.child): edge.forwarded for edge in edges}
         elapsed = max(now - self._at, 1e-9)
         rates = {key: (passed - self._seen.get(key, 0)) / elapsed for key, passed in seen.items() if self._seen}
         self._seen, self._at = seen, now
@@ -154,9 +149,9 @@ def _table(running: Relay, rates: _Rates) -> Table:
     edges = sorted(running.edges(), key=lambda edge: (edge.target, edge.robot, edge.parent, edge.child))
     each = rates.take(edges)
     for edge in edges:
-        note = f"also told of by {edge.rival}, which is left out" if edge.rival else ""
-        if states[edge.robot] in {"gone", "silent"}:
-            note = f"stale: {edge.robot} {'has gone' if states[edge.robot] == 'gone' else 'is silent'}"
+        note = f"also told of by {edge.conflicting_robot}, which is left out" if edge.conflicting_robot else ""
+        if states[edge.robot] in {"gone", "stale"}:
+            note = f"{edge.robot} {'has gone' if states[edge.robot] == 'gone' else 'is stale'}"
         hertz = each.get((edge.target, edge.parent, edge.child))
         cells = [
             f"{edge.parent} -> {edge.child}",

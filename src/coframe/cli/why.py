@@ -15,25 +15,25 @@ import typer
 from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
-from typer.core import TyperCommand
 
 import coframe
 from coframe.bags import parse_instant
-from coframe.cli.recordings import NamespaceOption, check_live, instant, opened, work
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
     KeepOption,
+    NamespaceOption,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    fail,
-    length,
-    printable,
+    positive_duration,
     recorded_tf_topics,
-    session,
+    reject_namespace_of_live_graph,
 )
+from coframe.cli.output import fail, printable, with_doctor_command
+from coframe.cli.recordings import open_recording, parse_time
 from coframe.doctor import Observation, diagnose
 from coframe.doctor.recorded import collecting
 from coframe.doctor.rendering.plain import as_data
@@ -41,7 +41,7 @@ from coframe.doctor.rendering.text import headline
 from coframe.explanation.drawing import remark, verdict
 from coframe.frame_names import renaming
 from coframe.messages import find
-from coframe.time import stamp_ns
+from coframe.time import SECOND, stamp_ns
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -50,23 +50,15 @@ if TYPE_CHECKING:
     from coframe.bags import Recording
     from coframe.doctor import Finding, Report
     from coframe.doctor.collector import Collector
-    from coframe.explanation import Explanation, Link
+    from coframe.explanation import ChainEdge, Explanation
 
-__all__ = ["WhyCommand", "why"]
+__all__ = ["why"]
 
 _NAMES = "[BAG] TARGET SOURCE"
-_SECOND = 1_000_000_000
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _WHEN = "A stamp, 10s (from the start), -0.5s (from the end, or from now), ISO time, start, end; live also now."
 _ASCII = str.maketrans("├└│─", "+`|-")
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan"}
-
-
-class WhyCommand(TyperCommand):
-    """The recording stands in front, as for lookup, and may be left out."""
-
-    def collect_usage_pieces(self, _context: Any) -> list[str]:  # noqa: D102 - see the class
-        return [self.options_metavar or "", _NAMES]
 
 
 class _Names(NamedTuple):
@@ -123,15 +115,15 @@ def why(
         fail("give TARGET and SOURCE, with a recording in front of them or without", code=2)
     *bags, target, source = names
     if not bags:
-        check_live(namespace)
+        reject_namespace_of_live_graph(namespace)
         if Path(target).exists() and not {"/", "."}.isdisjoint(target):
             fail(f"{target} is a file or a folder: give TARGET and SOURCE behind the recording", code=2)
     if watch and bags:
         fail("--watch and a recording exclude each other", code=2)
-    patience = length("--duration", duration)
+    patience = positive_duration("--duration", duration)
     renamed = _Names(prefix, keep)
     place = _Live(domain, tf_topic or TF_TOPIC, tf_static_topic or TF_STATIC_TOPIC, renamed)
-    with session() if watch else work():
+    with run_until_interrupted() if watch else run_to_completion():
         if bags:
             topics = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
             answer = _recorded(Path(bags[0]), target, source, at, namespace, topics, renamed)
@@ -148,8 +140,8 @@ def _recorded(
 ) -> _Answer:
     collectors: dict[str, Collector] = {}
     heard = collecting(collectors, renaming(**names._asdict()), recorded_tf_topics(**topics))
-    with opened(bag, namespace, **topics, **names._asdict(), heard=heard) as recording:
-        found = recording.buffer.why(target, source, None if at is None else instant("--at", at, recording))
+    with open_recording(bag, namespace, **topics, **names._asdict(), heard=heard) as recording:
+        found = recording.buffer.why(target, source, None if at is None else parse_time("--at", at, recording))
         seen = [
             Observation(live=False, start=recording.start, end=recording.end, transforms=collectors[name].transforms())
             for name in sorted(collectors)
@@ -171,8 +163,8 @@ def _heard(place: _Live, target: str, source: str, at: str | None, window: int) 
         ) as listening,
     ):
         if Console(stderr=True).is_terminal:
-            typer.echo(f"listening for {window / _SECOND:g} s ...", err=True)
-        listening.listen(window / _SECOND)
+            typer.echo(f"listening for {window / SECOND:g} s ...", err=True)
+        listening.listen(window / SECOND)
         seen = listening.observe()
         clock = int(seen.clock.stamp[-1]) if seen.clock is not None else None
         found = ros.buffer.why(target, source, _instant(at, clock, window), now=clock)
@@ -219,13 +211,13 @@ def _instant(at: str | None, clock: int | None, window: int) -> int | None:
 
 def _concerning(found: Explanation, seen: Iterable[Observation]) -> list[Report]:
     """What the doctor finds about the links; where a link or a frame is missing, also about all frames or these."""
-    links = {(link.parent, link.child) for link in found.links}
+    edges = {(edge.parent, edge.child) for edge in found.edges}
     frames = {found.target, found.source, *found.frames}
     incomplete = found.roots is not None or bool(found.unknown)
 
     def concerns(finding: Finding) -> bool:
         if finding.edge is not None:
-            return finding.edge in links
+            return finding.edge in edges
         return incomplete and (not finding.frames or not frames.isdisjoint(finding.frames))
 
     reports = map(diagnose, seen)
@@ -262,7 +254,7 @@ def _print(answer: _Answer, *, as_json: bool) -> None:
 
 
 def _texts(answer: _Answer, console: Console) -> list[Text]:
-    first, *rest = str(answer.found).split("\n")
+    first, *rest = with_doctor_command(_with_fix(answer.found, str(answer.found))).split("\n")
     lines = [("green" if answer.found.possible else "bold red", first), *(("", line) for line in rest)]
     for report in answer.reports:
         for finding in report.findings:
@@ -272,6 +264,11 @@ def _texts(answer: _Answer, console: Console) -> list[Text]:
     if console.options.ascii_only:
         shown = [(style, line.translate(_ASCII)) for style, line in shown]
     return [Text(line, style=style) for style, line in shown]
+
+
+def _with_fix(found: Explanation, text: str) -> str:
+    """Replace what the library says about a missing edge by the command that publishes it."""
+    return text if found.missing is None else text.replace(found.missing.hint, found.missing.fix)
 
 
 def _data(answer: _Answer) -> dict[str, Any]:
@@ -285,9 +282,9 @@ def _data(answer: _Answer) -> dict[str, Any]:
         "code": found.code or None,
         "verdict": verdict(found),
         "text": found.text or None,
-        "hint": found.hint or None,
+        "hint": with_doctor_command(_with_fix(found, found.hint)) or None,
         "frames": list(found.frames),
-        "links": [_link(found, link) for link in found.links],
+        "links": [_edge(found, edge) for edge in found.edges],
         "unknown": list(found.unknown),
         "roots": found.roots,
         "missing": found.missing and found.missing[:2],
@@ -299,7 +296,7 @@ def _data(answer: _Answer) -> dict[str, Any]:
     }
 
 
-def _link(found: Explanation, link: Link) -> dict[str, Any]:
-    times = {"by", "oldest", "newest", "age", "gap"}
-    named = {f"{name}_ns" if name in times else name: value for name, value in link._asdict().items()}
-    return {**named, "remark": remark(found, link)}
+def _edge(found: Explanation, edge: ChainEdge) -> dict[str, Any]:
+    times = {"by", "oldest", "newest", "age", "gap", "period"}
+    named = {f"{name}_ns" if name in times else name: value for name, value in edge._asdict().items()}
+    return {**named, "remark": remark(found, edge)}

@@ -9,9 +9,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from coframe.bags.header_stamps import opens_with_header
-from coframe.bags.storage import Slices
-from coframe.bags.transforms import tf_columns
 from coframe.doctor.collector import Collector
 from coframe.doctor.joints import joint_states
 from coframe.doctor.observation import (
@@ -27,7 +24,9 @@ from coframe.doctor.observation import (
 from coframe.errors import DecodeError
 from coframe.frame_names import renaming
 from coframe.messages import deserialize, find
-from coframe.messages.header_peek import HEAD, header_of
+from coframe.messages.header_peek import HEADER_BYTES, opens_with_header, peek_header
+from coframe.messages.slices import Slices
+from coframe.messages.tf_columns import tf_columns
 from coframe.wire.names import full_name
 from coframe.wire.participant import Participant
 from coframe.wire.qos import TF, TF_STATIC_READER, QoS
@@ -39,8 +38,8 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe.doctor.transforms import Transforms
-    from coframe.wire.endpoints import Tap, TappedMessages
-    from coframe.wire.graph import Endpoint as WireEndpoint
+    from coframe.wire.batch_subscription import BatchSubscription, MessageBatch
+    from coframe.wire.graph import EndpointInfo
 
 __all__ = ["LiveObserver"]
 
@@ -72,10 +71,10 @@ class _Writer(NamedTuple):
 class _Topic:
     """A topic that is listened to beside those of transforms."""
 
-    def __init__(self, name: str, ros_type: str, tap: Tap) -> None:
+    def __init__(self, name: str, ros_type: str, subscription: BatchSubscription) -> None:
         self.name = name
         self.type = ros_type
-        self.tap = tap
+        self.subscription = subscription
         self.messages = 0
         self.heads: deque[_Head] = deque(maxlen=_MOST_MESSAGES)
         self.decoded: deque[tuple[int, Any]] = deque(maxlen=_MOST_MESSAGES)
@@ -124,7 +123,7 @@ class LiveObserver:
         try:
             self._node = self._participant.add_node("/", node_name)
             self._transforms = {
-                topic: (self._tap(topic, TF_TYPE, qos, _WHOLE), static)
+                topic: (self._subscribe(topic, TF_TYPE, qos, _WHOLE), static)
                 for topic, qos, static in ((tf_topic, TF, False), (tf_static_topic, TF_STATIC_READER, True))
             }
         except BaseException:
@@ -148,8 +147,8 @@ class LiveObserver:
         for handles in published.values():
             for handle, endpoint in handles.items():
                 self._meet(handle, endpoint)
-        for topic, (tap, static) in self._transforms.items():
-            self._take_transforms(topic, tap.take(), static)
+        for topic, (subscription, static) in self._transforms.items():
+            self._take_transforms(topic, subscription.take(), static)
         for name, handles in published.items():
             if name not in self._topics and name not in self._transforms:
                 self._listen(name, sorted({endpoint.ros_type for endpoint in handles.values()}))
@@ -196,10 +195,10 @@ class LiveObserver:
             link_name=self._renamed,
         )
 
-    def _tap(self, topic: str, ros_type: str, qos: QoS, head: int) -> Tap:
-        return self._participant.tap(self._node, topic, ros_type, qos, head=head)
+    def _subscribe(self, topic: str, ros_type: str, qos: QoS, max_bytes: int) -> BatchSubscription:
+        return self._participant.batch_subscription(self._node, topic, ros_type, qos, max_bytes=max_bytes)
 
-    def _meet(self, handle: int, endpoint: WireEndpoint) -> None:
+    def _meet(self, handle: int, endpoint: EndpointInfo) -> None:
         if not endpoint.node.startswith("_NODE_NAME_UNKNOWN"):
             self._writers[handle] = _Writer(full_name(endpoint.namespace, endpoint.node), endpoint.guid[:12])
 
@@ -241,14 +240,14 @@ class LiveObserver:
             by_name.setdefault(self._node_of(handle), []).extend(travel)
         return {name: np.array(travel, dtype=np.int64) for name, travel in by_name.items()}
 
-    def _take_transforms(self, topic: str, messages: TappedMessages, static: bool) -> None:
+    def _take_transforms(self, topic: str, messages: MessageBatch, static: bool) -> None:
         if not len(messages.ends):
             return
         handles, publisher = np.unique(messages.writers, return_inverse=True)
         self._collector.add(
             topic,
             static,
-            tf_columns(Slices.adjoining(messages.data, messages.ends)),
+            tf_columns(Slices.contiguous(messages.data, messages.ends)),
             messages.arrived,
             publisher,
             list(map(str, handles.tolist())),
@@ -262,25 +261,25 @@ class LiveObserver:
     def _listen(self, name: str, types: list[str]) -> None:
         ros_type = types[0]
         if name.endswith(_DESCRIPTION) and ros_type == "std_msgs/msg/String":
-            tap = self._tap(name, ros_type, _LATCHED, _WHOLE)
+            subscription = self._subscribe(name, ros_type, _LATCHED, _WHOLE)
         elif ros_type in _DECODED:
-            tap = self._tap(name, ros_type, _ANY, _WHOLE)
+            subscription = self._subscribe(name, ros_type, _ANY, _WHOLE)
         elif ros_type not in _TOO_LARGE and opens_with_header(ros_type):
-            tap = self._tap(name, ros_type, _ANY, HEAD)
+            subscription = self._subscribe(name, ros_type, _ANY, HEADER_BYTES)
         else:
             return
-        self._topics[name] = _Topic(name, ros_type, tap)
+        self._topics[name] = _Topic(name, ros_type, subscription)
 
     def _take(self, heard: _Topic) -> None:
-        messages = heard.tap.take()
+        messages = heard.subscription.take()
         heard.messages += len(messages.ends)
-        whole = Slices.adjoining(messages.data, messages.ends).each()
+        whole = Slices.contiguous(messages.data, messages.ends).each()
         rows = zip(map(bytes, whole), messages.arrived.tolist(), messages.writers.tolist(), strict=True)
         if heard.type in _DECODED or heard.name.endswith(_DESCRIPTION):
             heard.decoded += _decode(heard.type, rows)
             return
         for data, arrived, writer in rows:
-            header = header_of(data)
+            header = peek_header(data)
             if header is not None:
                 stamp, frame = header
                 heard.heads.append(_Head(frame.lstrip("/"), stamp, arrived, writer))
@@ -313,7 +312,7 @@ class LiveObserver:
         facts |= {topic.name: TopicFacts(topic.name, topic.type, topic.messages) for topic in self._topics.values()}
         return facts
 
-    def _endpoints(self, endpoints: Iterable[WireEndpoint]) -> tuple[Endpoint, ...]:
+    def _endpoints(self, endpoints: Iterable[EndpointInfo]) -> tuple[Endpoint, ...]:
         """Named ones: one without a node is no ROS program, or has just come."""
         return tuple(
             Endpoint(full_name(endpoint.namespace, endpoint.node), endpoint.qos.transient_local)

@@ -12,16 +12,18 @@ from array import array
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from coframe.messages.layout import Offset, Order, Run, plan_run
+from coframe.errors import CoframeError
+from coframe.messages.layout import Offset, Run, plan_run
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from coframe.messages.definition import AbstractType
+    from coframe.messages.encapsulation import Order
 
 
-class RefusedError(ValueError):
-    """The bytes or values are not what the type allows; says what was expected."""
+class RefusedError(CoframeError, ValueError):
+    """Bytes or values that the type does not allow; the text says what was expected."""
 
 
 class Compiler(ABC):

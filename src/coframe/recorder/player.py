@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from coframe.bags import RecordingError, open_bag
 from coframe.frame_names import absolute, renaming
 from coframe.messages import find, serialize
-from coframe.recorder.outlets import Outlets
-from coframe.recorder.playback import PlaybackClock
+from coframe.recorder.playback_clock import PlaybackClock
+from coframe.recorder.topic_publishers import TopicPublishers
 from coframe.time import duration_ns
 from coframe.wire import Participant, QoS
 
@@ -72,7 +72,7 @@ class Player:
         self._participant = Participant.get(domain)
         try:
             self._node = self._participant.add_node("/", "coframe_play")
-            self._outlets = Outlets(self._participant, self._node, recording, topics, remap, names)
+            self._outlets = TopicPublishers(self._participant, self._node, recording, topics, remap, names)
         except BaseException:
             self._participant.close()
             raise

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, NamedTuple
 from coframe import _core
 from coframe.bags import OfferedQos, RecordingError, Writer
 from coframe.frame_names import renaming
-from coframe.recorder.backlog import Backlog, Received
-from coframe.recorder.frames import RobotFrames
-from coframe.recorder.subscriptions import Subscriptions, Wanted
+from coframe.recorder.frame_renaming import FrameRenamer
+from coframe.recorder.message_queue import MessageQueue, ReceivedMessage
+from coframe.recorder.topic_subscriptions import Subscriptions, Wanted
 from coframe.wire import Participant
 
 if TYPE_CHECKING:
@@ -69,13 +69,13 @@ class Recorder:
         domain: int | None,
         backlog: int,
         on_topic: Callable[[str, str], None],
-        frames: RobotFrames | None = None,
+        frames: FrameRenamer | None = None,
     ) -> None:
         self.writer = writer
         self._wanted = wanted
         self._on_topic = on_topic
         self._frames = frames
-        self._backlog = Backlog(backlog)
+        self._backlog = MessageQueue(backlog)
         self._error: Exception | None = None
         self._ended = threading.Event()
         self._stopping = False
@@ -193,7 +193,7 @@ class Recorder:
                 self.writer.flush()
                 due = time.monotonic() + _FLUSH_PERIOD
 
-    def _put(self, message: Received) -> None:
+    def _put(self, message: ReceivedMessage) -> None:
         key = message.source[:2]
         topic = self.writer.add_topic(*key, offered_qos=self._qos.get(key, ()))
         data = message.data if self._frames is None else self._frames.renamed(message.source, message.data)
@@ -252,7 +252,7 @@ def record(
     """
     wanted = Wanted(topics, regex, exclude)
     names = renaming(prefix, keep)
-    frames = None if names is None else RobotFrames(names, tf_topic, tf_static_topic)
+    frames = None if names is None else FrameRenamer(names, tf_topic, tf_static_topic)
     folder = datetime.now().astimezone().strftime("rosbag2_%Y_%m_%d-%H_%M_%S") if path is None else path
     participant = Participant.get(domain)  # before there is a folder: this is what may fail
     try:
