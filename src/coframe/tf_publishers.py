@@ -128,6 +128,8 @@ def tf_publisher(
     """
     node = node or "an unnamed node"
     age = max(0, time.monotonic_ns() - statistics.received_at) / SECOND
-    problems = frame_names.oddities(f"{node} on {topic}", statistics.slashed, statistics.prefixed, statistics.plain)
+    problems = frame_names.naming_problems(
+        f"{node} on {topic}", statistics.slashed, statistics.prefixed, statistics.plain
+    )
     period = statistics.period / SECOND
     return TfPublisher(node, topic, static, statistics.messages, age, period, statistics.lag, present, problems)

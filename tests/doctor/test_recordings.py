@@ -19,7 +19,12 @@ EXPECTED = {
         ("TF018", "note", "tilt_axis -> laser", "constant in all 178 transforms on /tf"),
         ("TF008", "note", "tilt_axis -> camera", "by up to 81.1 ms"),
         ("TF008", "note", "tilt_axis -> laser", "by up to 81.1 ms"),
-        ("TF019", "note", "tilt_axis -> laser", "178 of 178 quaternions are not exactly normalized, their length is off by up to 1.5e-06"),
+        (
+            "TF019",
+            "note",
+            "tilt_axis -> laser",
+            "178 of 178 quaternions are not exactly normalized, their length is off by up to 1.5e-06",
+        ),
     },
     "epuck_webots": {
         ("TF004", "note", "", "a message without transforms was published once"),
@@ -88,4 +93,4 @@ def test_number_of_messages_that_can_be_transformed_at_once(examine, shared, nam
 
 def test_recording_with_a_renamed_file_is_examined_with_a_message(examine, shared):
     report = examine(shared / "recordings" / "broken" / "db3_renamed_metadata_stale")
-    assert any("which is not there" in problem for problem in report.observation.unread)
+    assert any("which does not exist" in problem for problem in report.observation.unread)

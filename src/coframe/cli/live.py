@@ -1,4 +1,4 @@
-"""The live transform tree as a table: frame, parent, rate, age and pose."""
+"""The transform tree of a live buffer as a table: frame, parent, rate, age and pose."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ __all__ = ["tree_table"]
 
 
 def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, wide: bool = True) -> Table:
-    """Return a table with every frame below its parent, and its pose relative to a reference frame.
+    """Return a table with each frame below its parent, and poses in metres and degrees.
 
     Args:
-        buffer: The buffer with the frames.
-        reference: The frame to which poses are relative.
+        buffer: The buffer that contains the frames.
+        reference: The frame in which poses are expressed.
         liveness: Decides which frames are stale; the table updates it.
-        wide: Whether there is room for millimetres: about 100 columns.
+        wide: Whether the terminal has at least 100 columns, enough to show millimetres.
     """
     title = f"transform tree, poses relative to {reference} (metres, degrees)"
     table = Table(title=title, title_justify="left", box=None, padding=(0, 1, 0, 0), pad_edge=False)
