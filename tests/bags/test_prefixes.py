@@ -63,14 +63,14 @@ def test_a_misspelled_topic_is_an_error(bag):
 
 def test_a_cloud(bag, tmp_path):
     code, out = run("cloud", bag, "/robot1/scan", "--frame", "robot1/base", "-o", tmp_path / "a.npz", *ROBOT1)
-    assert (code, "of 1 messages, in robot1/base" in out) == (0, True)
+    assert (code, "of 1 message, in frame 'robot1/base'" in out) == (0, True)
 
 
 @pytest.mark.slow  # It starts processes.
 def test_a_batch(bag, tmp_path):
     pytest.importorskip("pyarrow")
     code, out = run("batch", "odom", "robot1/base", bag, "-o", tmp_path / "poses", *ROBOT1)
-    assert (code, "50 poses of 1 recordings" in out) == (0, True)
+    assert (code, "50 poses from 1 recording" in out) == (0, True)
 
 
 def test_bag_fix_gives_the_prefix_to_one_robot_only(bag, tmp_path):

@@ -90,15 +90,15 @@ def test_the_node_with_a_file_of_parameters(context, heard, wait_until, tmp_path
 @pytest.mark.parametrize(
     ("arguments", "reason"),
     [
-        (["rate:=0"], "parameter 'rate' must be more than 0 per second, but is 0"),
+        (["rate:=0"], "parameter 'rate' must be greater than 0 Hz and at most 1 MHz, but is 0"),
         (["rate:=fast"], "parameter 'rate' must be a number, but is 'fast'"),
         (["use_mimic_tags:=1"], "parameter 'use_mimic_tags' must be true or false, but is 1"),
         (["source_list:=a"], "parameter 'source_list' must be a list of topics, but is 'a'"),
-        (["dependent_joints.a.factor:=2.0"], "must at least have a parent: 'a' has none"),
+        (["dependent_joints.a.factor:=2.0"], "must at least have a parent. 'a' has no parent"),
         (["dependent_joints.a:=b"], "Invalid dependent_joint name 'a'"),
     ],
 )
-def test_parameters_that_make_no_sense(context, arguments, reason):
+def test_invalid_parameters(context, arguments, reason):
     words = ["--ros-args", *(word for argument in arguments for word in ("-p", argument))]
     with pytest.raises(ValueError, match=reason):
         JointStatePublisher(context=context, cli_args=words, start_parameter_services=False)
@@ -112,7 +112,7 @@ def test_the_programs_end_with_a_sentence(tmp_path):
     wrong = {
         endless: ["joint_state_publisher", file, *circle],
         f"coframe: {endless}": ["coframe.cli", "joints", file, *circle],
-        "no joint 'trun'": ["coframe.cli", "joints", file, "--zero", "trun=1"],
+        "no joint named 'trun'": ["coframe.cli", "joints", file, "--zero", "trun=1"],
         "coframe: Failed to parse ROS arguments: --param": ["coframe.cli", "robot", file, "--ros-args", "-p", "x"],
         "No such file": ["robot_state_publisher", file, "--ros-args", "--params-file", "/nowhere"],
     }

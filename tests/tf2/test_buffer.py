@@ -226,9 +226,9 @@ def test_stamped():
 
 def test_numbers_for_times_are_refused_with_what_to_write_instead():
     buffer = tf2_ros.Buffer()
-    with pytest.raises(TypeError, match=r"timeout must be an rclpy Duration, not float: Duration\(seconds=0.5\)"):
+    with pytest.raises(TypeError, match=r"timeout must be an rclpy Duration, not float. Use Duration\(seconds=0.5\)"):
         buffer.lookup_transform("a", "b", Time(), 0.5)
     with pytest.raises(TypeError, match=r"timeout must be an rclpy Duration, not int"):
         buffer.wait_for_transform_async("a", "b", Time(), timeout=1)
-    with pytest.raises(TypeError, match=r"int does not: give rclpy's Time\(seconds=...\), or Time\(\) for the latest"):
+    with pytest.raises(TypeError, match=r"Got int. Use rclpy's Time\(seconds=...\), or Time\(\) for the latest"):
         buffer.lookup_transform("a", "b", 0)

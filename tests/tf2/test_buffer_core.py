@@ -9,6 +9,7 @@ import yaml
 import rclpy.time
 import tf2_py
 from builtin_interfaces.msg import Time as TimeMessage
+from coframe import CoframeError
 from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
 from rclpy.clock import ClockType
 from rclpy.duration import Duration
@@ -31,7 +32,7 @@ def test_exceptions_are_siblings_named_as_in_tf2():
         exception = getattr(tf2_py, f"{name}Exception")
         assert exception.__bases__ == (tf2_py.TransformException,)
         assert str(exception("text")) == "text"
-    assert tf2_py.TransformException.__bases__ == (Exception,)
+    assert tf2_py.TransformException.__mro__[1:3] == (CoframeError, Exception)
 
 
 def test_lookup_returns_a_message(core):

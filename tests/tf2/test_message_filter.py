@@ -294,7 +294,7 @@ def test_a_header_without_a_frame(buffer):
     kept.filter.add(point(1, ""))
     kept.filter.add(point(1, "/"))
     assert kept.reasons == [Reason.EmptyFrameID] * 2
-    assert "set header.frame_id" in kept.dropped[0][2]
+    assert "Set header.frame_id" in kept.dropped[0][2]
 
 
 def test_a_frame_that_cannot_exist(buffer, insert):
@@ -772,13 +772,13 @@ def test_messages_without_a_header(buffer, node):
 @pytest.mark.parametrize(
     ("arguments", "options", "error"),
     [
-        (((PointStamped, "points", 10), "base", 10), {}, "the subscription to 'points' needs a node"),
-        ((PointStamped, "base", 10), {}, "subscriber must be"),
+        (((PointStamped, "points", 10), "base", 10), {}, "The subscription to 'points' requires a node"),
+        ((PointStamped, "base", 10), {}, "Invalid subscriber"),
         ((None, "base", 10.0), {}, "queue_size must be an int, not float"),
         ((None, 7, 10), {}, "not iterable"),
         ((None, [7], 10), {}, "a target frame must be str, not int"),
         ((None, "base", 10), {"buffer_timeout": 0.1}, r"buffer_timeout must be an rclpy Duration, not float"),
-        ((None, "base", 10), {"callback_group": object()}, "a callback group is of use to a node only"),
+        ((None, "base", 10), {"callback_group": object()}, "A callback group requires a node"),
     ],
 )
 def test_wrong_arguments(buffer, arguments, options, error):
@@ -793,9 +793,9 @@ def test_wrong_values(buffer):
     with pytest.raises(ValueError, match="queue_size must not be negative, but is -1"):
         MessageFilter(None, buffer, "base", -1)
     kept = Kept(buffer)
-    with pytest.raises(TypeError, match="the callback must be a function, not None"):
+    with pytest.raises(TypeError, match="The callback must be a function, not None"):
         kept.filter.registerCallback(None)
-    with pytest.raises(TypeError, match="a coroutine function needs a node"):
+    with pytest.raises(TypeError, match="A coroutine function requires a node"):
         kept.filter.registerCallback(asyncio.sleep)
     with pytest.raises(TypeError, match="tolerance must be an rclpy Duration, not int"):
         kept.filter.set_tolerance(1)

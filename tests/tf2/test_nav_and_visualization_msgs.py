@@ -92,8 +92,8 @@ def test_a_path_moves_as_one_and_its_poses_keep_their_times(buffer):
     assert path == before
 
 
-def test_a_pose_of_another_frame_in_a_path_is_told(transform):
-    with pytest.raises(tf2_ros.InvalidArgumentException, match=r"pose 1 of the path is in frame 'base_link'"):
+def test_path_with_a_pose_in_another_frame_is_rejected(transform):
+    with pytest.raises(tf2_ros.InvalidArgumentException, match=r"Pose 1 of the path is expressed in frame 'base_link'"):
         tf2_nav_msgs.do_transform_path(path_of("odom", "base_link"), transform)
 
 

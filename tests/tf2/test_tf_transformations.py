@@ -52,7 +52,7 @@ def test_gimbal_lock(axes):
 def test_there_are_24_conventions_and_no_others():
     assert len(AXES) == 24
     for wrong in ("xyz", "sxxy", "qxyz", "sxy", "sxya", ""):
-        with pytest.raises(ValueError, match="expected 's' or 'r'"):
+        with pytest.raises(ValueError, match="Expected 's' or 'r'"):
             tft.quaternion_from_euler(0.0, 0.0, 0.0, wrong)
 
 

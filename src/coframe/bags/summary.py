@@ -1,4 +1,4 @@
-"""What a recording holds, in numbers."""
+"""Summary of a recording: its topics, trees and edges, and which sensor data can be transformed."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["EdgeSummary", "SensorSummary", "Summary", "TreeSummary", "summarize"
 
 
 class EdgeSummary(NamedTuple):
-    """What is told of one edge. Times are nanoseconds, ``rate`` is Hz."""
+    """The samples of one edge. Times are in nanoseconds, ``rate`` is in Hz."""
 
     parent: str
     child: str
@@ -29,22 +29,22 @@ class EdgeSummary(NamedTuple):
 
 
 class TreeSummary(NamedTuple):
-    """A root, and of how many frames it is one, itself included."""
+    """A tree: its root, and its number of frames including the root."""
 
     root: str
     size: int
 
 
 class SensorSummary(NamedTuple):
-    """Whether a topic's messages can be brought into the root of their tree.
+    """Whether the messages of a topic can be transformed into the root of their tree.
 
     Attributes:
-        topic: The topic.
-        frame: What its first message says that it is told in.
-        messages: How many there are.
-        root: The root of that frame's tree; "" if no transform tells of the frame.
-        possible: For how many stamps there is a transform.
-        why_not: Of the first one without.
+        topic: Name of the topic.
+        frame: The frame_id of its first message.
+        messages: Number of messages.
+        root: Root of the tree of that frame; "" if no transform contains the frame.
+        possible: Number of messages for whose stamps there is a transform.
+        why_not: The error for the first stamp without a transform.
     """
 
     topic: str
@@ -56,18 +56,18 @@ class SensorSummary(NamedTuple):
 
 
 class Summary(NamedTuple):
-    """What :func:`summarize` gives. Times are nanoseconds.
+    """The result of :func:`summarize`. Times are in nanoseconds.
 
     Attributes:
-        path: The recording.
-        start: When the first message was received.
-        end: When the last one was.
-        span: The first and the last stamp of transforms.
+        path: Path of the recording.
+        start: Time of receipt of the first message.
+        end: Time of receipt of the last message.
+        span: First and last stamp of the transforms.
         topics: All topics.
-        trees: The largest first.
-        edges: All links between frames.
-        sensors: The topics whose messages have a header with a frame, other than transforms.
-        problems: What could not be read.
+        trees: All trees, the largest first.
+        edges: All edges.
+        sensors: The topics whose messages have a header with a frame, except transforms.
+        problems: Problems of the recording, one sentence each.
     """
 
     path: str
@@ -82,7 +82,7 @@ class Summary(NamedTuple):
 
 
 def summarize(recording: Recording) -> Summary:
-    """What a recording holds: topics, trees, edges with their gaps, and which sensors could be transformed."""
+    """Summarize a recording: topics, trees, edges with their gaps, and which sensor data can be transformed."""
     edges = [edge for edge in recording.buffer.edges() if edge.parent]
     roots = _roots(edges)
     sensors = [_sensor(recording, topic, roots) for topic in recording.topics.values()]
@@ -106,7 +106,7 @@ def _edge(edge: EdgeInfo) -> EdgeSummary:
 
 
 def _roots(edges: list[EdgeInfo]) -> dict[str, str]:
-    """By frame: the root of its tree."""
+    """Return the root of each frame's tree."""
     parents = {edge.child: edge.parent for edge in edges}
     roots: dict[str, str] = {}
     for frame in [*parents, *parents.values()]:
@@ -120,7 +120,7 @@ def _roots(edges: list[EdgeInfo]) -> dict[str, str]:
 
 
 def _sensor(recording: Recording, topic: Topic, roots: dict[str, str]) -> SensorSummary | None:
-    """None for messages that name no frame, or cannot be decoded."""
+    """Return the summary of a sensor topic; None if its messages have no frame or cannot be decoded."""
     try:
         first: Any = next(recording.messages(topic.name)).message
         frame = recording.frame(str(first.header.frame_id))
@@ -130,7 +130,9 @@ def _sensor(recording: Recording, topic: Topic, roots: dict[str, str]) -> Sensor
         return None
     root = roots.get(frame)
     if root is None:
-        return SensorSummary(topic.name, frame, topic.messages, "", 0, f"no transform tells of {frame!r}")
+        return SensorSummary(
+            topic.name, frame, topic.messages, "", 0, f"No frame named {frame!r}: no transform contains it."
+        )
     possible, why = _possible(recording.buffer, root, frame, recording.stamps(topic.name))
     return SensorSummary(topic.name, frame, topic.messages, root, possible, why)
 

@@ -7,6 +7,7 @@ import pytest
 
 import tf2_py
 import tf2_ros
+from coframe import CoframeError
 
 EXCEPTIONS = """
     TransformException LookupException ConnectivityException ExtrapolationException InvalidArgumentException
@@ -236,7 +237,7 @@ def test_modules_of_classes():
 def test_exceptions_derive_from_one():
     for name in EXCEPTIONS.split()[1:]:
         assert getattr(tf2_py, name).__bases__ == (tf2_py.TransformException,)
-    assert tf2_py.TransformException.__bases__ == (Exception,)
+    assert tf2_py.TransformException.__mro__[1:3] == (CoframeError, Exception)
     assert tf2_ros.TypeException.__bases__ == tf2_ros.NotImplementedException.__bases__ == (Exception,)
 
 
