@@ -126,8 +126,7 @@ class MessageIndex:
     def channel(self, topic: str, row: int) -> Channel:
         """Return the channel of a message."""
         rows = self._rows_of(topic)
-        track = rows.tracks[rows.of_track[row]]
-        return track.channel
+        return rows.tracks[int(rows.of_track[row])].channel
 
     def read(self, topic: str, row: int) -> bytes | None:
         """Return the bytes of a message; None if it can no longer be read, which is added to the problems."""
