@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "bindings/arguments.hpp"
 #include "bindings/bindings.hpp"
 #include "bindings/buffer.hpp"
 #include "bindings/relay.hpp"
@@ -127,8 +128,8 @@ nb::list writers_of(const PyTfReader& reader) {
     all = reader.writers();
   }
   nb::list list;
-  for (const auto& [writer, messages, received_at, delay, name_problems] : all) {
-    list.append(writer_tuple(writer, messages, received_at, delay, name_problems));
+  for (const auto& [writer, messages, received_at, period, delay, name_problems] : all) {
+    list.append(writer_tuple(writer, messages, received_at, period, delay, name_problems));
   }
   return list;
 }

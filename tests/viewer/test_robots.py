@@ -138,7 +138,7 @@ def test_addresses_cannot_be_bent(package, view, open_tab):
 
 def test_declared_folders_and_the_largest_file(tmp_path, monkeypatch):
     (tmp_path / "a.stl").write_bytes(b"x" * 2000)
-    with pytest.raises(MeshError, match="lies outside of the folders that are served: declare one by --mesh-root"):
+    with pytest.raises(MeshError, match="is outside the served folders"):
         MeshTable(lambda _name: None).url(f"file://{tmp_path}/a.stl")
     table = MeshTable(lambda _name: None, [tmp_path])
     url = table.url(f"file://{tmp_path}/a.stl")
@@ -185,7 +185,7 @@ def test_descriptions_come_from_the_topic_and_joint_states_go_back(domain_id, vi
             assert dict(zip(state.name, state.position, strict=True)) == {"turn": 1.0, "grip": -0.5}
         assert abs(state.header.stamp.sec - time.time()) < 10
         tab.send("joints", robot=robot["id"], positions={"elbow": 1.0}, publish=True)
-        assert "there is no joint 'elbow'" in tab.wait("problem")["text"]
+        assert "No joint named 'elbow'" in tab.wait("problem")["text"]
         tab.send("joints", robot=robot["id"], positions={"turn": float("nan")}, publish=True)
         assert "not finite" in tab.wait("problem")["text"]
         tab.send("joints", robot=robot["id"], positions={}, publish=False)

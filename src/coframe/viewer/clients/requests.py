@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from coframe.doctor.codes import codes, page
-from coframe.errors import ViewerError, WireError
+from coframe.errors import CoframeError, ViewerError, WireError
 from coframe.viewer.displays import Options
 from coframe.viewer.replay.displays import ReplayDisplay
 from coframe.viewer.replay.page import MOST_DISPLAYS, ReplayLooks
@@ -29,7 +29,7 @@ _FARTHEST = 2.0**62  # nanoseconds from the origin
 _LARGEST_ID = 2**32 - 1
 
 
-class BadRequestError(ValueError):
+class BadRequestError(CoframeError, ValueError):
     """A message that is not what the protocol allows.
 
     Attributes:
@@ -38,7 +38,7 @@ class BadRequestError(ValueError):
 
     def __init__(self, text: str, hint: str = "") -> None:
         super().__init__(text)
-        self.hint = hint
+        self._hint = hint
 
 
 class Request:

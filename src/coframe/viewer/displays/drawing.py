@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
+from coframe.errors import CoframeError
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -17,7 +19,7 @@ MOST_POINTS = 4_000_000
 _MOST_KEPT = 1000
 
 
-class CannotDrawError(ValueError):
+class CannotDrawError(CoframeError, ValueError):
     """A message that no drawing can be made of; the text says why."""
 
 

@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import quote, unquote, urlsplit
 
+from coframe.errors import CoframeError
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
@@ -37,7 +39,7 @@ MESH_TYPES = {
 _PACKAGE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
-class MeshError(ValueError):
+class MeshError(CoframeError, ValueError):
     """A mesh that is not served; the text says why, in a sentence."""
 
 
@@ -144,7 +146,7 @@ class MeshTable:
             for folder, root in self._roots.items():
                 if file.is_relative_to(folder):
                     return root
-        raise MeshError(f"{_shown(reference)} lies outside of the folders that are served: declare one by --mesh-root")
+        raise MeshError(f"{_shown(reference)} is outside the served folders. Add its folder to the mesh roots.")
 
 
 def _resolved(path: Path) -> Path:

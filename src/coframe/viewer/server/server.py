@@ -209,9 +209,7 @@ def _cannot_listen(host: str, port: int, reason: OSError) -> ViewerError:
     is_foreign = reason.errno == errno.EADDRNOTAVAIL or isinstance(reason, socket.gaierror)
     if is_foreign:
         return ViewerError(
-            f"cannot listen on {host}: it is no address of this machine", hint="Choose another --host, or 127.0.0.1."
+            f"cannot listen on {host}: it is no address of this machine", hint="Choose another host, or 127.0.0.1."
         )
     words = os.strerror(reason.errno) if reason.errno else str(reason)
-    return ViewerError(
-        f"cannot listen on {host}:{port}: {words}", hint="Choose another --port, or 0 for any that is free."
-    )
+    return ViewerError(f"cannot listen on {host}:{port}: {words}", hint="Choose another port, or 0 for any free port.")

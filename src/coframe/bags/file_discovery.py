@@ -1,0 +1,169 @@
+"""Finds the files of a recording below a path and opens each with the reader for its format.
+
+The first bytes of a file decide its format. Names and metadata.yaml only help to find and order the files.
+"""
+
+from __future__ import annotations
+
+import importlib
+import re
+import shutil
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from coframe.bags import mcap_file, ros1_file, sqlite_file
+from coframe.bags.compressed_messages import UnpackedMessages
+from coframe.errors import RecordingError
+
+if TYPE_CHECKING:
+    from contextlib import ExitStack
+
+    from coframe.bags.problems import Problems
+    from coframe.bags.storage import Storage
+
+__all__ = ["open_files"]
+
+_ZSTD = b"\x28\xb5\x2f\xfd"
+_READERS: dict[bytes, type[Storage]] = {
+    mcap_file.MAGIC: mcap_file.McapStorage,
+    sqlite_file.MAGIC: sqlite_file.SqliteStorage,
+    ros1_file.MAGIC: ros1_file.Ros1Storage,
+}
+_SUFFIXES = (".mcap", ".db3", ".bag")
+_METADATA = "metadata.yaml"
+_LARGEST_METADATA = 64 << 20
+
+
+def open_files(path: Path, problems: Problems, closing: ExitStack) -> list[Storage]:
+    """Open the files of a recording, in order.
+
+    Args:
+        path: A file, a folder with files, or the ``metadata.yaml`` of a folder.
+        problems: Receives the problems found.
+        closing: Receives the clean-up that closing the recording requires.
+
+    Raises:
+        RecordingError: No file can be read.
+    """
+    if path.name == _METADATA:
+        path = path.parent
+    try:
+        metadata = _metadata(path / _METADATA, problems) if path.is_dir() else {}
+        candidates = _candidates(path, metadata, problems) if path.is_dir() else [path]
+        found = [storage for file in candidates if (storage := _open(file, problems, closing)) is not None]
+    except OSError as error:
+        raise RecordingError(
+            f"{path} cannot be read: {error.strerror or error}", hint="Check the path and the permission to read it."
+        ) from None
+    if not found:
+        reasons = problems.sentences()
+        raise RecordingError(
+            f"{path} is not a recording" + (f": {reasons[0].removeprefix(f'{path}: ')}" if reasons else ""),
+            hint="Give a .mcap, .db3 or .bag file, or the folder that contains such files.",
+        )
+    if str(metadata.get("compression_mode", "")).lower() == "message":
+        compression = str(metadata.get("compression_format", ""))
+        return [UnpackedMessages(storage, compression) for storage in found]
+    return found
+
+
+def _candidates(folder: Path, metadata: dict[str, Any], problems: Problems) -> list[Path]:
+    """Return the files of a folder that may be part of the recording: those in the metadata first, then others."""
+    existing = sorted((file for file in folder.iterdir() if file.is_file() and _is_candidate(file)), key=_natural)
+    listed: list[Path] = []
+    for name in _listed(metadata):
+        file = folder / Path(name).name
+        same = [other for other in existing if other.name in {file.name, f"{file.name}.zstd"}]
+        listed += same
+        if not same:
+            problems.add(f"{_METADATA} lists {Path(name).name}, which does not exist")
+    others = [file for file in existing if file not in listed]
+    # The order of these files does not matter, because messages are sorted by time.
+    if metadata and others:
+        names = ", ".join(file.name for file in others)
+        problems.add(f"{_METADATA} does not list {names}; {'it was' if len(others) == 1 else 'they were'} read as well")
+    return list(dict.fromkeys([*listed, *others]))
+
+
+def _is_candidate(file: Path) -> bool:
+    try:
+        with file.open("rb") as opened:
+            start = opened.read(16)
+    except FileNotFoundError:  # A running recorder renames its metadata between the listing and this line.
+        return False
+    suffixes = [suffix for suffix in file.suffixes if suffix != ".zstd"]
+    return any(start.startswith(magic) for magic in _READERS) or bool(suffixes and suffixes[-1] in _SUFFIXES)
+
+
+def _natural(file: Path) -> list[tuple[int, int, str]]:
+    """Return a key that sorts numbers in names by value: run_2 before run_10."""
+    return [
+        (1, int(part), "") if part.isascii() and part.isdigit() else (0, 0, part)
+        for part in re.split(r"(\d+)", file.name)
+    ]
+
+
+def _open(file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
+    with file.open("rb") as opened:
+        start = opened.read(16)
+    if start.startswith(_ZSTD):
+        file, start = _unpacked(file, closing)
+    for magic, reader in _READERS.items():
+        if start.startswith(magic):
+            storage = reader(file, problems)
+            closing.callback(storage.close)
+            return storage
+    if start.startswith(b"#ROSBAG V1"):
+        problems.add(
+            f"{file.name}: bags of version 1 are not supported; convert it to version 2.0 with `rosbag fix` of ROS 1"
+        )
+    elif not start:
+        problems.add(f"{file.name}: the file is empty")
+    else:
+        problems.add(f"{file.name}: the file is neither MCAP nor SQLite nor a bag of ROS 1")
+    return None
+
+
+def _unpacked(file: Path, closing: ExitStack) -> tuple[Path, bytes]:
+    """Unpack a file that was compressed as a whole, into a folder that exists while the recording is open."""
+    try:
+        zstandard: Any = importlib.import_module("zstandard")
+    except ModuleNotFoundError:
+        raise RecordingError(
+            f"{file} is compressed, and the package zstandard is not installed", hint="pip install 'coframe[bags]'"
+        ) from None
+    folder = Path(closing.enter_context(tempfile.TemporaryDirectory(prefix="coframe-")))
+    target = folder / file.name.removesuffix(".zstd")
+    # A damaged file yields a truncated one, and reading that reports the damage.
+    with file.open("rb") as packed, target.open("wb") as whole, suppress(zstandard.ZstdError):
+        shutil.copyfileobj(zstandard.ZstdDecompressor().stream_reader(packed), whole)
+    with target.open("rb") as opened:
+        return target, opened.read(16)
+
+
+def _metadata(file: Path, problems: Problems) -> dict[str, Any]:
+    """Return the contents of metadata.yaml; empty if it is missing or damaged, because it is not required."""
+    if not file.is_file():
+        return {}
+    try:
+        yaml: Any = importlib.import_module("yaml")
+    except ModuleNotFoundError:
+        problems.add(f"{_METADATA} was not read: the package PyYAML is not installed")
+        return {}
+    try:
+        with file.open("rb") as opened:
+            text = opened.read(_LARGEST_METADATA)
+        loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+        found = dict(yaml.load(text, Loader=loader)["rosbag2_bagfile_information"])
+    except (yaml.YAMLError, ValueError, TypeError, KeyError, RecursionError, OverflowError) as error:
+        reason = " ".join(str(error).split())[:200]
+        problems.add(f"{_METADATA} is damaged ({reason}); the files were read without it")
+        found = {}
+    return found
+
+
+def _listed(metadata: dict[str, Any]) -> list[str]:
+    names = metadata.get("relative_file_paths")
+    return [name for name in names if isinstance(name, str) and name] if isinstance(names, list) else []

@@ -1,0 +1,71 @@
+"""TF024: robot descriptions that are empty or invalid, and meshes that do not exist."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coframe.doctor.finding import Finding, Severity
+from coframe.doctor.robot_model import parsed
+from coframe.errors import PackageError, RobotDescriptionError
+from coframe.formatting import listed
+from coframe.robots import Mesh, Packages
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from coframe.doctor.observation import Observation
+    from coframe.robots import Robot
+
+__all__ = ["CODE", "find"]
+
+CODE = "TF024"
+_TOPIC = "/robot_description"
+
+
+def find(observation: Observation) -> Iterator[Finding]:
+    """Yield one finding per invalid description and, on the machine of the robot, one for the missing meshes."""
+    last: Robot | None = None
+    for number, text in enumerate(observation.descriptions):
+        name = f"description {number + 1} of {len(observation.descriptions)}"
+        superseded = number + 1 < len(observation.descriptions)
+        later = "; a later description replaces it" if superseded else ""
+        try:
+            last = parsed(text)
+        except RobotDescriptionError as error:
+            empty = not text.strip() or "no link" in str(error)
+            yield Finding(
+                code=CODE,
+                severity=Severity.NOTE if superseded else Severity.WARNING,
+                text=f"{name} {'is empty' if empty else 'is invalid'}: {error}{later}",
+                fix=error.hint or "Check the file that is loaded: `check_urdf FILE` or `coframe robot FILE`.",
+                harm="Programs that use only the first description have no robot model." if superseded else "",
+                topic=_TOPIC,
+            )
+    if last is not None and observation.live:
+        yield from _missing_meshes(last)
+
+
+def _missing_meshes(robot: Robot) -> Iterator[Finding]:
+    packages = Packages()
+    meshes = {
+        shape.filename
+        for link in robot.links.values()
+        for shape in [*(part.geometry for part in link.visuals), *(part.geometry for part in link.collisions)]
+        if isinstance(shape, Mesh)
+    }
+    missing = []
+    for url in sorted(meshes):
+        try:
+            packages.resolve(url)
+        except (PackageError, OSError, ValueError):
+            missing.append(url)
+    if missing:
+        yield Finding(
+            code=CODE,
+            severity=Severity.NOTE,
+            text=f"{len(missing)} of {len(meshes)} meshes do not exist on this machine: {listed(missing)}",
+            fix="Source the workspace that contains the packages, or add their folder to ROS_PACKAGE_PATH. Only "
+            "visualization needs the meshes.",
+            harm="Visualization tools do not show these parts of the robot; its transforms are not affected.",
+            topic=_TOPIC,
+        )

@@ -1,0 +1,102 @@
+"""TF014: sensor messages that cannot be transformed, not even after a delay."""
+
+from __future__ import annotations
+
+import difflib
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from coframe.analysis.static_command import static_command
+from coframe.doctor.finding import Finding, Severity
+from coframe.doctor.observation import NEVER
+from coframe.formatting import count, duration, listed
+from coframe.time import MILLISECOND
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+    from coframe.doctor.observation import Observation, Sensor
+
+__all__ = ["CODE", "find"]
+
+CODE = "TF014"
+_LONGEST_WAIT = 200 * MILLISECOND
+_TOO_MANY = 0.05
+_LEAST = 5
+
+
+def find(observation: Observation) -> Iterator[Finding]:
+    """Yield one finding per frame that no transform contains, and one per sensor whose transforms are too late."""
+    if not observation.edges:
+        return
+    unknown: dict[str, list[Sensor]] = {}
+    for sensor in observation.sensors:
+        if sensor.frame not in observation.frames:
+            unknown.setdefault(sensor.frame, []).append(sensor)
+        elif len(sensor.stamp):
+            yield from _late(observation, sensor)
+    for frame, sensors in unknown.items():
+        yield _unknown(observation, frame, sensors)
+
+
+def _unknown(observation: Observation, frame: str, sensors: list[Sensor]) -> Finding:
+    similar = difflib.get_close_matches(frame, observation.frames, n=1)
+    root = next(iter(observation.trees))
+    messages = sum(len(sensor.stamp) for sensor in sensors)
+    return Finding(
+        code=CODE,
+        severity=Severity.WARNING,
+        text=f"{count(messages, 'message')} of {listed(sensor.topic for sensor in sensors)} "
+        f"{'is' if messages == 1 else 'are'} expressed in frame {frame!r}, but no transform connects {frame!r} to the "
+        f"tree" + (f"; did you mean {similar[0]!r}?" if similar else ""),
+        fix=f"In the node of the sensor: msg.header.frame_id = {similar[0]!r}"
+        if similar
+        else f"Publish the pose of the sensor: `{static_command(root, frame)}`.",
+        topic=sensors[0].topic,
+        frames=frozenset({frame}),
+        first_stamp=int(sensors[0].stamp[0]) if len(sensors[0].stamp) else None,
+        publishers=tuple(dict.fromkeys(sensor.publisher for sensor in sensors if sensor.publisher)),
+    )
+
+
+def _late(observation: Observation, sensor: Sensor) -> Iterator[Finding]:
+    waits = observation.waits(sensor)
+    counted = _countable(observation, sensor)
+    missing = np.flatnonzero(counted & (waits > _LONGEST_WAIT))
+    if np.count_nonzero(counted) < _LEAST or len(missing) <= _TOO_MANY * np.count_nonzero(counted):
+        return
+    never = int(np.count_nonzero(waits[missing] == NEVER))
+    longest = int(waits[missing][waits[missing] != NEVER].max()) if never < len(missing) else None
+    root = observation.root(sensor.frame)
+    edges = [edge for edge in observation.path(sensor.frame) if not edge.static]
+    slowest = max(edges, key=lambda edge: edge.period)
+    yield Finding(
+        code=CODE,
+        severity=Severity.WARNING,
+        text=f"{len(missing)} of {np.count_nonzero(counted)} messages cannot be transformed from {sensor.frame!r} to "
+        f"{root!r} within 200 ms of their arrival"
+        + (f", {never} of them never" if never else "")
+        + (f"; the others take up to {duration(longest)}" if longest is not None else "")
+        + f"; the edge with the lowest rate is {slowest.name}, every {duration(slowest.period)}",
+        fix=f"Publish {slowest.name} at a higher rate and without delay. In the consumer, wait for the transform: "
+        f"lookup_transform({root!r}, {sensor.frame!r}, msg.header.stamp, timeout=Duration(seconds=1.0)), or use a "
+        "tf2_ros.MessageFilter.",
+        topic=sensor.topic,
+        frames=frozenset({sensor.frame, *slowest.key}),
+        first_stamp=int(sensor.stamp[missing[0]]),
+        publishers=(sensor.publisher,) if sensor.publisher else (),
+    )
+
+
+def _countable(observation: Observation, sensor: Sensor) -> NDArray[np.bool_]:
+    """Return which messages arrived after the first transform, and early enough for a later one, (N,)."""
+    edges = [edge for edge in observation.path(sensor.frame) if not edge.static]
+    if not edges:
+        return np.zeros(len(sensor.stamp), dtype=bool)
+    begin = max(int(edge.arrived[0]) for edge in edges)
+    first = max(int(edge.stamp.min()) for edge in edges)
+    early = (sensor.arrived < begin) | ((sensor.stamp < first) & (sensor.stamp > first - observation.cache))
+    return np.asarray(~early & (sensor.arrived < observation.end - _LONGEST_WAIT))

@@ -1,0 +1,119 @@
+"""The clock of a replay: recorded time that can be paused, stepped, scaled and stopped."""
+
+from __future__ import annotations
+
+import threading
+import time
+
+from coframe.time import SECOND
+
+__all__ = ["PlaybackClock"]
+
+_LONGEST_WAIT = 3600.0  # seconds; the operating system rejects waits that are longer than a month
+
+
+class PlaybackClock:
+    """The recorded time during a replay. It starts to run with the first call of `jump`.
+
+    Times are nanoseconds. All methods are thread-safe.
+
+    Args:
+        start: The initial recorded time.
+        rate: The recorded seconds per second.
+        paused: Whether the clock is paused at first.
+    """
+
+    def __init__(self, start: int, rate: float, *, paused: bool) -> None:
+        self._changed = threading.Condition()
+        self._base = start
+        self._since: int | None = None
+        self._rate = rate
+        self._paused = paused
+        self._steps = 0
+        self._stopped = False
+
+    @property
+    def now(self) -> int:
+        """The current recorded time."""
+        with self._changed:
+            return self._now()
+
+    @property
+    def rate(self) -> float:
+        """The recorded seconds per second."""
+        return self._rate
+
+    @property
+    def paused(self) -> bool:
+        """Whether the clock is paused."""
+        return self._paused
+
+    @property
+    def stopped(self) -> bool:
+        """Whether `stop` was called."""
+        return self._stopped
+
+    def jump(self, to: int) -> None:
+        """Set the recorded time and start the clock."""
+        with self._changed:
+            self._base, self._since = to, time.monotonic_ns()
+            self._changed.notify_all()
+
+    def set_rate(self, rate: float) -> None:
+        """Set the rate: recorded seconds per second."""
+        with self._changed:
+            self._anchor()
+            self._rate = rate
+            self._changed.notify_all()
+
+    def set_paused(self, paused: bool) -> None:
+        """Pause the clock, or resume it."""
+        with self._changed:
+            self._anchor()
+            self._paused = paused
+            self._steps = 0
+            self._changed.notify_all()
+
+    def step(self) -> None:
+        """Let one call of `wait_until` return although the clock is paused."""
+        with self._changed:
+            if self._paused:
+                self._steps += 1
+                self._changed.notify_all()
+
+    def stop(self) -> None:
+        """Stop the clock. All current and future waits return at once."""
+        with self._changed:
+            self._stopped = True
+            self._changed.notify_all()
+
+    def wait_until(self, moment: int) -> bool:
+        """Wait for a recorded time or a step. Return False if the clock is stopped."""
+        with self._changed:
+            while not self._stopped:
+                if self._paused:
+                    if self._steps:
+                        self._steps -= 1
+                        self._base = max(self._base, moment)
+                        return True
+                    self._changed.wait()
+                    continue
+                left = (moment - self._now()) / self._rate / SECOND
+                if left <= 0:
+                    return True
+                self._changed.wait(min(left, _LONGEST_WAIT))
+            return False
+
+    def sleep(self, seconds: float) -> bool:
+        """Wait for some seconds of real time, even if paused. Return False if the clock is stopped."""
+        with self._changed:
+            return not self._changed.wait_for(lambda: self._stopped, seconds)
+
+    def _now(self) -> int:
+        if self._paused or self._since is None:
+            return self._base
+        return self._base + int((time.monotonic_ns() - self._since) * self._rate)
+
+    def _anchor(self) -> None:
+        self._base = self._now()
+        self._since = None if self._since is None else time.monotonic_ns()
