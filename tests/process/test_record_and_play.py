@@ -102,7 +102,7 @@ def test_ctrl_c_ends_it_with_an_index_and_a_sentence(processes, tmp_path):
     assert processes.text("again").startswith(f"coframe: {tmp_path / 'run'} already exists and is not overwritten")
 
 
-def test_a_full_disk_ends_it_with_a_sentence(processes, tmp_path):
+def test_full_disk_ends_recording_with_an_error(processes, tmp_path):
     processes.start("tree", *TREE)
     record = f"{sys.executable} -m coframe.cli record -o {tmp_path / 'run'} --compression none"
     processes.start("record", "sh", "-c", f"ulimit -f 80; exec {record}")
@@ -110,7 +110,7 @@ def test_a_full_disk_ends_it_with_a_sentence(processes, tmp_path):
     code, text = processes.end("record")
     assert code == 1
     assert f"coframe: {tmp_path / 'run'} cannot be written: " in text
-    assert "What was written before can be read." in text
+    assert "The messages written before this error can be read." in text
     assert "Traceback" not in text
     assert assert_others_open_it(tmp_path / "run") > 10
     with coframe.open_bag(tmp_path / "run") as bag:
@@ -119,7 +119,7 @@ def test_a_full_disk_ends_it_with_a_sentence(processes, tmp_path):
 
 
 @pytest.mark.usefixtures("domain_id")
-def test_keys_steer_what_is_played(network, shared):
+def test_keys_control_playback(network, shared):
     pty = pytest.importorskip("pty")
     master, terminal = pty.openpty()
     bag = shared / "recordings" / "world_talk_1hz"
@@ -136,7 +136,7 @@ def test_keys_steer_what_is_played(network, shared):
     try:
         read_until(b"0 messages, paused")
         os.write(master, b"\x1b[C")
-        read_until(b"1 messages, paused")
+        read_until(b"1 message, paused")
         os.write(master, b"\x1b[A")
         os.write(master, b" ")
         read_until(b"rate 1.1")
@@ -153,7 +153,7 @@ def test_keys_steer_what_is_played(network, shared):
     ("arguments", "code", "reason"),
     [
         (("record", "--max-size", "big"), 2, "--max-size: 'big' is not a size"),
-        (("record", "--compression", "zip"), 2, "there is no compression 'zip'"),
+        (("record", "--compression", "zip"), 2, "No compression named 'zip'"),
         (("record", "-a", "/tf"), 2, "--all cannot be combined with TOPIC"),
         (("record", "-e", "["), 2, "is not a valid regular expression"),
         (("play", "gone"), 1, "gone cannot be read"),
@@ -161,7 +161,7 @@ def test_keys_steer_what_is_played(network, shared):
         (("play", "gone", "--remap", "/tf"), 2, "is not OLD:=NEW"),
     ],
 )
-def test_wrong_usage_is_told(arguments, code, reason, tmp_path, monkeypatch):
+def test_wrong_usage_is_reported(arguments, code, reason, tmp_path, monkeypatch):
     from typer.testing import CliRunner
 
     from coframe.cli.app import app
