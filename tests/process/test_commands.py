@@ -1,4 +1,4 @@
-"""The output and the exit codes of commands that run as processes."""
+"""The commands as a user runs them: their output and exit codes."""
 
 import re
 import signal
@@ -18,10 +18,10 @@ def start_echo(processes, *arguments):
     processes.start("echo", "python", "-m", "coframe.cli", "echo", *arguments)
 
 
-def test_echo_with_the_labs_broadcasters(processes, shared):
+def test_echo_of_the_transforms_of_the_lab(processes, shared):
     processes.start("static", "python", shared / "lab" / "static_tf_broadcaster.py")
     start_echo(processes, "base_link", "camera_link", "5", "--limit", "3")
-    # With the static broadcaster only, echo names the two trees and the missing transform.
+    # With only the static broadcaster, there are two trees. The hint names them.
     eventually(lambda: "The two trees are" in processes.text("echo"), lambda: processes.text("echo"))
     text = processes.text("echo")
     assert "Could not find a connection between 'base_link' and 'camera_link'" in text
@@ -33,13 +33,13 @@ def test_echo_with_the_labs_broadcasters(processes, shared):
     eventually(lambda: not processes.running("echo"), lambda: processes.text("echo"))
     found = re.findall(r"- Translation: \[(-?\d\.\d{3}), (-?\d\.\d{3}), 0\.120\]", processes.text("echo"))
     assert len(found) == 3
-    # The arm has two links of 0.5 m and 0.4 m, the camera is 0.05 m further, and the arm is nearly stretched out.
+    # Two links of 0.5 and 0.4 m and the camera 0.05 m further, with the arm almost fully extended.
     for x, y in found:
         assert 0.85 < (float(x) ** 2 + float(y) ** 2) ** 0.5 < 0.951
     assert "- Rotation: in RPY (degree) [" in processes.text("echo")
 
 
-def test_echo_of_unknown_frame_lists_known_frames(processes):
+def test_echo_of_an_unknown_frame_lists_the_known_frames(processes):
     processes.start("static", "python", "-m", "coframe.cli", "static", "--frame-id", "a", "--child-frame-id", "lidar")
     start_echo(processes, "a", "lider")
     eventually(lambda: "Did you mean" in processes.text("echo"), lambda: processes.text("echo"))
@@ -95,7 +95,7 @@ def test_static_with_both_argument_styles(processes):
         (["frobnicate"], 2, "No such command"),
     ],
 )
-def test_wrong_usage_is_reported_with_exit_code(processes, arguments, code, text):
+def test_wrong_usage_gives_an_error_and_an_exit_code(processes, arguments, code, text):
     processes.start("command", "python", "-m", "coframe.cli", *arguments)
     eventually(lambda: not processes.running("command"), lambda: processes.text("command"))
     assert text in processes.text("command")
@@ -111,7 +111,7 @@ def test_help_has_an_example(processes, command):
     assert processes.end("help")[0] == 0
 
 
-def test_demo_shows_complete_tree_and_stops_its_nodes(processes):
+def test_demo_shows_the_complete_tree_and_stops_its_nodes(processes):
     processes.start("demo", "python", "-m", "coframe.cli", "demo", "--duration", "8", "--no-browser")
     processes.start("other", "python", "-m", "coframe.lab.simulated_lidar")
     received = processes.observe(1.0, "/scan_base_frame:sensor_msgs/msg/PointCloud2:volatile")
@@ -144,9 +144,9 @@ def test_demo_from_a_description_shows_the_same_tree(processes):
 @pytest.mark.parametrize(
     ("how", "code"), [pytest.param(signal.SIGHUP, 0, marks=pytest.mark.slow), (signal.SIGKILL, -signal.SIGKILL)]
 )
-def test_no_node_outlives_the_demo(processes, how, code, tmp_path, monkeypatch):
-    """No node keeps running after a closed terminal or a kill: it would disturb the next demo."""
-    monkeypatch.setenv("TMPDIR", str(tmp_path))  # A killed process does not remove the logs of its nodes.
+def test_all_nodes_stop_with_the_demo(processes, how, code, tmp_path, monkeypatch):
+    """A closed terminal or a kill must not leave a second arm running for the next demo."""
+    monkeypatch.setenv("TMPDIR", str(tmp_path))  # a killed demo does not delete the logs of its nodes
     processes.start("demo", "python", "-m", "coframe.cli", "demo")
     assert processes.observe(1.0, "/tf:tf2_msgs/msg/TFMessage:volatile")["/tf"]
     assert processes.end("demo", how)[0] == code
@@ -156,7 +156,7 @@ def test_no_node_outlives_the_demo(processes, how, code, tmp_path, monkeypatch):
     )
 
 
-def test_options_take_their_value_behind_an_equals_sign_and_topics_need_no_slash(processes):
+def test_options_accept_an_equals_sign_and_topics_without_a_slash(processes):
     static = ["--frame-id=a", "--child-frame-id=b", "--x=-1.5", "--tf-static-topic=other_static"]
     processes.start("static", "python", "-m", "coframe.cli", "static", *static)
     start_echo(processes, "a", "b", "--limit=1", "--tf-static-topic=other_static")
