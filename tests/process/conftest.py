@@ -1,4 +1,4 @@
-"""Real processes on a network of their own, and an independent program that listens to them."""
+"""Fixtures for tests with real processes in a separate network, observed by an independent program."""
 
 import json
 import os
@@ -10,14 +10,14 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("cyclonedds", reason="the processes speak DDS")
-pytest.importorskip("rosless", reason="the independent RTPS program")
+pytest.importorskip("cyclonedds", reason="the processes use DDS")
+pytest.importorskip("rosless", reason="it is the independent RTPS implementation")
 
 OBSERVER = Path(__file__).with_name("observer.py")
 
 
 class Processes:
-    """Starts processes in the test's network and domain."""
+    """Processes in the network and DDS domain of the test."""
 
     def __init__(self, network, domain_id, folder):
         self.network = network
@@ -26,7 +26,7 @@ class Processes:
         self._running = {}
 
     def start(self, name, *command):
-        """Starts a command, `python` standing for this Python; what it writes goes to a file."""
+        """Start a command with its output in a file. `python` stands for the current interpreter."""
         command = [sys.executable if part == "python" else part for part in command]
         log = self._folder / f"{name}.log"
         with log.open("wb") as output:
@@ -39,14 +39,14 @@ class Processes:
             )
 
     def text(self, name):
-        """What a process has written so far."""
+        """Return the output of a process so far."""
         return (self._folder / f"{name}.log").read_text()
 
     def running(self, name):
         return self._running[name].poll() is None
 
     def end(self, name, how=signal.SIGINT):
-        """Sends a signal and waits for the end: the exit code and what was written."""
+        """Send a signal, wait for the end, and return the exit code and the output."""
         process = self._running[name]
         process.send_signal(how)
         code = process.wait(20)
@@ -58,12 +58,12 @@ class Processes:
                 process.kill()
                 process.wait()
 
-    def observe(self, seconds, *topics, patience=30.0):
-        """What the independent program hears on TOPIC:TYPE:DURABILITY ... within some seconds from the first message.
+    def observe(self, seconds, *topics, timeout=30.0):
+        """Return the messages on TOPIC:TYPE:DURABILITY ... in `seconds` after the first message.
 
-        It waits for the first one no longer than `patience` seconds.
+        It waits for the first message for at most `timeout` seconds.
         """
-        command = self.network.command(sys.executable, OBSERVER, self.domain_id, patience, seconds, *topics)
+        command = self.network.command(sys.executable, OBSERVER, self.domain_id, timeout, seconds, *topics)
         result = subprocess.run(command, capture_output=True, text=True, timeout=90, check=False)
         assert result.returncode == 0, result.stderr
         return json.loads(result.stdout)

@@ -1,4 +1,4 @@
-"""`coframe record` and `coframe play` as a user runs them, killed, starved of disk and steered by keys."""
+"""`coframe record` and `coframe play`: kill, full disk and keys."""
 
 import os
 import signal
@@ -34,15 +34,15 @@ with coframe.connect("listener", cache=None) as ros:
 """
 
 
-def eventually(condition, what, patience=40.0):
-    deadline = time.monotonic() + patience
+def eventually(condition, what, timeout=40.0):
+    deadline = time.monotonic() + timeout
     while not condition():
-        assert time.monotonic() < deadline, f"waited in vain: {what()}"
+        assert time.monotonic() < deadline, f"timed out waiting: {what()}"
         time.sleep(0.05)
 
 
 def count(path):
-    """How many messages of /tf there are in a folder that is being written."""
+    """Return the number of /tf messages in a recording that is being written."""
     try:
         with coframe.open_bag(path) as bag:
             return bag.topics["/tf"].messages if "/tf" in bag.topics else 0
@@ -55,8 +55,8 @@ def start_recording(processes, path, *options, messages=100):
     eventually(lambda: count(path) >= messages, lambda: processes.text("record") + processes.text("tree"))
 
 
-def assert_others_open_it(path):
-    """That the libraries of others read it to its end: the number of messages."""
+def assert_other_libraries_read(path):
+    """Assert that other libraries can read the whole recording, and return the number of messages."""
     with Reader(path) as reader:
         by_rosbags = len(list(reader.messages()))
     by_mcap = 0
@@ -71,12 +71,12 @@ def statics(bag):
     return {edge.child for edge in bag.buffer.edges() if edge.static}
 
 
-def test_a_killed_recorder_loses_the_last_second_at_most(processes, tmp_path):
+def test_killed_recorder_loses_at_most_the_last_second(processes, tmp_path):
     processes.start("tree", *TREE)
     start_recording(processes, tmp_path / "run", messages=150)
     killed = time.time_ns()
     processes.end("record", signal.SIGKILL)
-    assert assert_others_open_it(tmp_path / "run") > 150
+    assert assert_other_libraries_read(tmp_path / "run") > 150
     with coframe.open_bag(tmp_path / "run") as bag:
         assert bag.problems == []
         assert statics(bag) == STATIC_CHILDREN
@@ -86,7 +86,7 @@ def test_a_killed_recorder_loses_the_last_second_at_most(processes, tmp_path):
         assert moving.longest_gap < 1_000_000_000
 
 
-def test_ctrl_c_ends_it_with_an_index_and_a_sentence(processes, tmp_path):
+def test_ctrl_c_finishes_the_recording_with_an_index(processes, tmp_path):
     processes.start("tree", *TREE)
     start_recording(processes, tmp_path / "run", "/tf", "/gone", messages=20)
     code, text = processes.end("record")
@@ -96,13 +96,15 @@ def test_ctrl_c_ends_it_with_an_index_and_a_sentence(processes, tmp_path):
     assert "coframe: no message was received on /gone" in text
     assert "Traceback" not in text
     with (tmp_path / "run" / "run_0.mcap").open("rb") as stream:
-        assert make_reader(stream).get_summary().statistics.message_count == assert_others_open_it(tmp_path / "run")
+        assert make_reader(stream).get_summary().statistics.message_count == assert_other_libraries_read(
+            tmp_path / "run"
+        )
     processes.start("again", *CLI, "record", "-o", tmp_path / "run")
     eventually(lambda: not processes.running("again"), lambda: processes.text("again"))
     assert processes.text("again").startswith(f"coframe: {tmp_path / 'run'} already exists and is not overwritten")
 
 
-def test_a_full_disk_ends_it_with_a_sentence(processes, tmp_path):
+def test_full_disk_ends_the_recording_with_an_error(processes, tmp_path):
     processes.start("tree", *TREE)
     record = f"{sys.executable} -m coframe.cli record -o {tmp_path / 'run'} --compression none"
     processes.start("record", "sh", "-c", f"ulimit -f 80; exec {record}")
@@ -112,14 +114,14 @@ def test_a_full_disk_ends_it_with_a_sentence(processes, tmp_path):
     assert f"coframe: {tmp_path / 'run'} cannot be written: " in text
     assert "What was written before can be read." in text
     assert "Traceback" not in text
-    assert assert_others_open_it(tmp_path / "run") > 10
+    assert assert_other_libraries_read(tmp_path / "run") > 10
     with coframe.open_bag(tmp_path / "run") as bag:
         assert bag.problems == []
         assert statics(bag) == STATIC_CHILDREN
 
 
 @pytest.mark.usefixtures("domain_id")
-def test_keys_steer_what_is_played(network, shared):
+def test_keys_control_the_player(network, shared):
     pty = pytest.importorskip("pty")
     master, terminal = pty.openpty()
     bag = shared / "recordings" / "world_talk_1hz"
@@ -161,7 +163,7 @@ def test_keys_steer_what_is_played(network, shared):
         (("play", "gone", "--remap", "/tf"), 2, "is not OLD:=NEW"),
     ],
 )
-def test_wrong_usage_is_told(arguments, code, reason, tmp_path, monkeypatch):
+def test_usage_errors(arguments, code, reason, tmp_path, monkeypatch):
     from typer.testing import CliRunner
 
     from coframe.cli.app import app
@@ -173,24 +175,24 @@ def test_wrong_usage_is_told(arguments, code, reason, tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-def test_an_independent_program_hears_what_is_played(processes, shared):
+def test_independent_program_receives_played_messages(processes, shared):
     bag = shared / "recordings" / "tb3_gazebo_walker"
     processes.start("play", *CLI, "play", bag, "--rate", "4", "--delay", "5s")
     topics = ("/tf:tf2_msgs/msg/TFMessage:volatile", "/tf_static:tf2_msgs/msg/TFMessage:transient_local")
-    heard = processes.observe(8.0, *topics)
+    received = processes.observe(8.0, *topics)
     with coframe.open_bag(bag) as recording:
         children = {
-            transform["child_frame_id"] for _, message in heard["/tf_static"] for transform in message["transforms"]
+            transform["child_frame_id"] for _, message in received["/tf_static"] for transform in message["transforms"]
         }
         assert children == statics(recording)
-        assert len(heard["/tf"]) == recording.topics["/tf"].messages
+        assert len(received["/tf"]) == recording.topics["/tf"].messages
     code, text = processes.end("play")
     assert code == 0, text
 
 
 @pytest.mark.slow
-def test_the_demo_recorded_killed_and_played_gives_the_same_answers(processes, tmp_path):
-    """What a listener heard of the demo itself, and what one hears of the recording that a killed recorder left."""
+def test_played_recording_of_the_demo_gives_the_same_results(processes, tmp_path):
+    """Compare lookups in the running demo with lookups in the played recording of a killed recorder."""
     bag, wanted = tmp_path / "run", tmp_path / "stamps.npy"
     answers = {name: tmp_path / f"{name}.npy" for name in ("original", "played")}
 
@@ -204,7 +206,7 @@ def test_the_demo_recorded_killed_and_played_gives_the_same_answers(processes, t
     eventually(lambda: count(bag) >= 500, lambda: processes.text("record"))  # 5 s at 100 Hz
     killed = time.time_ns()
     processes.end("record", signal.SIGKILL)
-    assert_others_open_it(bag)
+    assert_other_libraries_read(bag)
     with coframe.open_bag(bag) as recording:
         assert recording.problems == []
         assert killed - recording.end < 1_000_000_000
