@@ -1,4 +1,4 @@
-"""Fixtures for tests with real processes in a separate network, observed by an independent program."""
+"""Processes in a separate network, and an independent program that subscribes to their topics."""
 
 import json
 import os
@@ -10,14 +10,14 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("cyclonedds", reason="the processes use DDS")
-pytest.importorskip("rosless", reason="it is the independent RTPS implementation")
+pytest.importorskip("cyclonedds", reason="the processes speak DDS")
+pytest.importorskip("rosless", reason="the independent RTPS program")
 
 OBSERVER = Path(__file__).with_name("observer.py")
 
 
 class Processes:
-    """Processes in the network and DDS domain of the test."""
+    """Starts processes in the network and domain of the test."""
 
     def __init__(self, network, domain_id, folder):
         self.network = network
@@ -26,7 +26,7 @@ class Processes:
         self._running = {}
 
     def start(self, name, *command):
-        """Start a command with its output in a file. `python` stands for the current interpreter."""
+        """Start a command, where `python` is this Python. Its output goes to a file."""
         command = [sys.executable if part == "python" else part for part in command]
         log = self._folder / f"{name}.log"
         with log.open("wb") as output:
@@ -46,7 +46,7 @@ class Processes:
         return self._running[name].poll() is None
 
     def end(self, name, how=signal.SIGINT):
-        """Send a signal, wait for the end, and return the exit code and the output."""
+        """Send a signal, wait for the process to exit, and return its exit code and output."""
         process = self._running[name]
         process.send_signal(how)
         code = process.wait(20)
@@ -58,12 +58,12 @@ class Processes:
                 process.kill()
                 process.wait()
 
-    def observe(self, seconds, *topics, timeout=30.0):
-        """Return the messages on TOPIC:TYPE:DURABILITY ... in `seconds` after the first message.
+    def observe(self, seconds, *topics, patience=30.0):
+        """Return the messages that the independent program receives on TOPIC:TYPE:DURABILITY ... topics.
 
-        It waits for the first message for at most `timeout` seconds.
+        It receives for some seconds after the first message, for which it waits at most `patience` seconds.
         """
-        command = self.network.command(sys.executable, OBSERVER, self.domain_id, timeout, seconds, *topics)
+        command = self.network.command(sys.executable, OBSERVER, self.domain_id, patience, seconds, *topics)
         result = subprocess.run(command, capture_output=True, text=True, timeout=90, check=False)
         assert result.returncode == 0, result.stderr
         return json.loads(result.stdout)

@@ -1,8 +1,8 @@
-"""An independent RTPS program (rosless, in Rust) that prints the messages it receives.
+"""An independent RTPS program (rosless, in Rust), which prints the messages that it receives.
 
-    python observer.py DOMAIN TIMEOUT SECONDS TOPIC:TYPE:DURABILITY ...
+    python observer.py DOMAIN PATIENCE SECONDS TOPIC:TYPE:DURABILITY ...
 
-It waits up to TIMEOUT seconds for the first message of each topic and receives for SECONDS from then on. It prints one
+Waits up to PATIENCE seconds for the first message of each topic and listens from there on for SECONDS. Prints one
 JSON object: for each topic a list of [arrival in seconds, message as a dictionary].
 """
 
@@ -14,11 +14,11 @@ import time
 import rosless
 
 
-def listen(node, topic, type_name, durability, timeout, seconds, received):
+def listen(node, topic, type_name, durability, patience, seconds, received):
     subscription = node.subscribe(
         topic, type_name, reliability="reliable", durability=durability, history="keep_last", depth=1000
     )
-    message = subscription.read(timeout)
+    message = subscription.read(patience)
     end = time.monotonic() + seconds
     while message is not None:
         received.append([time.monotonic(), message.to_dict()])
@@ -26,7 +26,7 @@ def listen(node, topic, type_name, durability, timeout, seconds, received):
 
 
 def main():
-    domain, timeout, seconds, *topics = sys.argv[1:]
+    domain, patience, seconds, *topics = sys.argv[1:]
     node = rosless.Node(int(domain))
     received = {}
     threads = []
@@ -36,7 +36,7 @@ def main():
         threads.append(
             threading.Thread(
                 target=listen,
-                args=(node, topic, type_name, durability, float(timeout), float(seconds), received[topic]),
+                args=(node, topic, type_name, durability, float(patience), float(seconds), received[topic]),
             )
         )
     for thread in threads:

@@ -1,4 +1,4 @@
-"""The five scripts of the lab as processes, observed by an independent program."""
+"""The five unchanged scripts of the lab in five processes, observed by an independent program."""
 
 import signal
 
@@ -7,11 +7,11 @@ import pytest
 TF = "/tf:tf2_msgs/msg/TFMessage:volatile"
 TF_STATIC = "/tf_static:tf2_msgs/msg/TFMessage:transient_local"
 POSE = "/end_effector_pose:geometry_msgs/msg/PoseStamped:volatile"
-ATTEMPTS = 3  # A busy machine may disturb a measurement of rates.
+ATTEMPTS = 3  # on a busy machine, a single measurement of rates can fail
 
 
 def rate(received):
-    """Return messages per second by their stamps, because the observer may receive delayed messages in bursts."""
+    """Return the rate of messages from their stamps. Arrival times are less exact if the observer is delayed."""
     stamps = [stamp(message) for _, message in received]
     return (len(stamps) - 1) / (max(stamps) - min(stamps)) if len(stamps) > 1 else 0.0
 
@@ -22,7 +22,7 @@ def stamp(message):
 
 
 def eventually_at_rate(processes, expected, topics, of):
-    """Observe until the rates `of` the messages are within 10 % of `expected`, and return the messages."""
+    """Observe until the rates `of` the received messages are within 10 % of `expected`. Return the messages."""
     for _ in range(ATTEMPTS):
         received = processes.observe(3.0, *topics)
         found = of(received)
@@ -47,7 +47,7 @@ def test_five_scripts_as_five_processes(processes, shared):
         lambda received: [rate(received["/tf"]), rate(received["/end_effector_pose"])],
     )
 
-    # The observer joins late, but receives the static transforms.
+    # The observer subscribes late and receives the static transforms nevertheless.
     (statics,) = [message["transforms"] for _, message in received["/tf_static"]]
     assert {(t["header"]["frame_id"], t["child_frame_id"]) for t in statics} == {
         ("end_effector", "camera_link"),
@@ -76,12 +76,12 @@ def test_five_scripts_as_five_processes(processes, shared):
 
 
 def from_dynamic_broadcaster(received):
-    """Return the messages of the arm with links of 0.5 and 0.4 m. The links of the complete tree are shorter."""
+    """Return the messages of the arm with links of 0.5 m and 0.4 m. Those of the complete tree are shorter."""
     of_dynamic = {"link1": ("z", 0.1), "link2": ("x", 0.5), "end_effector": ("x", 0.4)}
 
-    def is_of_dynamic(message):
+    def is_its(message):
         (transform,) = message["transforms"]
         axis, value = of_dynamic.get(transform["child_frame_id"], ("x", None))
         return transform["transform"]["translation"][axis] == value
 
-    return [entry for entry in received if is_of_dynamic(entry[1])]
+    return [entry for entry in received if is_its(entry[1])]

@@ -1,4 +1,4 @@
-"""coframe's nodes as processes: every scan is transformed exactly at its stamp while arm and base move."""
+"""The nodes of coframe in processes: every scan becomes a correct cloud at its own stamp while the robot moves."""
 
 import bisect
 import signal
@@ -19,7 +19,7 @@ NODES = {
     "dynamic_tf_broadcaster": [],
     "tf_listener": [],
     "simulated_lidar": [],
-    # The lidar does not move relative to base_link, but relative to odom.
+    # The lidar does not move relative to base_link. Relative to odom, it moves with the base.
     "sensor_transform": ["--ros-args", "-p", "target_frame:=odom"],
 }
 
@@ -30,27 +30,27 @@ def nanoseconds(message):
 
 
 class Tree:
-    """The tree of the messages received on /tf and /tf_static, composed with SciPy."""
+    """The transforms received on /tf and /tf_static, composed with SciPy."""
 
     def __init__(self, received):
-        self.edges = {}
+        self.links = {}
         for topic in ("/tf", "/tf_static"):
             for _, message in received[topic]:
                 for transform in message["transforms"]:
                     parent, child = transform["header"]["frame_id"], transform["child_frame_id"]
                     t, r = transform["transform"]["translation"], transform["transform"]["rotation"]
                     values = [t["x"], t["y"], t["z"], r["x"], r["y"], r["z"], r["w"]]
-                    _, _, samples = self.edges.setdefault(child, (parent, topic == "/tf_static", {}))
+                    _, _, samples = self.links.setdefault(child, (parent, topic == "/tf_static", {}))
                     samples[nanoseconds(transform)] = values
-        self.edges = {c: (p, static, sorted(samples.items())) for c, (p, static, samples) in self.edges.items()}
+        self.links = {c: (p, static, sorted(samples.items())) for c, (p, static, samples) in self.links.items()}
 
     def matrix(self, child, stamp):
-        _, static, samples = self.edges[child]
+        _, static, samples = self.links[child]
         if static:
             values = np.array(samples[-1][1])
         else:
             i = bisect.bisect_left([s for s, _ in samples], stamp)
-            assert 0 < i < len(samples), "the stamp of the scan must be within the received transforms"
+            assert 0 < i < len(samples), "the scan's time must lie within what was received"
             (start, a), (end, b) = samples[i - 1], samples[i]
             share = (stamp - start) / (end - start)
             rotation = Slerp([0, 1], Rotation.from_quat([a[3:], b[3:]]))(share).as_quat()
@@ -63,7 +63,7 @@ class Tree:
         matrix = np.eye(4)
         while frame != ancestor:
             matrix = self.matrix(frame, stamp) @ matrix
-            frame = self.edges[frame][0]
+            frame = self.links[frame][0]
         return matrix
 
 
@@ -77,29 +77,29 @@ def expected_points(scan, tree):
 
 
 @pytest.mark.timeout(120)
-def messages_by_stamp(received):
+def by_stamp(received):
     """Return the tree, and the scans and clouds by stamp."""
     tree = Tree(received)
-    moving = [samples for _, static, samples in tree.edges.values() if not static]
+    moving = [samples for _, static, samples in tree.links.values() if not static]
     clouds = {nanoseconds(cloud): cloud for _, cloud in received["/scan_base_frame"]}
     if not moving or not clouds:
         return tree, {}, clouds
     first, last = max(s[0][0] for s in moving), min(s[-1][0] for s in moving)
     scans = {nanoseconds(scan): scan for _, scan in received["/scan"] if first < nanoseconds(scan) < last - 500_000_000}
-    # Some scans may be received before the first cloud. From then on, every scan must have a cloud.
+    # Some scans arrive before the first cloud. From then on, every scan must have a cloud.
     return tree, {stamp: scan for stamp, scan in scans.items() if stamp >= min(clouds)}, clouds
 
 
-def test_every_scan_becomes_an_exact_cloud(processes):
+def test_every_scan_is_published_as_a_correct_cloud(processes):
     for name, arguments in NODES.items():
         processes.start(name, "python", "-m", f"coframe.lab.{name}", *arguments)
-    for seconds in (6.0, 15.0, 30.0):  # A busy machine needs more time.
+    for seconds in (6.0, 15.0, 30.0):  # a busy machine needs more time
         received = processes.observe(seconds, *TOPICS)
-        tree, scans, clouds = messages_by_stamp(received)
+        tree, scans, clouds = by_stamp(received)
         if len(scans) >= 40:
             break
     assert len(scans) >= 40
-    assert set(scans) <= set(clouds), "some scans were not converted to clouds"
+    assert set(scans) <= set(clouds), "some scans became no cloud"
 
     positions = []
     for stamp, scan in scans.items():
@@ -112,9 +112,7 @@ def test_every_scan_becomes_an_exact_cloud(processes):
         np.testing.assert_allclose(values[:, :3], expected, rtol=0, atol=1e-6)
         positions.append(tree.lookup("odom", "base_link", stamp)[:3, 3])
     assert np.ptp(positions, axis=0)[0] > 0.2, "the base must have moved"
-    assert np.ptp([p["pose"]["position"]["y"] for _, p in received["/end_effector_pose"]]) > 0.1, (
-        "the arm must have moved"
-    )
+    assert np.ptp([p["pose"]["position"]["y"] for _, p in received["/end_effector_pose"]]) > 0.1, "so must the arm"
 
     for name in NODES:
         code, text = processes.end(name, signal.SIGINT)

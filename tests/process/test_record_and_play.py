@@ -1,4 +1,4 @@
-"""`coframe record` and `coframe play`: kill, full disk and keys."""
+"""`coframe record` and `coframe play` as a user runs them: killed, with a full disk, and controlled by keys."""
 
 import os
 import signal
@@ -34,15 +34,15 @@ with coframe.connect("listener", cache=None) as ros:
 """
 
 
-def eventually(condition, what, timeout=40.0):
-    deadline = time.monotonic() + timeout
+def eventually(condition, what, patience=40.0):
+    deadline = time.monotonic() + patience
     while not condition():
-        assert time.monotonic() < deadline, f"timed out waiting: {what()}"
+        assert time.monotonic() < deadline, f"waited in vain: {what()}"
         time.sleep(0.05)
 
 
 def count(path):
-    """Return the number of /tf messages in a recording that is being written."""
+    """Return the number of messages on /tf in a folder that is being written."""
     try:
         with coframe.open_bag(path) as bag:
             return bag.topics["/tf"].messages if "/tf" in bag.topics else 0
@@ -55,8 +55,8 @@ def start_recording(processes, path, *options, messages=100):
     eventually(lambda: count(path) >= messages, lambda: processes.text("record") + processes.text("tree"))
 
 
-def assert_other_libraries_read(path):
-    """Assert that other libraries can read the whole recording, and return the number of messages."""
+def assert_others_open_it(path):
+    """Read a recording with other libraries and return the number of messages."""
     with Reader(path) as reader:
         by_rosbags = len(list(reader.messages()))
     by_mcap = 0
@@ -71,12 +71,12 @@ def statics(bag):
     return {edge.child for edge in bag.buffer.edges() if edge.static}
 
 
-def test_killed_recorder_loses_at_most_the_last_second(processes, tmp_path):
+def test_a_killed_recorder_loses_at_most_the_last_second(processes, tmp_path):
     processes.start("tree", *TREE)
     start_recording(processes, tmp_path / "run", messages=150)
     killed = time.time_ns()
     processes.end("record", signal.SIGKILL)
-    assert assert_other_libraries_read(tmp_path / "run") > 150
+    assert assert_others_open_it(tmp_path / "run") > 150
     with coframe.open_bag(tmp_path / "run") as bag:
         assert bag.problems == []
         assert statics(bag) == STATIC_CHILDREN
@@ -86,7 +86,7 @@ def test_killed_recorder_loses_at_most_the_last_second(processes, tmp_path):
         assert moving.longest_gap < 1_000_000_000
 
 
-def test_ctrl_c_finishes_the_recording_with_an_index(processes, tmp_path):
+def test_ctrl_c_writes_the_index_and_a_summary(processes, tmp_path):
     processes.start("tree", *TREE)
     start_recording(processes, tmp_path / "run", "/tf", "/gone", messages=20)
     code, text = processes.end("record")
@@ -96,15 +96,13 @@ def test_ctrl_c_finishes_the_recording_with_an_index(processes, tmp_path):
     assert "coframe: no message was received on /gone" in text
     assert "Traceback" not in text
     with (tmp_path / "run" / "run_0.mcap").open("rb") as stream:
-        assert make_reader(stream).get_summary().statistics.message_count == assert_other_libraries_read(
-            tmp_path / "run"
-        )
+        assert make_reader(stream).get_summary().statistics.message_count == assert_others_open_it(tmp_path / "run")
     processes.start("again", *CLI, "record", "-o", tmp_path / "run")
     eventually(lambda: not processes.running("again"), lambda: processes.text("again"))
     assert processes.text("again").startswith(f"coframe: {tmp_path / 'run'} already exists and is not overwritten")
 
 
-def test_full_disk_ends_the_recording_with_an_error(processes, tmp_path):
+def test_a_full_disk_stops_recording_with_an_error(processes, tmp_path):
     processes.start("tree", *TREE)
     record = f"{sys.executable} -m coframe.cli record -o {tmp_path / 'run'} --compression none"
     processes.start("record", "sh", "-c", f"ulimit -f 80; exec {record}")
@@ -114,14 +112,14 @@ def test_full_disk_ends_the_recording_with_an_error(processes, tmp_path):
     assert f"coframe: {tmp_path / 'run'} cannot be written: " in text
     assert "What was written before can be read." in text
     assert "Traceback" not in text
-    assert assert_other_libraries_read(tmp_path / "run") > 10
+    assert assert_others_open_it(tmp_path / "run") > 10
     with coframe.open_bag(tmp_path / "run") as bag:
         assert bag.problems == []
         assert statics(bag) == STATIC_CHILDREN
 
 
 @pytest.mark.usefixtures("domain_id")
-def test_keys_control_the_player(network, shared):
+def test_keys_control_the_replay(network, shared):
     pty = pytest.importorskip("pty")
     master, terminal = pty.openpty()
     bag = shared / "recordings" / "world_talk_1hz"
@@ -163,7 +161,7 @@ def test_keys_control_the_player(network, shared):
         (("play", "gone", "--remap", "/tf"), 2, "is not OLD:=NEW"),
     ],
 )
-def test_usage_errors(arguments, code, reason, tmp_path, monkeypatch):
+def test_wrong_usage_gives_an_error(arguments, code, reason, tmp_path, monkeypatch):
     from typer.testing import CliRunner
 
     from coframe.cli.app import app
@@ -175,7 +173,7 @@ def test_usage_errors(arguments, code, reason, tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-def test_independent_program_receives_played_messages(processes, shared):
+def test_an_independent_program_receives_the_replay(processes, shared):
     bag = shared / "recordings" / "tb3_gazebo_walker"
     processes.start("play", *CLI, "play", bag, "--rate", "4", "--delay", "5s")
     topics = ("/tf:tf2_msgs/msg/TFMessage:volatile", "/tf_static:tf2_msgs/msg/TFMessage:transient_local")
@@ -191,8 +189,8 @@ def test_independent_program_receives_played_messages(processes, shared):
 
 
 @pytest.mark.slow
-def test_played_recording_of_the_demo_gives_the_same_results(processes, tmp_path):
-    """Compare lookups in the running demo with lookups in the played recording of a killed recorder."""
+def test_the_replay_of_a_killed_recording_gives_the_same_transforms(processes, tmp_path):
+    """Compare the transforms of the demo with those of the replay of a recording whose recorder was killed."""
     bag, wanted = tmp_path / "run", tmp_path / "stamps.npy"
     answers = {name: tmp_path / f"{name}.npy" for name in ("original", "played")}
 
@@ -206,7 +204,7 @@ def test_played_recording_of_the_demo_gives_the_same_results(processes, tmp_path
     eventually(lambda: count(bag) >= 500, lambda: processes.text("record"))  # 5 s at 100 Hz
     killed = time.time_ns()
     processes.end("record", signal.SIGKILL)
-    assert_other_libraries_read(bag)
+    assert_others_open_it(bag)
     with coframe.open_bag(bag) as recording:
         assert recording.problems == []
         assert killed - recording.end < 1_000_000_000

@@ -1,4 +1,4 @@
-"""The service for upstream's view_frames, called from another process."""
+"""The service that tf2's view_frames calls, called from another process."""
 
 import json
 
@@ -6,15 +6,15 @@ import pytest
 
 yaml = pytest.importorskip("yaml")
 
-SERVER = """
+HOLDER = """
 import rclpy, tf2_ros
 rclpy.init()
-node = rclpy.create_node("server")
+node = rclpy.create_node("holder")
 buffer = tf2_ros.Buffer(node=node)
 listener = tf2_ros.TransformListener(buffer, node, spin_thread=False)
 rclpy.spin(node)
 """
-CLIENT = """
+ASKER = """
 import json, time
 import rclpy, yaml
 from tf2_msgs.srv import FrameGraph
@@ -34,16 +34,16 @@ print("FRAMES", json.dumps(text), flush=True)
 
 
 @pytest.mark.slow
-def test_frames_as_yaml_in_another_process(processes, eventually):
+def test_another_process_receives_all_frames_as_yaml(processes, eventually):
     processes.start("tree", "python", "-m", "coframe.lab.complete_tf_tree")
-    processes.start("server", "python", "-c", SERVER)
-    processes.start("client", "python", "-c", CLIENT)
-    eventually(lambda: "FRAMES" in processes.text("client"))
-    data = yaml.safe_load(json.loads(processes.text("client").partition("FRAMES ")[2]))
+    processes.start("holder", "python", "-c", HOLDER)
+    processes.start("asker", "python", "-c", ASKER)
+    eventually(lambda: "FRAMES" in processes.text("asker"))
+    data = yaml.safe_load(json.loads(processes.text("asker").partition("FRAMES ")[2]))
     assert data["link1"]["parent"] == "base_link"
     assert 40 < data["link1"]["rate"] < 60
     assert data["lidar_link"]["oldest_transform"] == 0.0
-    # view_frames uses these fields.
+    # The text from which view_frames makes a label.
     keys = {"parent", "broadcaster", "rate", "most_recent_transform", "oldest_transform", "buffer_length"}
     assert all(keys <= set(frame) for frame in data.values())
     (root,) = {frame["parent"] for frame in data.values()} - set(data)
