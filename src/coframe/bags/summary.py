@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from coframe.analysis.tree import FrameTrees
 from coframe.errors import DecodeError, TransformException
 
 if TYPE_CHECKING:
@@ -84,16 +85,16 @@ class Summary(NamedTuple):
 def summarize(recording: Recording) -> Summary:
     """Summarize a recording: topics, trees, edges with their gaps, and which sensor data can be transformed."""
     edges = [edge for edge in recording.buffer.edges() if edge.parent]
-    roots = _roots(edges)
-    sensors = [_sensor(recording, topic, roots) for topic in recording.topics.values()]
-    sizes = {root: 1 + sum(other == root for frame, other in roots.items() if frame != root) for root in roots.values()}
+    trees = FrameTrees.from_parents({edge.child: edge.parent for edge in edges})
+    sensors = [_sensor(recording, topic, trees) for topic in recording.topics.values()]
+    sizes = [TreeSummary(trees.root(members[0]), len(members)) for members in trees.members]
     return Summary(
         path=str(recording.path),
         start=recording.start,
         end=recording.end,
         span=recording.span,
         topics=list(recording.topics.values()),
-        trees=sorted((TreeSummary(*pair) for pair in sizes.items()), key=lambda tree: (-tree.size, tree.root)),
+        trees=sorted(sizes, key=lambda tree: (-tree.size, tree.root)),
         edges=[_edge(edge) for edge in edges],
         sensors=[sensor for sensor in sensors if sensor is not None],
         problems=recording.problems,
@@ -105,21 +106,7 @@ def _edge(edge: EdgeInfo) -> EdgeSummary:
     return EdgeSummary(edge.parent, edge.child, edge.static, *facts)
 
 
-def _roots(edges: list[EdgeInfo]) -> dict[str, str]:
-    """Return the root of each frame's tree."""
-    parents = {edge.child: edge.parent for edge in edges}
-    roots: dict[str, str] = {}
-    for frame in [*parents, *parents.values()]:
-        seen = {frame}
-        root = frame
-        while root in parents and parents[root] not in seen:
-            root = parents[root]
-            seen.add(root)
-        roots[frame] = root
-    return roots
-
-
-def _sensor(recording: Recording, topic: Topic, roots: dict[str, str]) -> SensorSummary | None:
+def _sensor(recording: Recording, topic: Topic, trees: FrameTrees) -> SensorSummary | None:
     """Return the summary of a sensor topic; None if its messages have no frame or cannot be decoded."""
     try:
         first: Any = next(recording.messages(topic.name)).message
@@ -128,11 +115,11 @@ def _sensor(recording: Recording, topic: Topic, roots: dict[str, str]) -> Sensor
         return None
     if not frame:
         return None
-    root = roots.get(frame)
-    if root is None:
+    if frame not in trees.index:
         return SensorSummary(
             topic.name, frame, topic.messages, "", 0, f"No frame named {frame!r}: no transform contains it."
         )
+    root = trees.root(frame)
     possible, why = _possible(recording.buffer, root, frame, recording.stamps(topic.name))
     return SensorSummary(topic.name, frame, topic.messages, root, possible, why)
 

@@ -196,17 +196,17 @@ class _Arrivals:
 
     def __init__(self, buffer: tf2.BufferCore) -> None:
         self._buffer = buffer._coframe_buffer
-        self._told = self._count()
+        self._handled = self._count()
 
     def _count(self) -> int:
         return self._buffer.statistics["messages"]
 
     def _take_one(self) -> bool:
         count = self._count()
-        self._told = max(self._told, count - self._DEPTH)
-        if self._told == count:
+        self._handled = max(self._handled, count - self._DEPTH)
+        if self._handled == count:
             return False
-        self._told += 1
+        self._handled += 1
         return True
 
 
