@@ -1,28 +1,7 @@
 /** The displays of a replay: what the server would have sent of each, picture after picture. */
 
 import { compose, type Pose } from "./math";
-import { decode, type DisplayMessage, type DisplayPose, type DisplayStatus, type Vector } from "./protocol";
-
-/** As the server wrote it; numbers are base64 of little-endian arrays. */
-export interface ReplayDisplayBlock {
-  topic: string;
-  type: string;
-  display: string;
-  color_by: string | null;
-  /** Every so-manieth picture was recorded. */
-  every: number;
-  /** From which picture on. */
-  statuses: [number, DisplayStatus["state"], string][];
-  /** By their sequence: binary messages. */
-  drawings: Record<string, string>;
-  /** At which pictures something else is to be seen, and how many drawings. */
-  pictures: string;
-  counts: string;
-  /** Of one after the other: which drawings, where their frames are, and when that was: NaN is the picture's time. */
-  sequences: string;
-  poses: string;
-  stamps: string;
-}
+import { decode, type DisplayMessage, type DisplayPose, type DisplayStatus, type ReplayDisplayBlock, type Vector } from "./protocol";
 
 /** Where the frame that everything is recorded in was at a time, seen from the one that is looked from now. */
 export type Seen = (stamp: number) => Pose | null;
