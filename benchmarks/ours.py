@@ -23,7 +23,7 @@ def filled(depth: int, samples: int = motion.SAMPLES) -> coframe.Buffer:
 def store(
     buffer: coframe.Buffer, link: int, stamp: int, values: tuple[float, float, float, float, float, float, float]
 ) -> None:
-    buffer.set_values(frame(link), frame(link + 1), stamp, *values, False, "bench")
+    buffer._set_values(frame(link), frame(link + 1), stamp, *values, False, "bench")
 
 
 def stamps_and_values(link: int, samples: int) -> tuple[Stamps, Values]:

@@ -138,7 +138,7 @@ class CoframeAdapter:
     def _set(self, step: Step, *, static: bool = False) -> Answer:
         x, y, z, qx, qy, qz, qw = (float(value) for value in (*step["translation"], *step["rotation"]))
         facts = (step["parent"], step["child"], nanoseconds(step["stamp"]), x, y, z, qx, qy, qz, qw)
-        refusals = self._buffer.set_values(*facts, static, step["authority"])
+        refusals = self._buffer._set_values(*facts, static, step["authority"])
         log = self._coframe._core.insert_texts(refusals, *facts, step["authority"])  # noqa: SLF001 - tf2's log lines
         return {"accepted": refusals == 0, "log": [list(line) for line in log]}
 
@@ -153,15 +153,15 @@ class CoframeAdapter:
         return _pose(self._buffer.lookup(*_query(step)))
 
     def _lookup_full(self, step: Step) -> Answer:
-        return _pose(self._buffer.lookup_full(*_full_query(step)))
+        return _pose(self._buffer._lookup_full(*_full_query(step)))
 
     def _can_transform(self, step: Step) -> Answer:
-        text = self._buffer.why_not(*_query(step))
+        text = self._buffer._why_not(*_query(step))
         return {"possible": self._buffer.can_transform(*_query(step)), "text": text}
 
     def _can_transform_full(self, step: Step) -> Answer:
-        text = self._buffer.why_not_full(*_full_query(step))
-        return {"possible": self._buffer.can_transform_full(*_full_query(step)), "text": text}
+        text = self._buffer._why_not_full(*_full_query(step))
+        return {"possible": self._buffer._can_transform_full(*_full_query(step)), "text": text}
 
     def _latest_common_time(self, step: Step) -> Answer:
         return {"stamp": seconds(self._buffer.latest_common_time(step["target"], step["source"]))}

@@ -1,11 +1,17 @@
 #!/bin/sh
-# Makes the project's virtual environment and builds the project into it. Needs a Python 3.10+ with its headers, a
-# C++ compiler and a package index; what Debian splits off (python3-venv, python3-dev) is installed where that is
-# possible without asking for a password, and asked for where it is not.
+# SPDX-License-Identifier: Apache-2.0
+# Create the project's virtual environment and build the project into it.
+#
+#   make_venv.sh demo   what the demo needs: the core, DDS, the viewer, the command line, URDF
+#   make_venv.sh dev    everything: the demo's packages, all other extras, tests and linters
+#
+# Requires Python 3.10 or newer with its headers, a C++ compiler and a package index. Debian's separate packages
+# (python3-venv, python3-dev, g++) are installed when the script runs as root; otherwise it prints the command to run.
 set -eu
+purpose=${1:-dev}
 venv=${VENV:-.venv}
 
-usable() { # a Python that can make a virtual environment and build for itself
+usable() { # whether a Python can create a virtual environment and build extension modules
     "$1" - 2>/dev/null <<'PYTHON'
 import ensurepip, os, sys, sysconfig, venv
 ok = (3, 10) <= sys.version_info < (3, 15) and os.path.exists(sysconfig.get_path("include") + "/Python.h")
@@ -13,7 +19,7 @@ sys.exit(not ok)
 PYTHON
 }
 
-find_python() { # 3.14 last: cyclonedds has no wheels for it yet
+find_python() { # 3.14 comes last because cyclonedds has no wheels for it yet
     for name in ${PYTHON:-python3 python3.13 python3.12 python3.11 python3.10 /usr/bin/python3 python3.14}; do
         if command -v "$name" >/dev/null 2>&1 && usable "$name"; then
             echo "$name"
@@ -34,7 +40,7 @@ if [ -z "$python" ]; then
     python=$(find_python)
 fi
 if [ -z "$python" ]; then
-    echo "setup: no Python 3.10 or newer with venv and headers here." >&2
+    echo "setup: found no Python 3.10 or newer with the venv module and C headers." >&2
     echo "       On Debian or Ubuntu: sudo apt-get install python3-venv python3-dev" >&2
     exit 1
 fi
@@ -42,16 +48,30 @@ if ! command -v "${CXX:-c++}" >/dev/null 2>&1; then
     install_with_apt g++
 fi
 if ! command -v "${CXX:-c++}" >/dev/null 2>&1; then
-    echo "setup: no C++ compiler. On Debian or Ubuntu: sudo apt-get install g++" >&2
+    echo "setup: found no C++ compiler. On Debian or Ubuntu: sudo apt-get install g++" >&2
     exit 1
 fi
 
 if [ ! -x "$venv/bin/python" ]; then
-    echo "setup: $venv with $("$python" --version)" >&2
+    echo "setup: creating $venv with $("$python" --version)" >&2
     "$python" -m venv "$venv"
 fi
 pip() { "$venv/bin/python" -m pip --quiet --disable-pip-version-check "$@"; }
-echo "setup: installing what building and testing need" >&2
-pip install "scikit-build-core>=0.10,<2" "nanobind>=2.4,<4" "cmake>=3.24" "ninja>=1.11"
-echo "setup: building coframe" >&2
-pip install --no-build-isolation --editable ".[dev]"
+
+recent_cmake() {
+    command -v cmake >/dev/null 2>&1 &&
+        cmake --version | awk 'NR == 1 { split($3, v, "."); exit !(v[1] > 3 || (v[1] == 3 && v[2] >= 18)) }'
+}
+
+tools="scikit-build-core>=0.10,<2 nanobind>=2.4,<4 ninja>=1.11"
+recent_cmake || tools="$tools cmake>=3.24"
+case $purpose in
+    demo) extras="dds,viewer,robots,cli" ;;
+    dev) extras="dev" ;;
+    *) echo "setup: unknown purpose '$purpose': use demo or dev" >&2; exit 2 ;;
+esac
+echo "setup: installing packages for $purpose, then compiling coframe" >&2
+# Python compiles each module when it is first imported, so pip need not compile all of them now.
+# shellcheck disable=SC2086  # the list of tools is meant to be split
+pip install --no-compile $tools
+PATH="$(cd "$venv/bin" && pwd):$PATH" pip install --no-compile --no-build-isolation --editable ".[$extras]"

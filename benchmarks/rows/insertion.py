@@ -16,7 +16,7 @@ FRESH = 8 * motion.SAMPLES
 TRANSFORMS = 10
 MESSAGES = 250
 
-NUMBERS = "buffer.set_values('f0', 'f1', next(fresh), 1.0, 2.0, 3.0, 0.0, 0.0, 0.6, 0.8, False, 'bench')"
+NUMBERS = "buffer._set_values('f0', 'f1', next(fresh), 1.0, 2.0, 3.0, 0.0, 0.0, 0.6, 0.8, False, 'bench')"
 TRANSFORM = "buffer.set('f0', 'f1', transform, next(fresh))"
 
 

@@ -16,7 +16,7 @@ TIME = motion.between(490)
 
 NEWEST = "buffer.lookup('f0', source)"
 AT_A_TIME = "buffer.lookup('f0', source, time)"
-TIME_TRAVEL = "buffer.lookup_full('f0', time, source, earlier, 'f0')"
+TIME_TRAVEL = "buffer._lookup_full('f0', time, source, earlier, 'f0')"
 POSSIBLE = "buffer.can_transform('f0', source)"
 POSSIBLE_AT_A_TIME = "buffer.can_transform('f0', source, time)"
 FAILING = """

@@ -347,7 +347,7 @@ nb::list edge_tuples(const BufferObject& self, const std::optional<std::vector<s
 
 PyObject* py_set_values(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<12> signature(
-      "set_values", {"parent", "child", "stamp", "x", "y", "z", "qx", "qy", "qz", "qw", "static", "authority"}, 12, 12);
+      "_set_values", {"parent", "child", "stamp", "x", "y", "z", "qx", "qy", "qz", "qw", "static", "authority"}, 12, 12);
   PyObject* values[12];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&]() -> PyObject* {
@@ -371,7 +371,7 @@ PyObject* py_set_values(PyObject* object, PyObject* const* arguments, Py_ssize_t
 
 // As coframe.Buffer.set() has it: between known frames, the transform's own if it names any, at a time.
 PyObject* py_set_plain(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  static const Signature<5> signature("set_plain", {"parent", "child", "transform", "stamp", "static"}, 5, 5);
+  static const Signature<5> signature("_set_plain", {"parent", "child", "transform", "stamp", "static"}, 5, 5);
   PyObject* values[5];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&]() -> PyObject* {
@@ -434,7 +434,7 @@ const char* found_name(Found found) {
 
 // What a frame's history has for a time: (what the search comes to, the parent told then or else last, the stamps
 // around it). None for a frame without one.
-nb::object link_at(const BufferObject& self, std::string_view child, Stamp stamp) {
+nb::object edge_at(const BufferObject& self, std::string_view child, Stamp stamp) {
   struct Told {
     bool exists;
     Found found;
@@ -481,12 +481,12 @@ void add_frequent_methods(nb::handle cls) {
   add_method(cls, "can_transform", &py_can_transform,
              "can_transform($self, /, target, source, stamp=None, *, timeout=None)\n--\n\n"
              "Whether lookup() would succeed, or does within `timeout`.");
-  add_method(cls, "set_values", &py_set_values,
-             "set_values($self, /, parent, child, stamp, x, y, z, qx, qy, qz, qw, static, authority)\n--\n\n"
+  add_method(cls, "_set_values", &py_set_values,
+             "_set_values($self, /, parent, child, stamp, x, y, z, qx, qy, qz, qw, static, authority)\n--\n\n"
              "Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts).");
-  add_method(cls, "set_plain", &py_set_plain,
-             "set_plain($self, /, parent, child, transform, stamp, static)\n--\n\n"
-             "set_values() of a dynamic Transform between known frames; None where it is not just that.");
+  add_method(cls, "_set_plain", &py_set_plain,
+             "_set_plain($self, /, parent, child, transform, stamp, static)\n--\n\n"
+             "_set_values() of a dynamic Transform between known frames; None where it is not just that.");
   add_method(cls, "ingest", &py_ingest,
              "ingest($self, /, cdr, *, static=False, authority='no recorded authority')\n--\n\n"
              "Takes in a TFMessage's bytes; returns how many of its transforms were stored.");
@@ -503,17 +503,17 @@ void define_buffer(nb::module_& module) {
   cls
       .def(nb::init<Stamp>(), arg("cache_ns"))
       .def_prop_ro("cache_ns", [](const BufferObject& self) { return self.core->cache_length(); })
-      .def("lookup_full", &py_lookup_full, any("target"), any("target_stamp"), any("source"),
+      .def("_lookup_full", &py_lookup_full, any("target"), any("target_stamp"), any("source"),
            any("source_stamp"), any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
-      .def("lookup_rows", &lookup_rows, any("target"), any("source"), arg("stamps"), arg("poses"), any("twists"),
+      .def("_lookup_rows", &lookup_rows, any("target"), any("source"), arg("stamps"), arg("poses"), any("twists"),
            any("beyond"), arg("on_error"), arg("threads"), arg("extrapolate") = nb::none(), arg("hold") = false)
-      .def("stamps_between", &stamps_between, any("target"), any("source"), arg("first"), arg("last"))
-      .def("set_rows", &set_rows, arg("parent"), arg("child"), arg("stamps"), arg("poses"), arg("static"),
+      .def("_stamps_between", &stamps_between, any("target"), any("source"), arg("first"), arg("last"))
+      .def("_set_rows", &set_rows, arg("parent"), arg("child"), arg("stamps"), arg("poses"), arg("static"),
            arg("authority"))
-      .def("can_transform_full", &py_can_transform_full, any("target"), any("target_stamp"), any("source"),
+      .def("_can_transform_full", &py_can_transform_full, any("target"), any("target_stamp"), any("source"),
            any("source_stamp"), any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
-      .def("why_not", &why_not, any("target"), any("source"), arg("stamp") = nb::none())
-      .def("why_not_full", &why_not_full, any("target"), any("target_stamp"), any("source"),
+      .def("_why_not", &why_not, any("target"), any("source"), arg("stamp") = nb::none())
+      .def("_why_not_full", &why_not_full, any("target"), any("target_stamp"), any("source"),
            any("source_stamp"), any("fixed"))
       .def("latest_common_time", &py_latest_common_time, any("target"), any("source"))
       .def("chain", &py_chain, any("target"), any("target_stamp"), any("source"), any("source_stamp"),
@@ -524,11 +524,11 @@ void define_buffer(nb::module_& module) {
            arg("name"))
       .def("freeze", [](BufferObject& self) { self.core->freeze(); })
       .def_prop_ro("frozen", [](const BufferObject& self) { return self.core->frozen(); })
-      .def("become_snapshot", [](BufferObject& self, const BufferObject& other) { self.core = other.core->snapshot(); },
+      .def("_become_snapshot", [](BufferObject& self, const BufferObject& other) { self.core = other.core->snapshot(); },
            arg("other"))
-      .def("frame_tuples", &frame_tuples)
-      .def("link_at", &link_at, arg("child"), arg("stamp"))
-      .def("edge_tuples", &edge_tuples, arg("children") = nb::none())
+      .def("_frame_tuples", &frame_tuples)
+      .def("_edge_at", &edge_at, arg("child"), arg("stamp"))
+      .def("_edge_tuples", &edge_tuples, arg("children") = nb::none())
       .def("frame_names", [](const BufferObject& self) { return self.core->frame_names(); })
       .def("frame_exists",
            [](const BufferObject& self, std::string_view name) {
@@ -544,14 +544,14 @@ void define_buffer(nb::module_& module) {
           },
           arg("now") = 0)
       .def_prop_ro("statistics", &statistics)
-      .def_prop_ro("changes", [](const BufferObject& self) { return self.core->changes(); });
+      .def_prop_ro("_changes", [](const BufferObject& self) { return self.core->changes(); });
   add_frequent_methods(cls);
   module.def("register_buffer_class", [](nb::type_object_t<BufferObject> cls) { add_frequent_methods(cls); }, arg("cls"),
              "Gives a class on top of Buffer the most frequent methods as its own: CPython has a shorter way to call "
              "those of an object's very class.");
   module.def("insert_texts", &py_insert_texts, arg("refusals"), arg("parent"), arg("child"), arg("stamp"), arg("x"),
              arg("y"), arg("z"), arg("qx"), arg("qy"), arg("qz"), arg("qw"), arg("authority"),
-             "tf2's log lines for a transform that set_values refused: (level, text).");
+             "tf2's log lines for a transform that _set_values refused: (level, text).");
 }
 
 }  // namespace coframe::bindings

@@ -132,7 +132,7 @@ nb::object make_message(PyObject* target, PyObject* source, Stamp stamp, const P
 
 // None where Python has to deal with it.
 PyObject* set_message(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  static const Signature<3> signature("set_message", {"message", "static", "authority"}, 3, 3);
+  static const Signature<3> signature("_set_message", {"message", "static", "authority"}, 3, 3);
   PyObject* values[3];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&]() -> PyObject* {
@@ -147,7 +147,7 @@ PyObject* set_message(PyObject* object, PyObject* const* arguments, Py_ssize_t c
 }
 
 PyObject* lookup_message(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  static const Signature<3> signature("lookup_message", {"target", "source", "time"}, 3, 3);
+  static const Signature<3> signature("_lookup_message", {"target", "source", "time"}, 3, 3);
   PyObject* values[3];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&]() -> PyObject* {
@@ -166,11 +166,11 @@ PyObject* lookup_message(PyObject* object, PyObject* const* arguments, Py_ssize_
 
 void define_messages(nb::module_& module) {
   const nb::object buffer = module.attr("Buffer");
-  add_method(buffer, "set_message", &set_message,
-             "set_message($self, /, message, static, authority)\n--\n\n"
-             "set_values() of a TransformStamped between known frames; None where it is not just that.");
-  add_method(buffer, "lookup_message", &lookup_message,
-             "lookup_message($self, /, target, source, time)\n--\n\n"
+  add_method(buffer, "_set_message", &set_message,
+             "_set_message($self, /, message, static, authority)\n--\n\n"
+             "_set_values() of a TransformStamped between known frames; None where it is not just that.");
+  add_method(buffer, "_lookup_message", &lookup_message,
+             "_lookup_message($self, /, target, source, time)\n--\n\n"
              "lookup() as a TransformStamped, for a Time; None where lookup() has to decide.");
   module.def(
       "register_messages",
@@ -185,7 +185,7 @@ void define_messages(nb::module_& module) {
         quaternion.set(rotation, {"_x", "_y", "_z", "_w"});
       },
       nb::arg("transform_stamped"), nb::arg("header"), nb::arg("time"), nb::arg("rclpy_time"), nb::arg("transform"),
-      nb::arg("vector3"), nb::arg("quaternion"), "The classes that set_message() reads and lookup_message() makes.");
+      nb::arg("vector3"), nb::arg("quaternion"), "The classes that _set_message() reads and _lookup_message() makes.");
 }
 
 }  // namespace coframe::bindings

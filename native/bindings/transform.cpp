@@ -81,8 +81,8 @@ PyGetSetDef properties[] = {
     {"stamp", stamp, nullptr, "Nanoseconds, or None.", nullptr},
     {"target", target, nullptr, "The frame that the values are told in, or None.", nullptr},
     {"source", source, nullptr, "The frame that the values are of, or None.", nullptr},
-    {"beyond", beyond, nullptr, "How many nanoseconds beyond the data of a link it was extrapolated.", nullptr},
-    {"batch", batch, nullptr, "None, or (translations, quaternions, stamps, extrapolated) as arrays.", nullptr},
+    {"_beyond", beyond, nullptr, "How many nanoseconds beyond the data of a link it was extrapolated.", nullptr},
+    {"_batch", batch, nullptr, "None, or (translations, quaternions, stamps, extrapolated) as arrays.", nullptr},
     {nullptr, nullptr, nullptr, nullptr, nullptr}};
 
 PyType_Slot slots[] = {{Py_tp_doc, const_cast<char*>("One pose with its frames and stamp, or a batch of them.")},

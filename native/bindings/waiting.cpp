@@ -107,7 +107,7 @@ void define_waiting(nb::module_& module) {
             token, target, source);
       },
       arg("buffer"), arg("mailbox"), arg("token"), any("target"), any("target_stamp"), any("source"),
-      any("source_stamp"), any("fixed"), "The same for lookup_full.");
+      any("source_stamp"), any("fixed"), "The same for _lookup_full.");
   module.def(
       "watch",
       [](BufferObject& buffer, std::shared_ptr<Mailbox> mailbox, Token token, std::string_view child) {

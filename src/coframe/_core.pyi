@@ -42,11 +42,11 @@ class Transform:
         """The frame that the values are of, or None."""
 
     @property
-    def beyond(self) -> int:
+    def _beyond(self) -> int:
         """How many nanoseconds beyond the data of a link it was extrapolated; 0: not at all."""
 
     @property
-    def batch(self) -> Any:
+    def _batch(self) -> Any:
         """None, or (translations, quaternions, stamps, extrapolated) as arrays; the last two may be None."""
 
 class Failure:
@@ -109,7 +109,7 @@ class Buffer:
             InvalidArgumentException: An empty name, or one with a leading slash.
         """
 
-    def lookup_full(
+    def _lookup_full(
         self,
         target: str,
         target_stamp: StampLike | None,
@@ -124,7 +124,7 @@ class Buffer:
         `fixed` is the frame that is taken not to move between the two times. Raises as lookup().
         """
 
-    def lookup_rows(
+    def _lookup_rows(
         self,
         target: str,
         source: str,
@@ -143,20 +143,20 @@ class Buffer:
             The first row without an answer, which raises unless NaN stands for it; the number of rows if there is none.
         """
 
-    def stamps_between(self, target: str, source: str, first: int, last: int) -> bytes:
+    def _stamps_between(self, target: str, source: str, first: int, last: int) -> bytes:
         """The stamps of all samples between two times on the links between two frames, in order, as int64."""
 
-    def set_rows(
+    def _set_rows(
         self, parent: str, child: str, stamps: Any, poses: Any, static: bool, authority: str
     ) -> tuple[int, int, int]:
-        """set_values() for each row: the reasons for refusal as bits, how many were stored, the first refused row."""
+        """_set_values() for each row: the reasons for refusal as bits, how many were stored, the first refused row."""
 
     def can_transform(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
     ) -> bool:
         """Whether lookup() would succeed, or does within `timeout`."""
 
-    def can_transform_full(
+    def _can_transform_full(
         self,
         target: str,
         target_stamp: StampLike | None,
@@ -166,15 +166,15 @@ class Buffer:
         *,
         timeout: DurationLike | None = None,
     ) -> bool:
-        """Whether lookup_full() would succeed, or does within `timeout`."""
+        """Whether _lookup_full() would succeed, or does within `timeout`."""
 
-    def why_not(self, target: str, source: str, stamp: StampLike | None = None) -> str:
+    def _why_not(self, target: str, source: str, stamp: StampLike | None = None) -> str:
         """Why can_transform() is False, in tf2's words; "" when it is True."""
 
-    def why_not_full(
+    def _why_not_full(
         self, target: str, target_stamp: StampLike | None, source: str, source_stamp: StampLike | None, fixed: str
     ) -> str:
-        """Why can_transform_full() is False, in tf2's words; "" when it is True."""
+        """Why _can_transform_full() is False, in tf2's words; "" when it is True."""
 
     def latest_common_time(self, target: str, source: str) -> int:
         """The newest time at which every link between both frames has data, in nanoseconds; 0 if all are static.
@@ -187,9 +187,9 @@ class Buffer:
     def chain(
         self, target: str, target_stamp: StampLike | None, source: str, source_stamp: StampLike | None, fixed: str
     ) -> list[str]:
-        """The frames that lookup_full() walks through."""
+        """The frames that _lookup_full() walks through."""
 
-    def set_values(
+    def _set_values(
         self,
         parent: str,
         child: str,
@@ -206,15 +206,15 @@ class Buffer:
     ) -> int:
         """Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts)."""
 
-    def set_plain(
+    def _set_plain(
         self, parent: str, child: str, transform: PublicTransform, stamp: StampLike | None, static: bool
     ) -> int | None:
-        """set_values() of a dynamic Transform between known frames; None where it is not just that."""
+        """_set_values() of a dynamic Transform between known frames; None where it is not just that."""
 
-    def set_message(self, message: Any, static: bool, authority: str) -> int | None:
-        """set_values() of a TransformStamped between known frames; None where it is not just that."""
+    def _set_message(self, message: Any, static: bool, authority: str) -> int | None:
+        """_set_values() of a TransformStamped between known frames; None where it is not just that."""
 
-    def lookup_message(self, target: str, source: str, time: Any) -> Any:
+    def _lookup_message(self, target: str, source: str, time: Any) -> Any:
         """lookup() as a TransformStamped, for a Time; None where lookup() has to decide."""
 
     def ingest(self, cdr: Any, *, static: bool = False, authority: str = "no recorded authority") -> int:
@@ -244,11 +244,11 @@ class Buffer:
     def frozen(self) -> bool:
         """Whether it takes nothing in any more."""
 
-    def become_snapshot(self, other: Buffer) -> None:
+    def _become_snapshot(self, other: Buffer) -> None:
         """Becomes what `other` is now, frozen; for a buffer that nobody uses yet."""
 
-    def frame_tuples(self) -> list[tuple[str, str, bool, int, int, int, float, str]]: ...
-    def edge_tuples(
+    def _frame_tuples(self) -> list[tuple[str, str, bool, int, int, int, float, str]]: ...
+    def _edge_tuples(
         self,
         children: Sequence[str] | None = None,
     ) -> list[
@@ -258,7 +258,7 @@ class Buffer:
             tuple[int, int, int, int, int, int, int],
         ]
     ]: ...
-    def link_at(self, child: str, stamp: int) -> tuple[str, str, int, int] | None:
+    def _edge_at(self, child: str, stamp: int) -> tuple[str, str, int, int] | None:
         """What a frame's samples have for a time; 0 is the latest. None for a frame that nobody has told a parent of.
 
         Returns:
@@ -286,7 +286,7 @@ class Buffer:
         """Counts: messages and malformed (taken in as bytes); stored, refused, old (transforms)."""
 
     @property
-    def changes(self) -> int:
+    def _changes(self) -> int:
         """A counter that rises with every insertion."""
 
 class Mailbox:
@@ -335,7 +335,7 @@ def wait_full(
     source_stamp: StampLike | None,
     fixed: str,
 ) -> Wait:
-    """The same for lookup_full."""
+    """The same for _lookup_full."""
 
 def watch(buffer: Buffer, mailbox: Mailbox, token: int, child: str) -> Watch:
     """Puts the token into the mailbox when the edge from `child` to its parent changes; "": any edge."""
@@ -367,7 +367,7 @@ def insert_texts(
     qw: float,
     authority: str,
 ) -> list[tuple[str, str]]:
-    """tf2's log lines for a transform that set_values refused: (level, text)."""
+    """tf2's log lines for a transform that _set_values refused: (level, text)."""
 
 def register_buffer_class(cls: type[Buffer]) -> None:
     """Gives a class on top of Buffer the most frequent methods as its own.
@@ -387,7 +387,7 @@ def register_messages(
     vector3: type,
     quaternion: type,
 ) -> None:
-    """The classes that set_message() reads and lookup_message() makes."""
+    """The classes that _set_message() reads and _lookup_message() makes."""
 
 def register_errors(errors: ModuleType) -> None:
     """Failures are raised as the exceptions of this module."""

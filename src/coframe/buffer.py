@@ -169,7 +169,7 @@ class Buffer(_core.Buffer):
             InvalidArgumentException: tf2 refuses it (empty or equal names, NaN, ...), with tf2's text; or the
                 transform is between other frames, or has no stamp.
         """
-        refusals = self.set_plain(parent, child, transform, stamp, static) if authority is DEFAULT_AUTHORITY else None
+        refusals = self._set_plain(parent, child, transform, stamp, static) if authority is DEFAULT_AUTHORITY else None
         if refusals is None:
             refusals = self._set(parent, child, transform, stamp, static, authority)
         if refusals == 0:
@@ -200,7 +200,7 @@ class Buffer(_core.Buffer):
                 hint="Give stamp=..., or static=True if it never changes.",
             )
         self._check_not_frozen(parent, child)
-        return self.set_values(parent, child, _stamp_of(transform, stamp), *transform.values, static, authority)
+        return self._set_values(parent, child, _stamp_of(transform, stamp), *transform.values, static, authority)
 
     def set_many(
         self,
@@ -244,7 +244,7 @@ class Buffer(_core.Buffer):
                 f"stamps of the shape (N,) and poses (N, 7) are wanted, not {times.shape} and {values.shape}"
             )
         self._check_not_frozen(parent, child)
-        refusals, stored, row = self.set_rows(parent, child, times, values, static, authority)
+        refusals, stored, row = self._set_rows(parent, child, times, values, static, authority)
         if refusals:
             x, y, z, qx, qy, qz, qw = values[row].tolist()
             texts = _core.insert_texts(refusals, parent, child, int(times[row]), x, y, z, qx, qy, qz, qw, authority)
@@ -362,7 +362,7 @@ class Buffer(_core.Buffer):
         rows = out if out is not None and _is_rows(out, times.size) else np.empty((times.size, 7))
         twists = np.empty((times.size, 6)) if twist else None
         beyond = np.empty_like(times) if extrapolate is not None else None
-        missing = self.lookup_rows(target, source, times, rows, twists, beyond, on_error, threads, extrapolate, hold)
+        missing = self._lookup_rows(target, source, times, rows, twists, beyond, on_error, threads, extrapolate, hold)
         if missing == 0 and times.size and np.isnan(rows[:, 0]).all():
             self.lookup(target, source, int(np.ravel(stamps_of(stamps))[0]), extrapolate=extrapolate, hold=hold)
         batch = batch_of(rows[:, :3], rows[:, 3:], target, source, times, beyond)
@@ -401,7 +401,7 @@ class Buffer(_core.Buffer):
         first, last = self.span(target, source)
         first = first if start is None else max(first, time.stamp_ns(start))
         last = last if stop is None else min(last, time.stamp_ns(stop))
-        inside = np.frombuffer(self.stamps_between(target, source, first, last), dtype=np.int64)
+        inside = np.frombuffer(self._stamps_between(target, source, first, last), dtype=np.int64)
         stamps = np.unique(np.concatenate([[first], inside, [last]]).astype(np.int64)) if first <= last else inside
         if max_translation is None and max_rotation is None:
             return self.lookup_many(target, source, stamps)
@@ -417,7 +417,7 @@ class Buffer(_core.Buffer):
         ends = np.array([np.iinfo(np.int64).min + 1, np.iinfo(np.int64).max])
         if self.latest_common_time(target, source) == 0:
             return 0, 0
-        self.lookup_rows(target, source, ends, np.empty((2, 7)), None, None, "clip", 1)
+        self._lookup_rows(target, source, ends, np.empty((2, 7)), None, None, "clip", 1)
         return int(ends[0]), int(ends[1])
 
     def wait(
@@ -514,7 +514,7 @@ class Buffer(_core.Buffer):
         """What is in here now, as a buffer of its own that only answers; the samples are shared, not copied."""
         copy = Buffer.__new__(Buffer)
         _core.Buffer.__init__(copy, self.cache_ns)
-        copy.become_snapshot(self)
+        copy._become_snapshot(self)
         copy.dispatcher = Dispatcher()
         return copy
 
@@ -542,11 +542,11 @@ class Buffer(_core.Buffer):
                 have a time of their own.
         """
         now = system_time.time_ns() if now is None else now
-        return [_edge_info(*facts, now) for facts in self.edge_tuples(children)]
+        return [_edge_info(*facts, now) for facts in self._edge_tuples(children)]
 
     def frames(self) -> list[FrameInfo]:
         """Every frame that was ever mentioned, in the order in which they were."""
-        return [FrameInfo(*facts) for facts in self.frame_tuples()]
+        return [FrameInfo(*facts) for facts in self._frame_tuples()]
 
     def _check_not_frozen(self, parent: str, child: str) -> None:
         if self.frozen:

@@ -126,26 +126,26 @@ class Transform(_core.Transform):
     @property
     def translation(self) -> Array:
         """Metres, shape (3,), of a batch (..., 3)."""
-        return _frozen(self.values[:3]) if self.batch is None else self.batch[0]
+        return _frozen(self.values[:3]) if self._batch is None else self._batch[0]
 
     @property
     def quaternion(self) -> Array:
         """x, y, z, w, of unit length, shape (4,), of a batch (..., 4)."""
-        return _frozen(self.values[3:]) if self.batch is None else self.batch[1]
+        return _frozen(self.values[3:]) if self._batch is None else self._batch[1]
 
     @property
     def stamps(self) -> NDArray[np.int64] | None:
         """Nanoseconds of each pose of a batch, shape ``self.shape``; None where it has none, or no batch axes."""
-        return None if self.batch is None else self.batch[2]
+        return None if self._batch is None else self._batch[2]
 
     @property
     def extrapolated(self) -> int | NDArray[np.int64]:
         """How many nanoseconds beyond the data of a link the look-up went; 0: not at all. Of a batch ``self.shape``."""
-        if self.batch is None:
-            return self.beyond
-        if self.batch[3] is None:
+        if self._batch is None:
+            return self._beyond
+        if self._batch[3] is None:
             return np.zeros(self.shape, dtype=np.int64)
-        return np.asarray(self.batch[3])
+        return np.asarray(self._batch[3])
 
     @property
     def rotation(self) -> Array:
@@ -169,7 +169,7 @@ class Transform(_core.Transform):
     @property
     def shape(self) -> tuple[int, ...]:
         """The batch axes; () for a single transform."""
-        return () if self.batch is None else self.batch[0].shape[:-1]
+        return () if self._batch is None else self._batch[0].shape[:-1]
 
     def inverse(self) -> Transform:
         """The same relation from the other end: target and source change places."""
@@ -239,7 +239,7 @@ class Transform(_core.Transform):
         return self @ pose, transform_covariance(self, pose, covariance, own_covariance)
 
     def _any_stamp(self) -> Any:
-        return self.stamp if self.batch is None else self.stamps
+        return self.stamp if self._batch is None else self.stamps
 
     def is_close(self, other: Transform, *, translation: float = 1e-9, rotation: float = 1e-9) -> bool:
         """Whether both are the same motion to within metres and radians; frames and stamps are not compared."""
@@ -288,7 +288,7 @@ class Transform(_core.Transform):
         return f"Transform({frames}translation={_numbers(self.translation)}, rpy={_numbers(self.rpy)}{stamp})"
 
     def __reduce__(self) -> tuple[object, ...]:
-        return _rebuild, (self.values, self.target, self.source, self.stamp, self.batch, self.beyond)
+        return _rebuild, (self.values, self.target, self.source, self.stamp, self._batch, self._beyond)
 
 
 def batch_of(

@@ -82,7 +82,7 @@ def test_lookup_prints_as_echo_does(bag):
 def test_time_travel(bag):
     code, out, _ = run("lookup", bag, "base", "base", "--at", "2s", "--fixed", "odom", "--source-time", "1s", "--json")
     assert code == 0
-    expected = recordings.expected().lookup_full("base", START + 2 * SECOND, "base", START + SECOND, "odom")
+    expected = recordings.expected()._lookup_full("base", START + 2 * SECOND, "base", START + SECOND, "odom")
     assert json.loads(out)["translation"] == pytest.approx(expected.translation.tolist(), abs=1e-12)
     code, _, error = run("lookup", bag, "base", "base", "--fixed", "odom")
     assert (code, error) == (2, "coframe: time travel takes both --fixed and --source-time\n")
@@ -138,12 +138,12 @@ def test_links_without_a_time_in_common_are_told_of_as_they_are(tmp_path, stamps
 
 
 def test_ctrl_c_ends_work_that_is_not_done_with_another_code(bag, tmp_path, monkeypatch):
-    from coframe.bags import mending, recording
+    from coframe.bags import recording, repair
 
     def interrupted(*_arguments):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(mending._Mending, "_mended", interrupted)
+    monkeypatch.setattr(repair._Mending, "_mended", interrupted)
     assert run("bag", "fix", bag, tmp_path / "new")[0] == 130
     assert list(tmp_path.iterdir()) == []
     monkeypatch.setattr(recording.Recording, "_scan", interrupted)

@@ -127,7 +127,9 @@ def test_rows_are_right_while_others_insert():
         while not stop.is_set():
             stamp += 100_000
             for child in ("b", "c"):
-                buffer.set_values("a" if child == "b" else "b", child, stamp, stamp * 1e-9, *(0.0,) * 5, 1.0, False, "")
+                buffer._set_values(
+                    "a" if child == "b" else "b", child, stamp, stamp * 1e-9, *(0.0,) * 5, 1.0, False, ""
+                )
 
     feeder = threading.Thread(target=feed)
     feeder.start()
@@ -152,7 +154,7 @@ class TestSetMany:
         many, single = coframe.Buffer(cache), coframe.Buffer(cache)
         stored = many.set_many("a", "b", stamps, poses, authority="me")
         for i in np.argsort(stamps, kind="stable"):
-            single.set_values("a", "b", int(stamps[i]), *poses[i].tolist(), False, "me")
+            single._set_values("a", "b", int(stamps[i]), *poses[i].tolist(), False, "me")
         assert many.all_frames_as_yaml() == single.all_frames_as_yaml()
         assert stored == single.statistics["stored"]
         asked = rng.integers(SECOND, 11 * SECOND, 500)

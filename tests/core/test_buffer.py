@@ -168,7 +168,7 @@ def test_a_thousand_links_are_walked_and_one_more_is_a_loop():
 )
 def test_refused_transforms_leave_no_trace_but_tf2s_text(parent, child, values, text):
     buffer = coframe.Buffer()
-    refusals = buffer.set_values(parent, child, SECOND, *map(float, values), False, "me")
+    refusals = buffer._set_values(parent, child, SECOND, *map(float, values), False, "me")
     lines = coframe._core.insert_texts(refusals, parent, child, SECOND, *map(float, values), "me")
     assert any(level == "error" and line.startswith(text) for level, line in lines)
     assert buffer.frame_names() == []
@@ -182,7 +182,7 @@ def test_set_raises_what_tf2_logs():
 
 def test_unnormalised_quaternion_is_normalised_and_made_canonical():
     buffer = coframe.Buffer()
-    assert buffer.set_values("a", "b", SECOND, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -2.0, False, "me") == 0
+    assert buffer._set_values("a", "b", SECOND, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -2.0, False, "me") == 0
     assert buffer.lookup("a", "b").values[3:] == (0.0, 0.0, 0.0, 1.0)
 
 
@@ -207,7 +207,7 @@ def test_long_histories_are_searched_exactly():
     rng = np.random.default_rng(0)
     stamps = np.sort(rng.choice(10**9, 5000, replace=False)).astype(np.int64) + 1
     for stamp in rng.permutation(stamps).tolist():
-        buffer.set_values("a", "b", stamp, float(stamp), 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, False, "me")
+        buffer._set_values("a", "b", stamp, float(stamp), 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, False, "me")
     asked = rng.integers(stamps[0], stamps[-1], 2000)
     answers = [buffer.lookup("a", "b", stamp).values[0] for stamp in asked.tolist()]
     np.testing.assert_allclose(answers, asked, rtol=0, atol=1e-5)
@@ -244,7 +244,7 @@ def test_clear_keeps_statics_and_names(buffer):
     buffer.clear()
     assert buffer.can_transform("base", "lidar")
     assert "odom" in buffer
-    assert buffer.why_not("odom", "base", 11 * SECOND) == (
+    assert buffer._why_not("odom", "base", 11 * SECOND) == (
         ", when looking up transform from frame [base] to frame [odom]"
     )
 
@@ -288,14 +288,14 @@ def answers(buffer, stamp):
 
 
 def test_time_travel(buffer):
-    transform = buffer.lookup_full("base", 12 * SECOND, "base", 10 * SECOND, "odom")
+    transform = buffer._lookup_full("base", 12 * SECOND, "base", 10 * SECOND, "odom")
     assert transform.translation == pytest.approx([-2, 0, 0])
     assert transform.stamp == 12 * SECOND
 
 
 def test_can_transform_says_why_not_in_its_own_words(buffer):
-    assert buffer.why_not("odom", "lidar") == ""
-    assert buffer.why_not("nobody", "lidar") == (
+    assert buffer._why_not("odom", "lidar") == ""
+    assert buffer._why_not("nobody", "lidar") == (
         'Invalid frame ID "nobody" passed to canTransform argument target_frame - frame does not exist'
     )
 
@@ -353,7 +353,7 @@ def test_a_dynamic_transform_needs_a_stamp():
 def test_readers_and_a_writer_at_once():
     """Each sample's seven numbers belong together whatever the threads do."""
     buffer = coframe.Buffer(None)
-    buffer.set_values("a", "b", 1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, False, "me")
+    buffer._set_values("a", "b", 1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, False, "me")
     stop = threading.Event()
     wrong = []
 
@@ -367,7 +367,7 @@ def test_readers_and_a_writer_at_once():
     for thread in threads:
         thread.start()
     for i in range(2, 20_000):
-        buffer.set_values("a", "b", i, float(i), float(i), float(i), 0.0, 0.0, 0.0, 1.0, False, "me")
+        buffer._set_values("a", "b", i, float(i), float(i), float(i), 0.0, 0.0, 0.0, 1.0, False, "me")
     stop.set()
     for thread in threads:
         thread.join()
@@ -432,4 +432,4 @@ def test_of_several_values_that_are_no_numbers_the_first_is_told():
             return 1.0
 
     with pytest.raises(TypeError, match="must be real number, not str"):
-        coframe.Buffer().set_values("a", "b", 1, "x", Number(), None, 0.0, 0.0, 0.0, 1.0, False, "me")
+        coframe.Buffer()._set_values("a", "b", 1, "x", Number(), None, 0.0, 0.0, 0.0, 1.0, False, "me")

@@ -176,8 +176,8 @@ class TestEdges:
         assert edge.rate == 0.0
 
     def test_rejected_samples_by_reason(self, buffer):
-        buffer.set_values("odom", "base", 12 * SECOND, *(0.0,) * 7, False, "x")  # a quaternion of zeros
-        buffer.set_values("odom", "base", 12 * SECOND, float("nan"), *(0.0,) * 5, 1.0, False, "x")
+        buffer._set_values("odom", "base", 12 * SECOND, *(0.0,) * 7, False, "x")  # a quaternion of zeros
+        buffer._set_values("odom", "base", 12 * SECOND, float("nan"), *(0.0,) * 5, 1.0, False, "x")
         buffer.set("odom", "base", coframe.Transform(), 100 * SECOND)
         buffer.set("odom", "base", coframe.Transform(), SECOND)
         buffer.set("odom", "base", coframe.Transform(), 95 * SECOND)
@@ -216,11 +216,11 @@ class TestSnapshot:
                     (
                         copy,
                         questions,
-                        [copy.why_not("odom", f, s) or copy.lookup("odom", f, s).values for f, s in questions],
+                        [copy._why_not("odom", f, s) or copy.lookup("odom", f, s).values for f, s in questions],
                     )
                 )
         for copy, questions, answers in snapshots:
-            assert [copy.why_not("odom", f, s) or copy.lookup("odom", f, s).values for f, s in questions] == answers
+            assert [copy._why_not("odom", f, s) or copy.lookup("odom", f, s).values for f, s in questions] == answers
 
     def test_it_takes_nothing_in(self, buffer):
         with pytest.raises(coframe.InvalidArgumentException, match="frozen"):

@@ -27,7 +27,7 @@ LATE = 5_000_000  # ns
 
 
 def insert(buffer, child, stamp, x=0.0):
-    assert buffer.set_values("map", child, stamp, x, 0.0, 0.0, *IDENTITY, False, "test") == 0
+    assert buffer._set_values("map", child, stamp, x, 0.0, 0.0, *IDENTITY, False, "test") == 0
 
 
 def all_asleep(threads):

@@ -176,7 +176,7 @@ def change(buffer, rng, names, ordered):
     elif dice < 0.2:
         buffer.clear()
     else:
-        buffer.set_values(parent, child, stamp, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, static, "test")
+        buffer._set_values(parent, child, stamp, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, static, "test")
 
 
 def question(rng, names):
@@ -202,5 +202,5 @@ def test_no_wait_is_forgotten(seed):
         change(buffer, rng, names, ordered)
         waits = {key: one for key, one in list(waits.items())[-60:] if one[1].answer() is None}
         for asked, _ in waits.values():
-            can = buffer.can_transform if len(asked) == 3 else buffer.can_transform_full
+            can = buffer.can_transform if len(asked) == 3 else buffer._can_transform_full
             assert not can(*asked), f"nobody answered {asked}"

@@ -60,7 +60,7 @@ def test_a_late_link_by_how_much_and_when_its_next_sample_is_due(buffer):
     assert (late.name, late.state, late.by, late.due) == ("base -> arm", "too_new", 87_654_321, 12_345_679)
     assert "base -> arm is late by 87.7 ms, by its rate due 12.3 ms after that time" in str(why)
     assert "lookup_transform('odom', 'arm', stamp, timeout=Duration(seconds=0.5))" in why.hint
-    assert why.text == buffer.why_not("odom", "arm", 11_987_654_321)
+    assert why.text == buffer._why_not("odom", "arm", 11_987_654_321)
 
 
 def test_both_late_links_are_named(buffer):

@@ -153,7 +153,7 @@ def test_every_page_is_printed(code):
         (["nowhere.mcap"], 1, "nowhere.mcap cannot be read"),
         (["--duration", "soon"], 2, "--duration"),
         (["--json", "--sarif"], 2, "exclude each other"),
-        (["--namespace", "/robot1"], 2, "Live, give --tf-topic /robot1/tf"),
+        (["--namespace", "/robot1"], 2, "For live transforms, use --tf-topic /robot1/tf"),
     ],
 )
 def test_wrong_usage_is_a_sentence(arguments, code, text):

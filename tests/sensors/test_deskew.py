@@ -346,9 +346,9 @@ def test_the_buffer_may_be_written_to_meanwhile(buffer, motion, points, random):
         for number in itertools.count(1):
             if done.is_set():
                 return
-            buffer.set_values("odom", "lidar", motion.last + 2 * number, *identity, False, "test")
-            buffer.set_values("odom", "lidar", motion.last + number, *identity, False, "test")
-            buffer.set_values("odom", f"child {number}", START, *identity, False, "test")
+            buffer._set_values("odom", "lidar", motion.last + 2 * number, *identity, False, "test")
+            buffer._set_values("odom", "lidar", motion.last + number, *identity, False, "test")
+            buffer._set_values("odom", f"child {number}", START, *identity, False, "test")
 
     writer = threading.Thread(target=write)
     writer.start()

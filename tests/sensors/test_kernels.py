@@ -68,7 +68,7 @@ rows = np.random.default_rng(3).normal(size=(1003, 7))
 stamps = np.arange(1, 1004)
 one_by_one, batch = coframe.Buffer(None), coframe.Buffer(None)
 for stamp, row in zip(stamps.tolist(), rows.tolist()):
-    one_by_one.set_values("a", "b", stamp, *row, False, "")
+    one_by_one._set_values("a", "b", stamp, *row, False, "")
 batch.set_many("a", "b", stamps, rows)
 for each in (one_by_one, batch):
     for stamp in stamps.tolist():

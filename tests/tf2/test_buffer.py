@@ -124,7 +124,7 @@ def test_a_future_completes_when_data_come_in_natively(buffer):
     done = _core.Event()
     future.add_done_callback(lambda _: done.set())
     # Past everything of Python's, as a reader on the wire does.
-    buffer._coframe_buffer.set_values("a", "b", 1_000_000_000, *(0.0,) * 6, 1.0, False, "wire")
+    buffer._coframe_buffer._set_values("a", "b", 1_000_000_000, *(0.0,) * 6, 1.0, False, "wire")
     assert done.wait(10_000_000_000)
     assert future.result().header.frame_id == "a"
 

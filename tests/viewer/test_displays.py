@@ -15,7 +15,6 @@ from coframe.viewer.displays import CannotDrawError, Options
 from coframe.viewer.displays.grids import draw_grid
 from coframe.viewer.displays.images import MOST_PIXELS, draw_compressed_image, draw_image
 from coframe.viewer.displays.points import draw_cloud, draw_scan
-from coframe.viewer.sources.messages import header_stamp
 from coframe.wire.qos import QoS
 
 SECOND = 1_000_000_000
@@ -344,19 +343,6 @@ def test_hostile_clouds_and_scans_are_told_of_and_not_drawn():
     nothing.angle_increment = float("nan")
     assert draw_scan(nothing, Options()).frame == "map"
     assert Options.of({"color_by": [], "axis": {}, "decay": "long", "trail": 1e99, "keep": None}).keep == 1000
-
-
-def test_the_stamp_is_read_from_the_bytes():
-    from coframe.messages import serialize
-
-    made = message("sensor_msgs/msg/LaserScan", "a", 12 * SECOND + 34)
-    assert header_stamp("sensor_msgs/msg/LaserScan", serialize(made)) == 12 * SECOND + 34
-    marker = message("visualization_msgs/msg/Marker", "a", 5 * SECOND)
-    markers = find("visualization_msgs/msg/MarkerArray")(markers=[marker])
-    assert header_stamp("visualization_msgs/msg/MarkerArray", serialize(markers)) == 5 * SECOND
-    empty = find("visualization_msgs/msg/MarkerArray")()
-    assert header_stamp("visualization_msgs/msg/MarkerArray", serialize(empty)) == 0
-    assert header_stamp("sensor_msgs/msg/LaserScan", b"\x00\x01") == 0
 
 
 def test_a_large_cloud_is_thinned_to_what_the_page_can_draw(decoded):

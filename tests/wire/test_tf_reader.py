@@ -81,9 +81,9 @@ def test_transforms_of_another_process_fill_the_buffer(participant, node, child,
     assert reader.matched == 1
     assert {frame.authority for frame in buffer.frames() if frame.name == "base_link"} == {"default_authority"}
     reader.close()
-    changes = buffer.changes
+    changes = buffer._changes
     assert other.finish() == (0, "")
-    assert buffer.changes == changes, "nothing is stored after close"
+    assert buffer._changes == changes, "nothing is stored after close"
 
 
 def test_transforms_are_stored_while_python_does_something_else(participant, node, child, eventually):
@@ -91,9 +91,9 @@ def test_transforms_are_stored_while_python_does_something_else(participant, nod
     reader = participant.tf_reader(node, "/tf", buffer, static=False)
     other = child(BROADCASTER)
     eventually(lambda: buffer.can_transform("odom", "base_link"))
-    before = buffer.changes
+    before = buffer._changes
     sum(range(30_000_000))  # one C call, which holds the GIL
-    stored = buffer.changes - before
+    stored = buffer._changes - before
     reader.close()
     assert stored > 50
     assert other.finish() == (0, "")
@@ -191,8 +191,8 @@ def test_readers_come_and_go_under_load(participant, node, child, eventually):
         reader = participant.tf_reader(node, "/tf", passing, static=False)
         reader.close()
         del passing, reader
-    seen = buffer.changes
-    eventually(lambda: buffer.changes > seen)
+    seen = buffer._changes
+    eventually(lambda: buffer._changes > seen)
     assert other.process.poll() is None
 
 

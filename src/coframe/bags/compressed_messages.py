@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.bags.compression import LARGEST, DamagedError, unpack
-from coframe.bags.storage import Batch, Slices, Storage
+from coframe.bags.storage import Batch, Storage
+from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -33,7 +34,7 @@ class UnpackedMessages(Storage):
                 continue
             unpacked = [self._unpack(batch.channel, message) for message in batch.messages.each()]
             there = np.array([message is not None for message in unpacked], dtype=bool)
-            messages = Slices.joined([message for message in unpacked if message is not None])
+            messages = Slices.join([message for message in unpacked if message is not None])
             yield Batch(batch.channel, batch.received[there], batch.positions[there], messages)
 
     def _unpack(self, channel: Channel, message: memoryview) -> bytes | None:

@@ -10,7 +10,8 @@ import numpy as np
 
 from coframe import _core
 from coframe.bags.compression import LARGEST, DamagedError, unpack
-from coframe.bags.storage import Batch, Channel, ChunkedStorage, Slices
+from coframe.bags.storage import Batch, Channel, ChunkedStorage
+from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Iterator

@@ -15,15 +15,15 @@ import numpy as np
 from coframe import time
 from coframe.bags import tree
 from coframe.bags.compression import DamagedError
-from coframe.bags.decoding import decoder
-from coframe.bags.header_stamps import HEAD, stamps_for
+from coframe.bags.decoding import decoder, ros2_name
 from coframe.bags.opening import open_files
 from coframe.bags.problems import Problems
-from coframe.bags.storage import Slices
 from coframe.bags.table import edge_table
 from coframe.bags.transforms import ingest_for
 from coframe.errors import RecordingError
 from coframe.frame_names import absolute, kept, renaming
+from coframe.messages.header_peek import STAMP_BYTES, stamp_reader
+from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
     import os
@@ -33,9 +33,9 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe import _core
-    from coframe.bags.header_stamps import StampPlace
     from coframe.bags.storage import Channel, Storage
     from coframe.buffer import Buffer
+    from coframe.messages.header_peek import StampReader
     from coframe.time import StampLike
 
 __all__ = ["RecordedMessage", "Recording", "Topic", "open_bag"]
@@ -108,9 +108,9 @@ class _Track:
     stamps: array[int] = field(default_factory=lambda: array("q"))  # empty where they have not been read
 
     @cached_property
-    def place(self) -> StampPlace | None:
-        """Where the messages have their stamps."""
-        return stamps_for(self.channel)
+    def stamp_reader(self) -> StampReader | None:
+        """Reader for the stamps of the messages; None if they do not begin with a stamp."""
+        return stamp_reader(ros2_name(self.channel.type), self.channel.encoding, self.channel.definition)
 
 
 class _Index(NamedTuple):
@@ -230,7 +230,8 @@ class Recording:
             track.received.frombytes(received.tobytes())
             track.positions.frombytes(positions.tobytes())
             if messages is not None:
-                stamps = received if track.place is None else track.place.stamps(messages, received)
+                reader = track.stamp_reader
+                stamps = received if reader is None else reader.stamps(messages, received)
                 track.stamps.frombytes(stamps.tobytes())
                 if ingest is not None:
                     ingest(received, messages)
@@ -249,7 +250,7 @@ class Recording:
             if _has_transforms(track.channel):
                 for position in track.positions:
                     with suppress(DamagedError):  # told of before
-                        yield track.channel, Slices.joined([track.storage.read(position)])
+                        yield track.channel, Slices.join([track.storage.read(position)])
 
     def _topic(self, name: str) -> Topic:
         tracks = self._tracks[name]
@@ -448,12 +449,13 @@ class Recording:
 
     def _track_stamps(self, track: _Track) -> NDArray[np.int64]:
         received = _numbers(track.received)
-        if track.place is None:
+        if track.stamp_reader is None:
             return self._on_stamps_clock(received)
         if len(track.stamps) == len(track.received):
             return _numbers(track.stamps)
         self._check_open()
-        return track.place.stamps(Slices.joined([_head(track, position) for position in track.positions]), received)
+        heads = Slices.join([_head(track, position) for position in track.positions])
+        return track.stamp_reader.stamps(heads, received)
 
     def _on_stamps_clock(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
         """Times of receipt on the clock that stamps are told by."""
@@ -521,7 +523,7 @@ def _has_transforms(channel: Channel) -> bool:
 
 def _head(track: _Track, position: int) -> bytes:
     try:
-        return track.storage.head(position, HEAD)
+        return track.storage.head(position, STAMP_BYTES)
     except DamagedError:
         return b""
 

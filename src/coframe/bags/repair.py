@@ -324,4 +324,4 @@ def _is_taken(transform: TransformStamped) -> bool:
     """Whether tf2 takes a transform in."""
     t, q = transform.transform.translation, transform.transform.rotation
     names = (transform.header.frame_id, transform.child_frame_id)
-    return Buffer(None).set_values(*names, 0, t.x, t.y, t.z, q.x, q.y, q.z, q.w, True, "") == 0
+    return Buffer(None)._set_values(*names, 0, t.x, t.y, t.z, q.x, q.y, q.z, q.w, True, "") == 0

@@ -9,7 +9,8 @@ import numpy as np
 
 from coframe.bags.compression import LARGEST, DamagedError, unpack
 from coframe.bags.offered_qos import OfferedQos, to_yaml
-from coframe.bags.storage import Batch, Channel, ChunkedStorage, Slices
+from coframe.bags.storage import Batch, Channel, ChunkedStorage
+from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.bags.compression import DamagedError
-from coframe.bags.storage import Batch, Channel, Slices, Storage
+from coframe.bags.storage import Batch, Channel, Storage
+from coframe.messages.slices import Slices
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -100,7 +101,7 @@ class SqliteStorage(Storage):
                     self._channels[number],
                     np.fromiter(received, np.int64, len(group)),
                     np.fromiter(positions, np.int64, len(group)).astype(np.uint64),
-                    Slices.joined(messages) if with_data else None,
+                    Slices.join(messages) if with_data else None,
                 )
 
     def _read_channels(self) -> dict[int, Channel]:

@@ -8,19 +8,19 @@ from collections import OrderedDict
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
-import numpy as np
-
 from coframe.bags.compression import LARGEST, DamagedError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
+    import numpy as np
     from numpy.typing import NDArray
 
     from coframe.bags.problems import Problems
+    from coframe.messages.slices import Slices
 
-__all__ = ["Batch", "Channel", "ChunkedStorage", "Slices", "Storage"]
+__all__ = ["Batch", "Channel", "ChunkedStorage", "Storage"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,36 +42,6 @@ class Channel:
     definition: bytes = b""
     definition_format: str = ""
     offered_qos: str = ""
-
-
-class Slices(NamedTuple):
-    """Many messages' bytes in one piece.
-
-    Attributes:
-        data: All of them, and perhaps others between.
-        starts: Where each begins, (N,) uint64.
-        ends: Where each ends, (N,) uint64.
-    """
-
-    data: bytes
-    starts: NDArray[np.uint64]
-    ends: NDArray[np.uint64]
-
-    @staticmethod
-    def joined(messages: Sequence[bytes | memoryview]) -> Slices:
-        """Of messages that lie apart."""
-        lengths = np.fromiter(map(len, messages), np.uint64, len(messages))
-        return Slices.adjoining(b"".join(messages), np.cumsum(lengths))
-
-    @staticmethod
-    def adjoining(data: bytes, ends: NDArray[np.uint64]) -> Slices:
-        """Of messages of which each begins where the one before it ends."""
-        return Slices(data, np.concatenate([np.zeros(1, dtype=np.uint64), ends])[:-1], ends)
-
-    def each(self) -> Iterator[memoryview]:
-        """One message after the other."""
-        view = memoryview(self.data)
-        return (view[start:end] for start, end in zip(self.starts.tolist(), self.ends.tolist(), strict=True))
 
 
 class Batch(NamedTuple):

@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from coframe import _core
+from coframe import _core, time
+from coframe.messages.encapsulation import HEADER_SIZE, byte_order
+from coframe.messages.tf_columns import TransformColumns, tf_columns
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from numpy.typing import NDArray
-
-    from coframe.bags.storage import Channel, Slices
+    from coframe.bags.storage import Channel
     from coframe.buffer import Buffer
+    from coframe.messages.slices import Slices
 
-__all__ = ["Columns", "Ingest", "ingest_for", "is_static", "tf_columns"]
+__all__ = ["Ingest", "ingest_for", "is_static"]
 
-_SECOND = 1_000_000_000
 # Behind the count, the stamp and the name's length, and in ROS 1 the number, in CDR the header.
 _FIRST_PARENT = 20
 # What damaged bytes make the functions below raise.
@@ -34,46 +34,6 @@ class _Stamped(NamedTuple):
     child: str
     stamp: int
     values: tuple[float, float, float, float, float, float, float]
-
-
-class Columns(NamedTuple):
-    """The transforms of many messages as they were sent, a row each, also those that a buffer refuses.
-
-    Attributes:
-        message: (N,) which message the row is from.
-        stamp: (N,) nanoseconds.
-        parent: (N,) number of the parent's name.
-        child: (N,) number of the child's name.
-        values: (N, 7) x, y, z, qx, qy, qz, qw.
-        names: By number.
-        damaged: How many messages are not what they claim to be.
-    """
-
-    message: NDArray[np.int64]
-    stamp: NDArray[np.int64]
-    parent: NDArray[np.int64]
-    child: NDArray[np.int64]
-    values: NDArray[np.float64]
-    names: list[str]
-    damaged: int
-
-
-def tf_columns(messages: Slices, encoding: str = "cdr") -> Columns:
-    """Of TFMessages as ROS 2 sends them, or as ROS 1 does (``ros1``)."""
-    *columns, names, damaged, _ = _core.transform_columns(messages.data, messages.starts, messages.ends, encoding)
-    kinds = (np.uint32, np.int64, np.uint32, np.uint32, np.float64)
-    message, stamp, parent, child, values = (
-        np.frombuffer(column, dtype=kind) for column, kind in zip(columns, kinds, strict=True)
-    )
-    return Columns(
-        message.astype(np.int64),
-        stamp,
-        parent.astype(np.int64),
-        child.astype(np.int64),
-        values.reshape(-1, 7),
-        names,
-        damaged,
-    )
 
 
 class Ingest:
@@ -121,7 +81,7 @@ class Ingest:
                 damaged, reason = damaged + 1, reason or f"{type(error).__name__}: {error}"
         return damaged, reason
 
-    def columns(self, messages: Slices) -> Columns:
+    def columns(self, messages: Slices) -> TransformColumns:
         """The same messages as columns."""
         if isinstance(self._decode, str):
             return tf_columns(messages, self._decode)
@@ -135,7 +95,7 @@ class Ingest:
         numbers: dict[str, int] = {}
         pairs = [[numbers.setdefault(name, len(numbers)) for name in (row.parent, row.child)] for _, row in rows]
         parent, child = np.array(pairs, dtype=np.int64).reshape(-1, 2).T
-        return Columns(
+        return TransformColumns(
             np.array([number for number, _ in rows], dtype=np.int64),
             np.array([row.stamp for _, row in rows], dtype=np.int64),
             parent,
@@ -148,7 +108,7 @@ class Ingest:
     def _set(self, buffer: Buffer, transform: _Stamped) -> None:
         names = (transform.parent, transform.child)
         parent, child = names if self._renaming is None else map(self._renaming, names)
-        buffer.set_values(parent, child, transform.stamp, *transform.values, self.static, self._authority)
+        buffer._set_values(parent, child, transform.stamp, *transform.values, self.static, self._authority)
 
 
 def is_static(topic: str) -> bool:
@@ -166,8 +126,10 @@ def ingest_for(channel: Channel, renaming: _core.Renaming | None = None) -> Inge
 
 def _foxglove_cdr(data: bytes | memoryview) -> Iterator[_Stamped]:
     """foxglove_msgs/FrameTransform: one transform, without the count that a TFMessage begins with."""
-    order = "<" if data[1:2] == b"\x01" else ">"
-    body = data[4:]
+    order = byte_order(data)
+    if order is None:
+        raise ValueError("the header does not say plain CDR (00 01 or 00 00)")
+    body = data[HEADER_SIZE:]
     seconds, nanoseconds = struct.unpack_from(order + "iI", body)
     position, names = 8, []
     for _ in range(2):
@@ -178,7 +140,7 @@ def _foxglove_cdr(data: bytes | memoryview) -> Iterator[_Stamped]:
         names.append(str(body[position + 4 : position + 4 + length], "utf-8").removesuffix("\0"))
         position += 4 + length
     values = struct.unpack_from(order + "7d", body, (position + 7) & ~7)
-    yield _Stamped(names[0], names[1], seconds * _SECOND + nanoseconds, values)
+    yield _Stamped(names[0], names[1], seconds * time.SECOND + nanoseconds, values)
 
 
 def _json_one(data: bytes | memoryview) -> Iterator[_Stamped]:
@@ -194,7 +156,7 @@ def _from_object(transform: Any) -> _Stamped:
     stamp, t, q = (transform.get(name, {}) for name in ("timestamp", "translation", "rotation"))
     values = [t.get(axis, 0.0) for axis in "xyz"] + [q.get(axis, 0.0) for axis in "xyzw"]
     x, y, z, qx, qy, qz, qw = map(float, values)
-    nanoseconds = int(stamp.get("sec", 0)) * _SECOND + int(stamp.get("nsec", 0))
+    nanoseconds = int(stamp.get("sec", 0)) * time.SECOND + int(stamp.get("nsec", 0))
     return _Stamped(transform["parent_frame_id"], transform["child_frame_id"], nanoseconds, (x, y, z, qx, qy, qz, qw))
 
 
@@ -213,7 +175,7 @@ def _protobuf_one(data: bytes | memoryview) -> Iterator[_Stamped]:
     x, y, z = (_double(t.get(number)) for number in (1, 2, 3))
     qx, qy, qz, qw = (_double(q.get(number)) for number in (1, 2, 3, 4))
     seconds = (stamp.get(1, 0) + (1 << 63)) % (1 << 64) - (1 << 63)  # two's complement in 64 bits
-    nanoseconds = seconds * _SECOND + stamp.get(2, 0)
+    nanoseconds = seconds * time.SECOND + stamp.get(2, 0)
     yield _Stamped(
         str(parts.get(2, b""), "utf-8"), str(parts.get(3, b""), "utf-8"), nanoseconds, (x, y, z, qx, qy, qz, qw)
     )

@@ -15,8 +15,9 @@ if TYPE_CHECKING:
 
     from coframe import _core
     from coframe.bags.problems import Problems
-    from coframe.bags.storage import Channel, Slices
+    from coframe.bags.storage import Channel
     from coframe.buffer import EdgeInfo
+    from coframe.messages.slices import Slices
 
 __all__ = ["Transforms", "Wanted", "namespace_of", "report", "span"]
 

@@ -1,4 +1,4 @@
-"""The command line: one file a command."""
+"""The command line ``coframe``: one module for each command."""
 
 from __future__ import annotations
 
@@ -10,21 +10,45 @@ if TYPE_CHECKING:
 
 __all__ = ["main"]
 
+_INTERRUPTED = 130  # exit code: 128 + SIGINT, as shells have it
+# The extra that installs each package which a command may need.
+_EXTRAS = {
+    "cyclonedds": "dds",
+    "google": "protobuf",
+    "lz4": "bags",
+    "mcap": "bags",
+    "pyarrow": "parquet",
+    "pydyf": "pdf",
+    "rosbags": "bags",
+    "websockets": "viewer",
+    "xacro": "robots",
+    "yaml": "bags",
+    "zstandard": "bags",
+}
+
 
 def main() -> None:
-    """The console script ``coframe``."""
+    """Run the console script ``coframe``."""
     try:
         _app(sys.argv[1] if len(sys.argv) > 1 else "")()
     except ModuleNotFoundError as error:
-        if error.name not in {"typer", "rich"}:
-            raise
-        sys.exit(f"coframe: the command line needs the package {error.name}: pip install 'coframe[all]'")
-    except KeyboardInterrupt:  # while everything is being loaded
-        sys.exit(130)
+        sys.exit(_what_to_install(error))
+    except KeyboardInterrupt:  # Ctrl-C during the imports.
+        sys.exit(_INTERRUPTED)
 
 
 def _app(name: str) -> typer.Typer:
-    """A command by itself starts in half the time; without one that there is, it takes all to say so."""
-    from coframe.cli.commands import COMMANDS, app_with  # noqa: PLC0415 - the sentence above must come before it
+    """Return the app with the named command only, which starts twice as fast, or with all commands."""
+    from coframe.cli.commands import COMMANDS, build_app  # noqa: PLC0415 - main() reports a missing typer
 
-    return app_with([name] if name in COMMANDS else COMMANDS)
+    return build_app([name] if name in COMMANDS else COMMANDS)
+
+
+def _what_to_install(error: ModuleNotFoundError) -> str:
+    """Return the sentence about a package that is not installed; raise the error again for any other module."""
+    package = (error.name or "").partition(".")[0]
+    if package in {"typer", "rich"}:
+        return "The command line needs the packages typer and rich: pip install 'coframe[cli]'"
+    if package not in _EXTRAS:
+        raise error
+    return f"coframe: This command needs the package {package}: pip install 'coframe[{_EXTRAS[package]}]'"

@@ -1,4 +1,4 @@
-"""``python -m coframe.cli``: the console script where it is not on the path."""
+"""Run the command line with ``python -m coframe.cli``, where the script ``coframe`` is not on the path."""
 
 from coframe.cli import main
 

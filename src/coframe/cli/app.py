@@ -1,9 +1,9 @@
-"""All commands together."""
+"""The command line with all commands."""
 
 from __future__ import annotations
 
-from coframe.cli.commands import COMMANDS, app_with
+from coframe.cli.commands import COMMANDS, build_app
 
 __all__ = ["app"]
 
-app = app_with(COMMANDS)
+app = build_app(COMMANDS)

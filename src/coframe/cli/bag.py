@@ -13,27 +13,37 @@ from rich.table import Table
 from rich.text import Text
 
 from coframe.bags import COMPRESSIONS, mend, summarize
-from coframe.cli.recordings import SECOND, BagArgument, NamespaceOption, opened, work, working
-from coframe.cli.session import (
+from coframe.cli.help_format import PlainCommand, PlainGroup
+from coframe.cli.lifecycle import run_to_completion
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
+    BagArgument,
     KeepOption,
+    NamespaceOption,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
     TfStaticTopicOption,
     TfTopicOption,
-    fail,
-    printable,
 )
+from coframe.cli.output import fail, printable
+from coframe.cli.progress import task_progress
+from coframe.cli.recordings import open_recording
 from coframe.formatting import seconds
+from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
     from coframe.bags import Summary
 
 __all__ = ["bag"]
 
-bag = typer.Typer(help="What recordings hold, and how to mend them.", no_args_is_help=True)
+bag = typer.Typer(
+    cls=PlainGroup,
+    help="Inspect and repair recordings.\n\nExample: coframe bag info run.mcap",
+    no_args_is_help=True,
+    rich_markup_mode=None,
+)
 
 
 @bag.callback()
@@ -41,7 +51,7 @@ def _bag() -> None:
     pass
 
 
-@bag.command()
+@bag.command(cls=PlainCommand, short_help="Show topics, transform trees and gaps of a recording.")
 def info(
     bag: BagArgument,
     namespace: NamespaceOption = None,
@@ -55,7 +65,7 @@ def info(
 
     Example: coframe bag info run.mcap
     """
-    with work(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+    with run_to_completion(), open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         summary = summarize(recording)
         if as_json:
             print(json.dumps(_plain(summary), indent=2))
@@ -63,7 +73,7 @@ def info(
             _print(summary)
 
 
-@bag.command()
+@bag.command(cls=PlainCommand, short_help="Write a repaired copy of a recording.")
 def fix(
     bag: BagArgument,
     output: Annotated[Path, typer.Argument(metavar="OUT", help="The new folder, which must not be there yet.")],
@@ -86,9 +96,9 @@ def fix(
     """
     if compression not in COMPRESSIONS:
         fail(f"--compression: there is no {compression!r}: it is one of {', '.join(COMPRESSIONS)}", code=2)
-    with work():
+    with run_to_completion():
         robot: dict[str, str] = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
-        with working() as progress:
+        with task_progress() as progress:
             mended = mend(
                 bag,
                 output,
@@ -154,4 +164,4 @@ def _table(*columns: str) -> Table:
 
 def _when(nanoseconds: int) -> str:
     date = datetime.fromtimestamp(nanoseconds // SECOND, timezone.utc)
-    return f"{date:%Y-%m-%d %H:%M:%S}.{nanoseconds % SECOND // 1_000_000:03d} UTC"
+    return f"{date:%Y-%m-%d %H:%M:%S}.{nanoseconds % SECOND // MILLISECOND:03d} UTC"

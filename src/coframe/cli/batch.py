@@ -12,16 +12,16 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from coframe.bags import Question, answer_all
 from coframe.bags.batch import ENGINES
-from coframe.cli.recordings import NamespaceOption, work
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_to_completion
+from coframe.cli.options import (
     KeepOption,
+    NamespaceOption,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    fail,
-    printable,
     recorded_tf_topics,
 )
+from coframe.cli.output import fail, printable
 
 if TYPE_CHECKING:
     from coframe.bags import Answer
@@ -61,7 +61,7 @@ def batch(
         fail(str(error), code=2)
     if on not in ENGINES:
         fail(f"--on is one of {', '.join(ENGINES)}, not {on!r}", code=2)
-    with work():
+    with run_to_completion():
         answers = _ask(bags, question, output, on, workers)
         bad = [one for one in answers if one.error]
         for one in answers:

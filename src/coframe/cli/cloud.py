@@ -11,15 +11,17 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from coframe.bags import Clouds, write_clouds
-from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, work
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_to_completion
+from coframe.cli.options import (
+    BagArgument,
     KeepOption,
+    NamespaceOption,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    fail,
-    printable,
 )
+from coframe.cli.output import fail, printable
+from coframe.cli.recordings import open_recording, parse_time
 
 if TYPE_CHECKING:
     from coframe.bags import Recording
@@ -71,7 +73,7 @@ def cloud(
         fail(f"--voxel must be above 0 m, not {voxel:g}", code=2)
     if at is not None and (start is not None or stop is not None):
         fail("--at excludes --start and --stop", code=2)
-    with work(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+    with run_to_completion(), open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         when = {"at": at, "start": start, "stop": stop}
         try:
             clouds = Clouds(
@@ -102,7 +104,7 @@ def cloud(
 
 
 def _instants(recording: Recording, when: dict[str, str | None]) -> dict[str, Any]:
-    return {name: None if text is None else instant(f"--{name}", text, recording) for name, text in when.items()}
+    return {name: None if text is None else parse_time(f"--{name}", text, recording) for name, text in when.items()}
 
 
 def _write(clouds: Clouds, output: Path, format_: str | None, voxel: float | None) -> int:

@@ -1,56 +1,86 @@
-"""The commands: each is a function, or an app of its own, of its name in the module of its name."""
+"""The table of commands: each is a function, or a group, with the name of its module."""
 
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from coframe.cli.new_app import new_app
+import coframe
+from coframe.cli.help_format import PlainCommand, PlainGroup
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["COMMANDS", "app_with"]
+__all__ = ["COMMANDS", "build_app"]
 
-# What they do not know is for the node: --ros-args, and arguments of a xacro file.
-_NODE = {"context_settings": {"ignore_unknown_options": True, "allow_extra_args": True}}
-# How each is registered; `cls` is a name in its module.
-COMMANDS: dict[str, dict[str, Any]] = {
-    "demo": {},
-    "doctor": {},
-    "echo": {},
-    "frames": {},
-    "monitor": {},
-    "why": {"cls": "WhyCommand"},
-    "view": {},
-    "relay": {},
-    "lookup": {},
-    "trajectory": {},
-    "record": {},
-    "play": {"cls": "PlayCommand"},
-    "cloud": {},
-    "batch": {},
-    "robot": _NODE,
-    "joints": _NODE,
-    "bag": {},
-    # The numbers of a transform may be negative: it reads its arguments itself.
-    "static": {"add_help_option": False, **_NODE},
+# These commands pass unknown words on: --ros-args to a node, NAME:=VALUE to a xacro file.
+_PASSES_WORDS_ON = {"context_settings": {"ignore_unknown_options": True, "allow_extra_args": True}}
+# The line in `coframe --help`, and how the command is registered; `cls` is the name of a class in its module.
+COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
+    "demo": ("Start a simulated robot and show its moving transform tree.", {}),
+    "view": ("Show frames, sensor data and markers in a browser tab.", {}),
+    "doctor": ("Find problems with transforms, live or in a recording.", {}),
+    "why": ("Explain why a transform is available, or why it is not.", {}),
+    "frames": ("Show the transform trees, or write a diagram of them.", {}),
+    "monitor": ("Show rate, jitter, delay and age of live transforms.", {}),
+    "echo": ("Print a live transform repeatedly, like tf2_echo.", {}),
+    "static": (
+        "Publish a static transform, like static_transform_publisher.",
+        # Numbers of a transform may be negative, so the command reads its arguments itself.
+        {"add_help_option": False, **_PASSES_WORDS_ON},
+    ),
+    "robot": ("Publish a robot's transforms, like robot_state_publisher.", _PASSES_WORDS_ON),
+    "joints": ("Publish joint states, like joint_state_publisher.", _PASSES_WORDS_ON),
+    "relay": ("Merge the transforms of several robots, or split them.", {}),
+    "record": ("Record topics as MCAP files in rosbag2's layout.", {}),
+    "play": ("Replay a recording.", {"cls": "PlayCommand"}),
+    "bag": ("Inspect and repair recordings.", {}),
+    "lookup": ("Print a transform from a recording.", {}),
+    "trajectory": ("Write the trajectory of a frame from a recording.", {}),
+    "cloud": ("Write point clouds or scans from a recording in one frame.", {}),
+    "batch": ("Write trajectories from many recordings as one dataset.", {}),
 }
 
 
-def app_with(names: Iterable[str]) -> typer.Typer:
-    """The command line with these commands; only what they need is imported."""
-    app = new_app()
+def build_app(names: Iterable[str]) -> typer.Typer:
+    """Return the command line with these commands; only their modules are imported."""
+    app = typer.Typer(
+        name="coframe",
+        cls=PlainGroup,
+        help=(
+            "ROS 2's transform system (tf2) as one pip install: any frame, any time, on any machine.\n\n"
+            "Example: coframe demo"
+        ),
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        # Plain text: panels cut the descriptions of options to half of an 80-column terminal.
+        rich_markup_mode=None,
+    )
+    app.callback()(_main)
     for name in names:
         module = importlib.import_module(f"coframe.cli.{name}")
-        options = dict(COMMANDS[name])
-        if "cls" in options:
-            options["cls"] = getattr(module, options["cls"])
+        line, registration = COMMANDS[name]
         command = getattr(module, name)
         if isinstance(command, typer.Typer):
-            app.add_typer(command, name=name)
+            app.add_typer(command, name=name, cls=PlainGroup, short_help=line)
         else:
-            app.command(**options)(command)
+            cls = getattr(module, registration["cls"]) if "cls" in registration else PlainCommand
+            app.command(**{**registration, "cls": cls, "short_help": line})(command)
     return app
+
+
+def _print_version(requested: bool) -> None:
+    if requested:
+        typer.echo(f"coframe {coframe.__version__}")
+        raise typer.Exit
+
+
+def _main(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Show the version and exit.")
+    ] = False,
+) -> None:
+    pass

@@ -14,8 +14,9 @@ from rich.text import Text
 
 import coframe
 from coframe.cli.fleet import fleet
+from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.live import tree_table
-from coframe.cli.session import (
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
@@ -23,9 +24,8 @@ from coframe.cli.session import (
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    fail,
-    session,
 )
+from coframe.cli.output import fail
 from coframe.cli.view import PortOption, viewer_beside
 from coframe.frame_names import renaming
 from coframe.lab.launcher import COMPLETE_LAB, DESCRIBED_LAB, Launcher
@@ -101,7 +101,7 @@ def demo(
     commands = tuple(command._replace(arguments=(*command.arguments, *remaps)) for command in lab)
     name = renaming(prefix, keep) or str
     with (
-        session(),
+        run_until_interrupted(),
         coframe.connect("coframe_demo", domain=domain, **listening) as ros,
         Launcher(commands, domain=domain) as nodes,
         viewer_beside(ros, port, browser=not no_browser),

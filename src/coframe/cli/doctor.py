@@ -13,25 +13,27 @@ from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
 
-from coframe.cli.recordings import NamespaceOption, check_live, reading, work
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
     KeepOption,
+    NamespaceOption,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    fail,
-    length,
-    printable,
+    positive_duration,
     recorded_tf_topics,
-    session,
+    reject_namespace_of_live_graph,
 )
+from coframe.cli.output import fail, printable
+from coframe.cli.progress import reading_progress
 from coframe.doctor import codes, diagnose, observe_recording, page
 from coframe.doctor.rendering.plain import as_data
 from coframe.doctor.rendering.sarif import as_sarif
 from coframe.doctor.rendering.text import lines
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from coframe.doctor import Report
@@ -39,7 +41,6 @@ if TYPE_CHECKING:
 
 __all__ = ["doctor"]
 
-SECOND = 1_000_000_000
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan", "good": "green", "dim": "dim", "plain": ""}
 # A running verdict takes at most this part of a processor.
 _SHARE = 0.006
@@ -73,16 +74,16 @@ def doctor(
         _explain(explain)
         return
     unwanted = _codes(ignore or [])
-    window, buffers = length("--duration", duration), length("--cache", cache)
+    window, buffers = positive_duration("--duration", duration), positive_duration("--cache", cache)
     if (as_json and sarif) or (watch and (sarif or bag is not None)):
         fail("--json and --sarif, --watch and --sarif, and --watch and a recording exclude each other", code=2)
     shared: Any = {"cache": buffers, "prefix": prefix, "keep": keep}
     if bag is None:
-        check_live(namespace)
-    with session() if watch else work():
+        reject_namespace_of_live_graph(namespace)
+    with run_until_interrupted() if watch else run_to_completion():
         if bag is not None:
             topics = recorded_tf_topics(tf_topic, tf_static_topic)
-            with reading() as progress:
+            with reading_progress() as progress:
                 seen = observe_recording(bag, namespace=namespace, tf_topics=topics, progress=progress, **shared)
             reports = {name: diagnose(one, ignore=unwanted) for name, one in seen.items()}
             _finish(reports, as_json, sarif, bag)

@@ -10,7 +10,8 @@ import numpy as np
 import typer
 
 import coframe
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
@@ -18,11 +19,10 @@ from coframe.cli.session import (
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    fail,
-    log,
-    session,
 )
+from coframe.cli.output import fail, log
 from coframe.errors import TransformException
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from coframe import Buffer, Transform
@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 __all__ = ["echo"]
 
 NODE = "tf2_echo"
-SECOND = 1_000_000_000
 FASTEST = 10_000.0  # Hz: quicker than any terminal
 LONGEST = 4e9  # seconds: stamps of more than 126 years leave int64 nanoseconds when they are added up
 MOST_DIGITS = 17  # what a float64 has
@@ -71,7 +70,7 @@ def echo(
         if value is not None and not abs(value) <= LONGEST:
             fail(f"{option} must be a number of seconds from {-LONGEST:.0e} to {LONGEST:.0e}, not {value}")
     with (
-        session(),
+        run_until_interrupted(),
         coframe.connect(
             NODE,
             domain=domain,
@@ -128,7 +127,7 @@ def _wait_until_possible(buffer: Buffer, source: str, target: str, period: int) 
         except TransformException as error:
             if told_at is None or time.monotonic() - told_at >= 1.0:
                 told_at = time.monotonic()
-                log("INFO", NODE, f"Waiting for transform {source} ->  {target}: {buffer.why_not(source, target)}")
+                log("INFO", NODE, f"Waiting for transform {source} ->  {target}: {buffer._why_not(source, target)}")
                 if error.hint != told:  # the reason is repeated every second, the advice when it is news
                     told = error.hint
                     log("INFO", NODE, error.hint)

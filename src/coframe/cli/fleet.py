@@ -14,12 +14,14 @@ from rich.table import Table
 from rich.text import Text
 
 import coframe
-from coframe.cli.session import fail, printable, session
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.output import fail, printable
 from coframe.cli.view import viewer_beside
 from coframe.errors import TransformException
 from coframe.frame_names import renaming
 from coframe.lab.launcher import Launcher, NodeCommand
 from coframe.tf_publishers import state_of
+from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -35,7 +37,6 @@ START_TIMEOUT = 30.0
 SHARED = ("world", "map")
 # Of the lab's tree, whose node has a parameter for the name of each.
 FRAMES = ("odom", "base", "link1", "link2", "end_effector", "imu", "lidar", "camera", "gripper")
-_NS = 1_000_000_000
 
 
 def fleet(
@@ -73,7 +74,7 @@ def fleet(
     commands = tuple(_command(name, number, count, topics) for number, name in enumerate(names))
     warnings: list[str] = []
     with (
-        session(),
+        run_until_interrupted(),
         coframe.connect("coframe_demo", domain=domain, **listening) as ros,
         _relay(names, tf_topic, tf_static_topic, domain, warnings.append, wanted=own_topics) as relay,
         Launcher(commands, domain=domain) as nodes,
@@ -208,7 +209,7 @@ class _View:
                 str(len(own)),
                 f"{rate:.1f}",
                 f"{age * 1e3:.0f}",
-                "-" if lag is None else f"{-lag * 1e-6:+.0f}",
+                "-" if lag is None else f"{-lag / MILLISECOND:+.0f}",
                 *self._pose(row.name),
             )
         return table

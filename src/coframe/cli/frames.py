@@ -11,22 +11,24 @@ from rich.console import Console
 from rich.text import Text
 
 from coframe.cli.frames_screen import tree, watch
-from coframe.cli.recordings import NamespaceOption, check_live, reading, work
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
     KeepOption,
+    NamespaceOption,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    fail,
-    length,
-    printable,
+    positive_duration,
     recorded_tf_topics,
-    session,
+    reject_namespace_of_live_graph,
 )
+from coframe.cli.output import fail, printable
+from coframe.cli.progress import reading_progress
 from coframe.doctor import observe_recording
+from coframe.time import SECOND
 from coframe.tree_drawing import grow
 from coframe.tree_drawing.graphviz import as_graphviz
 from coframe.tree_drawing.labels import summary
@@ -40,8 +42,6 @@ if TYPE_CHECKING:
     from coframe.tree_drawing import Forest
 
 __all__ = ["frames"]
-
-SECOND = 1_000_000_000
 
 
 def _pdf(forest: Forest, title: str) -> bytes:
@@ -84,16 +84,16 @@ def frames(
     Example: coframe frames run.mcap -o frames.svg
     """
     files = [_known(path) for path in output or []]
-    window = length("--duration", duration)
+    window = positive_duration("--duration", duration)
     if watching and (files or bag is not None):
         fail("--watch excludes a recording and --output", code=2)
     names: dict[str, Any] = {"prefix": prefix, "keep": keep}
     if bag is None:
-        check_live(namespace)
-    with session() if watching else work():
+        reject_namespace_of_live_graph(namespace)
+    with run_until_interrupted() if watching else run_to_completion():
         if bag is not None:
             topics = recorded_tf_topics(tf_topic, tf_static_topic)
-            with reading() as progress:
+            with reading_progress() as progress:
                 seen = observe_recording(bag, namespace=namespace, tf_topics=topics, progress=progress, **names)
             forests = {name: grow(one) for name, one in seen.items()}
             for problem in dict.fromkeys(problem for one in seen.values() for problem in one.unread):

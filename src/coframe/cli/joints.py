@@ -15,7 +15,9 @@ from rich.text import Text
 
 import coframe
 from coframe.cli.keys import keys
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.node_arguments import reported_node_errors, xacro_arguments
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
@@ -23,11 +25,8 @@ from coframe.cli.session import (
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    fail,
-    node_errors,
-    session,
-    xacro_arguments,
 )
+from coframe.cli.output import fail
 from coframe.cli.sliders import HELP, Sliders
 from coframe.cli.view import NoBrowserOption, PortOption, announce
 from coframe.robots import RobotDescriptionError, load
@@ -82,7 +81,7 @@ def joints(
 
     Example: coframe joints arm.urdf.xacro --zero joint1=0.5 --rate 30
     """
-    with session():
+    with run_until_interrupted():
         robot = load(file, arguments=xacro_arguments(context.args))
         from rclpy.parameter import Parameter  # noqa: PLC0415 - a file that cannot be read needs no graph
 
@@ -94,7 +93,7 @@ def joints(
         if sources:
             values["source_list"] = sources
         overrides = [Parameter(name, value=value) for name, value in values.items()]
-        with node_errors(), _running(["coframe", *context.args], robot, domain, overrides) as running:
+        with reported_node_errors(), _running(["coframe", *context.args], robot, domain, overrides) as running:
             if gui:
                 listening = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
                 with coframe.connect("coframe_joints", domain=domain, **listening) as ros:

@@ -10,6 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from coframe.errors import TransformException
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from coframe import Buffer, FrameInfo
@@ -40,7 +41,7 @@ def tree_table(buffer: Buffer, reference: str, *, wide: bool = True) -> Table:
         table.add_column(column, justify="right", no_wrap=True)
     now = time.time_ns()
     for depth, frame in _in_tree_order(buffer.frames()):
-        age = (now - frame.newest) * 1e-9
+        age = (now - frame.newest) / SECOND
         stale = bool(frame.parent) and not frame.static and age > STALE_AFTER
         table.add_row(
             Text(" " * depth + frame.name, style="dim" if stale else "bold"),

@@ -8,14 +8,17 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from coframe.cli.echo import MOST_DIGITS, format_transform
-from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, work
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_to_completion
+from coframe.cli.options import (
+    BagArgument,
     KeepOption,
+    NamespaceOption,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    fail,
 )
+from coframe.cli.output import fail
+from coframe.cli.recordings import open_recording, parse_time
 from coframe.errors import ExtrapolationException, TransformException
 from coframe.formatting import seconds
 
@@ -56,15 +59,15 @@ def lookup(
     """
     if (fixed is None) != (source_time is None):
         fail("time travel takes both --fixed and --source-time", code=2)
-    with work(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
-        when = 0 if at is None else instant("--at", at, recording)
+    with run_to_completion(), open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+        when = 0 if at is None else parse_time("--at", at, recording)
         buffer = recording.buffer
         try:
             if fixed is None or source_time is None:
                 found = buffer.lookup(target, source, when)
             else:
-                then = instant("--source-time", source_time, recording)
-                found = buffer.lookup_full(target, when, source, then, fixed)
+                then = parse_time("--source-time", source_time, recording)
+                found = buffer._lookup_full(target, when, source, then, fixed)
         except ExtrapolationException as error:
             what = _what_there_is(recording, {target, source, fixed or source})
             fail(str(error), what or buffer.why(target, source, when).hint)

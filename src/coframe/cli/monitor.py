@@ -12,7 +12,8 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
@@ -20,12 +21,11 @@ from coframe.cli.session import (
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    fail,
-    length,
-    printable,
-    session,
+    positive_duration,
 )
+from coframe.cli.output import fail, printable
 from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
+from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -39,8 +39,6 @@ if TYPE_CHECKING:
 
 __all__ = ["monitor"]
 
-SECOND = 1_000_000_000
-_MS = 1e6
 _BROADCASTERS = "\nAll Broadcasters:"
 
 
@@ -65,9 +63,9 @@ def monitor(
         fail("give two frames, or none", code=2)
     if as_json and classic:
         fail("--json and --classic exclude each other", code=2)
-    window = length("--duration", duration)
+    window = positive_duration("--duration", duration)
     pair = (target, source) if target is not None and source is not None else None
-    with session():
+    with run_until_interrupted():
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - 100 ms
 
         with LiveObserver(
@@ -193,11 +191,11 @@ def _classic(seen: Observation, pair: Pair) -> Iterator[str]:
 
 def _g(nanoseconds: float | None) -> str:
     """Seconds with six digits, as C++ prints them."""
-    return f"{(nanoseconds or 0.0) * 1e-9:g}"
+    return f"{(nanoseconds or 0.0) / SECOND:g}"
 
 
 def _ms(nanoseconds: float | None) -> str:
-    return "" if nanoseconds is None else f"{nanoseconds / _MS:.1f}"
+    return "" if nanoseconds is None else f"{nanoseconds / MILLISECOND:.1f}"
 
 
 def _hertz(rate: float | None) -> str:

@@ -10,25 +10,25 @@ import typer
 from rich.console import Console
 from rich.live import Live
 from rich.text import Text
-from typer.core import TyperCommand
 
 import coframe
+from coframe.cli.help_format import PlainCommand
 from coframe.cli.keys import keys
-from coframe.cli.recordings import SECOND, BagArgument
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
+    BagArgument,
     DomainOption,
     KeepOption,
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    fail,
-    printable,
-    session,
 )
+from coframe.cli.output import fail, printable
 from coframe.recorder import FASTEST
 from coframe.recorder import play as start_playing
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from coframe.recorder import Player
@@ -40,7 +40,7 @@ _CLOCK_RATE = "40"  # Hz, as rosbag2's
 _HELP = "space: pause, right: the next message, up and down: faster and slower, Ctrl-C: leave"
 
 
-class PlayCommand(TyperCommand):
+class PlayCommand(PlainCommand):
     """``--clock`` may stand alone, as rosbag2's does."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:  # noqa: D102 - see the class
@@ -90,7 +90,7 @@ def play(
 
     Example: coframe play run --rate 2 --clock
     """
-    with session():
+    with run_until_interrupted():
         try:
             player = start_playing(
                 bag,

@@ -14,7 +14,8 @@ from rich.live import Live
 from rich.text import Text
 
 import coframe
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
@@ -22,10 +23,8 @@ from coframe.cli.session import (
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    fail,
-    printable,
-    session,
 )
+from coframe.cli.output import fail, printable
 from coframe.recorder import record as start_recording
 
 if TYPE_CHECKING:
@@ -68,7 +67,7 @@ def record(
         fail("--tf-topic and --tf-static-topic say whose frames get the prefix", "Give --prefix, or TOPICS.", code=2)
     if everything and (topics or regex):
         fail("--all and a choice of topics exclude each other", code=2)
-    with session():
+    with run_until_interrupted():
         try:
             recorder = start_recording(
                 output,

@@ -14,18 +14,9 @@ from rich.table import Table
 from rich.text import Text
 
 import coframe
-from coframe.cli.session import (
-    TF_TOPIC,
-    DomainOption,
-    KeepOption,
-    PrefixOption,
-    check_prefix,
-    fail,
-    log,
-    printable,
-    qualified,
-    session,
-)
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.options import TF_TOPIC, DomainOption, KeepOption, PrefixOption, checked_prefix, with_leading_slash
+from coframe.cli.output import fail, log, printable
 
 if TYPE_CHECKING:
     from coframe.tf_relay import Relay, RelayedEdge
@@ -48,11 +39,15 @@ def relay(
     ] = None,
     tf_topic: Annotated[
         str,
-        typer.Option("--to", "--tf-topic", help="Where all are written, or read with --split.", callback=qualified),
+        typer.Option(
+            "--to", "--tf-topic", help="Where all are written, or read with --split.", callback=with_leading_slash
+        ),
     ] = TF_TOPIC,
     tf_static_topic: Annotated[
         str | None,
-        typer.Option(help="The static ones likewise.", callback=qualified, show_default="as --to, with _static"),
+        typer.Option(
+            help="The static ones likewise.", callback=with_leading_slash, show_default="as --to, with _static"
+        ),
     ] = None,
     prefix: PrefixOption = "",
     prefix_each: Annotated[
@@ -82,7 +77,7 @@ def relay(
         if len(prefixes) > 1 or any(prefixes.values()):
             fail("--split reads one topic, and names the robots by --robots", code=2)
         prefixes = {}
-    with session(), contextlib.ExitStack() as stack:
+    with run_until_interrupted(), contextlib.ExitStack() as stack:
         try:
             running = coframe.relay(
                 robots,
@@ -111,7 +106,7 @@ def relay(
 def _prefixes(sources: list[str]) -> dict[str, str]:
     """By topic."""
     pairs = [source.partition("=") for source in sources]
-    return {topic: check_prefix(prefix) for topic, _, prefix in pairs}
+    return {topic: checked_prefix(prefix) for topic, _, prefix in pairs}
 
 
 def _show(running: Relay) -> None:

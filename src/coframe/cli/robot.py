@@ -7,7 +7,9 @@ from typing import Annotated
 
 import typer
 
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.node_arguments import reported_node_errors, xacro_arguments
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
@@ -15,9 +17,6 @@ from coframe.cli.session import (
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
-    node_errors,
-    session,
-    xacro_arguments,
 )
 from coframe.robots import load
 
@@ -53,7 +52,7 @@ def robot(
 
     Example: coframe robot arm.urdf.xacro --prefix robot1/ --ros-args -r joint_states:=arm/joint_states
     """
-    with session():
+    with run_until_interrupted():
         description = load(file, arguments=xacro_arguments(context.args)).text
         given = {
             "frame_prefix": prefix or None,
@@ -68,5 +67,5 @@ def robot(
 
         overrides = [Parameter(name, value=value) for name, value in parameters.items()]
         remaps = ["--ros-args", "-r", f"/tf:={tf_topic}", "-r", f"/tf_static:={tf_static_topic}"]
-        with node_errors():
+        with reported_node_errors():
             run(["coframe", *context.args, *remaps], domain_id=domain, parameter_overrides=overrides)

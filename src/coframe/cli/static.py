@@ -9,7 +9,9 @@ import time
 
 import typer
 
-from coframe.cli.session import check_prefix, fail, log, session
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.options import checked_prefix
+from coframe.cli.output import fail, log
 from coframe.cli.static_arguments import ArgumentError, StaticArguments, parse
 from coframe.frame_names import renaming
 from coframe.messages.conversions import to_transform_stamped
@@ -51,12 +53,12 @@ def static(context: typer.Context) -> None:
         names = f"from '{arguments.frame_id}' to '{arguments.child_frame_id}'"
         fail(f"cannot publish static transform {names}, exiting", "A frame cannot be told in itself.")
     _rename(arguments)
-    with session():
+    with run_until_interrupted():
         _publish_until_stopped(arguments, node)
 
 
 def _rename(arguments: StaticArguments) -> None:
-    check_prefix(arguments.prefix)
+    checked_prefix(arguments.prefix)
     names = renaming(arguments.prefix, arguments.keep)
     if names is not None:
         arguments.frame_id, arguments.child_frame_id = names(arguments.frame_id), names(arguments.child_frame_id)

@@ -9,14 +9,17 @@ from typing import Annotated
 import typer
 
 from coframe.bags import FORMATS, Question, format_of, write_trajectory
-from coframe.cli.recordings import BagArgument, NamespaceOption, instant, opened, work
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_to_completion
+from coframe.cli.options import (
+    BagArgument,
     KeepOption,
+    NamespaceOption,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    fail,
 )
+from coframe.cli.output import fail
+from coframe.cli.recordings import open_recording, parse_time
 from coframe.formatting import seconds
 
 __all__ = ["trajectory"]
@@ -55,9 +58,9 @@ def trajectory(
         question = Question(target, source, rate, stamps_of, start, stop)
     except ValueError as error:
         fail(str(error), code=2)
-    with work(), opened(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+    with run_to_completion(), open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         for text in filter(None, (start, stop)):
-            instant("--start/--stop", text, recording)
+            parse_time("--start/--stop", text, recording)
         poses, missing = question.ask(recording)
         if missing:
             times = f"{missing} of {missing + len(poses)} times have no transform and were left out"

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import coframe
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_until_interrupted
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
@@ -22,7 +23,6 @@ from coframe.cli.session import (
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
     recorded_tf_topics,
-    session,
 )
 from coframe.viewer import expect
 from coframe.wire import dds
@@ -67,7 +67,7 @@ def view(
     Example: coframe view run.mcap -d lab.rviz
     """
     live = bag == "live"
-    with session():
+    with run_until_interrupted():
         if live:
             dds.check()
         viewer = expect(

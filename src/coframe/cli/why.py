@@ -15,25 +15,25 @@ import typer
 from rich.console import Console, Group
 from rich.live import Live
 from rich.text import Text
-from typer.core import TyperCommand
 
 import coframe
 from coframe.bags import parse_instant
-from coframe.cli.recordings import NamespaceOption, check_live, instant, opened, work
-from coframe.cli.session import (
+from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
+from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
     KeepOption,
+    NamespaceOption,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
-    fail,
-    length,
-    printable,
+    positive_duration,
     recorded_tf_topics,
-    session,
+    reject_namespace_of_live_graph,
 )
+from coframe.cli.output import fail, printable
+from coframe.cli.recordings import open_recording, parse_time
 from coframe.doctor import Observation, diagnose
 from coframe.doctor.recorded import collecting
 from coframe.doctor.rendering.plain import as_data
@@ -41,7 +41,7 @@ from coframe.doctor.rendering.text import headline
 from coframe.explanation.drawing import remark, verdict
 from coframe.frame_names import renaming
 from coframe.messages import find
-from coframe.time import stamp_ns
+from coframe.time import SECOND, stamp_ns
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -52,21 +52,13 @@ if TYPE_CHECKING:
     from coframe.doctor.collector import Collector
     from coframe.explanation import Explanation, Link
 
-__all__ = ["WhyCommand", "why"]
+__all__ = ["why"]
 
 _NAMES = "[BAG] TARGET SOURCE"
-_SECOND = 1_000_000_000
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _WHEN = "A stamp, 10s (from the start), -0.5s (from the end, or from now), ISO time, start, end; live also now."
 _ASCII = str.maketrans("├└│─", "+`|-")
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan"}
-
-
-class WhyCommand(TyperCommand):
-    """The recording stands in front, as for lookup, and may be left out."""
-
-    def collect_usage_pieces(self, _context: Any) -> list[str]:  # noqa: D102 - see the class
-        return [self.options_metavar or "", _NAMES]
 
 
 class _Names(NamedTuple):
@@ -123,15 +115,15 @@ def why(
         fail("give TARGET and SOURCE, with a recording in front of them or without", code=2)
     *bags, target, source = names
     if not bags:
-        check_live(namespace)
+        reject_namespace_of_live_graph(namespace)
         if Path(target).exists() and not {"/", "."}.isdisjoint(target):
             fail(f"{target} is a file or a folder: give TARGET and SOURCE behind the recording", code=2)
     if watch and bags:
         fail("--watch and a recording exclude each other", code=2)
-    patience = length("--duration", duration)
+    patience = positive_duration("--duration", duration)
     renamed = _Names(prefix, keep)
     place = _Live(domain, tf_topic or TF_TOPIC, tf_static_topic or TF_STATIC_TOPIC, renamed)
-    with session() if watch else work():
+    with run_until_interrupted() if watch else run_to_completion():
         if bags:
             topics = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
             answer = _recorded(Path(bags[0]), target, source, at, namespace, topics, renamed)
@@ -148,8 +140,8 @@ def _recorded(
 ) -> _Answer:
     collectors: dict[str, Collector] = {}
     heard = collecting(collectors, renaming(**names._asdict()), recorded_tf_topics(**topics))
-    with opened(bag, namespace, **topics, **names._asdict(), heard=heard) as recording:
-        found = recording.buffer.why(target, source, None if at is None else instant("--at", at, recording))
+    with open_recording(bag, namespace, **topics, **names._asdict(), heard=heard) as recording:
+        found = recording.buffer.why(target, source, None if at is None else parse_time("--at", at, recording))
         seen = [
             Observation(live=False, start=recording.start, end=recording.end, transforms=collectors[name].transforms())
             for name in sorted(collectors)
@@ -171,8 +163,8 @@ def _heard(place: _Live, target: str, source: str, at: str | None, window: int) 
         ) as listening,
     ):
         if Console(stderr=True).is_terminal:
-            typer.echo(f"listening for {window / _SECOND:g} s ...", err=True)
-        listening.listen(window / _SECOND)
+            typer.echo(f"listening for {window / SECOND:g} s ...", err=True)
+        listening.listen(window / SECOND)
         seen = listening.observe()
         clock = int(seen.clock.stamp[-1]) if seen.clock is not None else None
         found = ros.buffer.why(target, source, _instant(at, clock, window), now=clock)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe import _core
-    from coframe.bags.transforms import Columns
+    from coframe.messages.tf_columns import TransformColumns
 
 __all__ = ["Collector"]
 
@@ -50,7 +50,7 @@ class Collector:
         self,
         topic: str,
         static: bool,
-        columns: Columns,
+        columns: TransformColumns,
         arrived: NDArray[np.int64],
         publisher: NDArray[np.int64],
         publishers: Sequence[str],

@@ -9,9 +9,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from coframe.bags.header_stamps import opens_with_header
-from coframe.bags.storage import Slices
-from coframe.bags.transforms import tf_columns
 from coframe.doctor.collector import Collector
 from coframe.doctor.joints import joint_states
 from coframe.doctor.observation import (
@@ -27,7 +24,9 @@ from coframe.doctor.observation import (
 from coframe.errors import DecodeError
 from coframe.frame_names import renaming
 from coframe.messages import deserialize, find
-from coframe.messages.header_peek import HEAD, header_of
+from coframe.messages.header_peek import HEADER_BYTES, opens_with_header, peek_header
+from coframe.messages.slices import Slices
+from coframe.messages.tf_columns import tf_columns
 from coframe.wire.names import full_name
 from coframe.wire.participant import Participant
 from coframe.wire.qos import TF, TF_STATIC_READER, QoS
@@ -248,7 +247,7 @@ class LiveObserver:
         self._collector.add(
             topic,
             static,
-            tf_columns(Slices.adjoining(messages.data, messages.ends)),
+            tf_columns(Slices.contiguous(messages.data, messages.ends)),
             messages.arrived,
             publisher,
             list(map(str, handles.tolist())),
@@ -266,7 +265,7 @@ class LiveObserver:
         elif ros_type in _DECODED:
             tap = self._tap(name, ros_type, _ANY, _WHOLE)
         elif ros_type not in _TOO_LARGE and opens_with_header(ros_type):
-            tap = self._tap(name, ros_type, _ANY, HEAD)
+            tap = self._tap(name, ros_type, _ANY, HEADER_BYTES)
         else:
             return
         self._topics[name] = _Topic(name, ros_type, tap)
@@ -274,13 +273,13 @@ class LiveObserver:
     def _take(self, heard: _Topic) -> None:
         messages = heard.tap.take()
         heard.messages += len(messages.ends)
-        whole = Slices.adjoining(messages.data, messages.ends).each()
+        whole = Slices.contiguous(messages.data, messages.ends).each()
         rows = zip(map(bytes, whole), messages.arrived.tolist(), messages.writers.tolist(), strict=True)
         if heard.type in _DECODED or heard.name.endswith(_DESCRIPTION):
             heard.decoded += _decode(heard.type, rows)
             return
         for data, arrived, writer in rows:
-            header = header_of(data)
+            header = peek_header(data)
             if header is not None:
                 stamp, frame = header
                 heard.heads.append(_Head(frame.lstrip("/"), stamp, arrived, writer))

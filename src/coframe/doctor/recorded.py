@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 
     from coframe import _core
     from coframe.bags import Recording
-    from coframe.bags.storage import Channel, Slices
+    from coframe.bags.storage import Channel
+    from coframe.messages.slices import Slices
 
 __all__ = ["collecting", "observe_recording"]
 

@@ -106,7 +106,7 @@ def _way(buffer: Buffer, frame: str, stamp: int) -> list[_Step]:
     """The links from a frame up to its root; where one has no sample at that time, by its newest one."""
     steps: list[_Step] = []
     seen: set[str] = set()
-    while frame and frame not in seen and (found := buffer.link_at(frame, stamp)) is not None:
+    while frame and frame not in seen and (found := buffer._edge_at(frame, stamp)) is not None:
         seen.add(frame)
         state, parent, before, after = found
         steps.append(_Step(parent, frame, state, after - before if state == "ok" else 0))

@@ -7,17 +7,14 @@ from typing import TYPE_CHECKING, TypeVar
 
 from coframe.errors import DecodeError
 from coframe.messages.decoding import decoding
+from coframe.messages.encapsulation import BYTE_ORDERS, HEADER_SIZE, LITTLE_ENDIAN_HEADER
 from coframe.messages.encoding import encoding
-from coframe.messages.layout import HEADER_SIZE, Order
 from coframe.messages.message import Message
 
 if TYPE_CHECKING:
     from coframe.messages.compiler import Plan
 
 M = TypeVar("M", bound=Message)
-
-_LITTLE_ENDIAN_HEADER = b"\x00\x01\x00\x00"
-_ORDERS: dict[bytes, Order] = {b"\x00\x00": ">", b"\x00\x01": "<"}
 
 _encodings: dict[type, Plan] = {}
 _decodings: dict[tuple[type, bytes], Plan] = {}
@@ -32,7 +29,7 @@ def serialize(message: Message) -> bytes:
     """
     cls = type(message)
     plan = _encodings.get(cls) or _new_encoding(cls)
-    out = bytearray(_LITTLE_ENDIAN_HEADER)
+    out = bytearray(LITTLE_ENDIAN_HEADER)
     try:
         plan.run(out, message)
     except (struct.error, AttributeError, TypeError, ValueError, OverflowError) as error:
@@ -64,7 +61,7 @@ def _new_encoding(cls: type) -> Plan:
 
 
 def _new_decoding(cls: type, data: bytes) -> Plan:
-    order = _ORDERS.get(data[:2])
+    order = BYTE_ORDERS.get(data[:2])
     if order is None:
         raise _header_error(_message_class(cls), data)
     _decodings[cls, data[:2]] = decoding(_message_class(cls), order)

@@ -12,12 +12,13 @@ from array import array
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from coframe.messages.layout import Offset, Order, Run, plan_run
+from coframe.messages.layout import Offset, Run, plan_run
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from coframe.messages.definition import AbstractType
+    from coframe.messages.encapsulation import Order
 
 
 class RefusedError(ValueError):

@@ -20,8 +20,9 @@ from coframe.messages.definition import (
     BoundedWString,
     NamespacedType,
 )
+from coframe.messages.encapsulation import HEADER_SIZE, Order
 from coframe.messages.fields import Number, number_of
-from coframe.messages.layout import CODES, HEADER_SIZE, WITHOUT_MEMBERS, Offset, Order, smallest_size
+from coframe.messages.layout import CODES, WITHOUT_MEMBERS, Offset, smallest_size
 from coframe.messages.registry import find
 
 

@@ -1,23 +1,186 @@
-"""The first bytes of messages with a header: its stamp and its frame, without decoding the rest."""
+"""Read stamps and frames from the first bytes of messages, without decoding the rest.
+
+Most messages begin with a std_msgs/Header; some begin with a time, or with a sequence of messages that have a header.
+Bytes that cannot be read never raise: the functions return None or the fallback instead. This applies to messages that
+are cut short and to CDR messages whose encapsulation is not plain CDR (see :mod:`coframe.messages.encapsulation`).
+"""
 
 from __future__ import annotations
 
+import re
 import struct
+from enum import Enum
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-__all__ = ["HEAD", "header_of"]
+import numpy as np
 
-HEAD = 512  # bytes of a message that are enough: names of frames are short
-_SECOND = 1_000_000_000
+from coframe import time
+from coframe.messages.definition import AbstractSequence, NamespacedType
+from coframe.messages.encapsulation import HEADER_SIZE, byte_order
+from coframe.messages.registry import find
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from coframe.messages.slices import Slices
+
+__all__ = [
+    "HEADER_BYTES",
+    "STAMP_BYTES",
+    "HeaderPeek",
+    "StampReader",
+    "opens_with_header",
+    "peek_header",
+    "stamp_reader",
+]
+
+HEADER_BYTES = 512  # enough of a message to contain its header: names of frames are short
+STAMP_BYTES = 24  # enough of a message to contain its first stamp
+
+_LONGEST_DEFINITION = 10_000  # bytes of a definition that are searched for the first field
+_HEADER_FIELD = re.compile(r"\s*(?:std_msgs/)?(?:msg/)?Header\s+\w+", re.ASCII)
+_TIME_FIELD = re.compile(r"\s*(?:builtin_interfaces/(?:msg/)?Time|time)\s+\w+", re.ASCII)
 
 
-def header_of(message: bytes) -> tuple[int, str] | None:
-    """The stamp in nanoseconds and the frame_id of a message in CDR that opens with a header; None if it is cut off."""
-    order = "<" if message[1:2] == b"\x01" else ">"
+class HeaderPeek(NamedTuple):
+    r"""The contents of a message's header.
+
+    Attributes:
+        stamp: In nanoseconds.
+        frame: The frame_id as published; bytes that are not UTF-8 are shown as ``\xNN``.
+    """
+
+    stamp: int
+    frame: str
+
+
+class _FirstField(Enum):
+    """What messages of a type begin with, as far as it contains a stamp."""
+
+    TIME = "a time"
+    HEADER = "a header"
+    HEADERS = "a sequence of messages that begin with a header"
+
+
+# Offset of the stamp by encoding. In ROS 1, a header begins with a sequence number of 4 bytes.
+_STAMP_OFFSETS = {
+    "cdr": {
+        _FirstField.TIME: HEADER_SIZE,
+        _FirstField.HEADER: HEADER_SIZE,
+        _FirstField.HEADERS: HEADER_SIZE + 4,
+    },
+    "ros1": {_FirstField.TIME: 0, _FirstField.HEADER: 4, _FirstField.HEADERS: 8},
+}
+
+
+def peek_header(message: bytes) -> HeaderPeek | None:
+    """Return the header that a CDR message begins with; None if it is damaged, cut short or not plain CDR."""
+    order = byte_order(message)
+    start = HEADER_SIZE + 12
+    if order is None or len(message) < start:
+        return None
+    seconds, nanoseconds, length = struct.unpack_from(order + "iII", message, HEADER_SIZE)
+    text = message[start : start + length]
+    frame = text[:-1]
+    if len(text) < length or text[-1:].strip(b"\0") or b"\0" in frame:
+        return None
+    return HeaderPeek(seconds * time.SECOND + nanoseconds, frame.decode("utf-8", "backslashreplace"))
+
+
+def opens_with_header(ros_type: str) -> bool:
+    """Return whether coframe has a class for the type whose messages begin with a header."""
+    cls = _message_class(ros_type)
+    return cls is not None and _first_field(cls) is _FirstField.HEADER
+
+
+def stamp_reader(ros_type: str, encoding: str = "cdr", definition: bytes = b"") -> StampReader | None:
+    """Return a reader for the stamps of a type's messages; None if the messages do not begin with a stamp.
+
+    Args:
+        ros_type: The type, such as ``sensor_msgs/msg/Imu``.
+        encoding: ``"cdr"`` or ``"ros1"``. Messages in other encodings have no reader.
+        definition: The definition of the type in a recording, used if coframe does not have the type.
+    """
+    if encoding not in _STAMP_OFFSETS:
+        return None
+    cls = _message_class(ros_type)
+    first = _first_field_of_definition(definition) if cls is None else _first_field(cls)
+    return None if first is None else StampReader(first, encoding)
+
+
+class StampReader:
+    """Reads the first stamp in messages of one type and encoding; made by :func:`stamp_reader`."""
+
+    def __init__(self, first: _FirstField, encoding: str) -> None:
+        self._is_cdr = encoding == "cdr"
+        self._offset = _STAMP_OFFSETS[encoding][first]
+        # An empty sequence has no stamp: what follows its length is another field.
+        self._length_offset = (HEADER_SIZE if self._is_cdr else 0) if first is _FirstField.HEADERS else None
+
+    def stamp(self, message: bytes) -> int | None:
+        """Return the stamp of one message in nanoseconds; None if it has none."""
+        order = byte_order(message) if self._is_cdr else "<"
+        if order is None or len(message) < self._offset + 8:
+            return None
+        if self._length_offset is not None and not any(message[self._length_offset : self._length_offset + 4]):
+            return None
+        seconds, nanoseconds = struct.unpack_from(order + ("iI" if self._is_cdr else "II"), message, self._offset)
+        return int(seconds * time.SECOND + nanoseconds)
+
+    def stamps(self, messages: Slices, fallback: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the stamps of many messages.
+
+        Args:
+            messages: Their bytes; the first :data:`STAMP_BYTES` of each are enough.
+            fallback: The value for messages without a stamp, (N,) nanoseconds.
+
+        Returns:
+            (N,) nanoseconds.
+        """
+        data = np.frombuffer(messages.data, dtype=np.uint8)
+        starts, ends = messages.starts.astype(np.int64), messages.ends.astype(np.int64)
+        readable = starts + self._offset + 8 <= ends
+        if self._is_cdr:
+            readable[readable] = (data[starts[readable]] == 0) & (data[starts[readable] + 1] <= 1)
+        if self._length_offset is not None:
+            lengths = data[starts[readable][:, None] + (self._length_offset + np.arange(4))]
+            readable[readable] = lengths.any(axis=1)
+        begin = starts[readable]
+        raw = data[begin[:, None] + (self._offset + np.arange(8))]
+        if self._is_cdr:
+            swapped = raw.reshape(-1, 2, 4)[:, :, ::-1].reshape(-1, 8)
+            raw = np.where((data[begin + 1] == 1)[:, None], raw, swapped)
+        seconds, nanoseconds = np.ascontiguousarray(raw).view("<u4").T.astype(np.int64)
+        if self._is_cdr:  # seconds are signed in ROS 2 and unsigned in ROS 1
+            seconds = seconds.astype(np.int32).astype(np.int64)
+        stamps: NDArray[np.int64] = np.array(fallback)
+        stamps[readable] = seconds * time.SECOND + nanoseconds
+        return stamps
+
+
+def _message_class(ros_type: str) -> Any:
     try:
-        seconds, nanoseconds, length = struct.unpack_from(order + "iII", message, 4)
-    except struct.error:
+        return find(ros_type)
+    except LookupError:
         return None
-    frame = message[16 : 16 + length]
-    if not 0 < length == len(frame):
+
+
+def _first_field(cls: Any) -> _FirstField | None:
+    first = cls.SLOT_TYPES[0] if cls.SLOT_TYPES else None
+    if isinstance(first, AbstractSequence) and isinstance(first.value_type, NamespacedType):
+        element = _message_class("/".join(first.value_type.namespaced_name()))
+        is_stamped = element is not None and _first_field(element) is _FirstField.HEADER
+        return _FirstField.HEADERS if is_stamped else None
+    if not isinstance(first, NamespacedType):
         return None
-    return seconds * _SECOND + nanoseconds, frame.removesuffix(b"\0").decode("utf-8", "backslashreplace")
+    return {"Header": _FirstField.HEADER, "Time": _FirstField.TIME}.get(first.name)
+
+
+def _first_field_of_definition(definition: bytes) -> _FirstField | None:
+    for line in definition[:_LONGEST_DEFINITION].decode("utf-8", "replace").splitlines():
+        field = line.partition("#")[0].strip()
+        if field and "=" not in field:
+            if _HEADER_FIELD.match(field):
+                return _FirstField.HEADER
+            return _FirstField.TIME if _TIME_FIELD.match(field) else None
+    return None

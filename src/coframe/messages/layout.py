@@ -7,18 +7,16 @@ the offsets after them unknown, but never wholly: after a 4-byte length, an offs
 from __future__ import annotations
 
 import struct
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.messages.definition import AbstractType, Array, BasicType, NamespacedType
+from coframe.messages.encapsulation import HEADER_SIZE
 from coframe.messages.fields import NUMBERS
 from coframe.messages.registry import find
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-Order = Literal["<", ">"]  # little or big endian, as struct and numpy write it
-
-HEADER_SIZE = 4
 CODES = {"boolean": "?", "octet": "c", **{name: number.code for name, number in NUMBERS.items()}}
 WITHOUT_MEMBERS = "B"  # C has no empty structures: rosidl puts one byte into them
 _SIZES = {code: struct.calcsize(f"<{code}") for code in "?cbBhHiIqQfd"}

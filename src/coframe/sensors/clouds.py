@@ -145,7 +145,7 @@ def to_transform(transform: Any) -> Transform:
         ValueError: It is a batch.
     """
     if isinstance(transform, _core.Transform):
-        if transform.batch is not None:
+        if transform._batch is not None:
             raise ValueError("one transform is needed, not a batch; deskew() gives each point its own")
         return transform  # type: ignore[return-value]
     target = source = None

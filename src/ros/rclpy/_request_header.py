@@ -5,6 +5,8 @@ from __future__ import annotations
 import struct
 from typing import Final, NamedTuple
 
+from coframe.messages.encapsulation import byte_order
+
 ENCAPSULATION_SIZE: Final = 4  # CDR's own header, which stays in front
 _LITTLE: Final = struct.Struct("<Qq")
 _BIG: Final = struct.Struct(">Qq")
@@ -23,9 +25,12 @@ def join(header: RequestHeader, cdr: bytes) -> bytes:
 
 
 def split(data: bytes) -> tuple[RequestHeader, bytes] | None:
-    """Takes the header out again; None when there is not even room for it."""
+    """Remove the header from a message; None if the message is too short or not plain CDR."""
     if len(data) < ENCAPSULATION_SIZE + _LITTLE.size:
         return None
-    layout = _LITTLE if data[1] & 1 else _BIG
+    order = byte_order(data)
+    if order is None:
+        return None
+    layout = _LITTLE if order == "<" else _BIG
     header = RequestHeader(*layout.unpack_from(data, ENCAPSULATION_SIZE))
     return header, data[:ENCAPSULATION_SIZE] + data[ENCAPSULATION_SIZE + layout.size :]

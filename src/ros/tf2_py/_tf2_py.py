@@ -81,7 +81,7 @@ class BufferCore:
         self.__insert(transform, authority, static=True)
 
     def __insert(self, transform: Any, authority: str, *, static: bool) -> None:
-        refused = self._coframe_buffer.set_message(transform, static, authority)
+        refused = self._coframe_buffer._set_message(transform, static, authority)
         if refused == _STORED:
             return
         authority = _convert.text(authority, 2)
@@ -91,7 +91,7 @@ class BufferCore:
         pose = _convert.values(transform.transform, static=static)
         try:
             if refused is None:
-                refused = self._coframe_buffer.set_values(parent, child, stamp, *pose, static, authority)
+                refused = self._coframe_buffer._set_values(parent, child, stamp, *pose, static, authority)
         except TypeError:
             raise TypeError(f"translation and rotation must be numbers, but are {pose!r}") from None
         if refused:
@@ -103,14 +103,14 @@ class BufferCore:
         query = _convert.text(target_frame, 1), _convert.text(source_frame, 2), _convert.nanoseconds(time, "time")
         if self._coframe_buffer.can_transform(*query):
             return 1, ""
-        reason = self._coframe_buffer.why_not(*query)
+        reason = self._coframe_buffer._why_not(*query)
         return int(not reason), reason
 
     def can_transform_full_core(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> tuple[int, str]:
         """The same for `lookup_transform_full_core`."""
-        reason = self._coframe_buffer.why_not_full(
+        reason = self._coframe_buffer._why_not_full(
             *_convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         )
         return int(not reason), reason
@@ -121,7 +121,7 @@ class BufferCore:
         Raises:
             TransformException: One of its children, with tf2's text.
         """
-        found: TransformStamped | None = self._coframe_buffer.lookup_message(target_frame, source_frame, time)
+        found: TransformStamped | None = self._coframe_buffer._lookup_message(target_frame, source_frame, time)
         if found is not None:
             return found
         return self._coframe_lookup(
@@ -145,7 +145,7 @@ class BufferCore:
         )
 
     def _coframe_lookup_full(self, query: tuple[str, int, str, int, str], wait: int | None = None) -> TransformStamped:
-        found = self._coframe_buffer.lookup_full(*query, timeout=wait)
+        found = self._coframe_buffer._lookup_full(*query, timeout=wait)
         return transform_stamped(query[0], query[2], found.stamp or 0, found.values)
 
     def get_latest_common_time(self, target_frame: str, source_frame: str, /) -> Time:

@@ -188,7 +188,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         query = (target_frame, target_time, source_frame, source_time, fixed_frame)
         wait = _wait(timeout)
         if wait is not None:
-            self._coframe_buffer.can_transform_full(*_convert.full_query(*query), timeout=wait)
+            self._coframe_buffer._can_transform_full(*_convert.full_query(*query), timeout=wait)
         answer = self.can_transform_full_core(*query)
         return answer if return_debug_tuple else answer[0]
 

@@ -17,7 +17,7 @@ class CoframeSide:
             return "raises", type(error).__name__, str(error)
 
     def set(self, parent, child, stamp, values, static, authority):
-        refusals = self.buffer.set_values(parent, child, stamp, *values, static, authority)
+        refusals = self.buffer._set_values(parent, child, stamp, *values, static, authority)
         log = _core.insert_texts(refusals, parent, child, stamp, *values, authority) if refusals else ()
         return "log", tuple(log)
 
@@ -28,13 +28,13 @@ class CoframeSide:
         return _pose(self.buffer.lookup(*asked))
 
     def lookup_full(self, *asked):
-        return _pose(self.buffer.lookup_full(*asked))
+        return _pose(self.buffer._lookup_full(*asked))
 
     def can_transform(self, *asked):
-        return "possible", self.buffer.can_transform(*asked), self.buffer.why_not(*asked)
+        return "possible", self.buffer.can_transform(*asked), self.buffer._why_not(*asked)
 
     def can_transform_full(self, *asked):
-        return "possible", self.buffer.can_transform_full(*asked), self.buffer.why_not_full(*asked)
+        return "possible", self.buffer._can_transform_full(*asked), self.buffer._why_not_full(*asked)
 
     def latest_common_time(self, *asked):
         return "stamp", self.buffer.latest_common_time(*asked)

@@ -372,7 +372,7 @@ class Client:
     def _send_tick(self, now: float, fixed: str, at: int, entries: list[binary.EntryPose]) -> None:
         scene = self._stage.scene
         listed = [(entry.display, entry.sequence) for entry in entries]
-        state = (scene.revision, fixed, at, scene.buffer.changes, listed)
+        state = (scene.revision, fixed, at, scene.buffer._changes, listed)
         if state == self._last_tick and now - self._ticked < IDLE_PERIOD:
             return
         self._last_tick, self._ticked = state, now

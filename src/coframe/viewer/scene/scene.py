@@ -85,7 +85,7 @@ class Scene:
 
     def refresh(self) -> None:
         """Takes in what has changed; costs a look at each frame."""
-        changes = self.buffer.changes
+        changes = self.buffer._changes
         if changes == self._changes:
             return
         self._changes = changes

@@ -19,7 +19,7 @@ _NO_INTERVALS = (0.0, 0.0, 0.0)
 def frame_rows(scene: Scene, origin: int, timeout: float) -> list[dict[str, Any]]:
     """One row a frame, in the order of the scene's structure."""
     # What edges() makes of it would take longer than the rest.
-    intervals = {frame[0]: times for frame, times, _ in scene.buffer.edge_tuples()}
+    intervals = {frame[0]: times for frame, times, _ in scene.buffer._edge_tuples()}
     states = scene.states_now(timeout)
     ages = scene.ages_now()
     rows = []

@@ -81,7 +81,7 @@ def _next_on_edge(buffer: Buffer, info: FrameInfo, at: int, direction: int) -> i
 def _stamps(buffer: Buffer, info: FrameInfo, first: int, last: int) -> NDArray[np.int64]:
     """The stamps of an edge's samples between two times; none where its parent has changed."""
     try:
-        return np.frombuffer(buffer.stamps_between(info.parent, info.name, first, last), np.int64)
+        return np.frombuffer(buffer._stamps_between(info.parent, info.name, first, last), np.int64)
     except TransformException:
         return np.zeros(0, np.int64)
 

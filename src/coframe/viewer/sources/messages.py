@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import struct
 import threading
 import time
 from bisect import bisect_right
@@ -19,9 +18,7 @@ if TYPE_CHECKING:
 
     from coframe.viewer.sources.adaptive_subscription import AdaptiveSubscription
 
-__all__ = ["LiveMessages", "Messages", "Sighting", "header_stamp"]
-
-_NS = 1_000_000_000
+__all__ = ["LiveMessages", "Messages", "Sighting"]
 
 
 class Sighting(NamedTuple):
@@ -84,12 +81,15 @@ class LiveMessages:
     def __init__(
         self, subscription: AdaptiveSubscription, ros_type: str, keep: int, frame: Callable[[str], str]
     ) -> None:
-        from coframe.messages import deserialize, find  # noqa: PLC0415 - only who looks at messages needs them
+        # Imported here because only the displays of messages need the message classes.
+        from coframe.messages import deserialize, find  # noqa: PLC0415
+        from coframe.messages.header_peek import stamp_reader  # noqa: PLC0415
 
         self.type = ros_type
         self._subscription = subscription
         self._class = find(ros_type)
         self._deserialize = deserialize
+        self._stamp_reader = stamp_reader(ros_type)
         self._keep = keep
         self._frame = frame
         self._stored: deque[_Stored] = deque()
@@ -142,7 +142,9 @@ class LiveMessages:
                     self._store(sample.data)
 
     def _store(self, data: bytes) -> None:
-        stamp = header_stamp(self.type, data) or time.time_ns()
+        stamp = self._stamp_reader.stamp(data) if self._stamp_reader else None
+        if stamp is None or stamp <= 0:
+            stamp = time.time_ns()
         # The timeline goes forward: what comes late lies where it came.
         newest = self._stored[-1].time if self._stored else stamp
         if stamp < newest - self._keep:  # a simulation that began anew
@@ -167,15 +169,3 @@ class LiveMessages:
 
     def _sighting(self, stored: _Stored) -> Sighting:
         return Sighting(stored.key, stored.time, lambda: self._deserialize(stored.data, self._class))
-
-
-_WITHOUT_HEADER = {"visualization_msgs/msg/MarkerArray": 8}  # a sequence's length comes before its first header
-
-
-def header_stamp(ros_type: str, data: bytes) -> int:
-    """The stamp in a message's bytes, in nanoseconds; 0 where there is none."""
-    offset = _WITHOUT_HEADER.get(ros_type, 4)
-    if len(data) < offset + 8 or (offset == 8 and data[4:8] == bytes(4)):
-        return 0
-    seconds, nanoseconds = struct.unpack_from("<iI" if data[1] & 1 else ">iI", data, offset)
-    return max(0, int(seconds) * _NS + int(nanoseconds))

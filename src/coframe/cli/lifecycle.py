@@ -1,0 +1,81 @@
+"""How commands end: on Ctrl-C, on SIGTERM, when their reader goes away, and with errors of the library."""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+import sys
+from typing import TYPE_CHECKING
+
+import typer
+
+from coframe.cli.output import fail
+from coframe.errors import (
+    DecodeError,
+    FrozenFileError,
+    RecordingError,
+    RobotDescriptionError,
+    TransformException,
+    ViewerError,
+    WireError,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from types import FrameType
+
+__all__ = ["run_to_completion", "run_until_interrupted"]
+
+_LIBRARY_ERRORS = (
+    DecodeError,
+    FrozenFileError,
+    RecordingError,
+    RobotDescriptionError,
+    TransformException,
+    ViewerError,
+    WireError,
+)
+# Windows has no SIGHUP.
+_END_SIGNALS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
+_INTERRUPTED = 130  # exit code: 128 + SIGINT, as shells have it
+
+
+@contextlib.contextmanager
+def run_until_interrupted() -> Iterator[None]:
+    """End the block quietly on Ctrl-C, SIGTERM and a closed terminal; report errors of the library with exit code 1."""
+    # nohup sets SIGHUP to be ignored, and it stays so.
+    handled = [number for number in _END_SIGNALS if signal.getsignal(number) is not signal.SIG_IGN]
+    previous = {number: signal.signal(number, _interrupt) for number in handled}
+    try:
+        yield
+    except KeyboardInterrupt:
+        pass
+    except BrokenPipeError:  # The reader of a pipe, such as `head`, has closed it.
+        sys.stderr.close()
+    except _LIBRARY_ERRORS as error:
+        fail(str(error), _hint_with_page(error))
+    finally:
+        for number, handler in previous.items():
+            signal.signal(number, handler)
+
+
+@contextlib.contextmanager
+def run_to_completion() -> Iterator[None]:
+    """Do as :func:`run_until_interrupted`, but end with exit code 130 on Ctrl-C: the work is not finished."""
+    with run_until_interrupted():
+        try:
+            yield
+        except KeyboardInterrupt:
+            raise typer.Exit(_INTERRUPTED) from None
+
+
+def _hint_with_page(error: Exception) -> str:
+    """Return the hint of an error, followed by the command that prints the doctor's page about it."""
+    hint: str = getattr(error, "hint", "")
+    code: str = getattr(error, "doctor_code", "") or ""
+    page = f"More: coframe doctor --explain {code}" if code and code not in hint else ""
+    return " ".join(filter(None, [hint, page]))
+
+
+def _interrupt(_signal: int, _frame: FrameType | None) -> None:
+    raise KeyboardInterrupt

@@ -1,0 +1,42 @@
+"""The part of a command line that is meant for a node (``--ros-args``) or for a xacro file (``NAME:=VALUE``)."""
+
+from __future__ import annotations
+
+import contextlib
+from typing import TYPE_CHECKING
+
+from coframe.cli.output import fail
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+__all__ = ["reported_node_errors", "xacro_arguments"]
+
+
+@contextlib.contextmanager
+def reported_node_errors() -> Iterator[None]:
+    """Report invalid ROS arguments, names and parameters of a node with exit code 2."""
+    from rclpy.exceptions import NameValidationException, ParameterException, RCLError  # noqa: PLC0415 - slow import
+
+    try:
+        yield
+    except (NameValidationException, ParameterException, RCLError) as error:
+        fail(str(error), code=2)
+
+
+def xacro_arguments(words: list[str]) -> dict[str, str]:
+    """Return the xacro arguments NAME:=VALUE among the words that the command does not know; skip ``--ros-args``.
+
+    Any other word, such as a misspelled option, ends the command.
+    """
+    from rclpy.utilities import remove_ros_args  # noqa: PLC0415 - slow import
+
+    own = remove_ros_args(["coframe", *words])[1:]
+    for word in own:
+        if ":=" not in word or word.startswith("-"):
+            fail(
+                f"No option or argument {word!r}.",
+                "Write xacro arguments as NAME:=VALUE, and arguments of the node after --ros-args.",
+                code=2,
+            )
+    return dict(word.split(":=", 1) for word in own)

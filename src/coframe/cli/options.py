@@ -1,0 +1,140 @@
+"""The options that several commands share, and how their values are read.
+
+Every option has the same name, the same value name and the same sentence in every command.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from coframe import frame_names
+from coframe.cli.output import fail, warn
+from coframe.time import duration_ns
+
+__all__ = [
+    "TF_STATIC_TOPIC",
+    "TF_TOPIC",
+    "TIMES",
+    "BagArgument",
+    "DomainOption",
+    "KeepOption",
+    "NamespaceOption",
+    "PrefixOption",
+    "RecordedTfStaticTopicOption",
+    "RecordedTfTopicOption",
+    "TfStaticTopicOption",
+    "TfTopicOption",
+    "checked_prefix",
+    "positive_duration",
+    "recorded_tf_topics",
+    "reject_namespace_of_live_graph",
+    "with_leading_slash",
+]
+
+TF_TOPIC, TF_STATIC_TOPIC = "/tf", "/tf_static"
+# How a time of a recording is written.
+TIMES = "seconds (1666859837.36), 10s after the start, -2s before the end, ISO 8601, 'start' or 'end'"
+
+
+def with_leading_slash(topic: str | None) -> str | None:
+    """Return the name of a topic with its leading slash; None stays None."""
+    return topic if topic is None or topic.startswith("/") else f"/{topic}"
+
+
+def checked_prefix(prefix: str) -> str:
+    """Return the prefix; warn if it does not end with a slash, and end the command if it begins with one."""
+    try:
+        frame_names.renaming(prefix)
+    except ValueError as error:
+        fail(f"--prefix: {error}", code=2)
+    if advice := frame_names.prefix_advice(prefix):
+        warn(advice)
+    return prefix
+
+
+BagArgument = Annotated[
+    Path, typer.Argument(metavar="BAG", help="Recording: a .mcap, .db3 or .bag file, or a rosbag2 folder.")
+]
+NamespaceOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAMESPACE",
+        help="Use only the transforms of this namespace of the recording, e.g. /robot1.",
+        show_default=False,
+    ),
+]
+DomainOption = Annotated[
+    int | None,
+    typer.Option(
+        metavar="ID", min=0, max=232, help="ROS domain ID. [default: $ROS_DOMAIN_ID, or 0]", show_default=False
+    ),
+]
+TfTopicOption = Annotated[
+    str, typer.Option(metavar="TOPIC", help="Topic of the transforms, e.g. /robot1/tf.", callback=with_leading_slash)
+]
+TfStaticTopicOption = Annotated[
+    str,
+    typer.Option(
+        metavar="TOPIC", help="Topic of the static transforms, e.g. /robot1/tf_static.", callback=with_leading_slash
+    ),
+]
+RecordedTfTopicOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="TOPIC",
+        help="Topic of the transforms, e.g. /robot1/tf. [default: /tf; in a recording, all]",
+        callback=with_leading_slash,
+        show_default=False,
+    ),
+]
+RecordedTfStaticTopicOption = Annotated[
+    str | None,
+    typer.Option(
+        metavar="TOPIC",
+        help="Topic of the static transforms. [default: /tf_static; in a recording, all]",
+        callback=with_leading_slash,
+        show_default=False,
+    ),
+]
+PrefixOption = Annotated[
+    str,
+    typer.Option(
+        metavar="PREFIX",
+        help="Prefix for all frame names, with its slash, e.g. robot1/.",
+        callback=checked_prefix,
+        show_default=False,
+    ),
+]
+KeepOption = Annotated[
+    str,
+    typer.Option(metavar="FRAMES", help="Shared frames that get no prefix, e.g. map,world.", show_default=False),
+]
+
+
+def recorded_tf_topics(tf_topic: str | None, tf_static_topic: str | None) -> tuple[str, str] | None:
+    """Return the two topics of transforms to read from a recording; None, all of them, if neither was given."""
+    if tf_topic is None and tf_static_topic is None:
+        return None
+    return tf_topic or TF_TOPIC, tf_static_topic or TF_STATIC_TOPIC
+
+
+def reject_namespace_of_live_graph(namespace: str | None) -> None:
+    """End the command if --namespace was given without a recording."""
+    if namespace is not None:
+        root = "/" + namespace.strip("/")
+        topics = f"--tf-topic {root}/tf --tf-static-topic {root}/tf_static"
+        fail("--namespace needs a recording", f"For live transforms, use {topics}.", code=2)
+
+
+def positive_duration(option: str, text: str) -> int:
+    """Return the value of an option such as 10s in nanoseconds; end the command unless it is a positive duration."""
+    try:
+        nanoseconds = duration_ns(text)
+    except (ValueError, TypeError) as error:
+        fail(f"{option}: {error}", code=2)
+    if nanoseconds <= 0:
+        fail(f"{option} must be greater than 0, not {text!r}", code=2)
+    return nanoseconds

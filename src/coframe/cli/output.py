@@ -1,0 +1,53 @@
+"""What all commands use to print: errors, warnings, log lines, and text that is safe for a terminal."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING, NoReturn
+
+import typer
+
+from coframe.time import SECOND
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+__all__ = ["count", "fail", "log", "printable", "report_console", "warn"]
+
+_REDIRECTED_WIDTH = 200  # columns
+
+
+def fail(text: str, hint: str = "", *, code: int = 1) -> NoReturn:
+    """Print what failed and, below it, what to do; end the command with this exit code."""
+    typer.echo(f"coframe: {printable(text)}" + (f"\n  {printable(hint)}" if hint else ""), err=True)
+    raise typer.Exit(code)
+
+
+def warn(text: str) -> None:
+    """Print a warning on stderr."""
+    print(f"coframe: {printable(text)}", file=sys.stderr, flush=True)
+
+
+def log(level: str, node: str, text: str) -> None:
+    """Print a line on stderr in the format of ROS's console logger."""
+    seconds, nanoseconds = divmod(time.time_ns(), SECOND)
+    print(f"[{level}] [{seconds}.{nanoseconds:09d}] [{node}]: {text}", file=sys.stderr, flush=True)
+
+
+def printable(text: str) -> str:
+    """Replace control characters: names from recordings and from the network may contain escape sequences."""
+    return "".join(c if c.isprintable() or c == "\n" else "\N{REPLACEMENT CHARACTER}" for c in text)
+
+
+def count(number: int, noun: str) -> str:
+    """Return a number with its noun, e.g. ``1 message`` or ``2 messages``."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def report_console() -> Console:
+    """Return the console for tables; without a terminal it is wide enough that no cell is cut."""
+    from rich.console import Console  # noqa: PLC0415 - commands without tables start faster
+
+    console = Console(highlight=False)
+    return console if console.is_terminal else Console(highlight=False, width=_REDIRECTED_WIDTH)

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every example runs and prints what it promises."""
+
+import json
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+EXPECTED = {
+    "04_batch.py": r"1000 poses; the last one is at \[10\.088, 0\.048, 0\.3\] m",
+    "05_deskew.py": r"deskewed: +the wall is off by up to 0\.000000 m",
+    "06_asyncio.py": r"at 2\.5 s: x = 0\.25 m; at 5 s: x = 0\.50 m\nno transform: .*5\.000000",
+    "07_urdf.py": r"tool relative to base_link: \[0\.614, 0\.0, 0\.348\] m",
+    "08_recording.py": r"odom -> base_link: 101 transforms, moved 10\.00 m",
+}
+NODES = ["01_static_broadcaster.py", "02_dynamic_broadcaster.py", "03_listener.py"]
+
+
+def test_each_example_has_a_test():
+    assert {path.name for path in EXAMPLES.glob("[0-9]*.py")} == {*EXPECTED, *NODES}
+
+
+@pytest.mark.parametrize("name", EXPECTED)
+def test_the_output_is_as_expected(name):
+    result = subprocess.run([sys.executable, EXAMPLES / name], capture_output=True, text=True, timeout=60, check=False)
+    assert result.returncode == 0, result.stderr
+    assert re.search(EXPECTED[name], result.stdout), result.stdout
+
+
+def test_the_recording_example_reads_a_real_recording(shared):
+    recording = shared / "recordings" / "tb3_gazebo_walker"
+    output = subprocess.check_output([sys.executable, EXAMPLES / "08_recording.py", recording], text=True, timeout=60)
+    assert "odom -> base_footprint: 579 transforms" in output
+
+
+@pytest.mark.usefixtures("domain_id")
+def test_broadcasters_and_listener_work_together():
+    nodes = [subprocess.Popen([sys.executable, EXAMPLES / name], stderr=subprocess.PIPE, text=True) for name in NODES]
+    try:
+        heights = []
+        deadline = time.monotonic() + 60
+        while len(heights) < 2 and time.monotonic() < deadline:
+            line = nodes[-1].stderr.readline()
+            heights += re.findall(r"lidar at x=\S+ y=\S+ z=(\S+) m in odom", line)
+        assert heights == ["0.30", "0.30"]
+        for node in nodes:
+            node.send_signal(signal.SIGINT)
+        assert [node.wait(20) for node in nodes] == [0, 0, 0]
+    finally:
+        for node in nodes:
+            node.kill()
+            node.wait()
+            node.stderr.close()
+
+
+def test_the_cells_of_the_notebook_run():
+    notebook = json.loads((EXAMPLES / "09_notebook.ipynb").read_text(encoding="utf-8"))
+    names = {}
+    for cell in notebook["cells"]:
+        if cell["cell_type"] == "code":
+            exec("".join(cell["source"]), names)
+    assert names["path"].shape == (1000, 3)
+    assert names["transform"].target == "odom"
