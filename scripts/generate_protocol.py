@@ -217,21 +217,21 @@ def _layout(one: type[Any]) -> str:
 
 
 def _binary_type(field: BinaryField) -> str:
-    if field.count is None:
+    if field.length is None:
         return "number"
-    return "Float32Array" if _is_array(field) else f"[{', '.join(['number'] * field.count)}]"
+    return "Float32Array" if _is_array(field) else f"[{', '.join(['number'] * field.length)}]"
 
 
 def _read(field: BinaryField) -> str:
-    if field.count is None:
+    if field.length is None:
         return READERS[field.letter]
     return (
-        f"reader.floats({field.count})" if _is_array(field) else f"[{', '.join([READERS[field.letter]] * field.count)}]"
+        f"reader.floats({field.length})" if _is_array(field) else f"[{', '.join([READERS[field.letter]] * field.length)}]"
     )
 
 
 def _is_array(field: BinaryField) -> bool:
-    return field.letter == "f" and field.count is not None and field.count > 3
+    return field.letter == "f" and field.length is not None and field.length > 3
 
 
 def _schemas() -> str:

@@ -10,13 +10,13 @@ from array import array
 
 import numpy as np
 import pytest
+from coframe.viewer.sources.messages import Sighting
 
 import coframe
 from coframe.messages import find
 from coframe.viewer.displays import Options
 from coframe.viewer.replay.displays import Pictures, ReplayDisplay, display_blocks
 from coframe.viewer.server.http import STATIC
-from coframe.viewer.sources.messages import Sighting
 
 SECOND = 1_000_000_000
 BEGIN = 1_700_000_000 * SECOND

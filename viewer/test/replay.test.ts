@@ -57,7 +57,7 @@ const scans: ReplayDisplayBlock = {
     [1, "ok", ""],
   ],
   drawings: { "4": base64(cloud()) },
-  pictures: base64(new Uint32Array([1])),
+  changes: base64(new Uint32Array([1])),
   counts: base64(new Uint32Array([1])),
   sequences: base64(new Uint32Array([4])),
   poses: base64(new Float32Array([3 - 500000, 0, 0, 0, 0, 0, 1])),

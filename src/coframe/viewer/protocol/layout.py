@@ -19,7 +19,7 @@ class BinaryField(NamedTuple):
 
     name: str
     letter: str
-    count: int | None
+    length: int | None
 
 
 class Layout(Generic[R]):
@@ -32,7 +32,7 @@ class Layout(Generic[R]):
     def __init__(self, record: type[R]) -> None:
         self._record = record
         self._fields = tuple(binary_fields(record))
-        self._struct = struct.Struct("<" + "".join(f"{field.count or ''}{field.letter}" for field in self._fields))
+        self._struct = struct.Struct("<" + "".join(f"{field.length or ''}{field.letter}" for field in self._fields))
         self.size = self._struct.size
         self.pack = self._struct.pack
         """Pack all numbers of a record, with those of arrays one after another."""
@@ -41,7 +41,7 @@ class Layout(Generic[R]):
         """Return the record at an offset in bytes."""
         numbers = iter(self._struct.unpack_from(data, offset))
         values = [
-            next(numbers) if field.count is None else tuple(next(numbers) for _ in range(field.count))
+            next(numbers) if field.length is None else tuple(next(numbers) for _ in range(field.length))
             for field in self._fields
         ]
         return self._record(*values)

@@ -768,14 +768,14 @@ class ReplayDisplayBlock(TypedDict):
     """A recorded display. Arrays are base64 text of little-endian numbers.
 
     Attributes:
-        every: Every n-th frame was recorded.
-        statuses: The frame number from which a status applies, with the status.
+        every: Every n-th time was recorded.
+        statuses: The index of the time from which a status applies, with the status.
         drawings: Binary messages by sequence number.
-        pictures: uint32: the frame numbers at which the listing changes.
+        changes: uint32: the indices of the times at which the listing changes.
         counts: uint32: the number of drawings of each listing.
         sequences: uint32: the drawings of all listings.
         poses: float32[7]: the poses of their frames.
-        stamps: float64: the times of these poses; NaN for the time of the frame.
+        stamps: float64: the stamps of these poses; NaN for the time of the listing.
     """
 
     topic: str
@@ -785,7 +785,7 @@ class ReplayDisplayBlock(TypedDict):
     every: int
     statuses: list[tuple[int, DisplayState, str]]
     drawings: dict[str, str]
-    pictures: str
+    changes: str
     counts: str
     sequences: str
     poses: str

@@ -6,6 +6,7 @@ import json
 import math
 from typing import Any, cast, get_args
 
+from coframe.errors import CoframeError
 from coframe.viewer.protocol import messages
 from coframe.viewer.protocol.schema import InvalidFieldError, record, shorten
 
@@ -14,7 +15,7 @@ __all__ = ["BadRequestError", "parse_request"]
 _RECORDS = {message_type.type: record(message_type) for message_type in get_args(messages.ClientMessage)}
 
 
-class BadRequestError(ValueError):
+class BadRequestError(CoframeError, ValueError):
     """A message that the protocol does not allow, or a request that cannot be fulfilled.
 
     Attributes:
@@ -23,7 +24,7 @@ class BadRequestError(ValueError):
 
     def __init__(self, text: str, hint: str = "") -> None:
         super().__init__(text)
-        self.hint = hint
+        self._hint = hint
 
 
 def parse_request(message: str | bytes) -> messages.ClientMessage:
