@@ -79,24 +79,24 @@ std::int64_t to_duration(nb::handle duration) {
   return converted("duration_ns", duration);
 }
 
-Question question_of(BufferObject& buffer, nb::handle target, nb::handle source, nb::handle stamp) {
-  Question question;
-  question.target_id = buffer.frame(target.ptr());
-  question.source_id = buffer.frame(source.ptr());
-  question.target = text(target);
-  question.source = text(source);
-  question.stamp = to_stamp(stamp);
-  return question;
+LookupQuery query_of(BufferObject& buffer, nb::handle target, nb::handle source, nb::handle stamp) {
+  LookupQuery query;
+  query.target_id = buffer.frame(target.ptr());
+  query.source_id = buffer.frame(source.ptr());
+  query.target = text(target);
+  query.source = text(source);
+  query.stamp = to_stamp(stamp);
+  return query;
 }
 
-Question full_question_of(BufferObject& buffer, nb::handle target, nb::handle target_stamp, nb::handle source,
+LookupQuery full_query_of(BufferObject& buffer, nb::handle target, nb::handle target_stamp, nb::handle source,
                           nb::handle source_stamp, nb::handle fixed) {
-  Question question = question_of(buffer, target, source, target_stamp);
-  question.travels = true;
-  question.fixed_id = buffer.frame(fixed.ptr());
-  question.fixed = text(fixed);
-  question.source_stamp = to_stamp(source_stamp);
-  return question;
+  LookupQuery query = query_of(buffer, target, source, target_stamp);
+  query.time_travel = true;
+  query.fixed_id = buffer.frame(fixed.ptr());
+  query.fixed = text(fixed);
+  query.source_stamp = to_stamp(source_stamp);
+  return query;
 }
 
 std::uint32_t IdentityCache::remember(Entry& entry, PyObject* name, std::uint32_t number) {

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "bindings/buffer.hpp"
-#include "core/question.hpp"
+#include "core/query.hpp"
 
 namespace coframe::bindings {
 
@@ -54,8 +54,8 @@ Stamp to_stamp(nb::handle stamp);
 std::int64_t to_duration(nb::handle duration);
 
 // The names stay valid as long as their objects.
-Question question_of(BufferObject& buffer, nb::handle target, nb::handle source, nb::handle stamp);
-Question full_question_of(BufferObject& buffer, nb::handle target, nb::handle target_stamp, nb::handle source,
+LookupQuery query_of(BufferObject& buffer, nb::handle target, nb::handle source, nb::handle stamp);
+LookupQuery full_query_of(BufferObject& buffer, nb::handle target, nb::handle target_stamp, nb::handle source,
                           nb::handle source_stamp, nb::handle fixed);
 
 // An object with the buffer protocol, held while its memory is used.

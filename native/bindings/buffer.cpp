@@ -20,16 +20,16 @@ namespace coframe::bindings {
 namespace {
 
 // Tries now, and then waits without the GIL for the insertion that brings the answer.
-bool answer_within(BufferObject& self, Question& question, std::int64_t timeout_ns, Answer& answer, Failure& failure) {
-  if (self.core->answer(question, answer, failure)) return true;
+bool lookup_by_name_waiting(BufferObject& self, LookupQuery& query, std::int64_t timeout_ns, LookupResult& result, Failure& failure) {
+  if (self.core->lookup_by_name(query, result, failure)) return true;
   if (timeout_ns <= 0) return false;
-  const auto wait = std::make_shared<Wait>(question);
-  const SeatedWait seated(self.core->waiting_room(), wait);
+  const auto wait = std::make_shared<Wait>(query);
+  const ScopedWait queued(self.core->wait_queue(), wait);
   if (wait_with_signals(timeout_ns, [&](std::int64_t slice) { return wait->wait_for(slice); })) {
-    answer = wait->answer();
+    result = wait->result();
     return true;
   }
-  return self.core->answer(question, answer, failure);  // also what is missing by now
+  return self.core->lookup_by_name(query, result, failure);  // also what is missing by now
 }
 
 // Beyond so many the other Python threads may run meanwhile; below, letting them costs more than it gives.
@@ -49,22 +49,22 @@ std::optional<Extrapolation> extrapolation_of(nb::handle limit, bool hold) {
   return extrapolation;
 }
 
-nb::object patient_lookup(BufferObject& self, nb::handle target, nb::handle source, nb::handle stamp,
+nb::object lookup_waiting(BufferObject& self, nb::handle target, nb::handle source, nb::handle stamp,
                           std::int64_t timeout_ns, std::optional<Extrapolation>& extrapolation) {
-  Question question = question_of(self, target, source, stamp);
-  Answer answer;
+  LookupQuery query = query_of(self, target, source, stamp);
+  LookupResult result;
   Failure failure;
-  if (answer_within(self, question, timeout_ns, answer, failure)) {
-    return make_transform(answer.pose, answer.stamp, target, source);
+  if (lookup_by_name_waiting(self, query, timeout_ns, result, failure)) {
+    return make_transform(result.pose, result.stamp, target, source);
   }
-  if (extrapolation && self.core->answer(question, answer, failure, &*extrapolation)) {
-    return make_transform(answer.pose, answer.stamp, target, source, extrapolation->furthest);
+  if (extrapolation && self.core->lookup_by_name(query, result, failure, &*extrapolation)) {
+    return make_transform(result.pose, result.stamp, target, source, extrapolation->furthest);
   }
   return raise_for(self, std::move(failure), target, source);
 }
 
 // What is mostly asked: two frames, and a stamp that is an int or none.
-struct PlainQuestion {
+struct PlainQuery {
   FrameId target = 0, source = 0;
   Stamp stamp = 0;
 
@@ -77,37 +77,37 @@ struct PlainQuestion {
   }
 };
 
-PyObject* quick_lookup(BufferObject& self, PlainQuestion& question, PyObject* target, PyObject* source) {
+PyObject* lookup_cached_path(BufferObject& self, PlainQuery& query, PyObject* target, PyObject* source) {
   Pose pose;
-  if (!self.core->quick_lookup(self.paths, question.target, question.source, question.stamp, pose)) return nullptr;
-  return make_transform(pose, question.stamp, target, source).release().ptr();
+  if (!self.core->lookup_cached_path(self.paths, query.target, query.source, query.stamp, pose)) return nullptr;
+  return make_transform(pose, query.stamp, target, source).release().ptr();
 }
 
 // The whole answer, or its exception; nullptr without one where a frame is not known any more.
-PyObject* whole_lookup(BufferObject& self, PlainQuestion& question, PyObject* target, PyObject* source) {
-  if (!self.core->knows(question.target) || !self.core->knows(question.source)) return nullptr;
+PyObject* lookup_by_walking(BufferObject& self, PlainQuery& query, PyObject* target, PyObject* source) {
+  if (!self.core->knows(query.target) || !self.core->knows(query.source)) return nullptr;
   Pose pose;
   Failure failure;
-  if (!self.core->walk(question.target, question.source, question.stamp, pose, failure)) {
+  if (!self.core->lookup_by_walking(query.target, query.source, query.stamp, pose, failure)) {
     return raise_for(self, std::move(failure), target, source).release().ptr();
   }
-  return make_transform(pose, question.stamp, target, source).release().ptr();
+  return make_transform(pose, query.stamp, target, source).release().ptr();
 }
 
-bool quick_check(BufferObject& self, const PlainQuestion& question) {
-  return self.core->quick_check(self.paths, question.target, question.source, question.stamp);
+bool check_cached_path(BufferObject& self, const PlainQuery& query) {
+  return self.core->check_cached_path(self.paths, query.target, query.source, query.stamp);
 }
 
 // The shortest way to ask: the arguments are (target, source[, stamp]), and the names were asked for before. nullptr
 // without an exception for all else, and where `ask` has no answer.
 template <class Ask>
-PyObject* ask_known(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords, Ask&& ask) {
+PyObject* call_with_cached_ids(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords, Ask&& ask) {
   if (keywords || count < 2 || count > 3 || !nb::inst_ready(object)) return nullptr;
   return guarded([&]() -> PyObject* {
     BufferObject& self = *nb::inst_ptr<BufferObject>(object);
-    PlainQuestion question;
+    PlainQuery query;
     const FrameId target = self.frames.known(arguments[0]), source = self.frames.known(arguments[1]);
-    return question.read(target, source, count == 3 ? arguments[2] : nullptr) ? ask(self, question) : nullptr;
+    return query.read(target, source, count == 3 ? arguments[2] : nullptr) ? ask(self, query) : nullptr;
   });
 }
 
@@ -119,7 +119,7 @@ bool is_true(PyObject* object) {
   return truth != 0;
 }
 
-PyObject* any_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+PyObject* lookup_general(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<6> signature("lookup", {"target", "source", "stamp", "timeout", "extrapolate", "hold"}, 2, 3);
   PyObject* values[6];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
@@ -129,81 +129,81 @@ PyObject* any_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t co
     const std::int64_t timeout = to_duration(given(values[3]));
     std::optional<Extrapolation> extrapolation = extrapolation_of(given(values[4]), is_true(values[5]));
     // What can be answered now needs neither patience nor a guess.
-    PlainQuestion question;
-    if (question.read(self.frame(values[0]), self.frame(values[1]), values[2])) {
-      if (PyObject* found = quick_lookup(self, question, values[0], values[1])) return found;
+    PlainQuery query;
+    if (query.read(self.frame(values[0]), self.frame(values[1]), values[2])) {
+      if (PyObject* found = lookup_cached_path(self, query, values[0], values[1])) return found;
     }
-    return patient_lookup(self, values[0], values[1], given(values[2]), timeout, extrapolation).release().ptr();
+    return lookup_waiting(self, values[0], values[1], given(values[2]), timeout, extrapolation).release().ptr();
   });
 }
 
 PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  const auto ask = [&](BufferObject& self, PlainQuestion& question) {
-    PyObject* found = quick_lookup(self, question, arguments[0], arguments[1]);
-    return found ? found : whole_lookup(self, question, arguments[0], arguments[1]);
+  const auto ask = [&](BufferObject& self, PlainQuery& query) {
+    PyObject* found = lookup_cached_path(self, query, arguments[0], arguments[1]);
+    return found ? found : lookup_by_walking(self, query, arguments[0], arguments[1]);
   };
-  PyObject* found = ask_known(object, arguments, count, keywords, ask);
-  return found || PyErr_Occurred() ? found : any_lookup(object, arguments, count, keywords);
+  PyObject* found = call_with_cached_ids(object, arguments, count, keywords, ask);
+  return found || PyErr_Occurred() ? found : lookup_general(object, arguments, count, keywords);
 }
 
 nb::object py_lookup_full(BufferObject& self, nb::handle target, nb::handle target_stamp, nb::handle source,
                           nb::handle source_stamp, nb::handle fixed, nb::handle timeout) {
-  Question question = full_question_of(self, target, target_stamp, source, source_stamp, fixed);
-  Answer answer;
+  LookupQuery query = full_query_of(self, target, target_stamp, source, source_stamp, fixed);
+  LookupResult result;
   Failure failure;
-  if (!answer_within(self, question, to_duration(timeout), answer, failure)) {
+  if (!lookup_by_name_waiting(self, query, to_duration(timeout), result, failure)) {
     return raise_for(self, std::move(failure), target, source);
   }
-  return make_transform(answer.pose, answer.stamp, target, source);
+  return make_transform(result.pose, result.stamp, target, source);
 }
 
-PyObject* any_can_transform(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
+PyObject* can_transform_general(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<4> signature("can_transform", {"target", "source", "stamp", "timeout"}, 2, 3);
   PyObject* values[4];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&] {
     BufferObject& self = buffer_of(object);
     const std::int64_t timeout = to_duration(given(values[3]));
-    PlainQuestion plain;
-    if (plain.read(self.frame(values[0]), self.frame(values[1]), values[2]) && quick_check(self, plain)) {
+    PlainQuery plain;
+    if (plain.read(self.frame(values[0]), self.frame(values[1]), values[2]) && check_cached_path(self, plain)) {
       return Py_NewRef(Py_True);
     }
-    Question question = question_of(self, values[0], values[1], given(values[2]));
-    Answer answer;
+    LookupQuery query = query_of(self, values[0], values[1], given(values[2]));
+    LookupResult result;
     Failure failure;
-    return PyBool_FromLong(answer_within(self, question, timeout, answer, failure));
+    return PyBool_FromLong(lookup_by_name_waiting(self, query, timeout, result, failure));
   });
 }
 
 PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  const auto ask = [&](BufferObject& self, PlainQuestion& question) {
-    return quick_check(self, question) ? Py_NewRef(Py_True) : nullptr;
+  const auto ask = [&](BufferObject& self, PlainQuery& query) {
+    return check_cached_path(self, query) ? Py_NewRef(Py_True) : nullptr;
   };
-  PyObject* found = ask_known(object, arguments, count, keywords, ask);
-  return found || PyErr_Occurred() ? found : any_can_transform(object, arguments, count, keywords);
+  PyObject* found = call_with_cached_ids(object, arguments, count, keywords, ask);
+  return found || PyErr_Occurred() ? found : can_transform_general(object, arguments, count, keywords);
 }
 
 bool py_can_transform_full(BufferObject& self, nb::handle target, nb::handle target_stamp, nb::handle source,
                            nb::handle source_stamp, nb::handle fixed, nb::handle timeout) {
-  Question question = full_question_of(self, target, target_stamp, source, source_stamp, fixed);
-  Answer answer;
+  LookupQuery query = full_query_of(self, target, target_stamp, source, source_stamp, fixed);
+  LookupResult result;
   Failure failure;
-  return answer_within(self, question, to_duration(timeout), answer, failure);
+  return lookup_by_name_waiting(self, query, to_duration(timeout), result, failure);
 }
 
-std::string reason(BufferObject& self, Question question) {
+std::string reason(BufferObject& self, LookupQuery query) {
   Failure failure;
-  if (self.core->can_answer(question, failure)) return "";
-  return text_of({std::move(failure), self.core, {}, {}, Speaker::can_transform});
+  if (self.core->can_lookup(query, failure)) return "";
+  return text_of({std::move(failure), self.core, {}, {}, Tf2Function::can_transform});
 }
 
 std::string why_not(BufferObject& self, nb::handle target, nb::handle source, nb::handle stamp) {
-  return reason(self, question_of(self, target, source, stamp));
+  return reason(self, query_of(self, target, source, stamp));
 }
 
 std::string why_not_full(BufferObject& self, nb::handle target, nb::handle target_stamp, nb::handle source,
                          nb::handle source_stamp, nb::handle fixed) {
-  return reason(self, full_question_of(self, target, target_stamp, source, source_stamp, fixed));
+  return reason(self, full_query_of(self, target, target_stamp, source, source_stamp, fixed));
 }
 
 double* rows(const Memory& memory, std::size_t columns, std::size_t count) {
@@ -232,12 +232,12 @@ std::size_t lookup_rows(BufferObject& self, nb::handle target, nb::handle source
   Batch batch{count, times.data<Stamp>(), rows(places, 7, count), nullptr, nullptr, missing_of(on_error)};
   if (!twists.is_none()) batch.twists = rows(rates.emplace(twists, kFlags), 6, count);
   if (!beyond.is_none()) batch.beyond = reinterpret_cast<Stamp*>(rows(distances.emplace(beyond, kFlags), 1, count));
-  const Question question = question_of(self, target, source, nb::none());
+  const LookupQuery query = query_of(self, target, source, nb::none());
   const std::optional<Extrapolation> extrapolation = extrapolation_of(extrapolate, hold);
   Failure failure;
   std::size_t missing;
   const auto run = [&] {
-    missing = self.core->answer_many(question, extrapolation ? &*extrapolation : nullptr, batch, threads, failure);
+    missing = self.core->lookup_many(query, extrapolation ? &*extrapolation : nullptr, batch, threads, failure);
   };
   if (count > kManyLookups || threads > 1) {
     const WithoutGil release;
@@ -253,10 +253,10 @@ std::size_t lookup_rows(BufferObject& self, nb::handle target, nb::handle source
 }
 
 nb::bytes stamps_between(BufferObject& self, nb::handle target, nb::handle source, Stamp first, Stamp last) {
-  Question question = question_of(self, target, source, nb::none());
+  LookupQuery query = query_of(self, target, source, nb::none());
   std::vector<Stamp> stamps;
   Failure failure;
-  if (!self.core->stamps_between(question, first, last, stamps, failure)) {
+  if (!self.core->stamps_between(query, first, last, stamps, failure)) {
     raise_for(self, std::move(failure), target, source);
     throw nb::python_error();
   }
@@ -283,12 +283,12 @@ nb::tuple set_rows(BufferObject& self, std::string_view parent, std::string_view
 }
 
 nb::object py_latest_common_time(BufferObject& self, nb::handle target, nb::handle source) {
-  Question question = question_of(self, target, source, nb::none());
+  LookupQuery query = query_of(self, target, source, nb::none());
   Failure failure;
   Stamp stamp = 0;
-  if (!self.core->latest_common_time(question, stamp, failure)) {
+  if (!self.core->latest_common_time(query, stamp, failure)) {
     return raise_failure(
-        {std::move(failure), self.core, nb::borrow(target), nb::borrow(source), Speaker::latest_common_time});
+        {std::move(failure), self.core, nb::borrow(target), nb::borrow(source), Tf2Function::latest_common_time});
   }
   return nb::int_(stamp);
 }

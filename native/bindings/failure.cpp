@@ -39,7 +39,7 @@ const char* code_name(ErrorCode code) {
 
 Raised exception_of(const FailureObject& object) {
   // tf2's Python binding has only the base class for what the latest common time meets in the tree.
-  const bool is_time = object.speaker == Speaker::latest_common_time;
+  const bool is_time = object.function == Tf2Function::latest_common_time;
   switch (object.failure.code) {
     case ErrorCode::empty_name:
     case ErrorCode::leading_slash: return kInvalidArgument;
@@ -162,9 +162,9 @@ void register_errors(const nb::module_& errors) {
 
 std::string text_of(const FailureObject& object) {
   return object.buffer->read([&](const Tree& tree) {
-    switch (object.speaker) {
-      case Speaker::can_transform: return can_transform_text(object.failure, tree);
-      case Speaker::latest_common_time: return latest_common_time_text(object.failure, tree);
+    switch (object.function) {
+      case Tf2Function::can_transform: return can_transform_text(object.failure, tree);
+      case Tf2Function::latest_common_time: return latest_common_time_text(object.failure, tree);
       default: return lookup_text(object.failure, tree);
     }
   });

@@ -13,13 +13,13 @@ namespace coframe::bindings {
 namespace nb = nanobind;
 
 // Whose words the text uses.
-enum class Speaker { lookup, can_transform, latest_common_time };
+enum class Tf2Function { lookup, can_transform, latest_common_time };
 
 struct FailureObject {
   Failure failure;
   std::shared_ptr<Buffer> buffer;
   nb::object target, source;  // the names as they were asked for
-  Speaker speaker = Speaker::lookup;
+  Tf2Function function = Tf2Function::lookup;
 };
 
 std::string text_of(const FailureObject& failure);

@@ -157,7 +157,7 @@ PyObject* lookup_message(PyObject* object, PyObject* const* arguments, Py_ssize_
     if (!is_text(values[0]) || !is_text(values[1]) || !read_time(values[2], stamp)) return Py_NewRef(Py_None);
     const FrameId target = self.frame(values[0]), source = self.frame(values[1]);
     const bool found = target != 0 && source != 0 && target != source &&
-                       self.core->quick_lookup(self.paths, target, source, stamp, pose);
+                       self.core->lookup_cached_path(self.paths, target, source, stamp, pose);
     return found ? make_message(values[0], values[1], stamp, pose).release().ptr() : Py_NewRef(Py_None);
   });
 }

@@ -14,7 +14,7 @@ namespace coframe::bindings {
 namespace {
 
 // How an answer was come by.
-enum class Told : std::uint8_t {
+enum class State : std::uint8_t {
   exactly,
   held,         // a link has no sample at that time, and was taken to stand still beyond its samples
   not_at_all,   // NaN
@@ -36,19 +36,19 @@ class PoseTable {
     }
   }
 
-  void look_up(Stamp stamp, Stamp hold, nb::handle poses, nb::handle told) {
+  void look_up(Stamp stamp, Stamp hold, nb::handle poses, nb::handle states) {
     constexpr int kFlags = PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS;
-    const Memory memory(poses, kFlags), states(told, kFlags);
-    if (memory.size() != rows_.size() * 7 * sizeof(double) || states.size() != rows_.size()) {
-      throw nb::value_error("poses must be (N, 7) float64 and told (N,) uint8 for N frames");
+    const Memory memory(poses, kFlags), out_states(states, kFlags);
+    if (memory.size() != rows_.size() * 7 * sizeof(double) || out_states.size() != rows_.size()) {
+      throw nb::value_error("poses must be (N, 7) float64 and states (N,) uint8 for N frames");
     }
     double* out = memory.data<double>();
-    std::uint8_t* how = states.data<std::uint8_t>();
+    std::uint8_t* how = out_states.data<std::uint8_t>();
     for (Row& row : rows_) {
       Pose pose;
-      const Told told_now = look_up(row, stamp, hold, pose);
-      *how++ = static_cast<std::uint8_t>(told_now);
-      if (told_now == Told::not_at_all) {
+      const State state = look_up(row, stamp, hold, pose);
+      *how++ = static_cast<std::uint8_t>(state);
+      if (state == State::not_at_all) {
         out = std::fill_n(out, 7, std::numeric_limits<double>::quiet_NaN());
       } else {
         out = std::copy_n(pose.q, 4, std::copy_n(pose.p, 3, out));
@@ -71,22 +71,22 @@ class PoseTable {
     return frame.number;
   }
 
-  Told look_up(Row& row, Stamp stamp, Stamp hold, Pose& pose) {
+  State look_up(Row& row, Stamp stamp, Stamp hold, Pose& pose) {
     const FrameId target = number_of(row.target), source = number_of(row.source);
     Stamp when = stamp, beyond = 0;
     if (target == 0 || source == 0 || target == source ||
-        !self_.core->quick_lookup(self_.paths, target, source, when, pose)) {
-      Question question = question_of(self_, row.target.name, row.source.name, nb::none());
-      question.stamp = stamp;
+        !self_.core->lookup_cached_path(self_.paths, target, source, when, pose)) {
+      LookupQuery query = query_of(self_, row.target.name, row.source.name, nb::none());
+      query.stamp = stamp;
       Extrapolation extrapolation{Extrapolation::Method::hold, hold, 0};
-      Answer answer;
+      LookupResult result;
       Failure failure;
-      if (!self_.core->answer(question, answer, failure, &extrapolation)) return Told::not_at_all;
-      pose = answer.pose;
+      if (!self_.core->lookup_by_name(query, result, failure, &extrapolation)) return State::not_at_all;
+      pose = result.pose;
       beyond = extrapolation.furthest;
     }
-    if (row.is_apart) return Told::in_own_tree;
-    return beyond == 0 ? Told::exactly : Told::held;
+    if (row.is_apart) return State::in_own_tree;
+    return beyond == 0 ? State::exactly : State::held;
   }
 
   nb::object buffer_;
@@ -94,14 +94,14 @@ class PoseTable {
   std::vector<Row> rows_;
 };
 
-std::size_t poses_near(nb::handle poses, nb::handle told, nb::handle origin, Py_ssize_t fixed, double reach,
+std::size_t poses_near(nb::handle poses, nb::handle states, nb::handle origin, Py_ssize_t fixed, double limit,
                        nb::handle near) {
-  const Memory rows(poses, PyBUF_C_CONTIGUOUS), states(told, PyBUF_C_CONTIGUOUS), local(origin, PyBUF_C_CONTIGUOUS),
+  const Memory rows(poses, PyBUF_C_CONTIGUOUS), states_memory(states, PyBUF_C_CONTIGUOUS), local(origin, PyBUF_C_CONTIGUOUS),
       out(near, PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS);
-  const std::size_t count = states.size();
+  const std::size_t count = states_memory.size();
   if (rows.size() != count * 7 * sizeof(double) || out.size() != count * 7 * sizeof(float) ||
       local.size() != 3 * sizeof(double)) {
-    throw nb::value_error("poses (N, 7) float64, told (N,) uint8, origin (3,) float64, near (N, 7) float32");
+    throw nb::value_error("poses (N, 7) float64, states (N,) uint8, origin (3,) float64, near (N, 7) float32");
   }
   std::size_t far = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -113,8 +113,8 @@ std::size_t poses_near(nb::handle poses, nb::handle told, nb::handle origin, Py_
       small[axis] = static_cast<float>(value);
       if (axis < 3 && std::isfinite(value)) distance = std::max(distance, std::abs(value));
     }
-    const bool is_shown = states.data<std::uint8_t>()[i] <= static_cast<std::uint8_t>(Told::held);
-    if (is_shown && distance > reach && static_cast<Py_ssize_t>(i) != fixed) ++far;
+    const bool is_shown = states_memory.data<std::uint8_t>()[i] <= static_cast<std::uint8_t>(State::held);
+    if (is_shown && distance > limit && static_cast<Py_ssize_t>(i) != fixed) ++far;
   }
   return far;
 }
@@ -127,8 +127,8 @@ void define_poses(nb::module_& module) {
       .def(nb::init<nb::handle_t<BufferObject>, nb::str, nb::list, nb::list>(), arg("buffer"), arg("fixed"),
            arg("frames"), arg("roots"))
       .def("look_up", nb::overload_cast<Stamp, Stamp, nb::handle, nb::handle>(&PoseTable::look_up), arg("stamp"),
-           arg("hold"), arg("poses"), arg("told"), "Where all of them are at one time.");
-  module.def("poses_near", &poses_near, arg("poses"), arg("told"), arg("origin"), arg("fixed"), arg("reach"),
+           arg("hold"), arg("poses"), arg("states"), "Where all of them are at one time.");
+  module.def("poses_near", &poses_near, arg("poses"), arg("states"), arg("origin"), arg("fixed"), arg("limit"),
              arg("near"), "Poses as float32, relative to an origin; how many are far from it.");
 }
 

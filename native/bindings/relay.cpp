@@ -45,7 +45,7 @@ nb::list edges(const Relay& self) {
     const bool contested = claim.rival != Relay::kNobody;
     list.append(nb::make_tuple(text_of(edge.parent), text_of(claim.child), claim.source, edge.writer,
                                contested ? nb::int_(claim.rival) : nb::object(nb::none()), claim.contested,
-                               edge.passed, edge.thinned, edge.newest, edge.heard_at));
+                               edge.passed, edge.thinned, edge.newest, edge.received_at));
   }
   return list;
 }
@@ -54,7 +54,7 @@ nb::list writers(const Relay& self, Relay::SourceId source) {
   if (source >= self.sources()) throw nb::index_error("there is no such source");
   nb::list list;
   for (const auto& [handle, writer] : self.writers(source)) {
-    list.append(nb::make_tuple(heard_tuple(handle, writer.messages, writer.heard_at, writer.lag, writer.odd),
+    list.append(nb::make_tuple(writer_tuple(handle, writer.messages, writer.received_at, writer.delay, writer.name_problems),
                                writer.malformed, writer.refused));
   }
   return list;
@@ -62,11 +62,11 @@ nb::list writers(const Relay& self, Relay::SourceId source) {
 
 }  // namespace
 
-nb::tuple heard_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t heard_at, const Lag& lag,
-                      const NameOddities& odd) {
-  const nb::object behind = lag.known() ? nb::object(nb::int_(lag.typical())) : nb::object(nb::none());
-  return nb::make_tuple(writer, messages, heard_at, behind, text_of(odd.slashed), text_of(odd.prefixed),
-                        text_of(odd.plain));
+nb::tuple writer_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t received_at, const StampDelay& delay,
+                      const NameProblems& name_problems) {
+  const nb::object behind = delay.known() ? nb::object(nb::int_(delay.typical())) : nb::object(nb::none());
+  return nb::make_tuple(writer, messages, received_at, behind, text_of(name_problems.slashed), text_of(name_problems.prefixed),
+                        text_of(name_problems.plain));
 }
 
 void define_relay(nb::module_& module) {

@@ -5,13 +5,13 @@
 
 #include <cstdint>
 
-#include "core/lag.hpp"
+#include "core/stamp_delay.hpp"
 #include "core/renaming.hpp"
 
 namespace coframe::bindings {
 
 // (handle, messages, heard at, typical lag or None, examples of names: with a slash, with the prefix, without it)
-nanobind::tuple heard_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t heard_at, const Lag& lag,
-                            const NameOddities& odd);
+nanobind::tuple writer_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t received_at, const StampDelay& delay,
+                            const NameProblems& name_problems);
 
 }  // namespace coframe::bindings

@@ -1,4 +1,4 @@
-#include "core/waiting.hpp"
+#include "core/wait_queue.hpp"
 
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
@@ -17,23 +17,23 @@ namespace {
 // In the waiting room as long as Python keeps it.
 class WaitObject {
  public:
-  WaitObject(BufferObject& buffer, const Question& question, std::shared_ptr<Mailbox> mailbox, Token token,
+  WaitObject(BufferObject& buffer, const LookupQuery& query, std::shared_ptr<Mailbox> mailbox, Token token,
              nb::handle target, nb::handle source)
       : buffer_(buffer.core),
-        wait_(std::make_shared<Wait>(question, std::move(mailbox), token)),
+        wait_(std::make_shared<Wait>(query, std::move(mailbox), token)),
         target_(nb::borrow(target)),
         source_(nb::borrow(source)) {
-    buffer_->waiting_room().add(wait_);
+    buffer_->wait_queue().add(wait_);
   }
   WaitObject(const WaitObject&) = delete;
   WaitObject& operator=(const WaitObject&) = delete;
   ~WaitObject() { cancel(); }
 
-  nb::object answer() const {
-    if (!wait_->answered()) return nb::none();
-    return make_transform(wait_->answer().pose, wait_->answer().stamp, target_, source_);
+  nb::object transform() const {
+    if (!wait_->done()) return nb::none();
+    return make_transform(wait_->result().pose, wait_->result().stamp, target_, source_);
   }
-  void cancel() { buffer_->waiting_room().remove(wait_); }
+  void cancel() { buffer_->wait_queue().remove(wait_); }
 
  private:
   std::shared_ptr<Buffer> buffer_;
@@ -45,7 +45,7 @@ class WatchObject {
  public:
   WatchObject(BufferObject& buffer, std::string_view child, std::shared_ptr<Mailbox> mailbox, Token token)
       : buffer_(buffer.core), watch_(std::make_shared<Watch>(child, std::move(mailbox), token)) {
-    buffer_->waiting_room().add(watch_);
+    buffer_->wait_queue().add(watch_);
   }
   WatchObject(const WatchObject&) = delete;
   WatchObject& operator=(const WatchObject&) = delete;
@@ -57,7 +57,7 @@ class WatchObject {
     return names;
   }
   void cancel() {
-    if (active_) buffer_->waiting_room().remove(watch_);
+    if (active_) buffer_->wait_queue().remove(watch_);
     active_ = false;
   }
 
@@ -84,7 +84,7 @@ void define_waiting(nb::module_& module) {
           },
           arg("timeout_ns"), "Waits, without the GIL, until there are some (True) or the time (negative: for ever) is over.");
   nb::class_<WaitObject>(module, "Wait", "A look-up that waits for its answer.")
-      .def("answer", &WaitObject::answer, "The transform, or None while there is none.")
+      .def("transform", &WaitObject::transform, "The transform, or None while there is none.")
       .def("cancel", &WaitObject::cancel, "Waits no more.");
   nb::class_<WatchObject>(module, "Watch", "Notes which edges change.")
       .def("take", &WatchObject::take, "The child frames of the edges that have changed since the last call.")
@@ -93,7 +93,7 @@ void define_waiting(nb::module_& module) {
       "wait",
       [](BufferObject& buffer, std::shared_ptr<Mailbox> mailbox, Token token, nb::handle target, nb::handle source,
          nb::handle stamp) {
-        return std::make_unique<WaitObject>(buffer, question_of(buffer, target, source, stamp), std::move(mailbox),
+        return std::make_unique<WaitObject>(buffer, query_of(buffer, target, source, stamp), std::move(mailbox),
                                             token, target, source);
       },
       arg("buffer"), arg("mailbox"), arg("token"), any("target"), any("source"), any("stamp"),
@@ -103,7 +103,7 @@ void define_waiting(nb::module_& module) {
       [](BufferObject& buffer, std::shared_ptr<Mailbox> mailbox, Token token, nb::handle target,
          nb::handle target_stamp, nb::handle source, nb::handle source_stamp, nb::handle fixed) {
         return std::make_unique<WaitObject>(
-            buffer, full_question_of(buffer, target, target_stamp, source, source_stamp, fixed), std::move(mailbox),
+            buffer, full_query_of(buffer, target, target_stamp, source, source_stamp, fixed), std::move(mailbox),
             token, target, source);
       },
       arg("buffer"), arg("mailbox"), arg("token"), any("target"), any("target_stamp"), any("source"),

@@ -125,15 +125,15 @@ nb::list take_endpoints(PyEndpointReader& reader) {
   return list;
 }
 
-nb::list heard(const PyTfReader& reader) {
-  std::vector<TfReader::Heard> all;
+nb::list writers(const PyTfReader& reader) {
+  std::vector<TfReader::WriterStatistics> all;
   {
     WithoutGil release;
-    all = reader.heard();
+    all = reader.writers();
   }
   nb::list list;
-  for (const auto& [writer, messages, heard_at, lag, odd] : all) {
-    list.append(heard_tuple(writer, messages, heard_at, lag, odd));
+  for (const auto& [writer, messages, received_at, delay, name_problems] : all) {
+    list.append(writer_tuple(writer, messages, received_at, delay, name_problems));
   }
   return list;
 }
@@ -214,7 +214,7 @@ void define_readers(nb::module_& wire) {
            "The buffer notes `authority` for what the writer with this handle has sent and will send.")
       .def("forget_writer", &PyTfReader::forget_writer, nb::arg("writer"), ReleaseGil(),
            "The writer with this handle has left.")
-      .def("heard", &heard, "What each writer has sent.")
+      .def("writers", &writers, "What each writer has sent.")
       .def_prop_ro("stored_at", &PyTfReader::stored_at,
                    "When the newest message's transforms were in the buffer, in nanoseconds of the steady clock; 0: never.");
   define_reader_properties<PyTfReader>(tf_reader);

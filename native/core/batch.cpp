@@ -129,7 +129,7 @@ void fill_up(std::size_t count, Between& rows) {
 }
 
 // One link of the path for all rows, the first or one that goes on from `rows`.
-void follow_link(const PathCache::Step& link, bool first, RowBlock& rows) {
+void follow_edge(const PathCache::Step& link, bool first, RowBlock& rows) {
   const Kernels& kernels = coframe::kernels();
   const History::View history = link.history->view();
   // All samples in sight are told in that parent: a writer says what is not so before he shows the first other one.
@@ -227,7 +227,7 @@ void follow_block(const PathCache::Path& path, RowBlock& rows) {
   for (std::size_t row = 0; row < rows.count; ++row) rows.ok[row] = rows.stamps[row] != 0;
   bool first = true;
   for (const PathCache::Step& link : path.steps) {
-    follow_link(link, first, rows);
+    follow_edge(link, first, rows);
     first = false;
   }
 }

@@ -1,4 +1,4 @@
-// One question at many times: path and samples are found block by block, so that memory is fetched while numbers are
+// One query at many times: path and samples are found block by block, so that memory is fetched while numbers are
 // worked on.
 #pragma once
 

@@ -96,7 +96,7 @@ unsigned Buffer::insert_and_announce(Insert&& insert) {
     count(inserted.refusals);
     count_change();
   }
-  tell(&inserted, 1);
+  notify(&inserted, 1);
   return inserted.refusals;
 }
 
@@ -190,12 +190,12 @@ void Buffer::rename(TransformStream& stream, std::string_view authority) {
 
 DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size,
                              std::size_t& stored) {
-  const DecodeFailure failure = take_in(stream, data, size, stored);
-  tell_of_last(stream);
+  const DecodeFailure failure = ingest_without_notify(stream, data, size, stored);
+  notify_ingested(stream);
   return failure;
 }
 
-DecodeFailure Buffer::take_in(TransformStream& stream, const std::uint8_t* data, std::size_t size,
+DecodeFailure Buffer::ingest_without_notify(TransformStream& stream, const std::uint8_t* data, std::size_t size,
                               std::size_t& stored) {
   stored = 0;
   const auto decode = stream.encoding == TransformStream::Encoding::cdr ? decode_tf_message : decode_ros1_tf_message;
@@ -218,8 +218,8 @@ DecodeFailure Buffer::take_in(TransformStream& stream, const std::uint8_t* data,
   return failure;
 }
 
-void Buffer::tell_of_last(TransformStream& stream) {
-  tell(stream.inserted.data(), stream.inserted.size());
+void Buffer::notify_ingested(TransformStream& stream) {
+  notify(stream.inserted.data(), stream.inserted.size());
   if (stream.decoded.capacity() > TransformStream::kMaxRemembered) {
     stream.decoded = {};
     stream.inserted = {};
@@ -241,8 +241,8 @@ Inserted Buffer::store_unexpected(TransformStream& stream, std::size_t index, co
   if (!is_utf8(view.parent) || !is_utf8(view.child)) return {.refusals = kNoChildFrame};
   static const Renaming none;
   const Renaming& renaming = stream.renaming ? *stream.renaming : none;
-  stream.odd.note(renaming, view.parent);
-  stream.odd.note(renaming, view.child);
+  stream.name_problems.note(renaming, view.parent);
+  stream.name_problems.note(renaming, view.child);
   if (!stream.renaming) return store_named(stream, index, view, view.parent, view.child);
   return store_named(stream, index, view, renaming(view.parent), renaming(view.child));
 }
@@ -306,11 +306,11 @@ std::shared_ptr<Buffer> Buffer::restored(Stamp cache_length, std::span<const std
 
 // A sample at the latest common time may be dropped between the choice of that time and the look at the sample; a
 // failure that stays the same is none of these.
-template <class Look>
-bool Buffer::look_till_settled(bool for_latest, const Failure& failure, Look&& look) const {
+template <class Lookup>
+bool Buffer::retry_until_stable(bool for_latest, const Failure& failure, Lookup&& lookup) const {
   std::pair<Stamp, Stamp> before{};
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    if (consistent(look)) return true;
+    if (consistent(lookup)) return true;
     const std::pair now(failure.requested, failure.earliest);
     const bool dropped = failure.code == ErrorCode::too_old || failure.code == ErrorCode::only_other;
     if (!for_latest || !dropped || now == before) break;
@@ -319,53 +319,53 @@ bool Buffer::look_till_settled(bool for_latest, const Failure& failure, Look&& l
   return false;
 }
 
-bool Buffer::lookup(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const {
+bool Buffer::lookup_by_id(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const {
   const PathLease paths(paths_);
-  return look(paths.get(), target, source, stamp, pose, failure);
+  return lookup_by_id(paths.get(), target, source, stamp, pose, failure);
 }
 
-bool Buffer::walk(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const {
-  return look(nullptr, target, source, stamp, pose, failure);
+bool Buffer::lookup_by_walking(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const {
+  return lookup_by_id(nullptr, target, source, stamp, pose, failure);
 }
 
-bool Buffer::look(PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const {
+bool Buffer::lookup_by_id(PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const {
   const Stamp asked = stamp;
-  return look_till_settled(asked == 0, failure, [&] {
+  return retry_until_stable(asked == 0, failure, [&] {
     stamp = asked;
-    return coframe::lookup(tree_, paths, target, source, stamp, pose, failure);
+    return lookup_in_tree(tree_, paths, target, source, stamp, pose, failure);
   });
 }
 
-bool Buffer::quick_lookup(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const {
+bool Buffer::lookup_cached_path(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const {
   const std::uint64_t revision = tree_.revision().start_reading();
   Stamp when = stamp;
-  if (!follow_path(tree_, paths, target, source, when, pose) || !tree_.revision().unchanged(revision)) return false;
+  if (!lookup_path_in_tree(tree_, paths, target, source, when, pose) || !tree_.revision().unchanged(revision)) return false;
   stamp = when;
   return true;
 }
 
-bool Buffer::lookup_full(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed,
+bool Buffer::lookup_full_by_id(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed,
                          Pose& pose, Failure& failure) const {
   const Stamp target_asked = target_stamp;
   const PathLease paths(paths_);
-  return look_till_settled(target_asked == 0 || source_stamp == 0, failure, [&] {
+  return retry_until_stable(target_asked == 0 || source_stamp == 0, failure, [&] {
     Pose step;
     Stamp source_time = source_stamp;
     target_stamp = target_asked;
-    if (!coframe::lookup(tree_, paths.get(), fixed, source, source_time, pose, failure)) return false;
-    if (!coframe::lookup(tree_, paths.get(), target, fixed, target_stamp, step, failure)) return false;
+    if (!lookup_in_tree(tree_, paths.get(), fixed, source, source_time, pose, failure)) return false;
+    if (!lookup_in_tree(tree_, paths.get(), target, fixed, target_stamp, step, failure)) return false;
     compose(step, pose);
     canonicalise(pose.q);
     return true;
   });
 }
 
-bool Buffer::extrapolate(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
+bool Buffer::extrapolate_by_id(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
                          Failure& failure) const {
   const Stamp asked = stamp;
   return consistent([&] {
     stamp = asked;
-    return coframe::lookup(tree_, extrapolation, target, source, stamp, pose, failure);
+    return extrapolate_in_tree(tree_, extrapolation, target, source, stamp, pose, failure);
   });
 }
 
@@ -377,33 +377,33 @@ bool Buffer::resolve(std::string_view name, Argument argument, FrameId& frame, F
   return frame != 0 || fail_name(ErrorCode::unknown_frame, argument, name, failure);
 }
 
-bool Buffer::resolve_both(Question& question, Failure& failure) const {
-  return resolve(question.target, Argument::target_frame, question.target_id, failure) &&
-         resolve(question.source, Argument::source_frame, question.source_id, failure);
+bool Buffer::resolve_both(LookupQuery& query, Failure& failure) const {
+  return resolve(query.target, Argument::target_frame, query.target_id, failure) &&
+         resolve(query.source, Argument::source_frame, query.source_id, failure);
 }
 
-bool Buffer::answer(Question& question, Answer& answer, Failure& failure, Extrapolation* extrapolation) const {
-  answer.stamp = question.stamp;
-  if (!question.travels && question.target == question.source) {  // also for a frame that nobody knows
-    answer.pose = Pose{};
-    const FrameId frame = find(question.target);
-    return frame == 0 || lookup(frame, frame, answer.stamp, answer.pose, failure);
+bool Buffer::lookup_by_name(LookupQuery& query, LookupResult& result, Failure& failure, Extrapolation* extrapolation) const {
+  result.stamp = query.stamp;
+  if (!query.time_travel && query.target == query.source) {  // also for a frame that nobody knows
+    result.pose = Pose{};
+    const FrameId frame = find(query.target);
+    return frame == 0 || lookup_by_id(frame, frame, result.stamp, result.pose, failure);
   }
-  if (!resolve_both(question, failure)) return false;
-  const FrameId target = question.target_id, source = question.source_id;
-  if (extrapolation) return extrapolate(*extrapolation, target, source, answer.stamp, answer.pose, failure);
-  if (!question.travels) return lookup(target, source, answer.stamp, answer.pose, failure);
-  return resolve(question.fixed, Argument::fixed_frame, question.fixed_id, failure) &&
-         lookup_full(target, answer.stamp, source, question.source_stamp, question.fixed_id, answer.pose, failure);
+  if (!resolve_both(query, failure)) return false;
+  const FrameId target = query.target_id, source = query.source_id;
+  if (extrapolation) return extrapolate_by_id(*extrapolation, target, source, result.stamp, result.pose, failure);
+  if (!query.time_travel) return lookup_by_id(target, source, result.stamp, result.pose, failure);
+  return resolve(query.fixed, Argument::fixed_frame, query.fixed_id, failure) &&
+         lookup_full_by_id(target, result.stamp, source, query.source_stamp, query.fixed_id, result.pose, failure);
 }
 
-std::size_t Buffer::answer_many(const Question& question, const Extrapolation* extrapolation, const Batch& batch,
+std::size_t Buffer::lookup_many(const LookupQuery& query, const Extrapolation* extrapolation, const Batch& batch,
                                 unsigned threads, Failure& failure) const {
   threads = static_cast<unsigned>(std::clamp<std::size_t>(batch.count / kRowBlock, 1, std::max(threads, 1u)));
   std::vector<std::size_t> missing(threads);
   std::vector<Failure> failures(threads);
   const auto part = [&](unsigned i) {
-    missing[i] = answer_rows(question, extrapolation, batch, batch.count * i / threads, batch.count * (i + 1) / threads,
+    missing[i] = lookup_rows(query, extrapolation, batch, batch.count * i / threads, batch.count * (i + 1) / threads,
                              failures[i]);
   };
   std::vector<std::thread> others;
@@ -424,12 +424,12 @@ std::size_t Buffer::answer_many(const Question& question, const Extrapolation* e
   return batch.count;
 }
 
-std::size_t Buffer::answer_rows(Question question, const Extrapolation* extrapolation, const Batch& batch,
+std::size_t Buffer::lookup_rows(LookupQuery query, const Extrapolation* extrapolation, const Batch& batch,
                                 std::size_t first, std::size_t last, Failure& failure) const {
   std::size_t missing = batch.count;
   PathCache::Path path;
   Failure ignored;
-  const bool has_path = question.target != question.source && resolve_both(question, ignored);
+  const bool has_path = query.target != query.source && resolve_both(query, ignored);
   const bool by_path = has_path && !extrapolation;
   const bool is_sorted = std::is_sorted(batch.stamps + first, batch.stamps + last);
   const std::size_t rows_count = last - first;
@@ -447,7 +447,7 @@ std::size_t Buffer::answer_rows(Question question, const Extrapolation* extrapol
       at[i] = reorder ? first + order[start - first + i] : start + i;
       rows.stamps[i] = batch.stamps[at[i]];
     }
-    if (has_path) PathCache::update(tree_, question.target_id, question.source_id, path);
+    if (has_path) PathCache::update(tree_, query.target_id, query.source_id, path);
     if (path.usable && batch.missing == Batch::Missing::clip) {
       clip(path, rows.count, rows.stamps);
       for (std::size_t i = 0; i < rows.count; ++i) batch.stamps[at[i]] = rows.stamps[i];
@@ -465,7 +465,7 @@ std::size_t Buffer::answer_rows(Question question, const Extrapolation* extrapol
     for (std::size_t i = 0; i < rows.count; ++i) {
       if (rows.ok[i]) continue;
       Failure why;
-      if (answer_row(question, extrapolation, batch, at[i], why)) continue;
+      if (lookup_row(query, extrapolation, batch, at[i], why)) continue;
       if (at[i] < missing) {
         missing = at[i];
         failure = std::move(why);
@@ -484,19 +484,19 @@ void Buffer::clip(const PathCache::Path& path, std::size_t count, Stamp* stamps)
   }
 }
 
-bool Buffer::answer_row(Question& question, const Extrapolation* extrapolation, const Batch& batch, std::size_t row,
+bool Buffer::lookup_row(LookupQuery& query, const Extrapolation* extrapolation, const Batch& batch, std::size_t row,
                         Failure& failure) const {
-  Answer one;
-  question.stamp = batch.stamps[row];
+  LookupResult one;
+  query.stamp = batch.stamps[row];
   Extrapolation guess = extrapolation ? *extrapolation : Extrapolation{};
-  bool ok = answer(question, one, failure, extrapolation ? &guess : nullptr);
+  bool ok = lookup_by_name(query, one, failure, extrapolation ? &guess : nullptr);
   if (ok && batch.twists) {
     Twist twist;
-    if (question.target != question.source) {
+    if (query.target != query.source) {
       ok = read([&](const Tree& tree) {
         PathCache::Path path;
         Pose pose;
-        PathCache::walk_at(tree, question.target_id, question.source_id, one.stamp, path);
+        PathCache::walk_at(tree, query.target_id, query.source_id, one.stamp, path);
         return path.usable && follow_moving(path, one.stamp, pose, twist);
       });
     }
@@ -516,13 +516,13 @@ bool Buffer::answer_row(Question& question, const Extrapolation* extrapolation, 
   return true;
 }
 
-bool Buffer::stamps_between(Question& question, Stamp first, Stamp last, std::vector<Stamp>& stamps,
+bool Buffer::stamps_between(LookupQuery& query, Stamp first, Stamp last, std::vector<Stamp>& stamps,
                             Failure& failure) const {
-  if (!resolve_both(question, failure)) return false;
+  if (!resolve_both(query, failure)) return false;
   PathCache::Path path;
-  PathCache::update(tree_, question.target_id, question.source_id, path);
-  Answer ignored;
-  if (!path.usable && !answer(question, ignored, failure)) return false;
+  PathCache::update(tree_, query.target_id, query.source_id, path);
+  LookupResult ignored;
+  if (!path.usable && !lookup_by_name(query, ignored, failure)) return false;
   return read([&](const Tree&) {
     stamps.clear();
     for (const PathCache::Step& link : path.steps) {
@@ -538,19 +538,19 @@ bool Buffer::stamps_between(Question& question, Stamp first, Stamp last, std::ve
   });
 }
 
-bool Buffer::can_answer(Question& question, Failure& failure) const {
-  Answer ignored;
-  if (!question.travels) return answer(question, ignored, failure);
-  if (!resolve_both(question, failure)) return false;
-  if (!resolve(question.fixed, Argument::fixed_frame, question.fixed_id, failure)) return false;
-  Stamp target_stamp = question.stamp, source_stamp = question.source_stamp;
-  return lookup(question.target_id, question.fixed_id, target_stamp, ignored.pose, failure) &&
-         lookup(question.fixed_id, question.source_id, source_stamp, ignored.pose, failure);
+bool Buffer::can_lookup(LookupQuery& query, Failure& failure) const {
+  LookupResult ignored;
+  if (!query.time_travel) return lookup_by_name(query, ignored, failure);
+  if (!resolve_both(query, failure)) return false;
+  if (!resolve(query.fixed, Argument::fixed_frame, query.fixed_id, failure)) return false;
+  Stamp target_stamp = query.stamp, source_stamp = query.source_stamp;
+  return lookup_by_id(query.target_id, query.fixed_id, target_stamp, ignored.pose, failure) &&
+         lookup_by_id(query.fixed_id, query.source_id, source_stamp, ignored.pose, failure);
 }
 
-bool Buffer::latest_common_time(Question& question, Stamp& stamp, Failure& failure) const {
-  return resolve_both(question, failure) && consistent([&] {
-           return coframe::latest_common_time(tree_, question.target_id, question.source_id, stamp, failure);
+bool Buffer::latest_common_time(LookupQuery& query, Stamp& stamp, Failure& failure) const {
+  return resolve_both(query, failure) && consistent([&] {
+           return coframe::latest_common_time(tree_, query.target_id, query.source_id, stamp, failure);
          });
 }
 
@@ -623,14 +623,14 @@ void Buffer::announce(const Inserted* inserted, std::size_t count) {
     const std::lock_guard lock(writing_);
     count_change();
   }
-  tell(inserted, count);
+  notify(inserted, count);
 }
 
 // Unlocking was a full barrier between the data and the look for those who wait; they have one between their name and
 // their look at the data.
-void Buffer::tell(const Inserted* inserted, std::size_t count) {
-  if (waiting_room_.empty()) return;
-  for (std::size_t i = 0; i < count; ++i) waiting_room_.tell(inserted[i]);
+void Buffer::notify(const Inserted* inserted, std::size_t count) {
+  if (wait_queue_.empty()) return;
+  for (std::size_t i = 0; i < count; ++i) wait_queue_.notify(inserted[i]);
 }
 
 }  // namespace coframe

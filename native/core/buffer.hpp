@@ -1,4 +1,27 @@
-// The tree for many threads: one writes at a time, readers take no lock; waiting without polling, counts of what came in.
+// The transform tree for many threads: one thread writes at a time, readers take no lock.
+//
+// The layers of a lookup, outermost first. Each layer answers by calling one of the layers below it.
+//
+//   layer                        frames given as              path through the tree  waits  reports why it failed
+//   bindings/buffer.cpp
+//     py_lookup                  str objects, ids cached      cached, then walked    no     yes
+//     lookup_general             names, any valid arguments   cached first           yes    yes
+//     lookup_waiting             names                        cached, then walked    yes    yes
+//   Buffer (repeats a read that a writer has interrupted)
+//     lookup_by_name             names                        cached, then walked    no     yes
+//     lookup_by_id               ids                          cached, then walked    no     yes
+//     lookup_by_walking          ids                          walked                 no     yes
+//     lookup_cached_path         ids                          cached                 no     no
+//     check_cached_path          ids                          cached, no pose        no     no
+//   core/lookup.hpp (one consistent state of the tree)
+//     lookup_in_tree             ids                          cached, then walked    no     yes
+//     extrapolate_in_tree        ids                          walked                 no     yes
+//     lookup_path_in_tree        ids                          cached                 no     no
+//     check_path_in_tree         ids                          cached, no pose        no     no
+//
+// "ids" are the numbers of two existing frames. "Cached" is a path of a PathCache, which may belong to the caller; it
+// answers only if every edge on it has had one parent so far. "Walked" follows the parents sample by sample, as tf2 does.
+// lookup_full_by_id and lookup_many are built on lookup_by_id and lookup_by_name.
 #pragma once
 
 #include <atomic>
@@ -11,10 +34,10 @@
 #include "core/cdr.hpp"
 #include "core/light_mutex.hpp"
 #include "core/lookup.hpp"
-#include "core/question.hpp"
+#include "core/query.hpp"
 #include "core/renaming.hpp"
 #include "core/tree.hpp"
-#include "core/waiting.hpp"
+#include "core/wait_queue.hpp"
 
 namespace coframe {
 
@@ -36,7 +59,7 @@ struct TransformStream {
   Encoding encoding = Encoding::cdr;
   AuthorityId authority = 0;
   std::shared_ptr<const Renaming> renaming;  // may be null: names are taken as they are
-  NameOddities odd;
+  NameProblems name_problems;
   Stamp newest = 0;  // of the last message; 0: it had none
   std::vector<ExpectedNames> expected;  // by the names as they come, with the numbers of the frames that they became
   std::vector<TransformView> decoded;
@@ -83,8 +106,8 @@ class Buffer {
   void rename(TransformStream& stream, std::string_view authority);
   DecodeFailure ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
   // The same in two steps: first the transforms are there, then those who wait for them are woken.
-  DecodeFailure take_in(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
-  void tell_of_last(TransformStream& stream);
+  DecodeFailure ingest_without_notify(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
+  void notify_ingested(TransformStream& stream);
   void clear();
   // Forgets a frame with its link to its parent and those of its children to it; false if nobody knows it.
   bool remove_frame(std::string_view name);
@@ -104,31 +127,31 @@ class Buffer {
   bool knows(FrameId frame) const { return tree_.frame(frame).known; }
   const std::string& name(FrameId frame) const { return tree_.name(frame); }
 
-  bool lookup(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
+  bool lookup_by_id(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
   // The two legs are answered together: `stamp` is the target leg's, in and out.
-  bool lookup_full(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed, Pose& pose,
+  bool lookup_full_by_id(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed, Pose& pose,
                    Failure& failure) const;
-  // The same for two frames that a quick_lookup() has not helped.
-  bool walk(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
+  // The same for two frames that a lookup_cached_path() has not helped.
+  bool lookup_by_walking(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
   // The same without a word of what is missing, for two different frames and with paths that only the caller uses;
   // false may also mean that lookup() has to decide.
-  bool quick_lookup(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const;
+  bool lookup_cached_path(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const;
   // Whether lookup() would answer; false may also mean that it has to decide.
-  bool quick_check(PathCache& paths, FrameId target, FrameId source, Stamp stamp) const {
+  bool check_cached_path(PathCache& paths, FrameId target, FrameId source, Stamp stamp) const {
     const std::uint64_t revision = tree_.revision().start_reading();
-    return check_path(tree_, paths, target, source, stamp) && tree_.revision().unchanged(revision);
+    return check_path_in_tree(tree_, paths, target, source, stamp) && tree_.revision().unchanged(revision);
   }
-  // By name; notes the numbers of the frames in the question. With `extrapolation` also beyond the data, as far as it
+  // By name; notes the numbers of the frames in the query. With `extrapolation` also beyond the data, as far as it
   // allows; it learns how far that was.
-  bool answer(Question& question, Answer& answer, Failure& failure, Extrapolation* extrapolation = nullptr) const;
+  bool lookup_by_name(LookupQuery& query, LookupResult& result, Failure& failure, Extrapolation* extrapolation = nullptr) const;
   // Returns the first row that has no answer, and `failure` says why; batch.count if there is none.
-  std::size_t answer_many(const Question& question, const Extrapolation* extrapolation, const Batch& batch,
+  std::size_t lookup_many(const LookupQuery& query, const Extrapolation* extrapolation, const Batch& batch,
                           unsigned threads, Failure& failure) const;
   // The stamps of all samples between two times on the links between two frames, in order, each once.
-  bool stamps_between(Question& question, Stamp first, Stamp last, std::vector<Stamp>& stamps, Failure& failure) const;
+  bool stamps_between(LookupQuery& query, Stamp first, Stamp last, std::vector<Stamp>& stamps, Failure& failure) const;
   // Whether answer() would: where it travels in time, the target's leg is asked for first here, as in tf2.
-  bool can_answer(Question& question, Failure& failure) const;
-  bool latest_common_time(Question& question, Stamp& stamp, Failure& failure) const;
+  bool can_lookup(LookupQuery& query, Failure& failure) const;
+  bool latest_common_time(LookupQuery& query, Stamp& stamp, Failure& failure) const;
   bool chain(FrameId target, FrameId source, Stamp stamp, std::vector<FrameId>& frames, Failure& failure) const;
 
   std::vector<FrameSummary> frames() const;
@@ -145,7 +168,7 @@ class Buffer {
     return consistent([&] { return read(tree_); });
   }
 
-  WaitingRoom& waiting_room() { return waiting_room_; }
+  WaitQueue& wait_queue() { return wait_queue_; }
   // Counts what changed the tree.
   std::uint64_t changes() const { return changes_.load(); }
 
@@ -165,17 +188,17 @@ class Buffer {
     return read();
   }
 
-  bool look(PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
-  template <class Look>
-  bool look_till_settled(bool for_latest, const Failure& failure, Look&& look) const;
-  bool extrapolate(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
+  bool lookup_by_id(PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
+  template <class Lookup>
+  bool retry_until_stable(bool for_latest, const Failure& failure, Lookup&& lookup) const;
+  bool extrapolate_by_id(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
                    Failure& failure) const;
-  std::size_t answer_rows(Question question, const Extrapolation* extrapolation, const Batch& batch,
+  std::size_t lookup_rows(LookupQuery query, const Extrapolation* extrapolation, const Batch& batch,
                           std::size_t first, std::size_t last, Failure& failure) const;
   void clip(const PathCache::Path& path, std::size_t count, Stamp* stamps) const;
-  bool answer_row(Question& question, const Extrapolation* extrapolation, const Batch& batch, std::size_t row,
+  bool lookup_row(LookupQuery& query, const Extrapolation* extrapolation, const Batch& batch, std::size_t row,
                   Failure& failure) const;
-  bool resolve_both(Question& question, Failure& failure) const;
+  bool resolve_both(LookupQuery& query, Failure& failure) const;
   bool resolve(std::string_view name, Argument argument, FrameId& frame, Failure& failure) const;
   std::size_t insert_block(const Track& block, bool is_static, AuthorityId authority,
                            std::vector<Inserted>& inserted);
@@ -188,15 +211,15 @@ class Buffer {
   bool count(unsigned refusals);
   void count_change() { changes_.store(changes_.load(std::memory_order_relaxed) + 1, std::memory_order_release); }
   void announce(const Inserted* inserted, std::size_t count);
-  void tell(const Inserted* inserted, std::size_t count);
+  void notify(const Inserted* inserted, std::size_t count);
 
   mutable LightMutex writing_;
   Tree tree_;
   mutable PathCache paths_;
   Counts counts_;  // guarded by writing_
   std::atomic<bool> frozen_{false};
-  WaitingRoom waiting_room_{tree_, [this](Question& question, Answer& answer, Failure& failure) {
-                              return this->answer(question, answer, failure);
+  WaitQueue wait_queue_{tree_, [this](LookupQuery& query, LookupResult& result, Failure& failure) {
+                              return this->lookup_by_name(query, result, failure);
                             }};
   std::atomic<std::uint64_t> changes_{0};  // written under writing_
 };

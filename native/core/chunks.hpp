@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "core/pose.hpp"
-#include "core/relaxed.hpp"
-#include "core/slab.hpp"
+#include "core/relaxed_atomic.hpp"
+#include "core/arena.hpp"
 
 namespace coframe {
 
@@ -65,7 +65,7 @@ class alignas(64) SharedSample {
   FrameId parent() const { return parent_.load(std::memory_order_acquire); }
 
  private:
-  std::array<Relaxed<double>, 7> numbers_;
+  std::array<RelaxedAtomic<double>, 7> numbers_;
   std::atomic<FrameId> parent_{0};
 };
 static_assert(sizeof(SharedSample) == 64);
@@ -75,7 +75,7 @@ struct Chunk {
   // Large enough that inserting seldom needs a new one, small enough for a tree of a thousand frames.
   static constexpr std::size_t kSize = 256;
 
-  std::array<Relaxed<Stamp>, kSize> stamps;
+  std::array<RelaxedAtomic<Stamp>, kSize> stamps;
   std::array<SharedSample, kSize> samples;
 };
 static_assert(sizeof(Chunk) == Chunk::kSize * (sizeof(Stamp) + sizeof(SharedSample)));
@@ -103,21 +103,21 @@ class ChunkPool {
 
  private:
   // A few samples take little memory, many are in large pages.
-  static constexpr std::size_t kFew = 16, kMany = Slab::kLarge / sizeof(PooledChunk);
+  static constexpr std::size_t kFew = 16, kMany = Arena::kLarge / sizeof(PooledChunk);
 
   PooledChunk* fresh() {
     if (used_ == last_size_) {
       const std::size_t size = count_ < kFew ? std::max<std::size_t>(3 * count_, 1) : kMany;
-      slabs_.push_back(std::make_unique<Slab>(size == kMany ? Slab::kLarge : size * sizeof(PooledChunk)));
+      arenas_.push_back(std::make_unique<Arena>(size == kMany ? Arena::kLarge : size * sizeof(PooledChunk)));
       last_size_ = size;
       used_ = 0;
     }
     ++count_;
-    return new (slabs_.back()->data() + used_++ * sizeof(PooledChunk)) PooledChunk;
+    return new (arenas_.back()->data() + used_++ * sizeof(PooledChunk)) PooledChunk;
   }
 
   std::mutex mutex_;  // a snapshot may end in any thread
-  std::vector<std::unique_ptr<Slab>> slabs_;
+  std::vector<std::unique_ptr<Arena>> arenas_;
   std::size_t count_ = 0;                 // of all chunks
   std::size_t used_ = 0, last_size_ = 0;  // of the last slab
   std::vector<PooledChunk*> free_;

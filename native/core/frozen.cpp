@@ -55,14 +55,14 @@ bool read_sample(ByteReader& reader, Sample& sample) {
 }
 
 // In the table as well, so that opening a file need not look at its samples.
-void write_reach(Writer& writer, const History::Reach& reach) {
-  writer.number(reach.first);
-  writer.number(reach.last);
-  writer.number(reach.parent);
+void write_reach(Writer& writer, const History::Span& span) {
+  writer.number(span.first);
+  writer.number(span.last);
+  writer.number(span.parent);
 }
 
-bool read_reach(ByteReader& reader, History::Reach& reach) {
-  return reader.number(reach.first) && reader.number(reach.last) && reader.number(reach.parent);
+bool read_reach(ByteReader& reader, History::Span& span) {
+  return reader.number(span.first) && reader.number(span.last) && reader.number(span.parent);
 }
 
 void write_frame(Writer& writer, const Frame& frame) {
@@ -78,7 +78,7 @@ void write_frame(Writer& writer, const Frame& frame) {
   writer.number(static_cast<std::uint64_t>(samples.size()));
   for (const auto count : kCounts) writer.number((frame.counts.*count).get());
   if (kind == HistoryKind::fixed && !samples.empty()) write_sample(writer, samples.sample(0));
-  if (kind == HistoryKind::dynamic) write_reach(writer, frame.history.reach());
+  if (kind == HistoryKind::dynamic) write_reach(writer, frame.history.span());
 }
 
 // Takes chunks of a file, one frame after the other.
@@ -105,10 +105,10 @@ bool read_history(ByteReader& reader, std::uint8_t kind, bool one_parent, std::u
                   const HistoryContext& context, History& history) {
   if (kind == static_cast<std::uint8_t>(HistoryKind::none)) return samples == 0;
   if (kind == static_cast<std::uint8_t>(HistoryKind::dynamic)) {
-    History::Reach reach;
+    History::Span span;
     const Chunk* first = chunks.take(samples);
-    if (!first || !read_reach(reader, reach)) return false;
-    history.map(first, samples, one_parent, reach);
+    if (!first || !read_reach(reader, span)) return false;
+    history.map(first, samples, one_parent, span);
     return true;
   }
   Sample sample;

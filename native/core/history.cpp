@@ -214,7 +214,7 @@ void History::share(const History& other) {
   directory_ = directories_.back().get();
 }
 
-void History::map(const Chunk* chunks, std::uint64_t samples, bool one_parent, const Reach& reach) {
+void History::map(const Chunk* chunks, std::uint64_t samples, bool one_parent, const Span& span) {
   const std::uint64_t count = (samples + Chunk::kSize - 1) / Chunk::kSize;
   auto directory = std::make_unique<Directory>(std::bit_ceil(std::max<std::uint64_t>(count, 1)));
   // No writer comes near them: what holds mapped chunks takes nothing in.
@@ -226,9 +226,9 @@ void History::map(const Chunk* chunks, std::uint64_t samples, bool one_parent, c
   one_parent_ = one_parent;
   mapped_ = true;
   end_ = samples;
-  first_ = reach.first;
-  last_ = reach.last;
-  parent_ = reach.parent;
+  first_ = span.first;
+  last_ = span.last;
+  parent_ = span.parent;
 }
 
 void History::release(ChunkPool& pool) { drop_all(pool); }

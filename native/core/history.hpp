@@ -12,7 +12,7 @@
 
 #include "core/chunks.hpp"
 #include "core/pose.hpp"
-#include "core/relaxed.hpp"
+#include "core/relaxed_atomic.hpp"
 #include "core/revision.hpp"
 #include "kernels/kernels.hpp"
 
@@ -214,23 +214,23 @@ class History {
   // From which stamp to which there are samples, and the frame that the newest is told in: without a look at the samples
   // themselves. A static history reaches from the first of all stamps to the last, an empty one from the last to the
   // first.
-  struct Reach {
+  struct Span {
     Stamp first, last;
     FrameId parent;
   };
   // The last stamp before the parent: who sees a newer sample sees the frame that it is told in.
-  Reach reach() const {
-    Reach reach;
-    reach.last = last_.load(std::memory_order_acquire);
-    reach.first = first_.load(std::memory_order_acquire);
-    reach.parent = parent_;
-    return reach;
+  Span span() const {
+    Span span;
+    span.last = last_.load(std::memory_order_acquire);
+    span.first = first_.load(std::memory_order_acquire);
+    span.parent = parent_;
+    return span;
   }
   // True while every sample has the same parent: paths through this history may then be remembered.
   bool one_parent() const { return one_parent_; }
 
   // Where on its way the pose at `stamp` lies, if it is told in `parent`; false where View::at() has to say why not.
-  // `hint` is of the caller's last question: the next one is mostly about a time close by.
+  // `hint` is of the caller's last query: the next one is mostly about a time close by.
   bool place(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const {
     const View samples = view();
     Pair pair;
@@ -276,7 +276,7 @@ class History {
   // Becomes what `other` is at this moment; the chunks are shared.
   void share(const History& other);
   // Becomes one whose samples somebody else holds and nobody changes: chunks in a row, all full but for the last.
-  void map(const Chunk* chunks, std::uint64_t samples, bool one_parent, const Reach& reach);
+  void map(const Chunk* chunks, std::uint64_t samples, bool one_parent, const Span& span);
   void release(ChunkPool& pool);
 
  private:
@@ -313,9 +313,9 @@ class History {
   std::atomic<std::uint64_t> end_{0};
   // What reach() tells: of the samples from begin_ to end_, or of fewer while they change.
   std::atomic<Stamp> first_{kLastStamp}, last_{kFirstStamp};
-  Relaxed<FrameId> parent_{0};
-  Relaxed<HistoryKind> kind_{HistoryKind::none};
-  Relaxed<bool> one_parent_{true};
+  RelaxedAtomic<FrameId> parent_{0};
+  RelaxedAtomic<HistoryKind> kind_{HistoryKind::none};
+  RelaxedAtomic<bool> one_parent_{true};
   bool mapped_ = false;  // the chunks are of no pool
   SharedSample fixed_;  // the one sample of a static history
   std::vector<std::unique_ptr<Directory>> directories_;  // the last is in use; readers may still be in the others

@@ -33,7 +33,7 @@ ErrorCode code_of(Found found) {
   }
 }
 
-void miss_sample(const History::View& history, Found found, FrameId edge, FrameId target, FrameId source, Stamp stamp,
+void fail_missing_sample(const History::View& history, Found found, FrameId edge, FrameId target, FrameId source, Stamp stamp,
                  Failure& failure) {
   failure.reset(code_of(found), target, source, stamp);
   failure.edge = edge;
@@ -73,7 +73,7 @@ bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source,
     if (!history.exists()) break;
     const Found found = method.at(history, stamp, step, parent);
     if (found != Found::ok) {
-      miss_sample(history, found, frame, target, source, stamp, failure);
+      fail_missing_sample(history, found, frame, target, source, stamp, failure);
       is_cut = true;
       break;
     }
@@ -92,7 +92,7 @@ bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source,
     }
     const Found found = method.at(history, stamp, step, parent);
     if (found != Found::ok) {
-      miss_sample(history, found, frame, target, source, stamp, failure);
+      fail_missing_sample(history, found, frame, target, source, stamp, failure);
       return fail_apart(frame, top, failure);
     }
     if (frame == source) {  // the source lies on the target's way up: only this side counts
@@ -144,7 +144,7 @@ void keep_earlier(Stamp stamp, Stamp& common) {
 
 Stamp path_common_time(const std::vector<PathCache::Step>& steps) {
   Stamp common = kNoTime;
-  for (const PathCache::Step& link : steps) keep_earlier(link.history->reach().last, common);
+  for (const PathCache::Step& link : steps) keep_earlier(link.history->span().last, common);
   return common == kNoTime ? 0 : common;
 }
 
@@ -157,7 +157,7 @@ bool identity(const Tree& tree, FrameId frame, Stamp& stamp, Pose& pose) {
 
 }  // namespace
 
-bool follow_path(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) {
+bool lookup_path_in_tree(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) {
   PathCache::Path* path = paths.find(tree, target, source);
   if (!path) return false;
   const Stamp when = stamp != 0 ? stamp : path_common_time(path->steps);
@@ -167,10 +167,10 @@ bool follow_path(const Tree& tree, PathCache& paths, FrameId target, FrameId sou
   return true;
 }
 
-bool lookup(const Tree& tree, PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
+bool lookup_in_tree(const Tree& tree, PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
             Failure& failure) {
   if (target == source) return identity(tree, target, stamp, pose);
-  if (paths && follow_path(tree, *paths, target, source, stamp, pose)) return true;
+  if (paths && lookup_path_in_tree(tree, *paths, target, source, stamp, pose)) return true;
   if (stamp == 0 && !latest_common_time(tree, target, source, stamp, failure)) return false;
   Exact exact;
   if (!walk_pose(tree, exact, target, source, stamp, pose, failure)) return false;
@@ -178,7 +178,7 @@ bool lookup(const Tree& tree, PathCache* paths, FrameId target, FrameId source, 
   return true;
 }
 
-bool lookup(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
+bool extrapolate_in_tree(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
             Failure& failure) {
   extrapolation.furthest = 0;
   if (target == source) return identity(tree, target, stamp, pose);
@@ -200,7 +200,7 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
   };
   std::vector<Link> links;  // from the source up
   Stamp common = kNoTime;
-  const auto answer = [&] {
+  const auto finish = [&] {
     stamp = common == kNoTime ? 0 : common;
     return true;
   };
@@ -211,7 +211,7 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
     keep_earlier(history.newest(), common);
     frame = history.parent();
     links.push_back({history.newest(), frame});
-    if (frame == target) return answer();
+    if (frame == target) return finish();
     if (++depth > kMaxDepth) return fail_loop(target, source, 0, 0, failure);
   }
   const FrameId source_root = links.empty() ? source : links.back().parent;
@@ -228,9 +228,9 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
     const auto meeting = std::find_if(links.begin(), links.end(), [&](const Link& l) { return l.parent == frame; });
     if (meeting != links.end()) {
       for (auto link = links.begin(); link <= meeting; ++link) keep_earlier(link->newest, common);
-      return answer();
+      return finish();
     }
-    if (frame == source) return answer();
+    if (frame == source) return finish();
     if (++depth > kMaxDepth) return fail_loop(target, source, 0, source_root, failure);
   }
 }

@@ -34,7 +34,7 @@ void Relay::add(SourceId source, WriterId writer, const std::uint8_t* data, std:
                 std::int64_t wall) {
   Writer& from = writer_of(sources_.at(source), writer);
   ++from.messages;
-  from.heard_at = now;
+  from.received_at = now;
   if (decode_tf_message(data, size, decoded_, from.expected).reason) {
     ++from.malformed;
     return;
@@ -55,7 +55,7 @@ void Relay::add(SourceId source, WriterId writer, const std::uint8_t* data, std:
     is_news_ |= edge.passed == 0 || !same(edge.values, view.values);
     edge.writer = writer;
     edge.newest = view.stamp;
-    edge.heard_at = now;
+    edge.received_at = now;
     edge.values = view.values;
     if (is_static_ || is_due(edge, now)) {
       ++edge.passed;
@@ -64,7 +64,7 @@ void Relay::add(SourceId source, WriterId writer, const std::uint8_t* data, std:
       ++edge.thinned;
     }
   }
-  if (!is_static_ && newest != 0) from.lag.add(wall - newest);
+  if (!is_static_ && newest != 0) from.delay.add(wall - newest);
   if (decoded_.capacity() > kMaxRemembered) decoded_ = {};
 }
 
@@ -94,8 +94,8 @@ std::uint32_t Relay::place_of(const Source& source, Writer& writer, std::size_t 
     ++writer.refused;
     return 0;
   }
-  writer.odd.note(source.renaming, view.parent);
-  writer.odd.note(source.renaming, view.child);
+  writer.name_problems.note(source.renaming, view.parent);
+  writer.name_problems.note(source.renaming, view.child);
   if (renamed(source.renaming, source.direction, view, parent, child)) {
     if (check_names(parent, child) == 0) place = find_or_add(parent, child);
     if (place == 0) {
@@ -126,7 +126,7 @@ std::uint32_t Relay::find_or_add(const std::string& parent, const std::string& c
 // comes back by way of another program would go round for ever.
 bool Relay::is_listened_to(std::uint32_t place, SourceId source, const TransformView& view, std::int64_t now) {
   Claim& claim = claims_[edges_[place].claim];
-  const bool is_free = claim.source == kNobody || (!is_static_ && now - claim.heard_at > kPatience);
+  const bool is_free = claim.source == kNobody || (!is_static_ && now - claim.received_at > kPatience);
   if (claim.source != source && !is_free) {
     const bool agrees = is_static_ && claim.edge == place && same(edges_[place].values, view.values);
     if (!agrees) {
@@ -136,7 +136,7 @@ bool Relay::is_listened_to(std::uint32_t place, SourceId source, const Transform
     return false;
   }
   claim.source = source;
-  claim.heard_at = now;
+  claim.received_at = now;
   claim.edge = place;
   return true;
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/cdr.hpp"
-#include "core/lag.hpp"
+#include "core/stamp_delay.hpp"
 #include "core/renaming.hpp"
 
 namespace coframe {
@@ -35,7 +35,7 @@ class Relay {
     SourceId source;           // who was first
     SourceId rival = kNobody;  // who else tells of it, something else
     std::uint64_t contested = 0;  // transforms of rivals, which are left out
-    std::int64_t heard_at = 0;
+    std::int64_t received_at = 0;
     std::uint32_t edge = 0;    // the newest one's place
   };
 
@@ -45,7 +45,7 @@ class Relay {
     WriterId writer = 0;  // who told of it last
     std::uint64_t passed = 0, thinned = 0;
     Stamp newest = 0;
-    std::int64_t heard_at = 0;
+    std::int64_t received_at = 0;
     std::int64_t due = 0;      // when the rate lets the next one pass
     TransformValues values{};  // the last ones
   };
@@ -53,9 +53,9 @@ class Relay {
   struct Writer {
     std::uint64_t messages = 0, malformed = 0;
     std::uint64_t refused = 0;  // transforms with bad names or values, or of one edge too many
-    std::int64_t heard_at = 0;
-    Lag lag;
-    NameOddities odd;
+    std::int64_t received_at = 0;
+    StampDelay delay;
+    NameProblems name_problems;
     std::vector<ExpectedNames> expected;  // `child` is 1 + the edge's place; 0: not for this relay
   };
 

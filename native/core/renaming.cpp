@@ -39,7 +39,7 @@ bool Renaming::has_prefix(std::string_view name) const {
   return !prefix_.empty() && name.size() > prefix_.size() && name.starts_with(prefix_);
 }
 
-void NameOddities::note(const Renaming& renaming, std::string_view name) {
+void NameProblems::note(const Renaming& renaming, std::string_view name) {
   if (name.starts_with('/')) keep_first(slashed, name);
   name = without_slash(name);
   if (renaming.prefix().empty() || name.empty() || renaming.keeps(name)) return;

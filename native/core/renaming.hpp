@@ -28,7 +28,7 @@ class Renaming {
 };
 
 // What is odd about the names of one source: an example of each, "" where there is none.
-struct NameOddities {
+struct NameProblems {
   std::string slashed;   // begins with a slash
   std::string prefixed;  // already has the prefix,
   std::string plain;     // and this one has not

@@ -21,11 +21,11 @@ inline constexpr int kMaxDepth = 1000;  // tf2's MAX_GRAPH_DEPTH
 struct Frame {
   // What became of the samples that were told of it, since the buffer exists.
   struct Counts {
-    Relaxed<std::uint64_t> stored;
-    Relaxed<std::uint64_t> late;      // of these, put before newer ones
-    Relaxed<std::uint64_t> repeated;  // exact repetitions, which change nothing
-    Relaxed<std::uint64_t> old;       // refused as older than the cache
-    Relaxed<std::uint64_t> self, nan, quaternion;  // refused for these reasons
+    RelaxedAtomic<std::uint64_t> stored;
+    RelaxedAtomic<std::uint64_t> late;      // of these, put before newer ones
+    RelaxedAtomic<std::uint64_t> repeated;  // exact repetitions, which change nothing
+    RelaxedAtomic<std::uint64_t> old;       // refused as older than the cache
+    RelaxedAtomic<std::uint64_t> self, nan, quaternion;  // refused for these reasons
 
     void add(Insertion outcome);
     void refuse(unsigned refusals);
@@ -34,10 +34,10 @@ struct Frame {
 
   std::string name;
   History history;  // of kind none: the root of a tree
-  Relaxed<AuthorityId> authority;
-  Relaxed<bool> known{false};  // false again once it was removed
+  RelaxedAtomic<AuthorityId> authority;
+  RelaxedAtomic<bool> known{false};  // false again once it was removed
   Counts counts;
-  std::atomic<std::uint32_t> watchers{0};  // who wants to hear of insertions; see WaitingRoom
+  std::atomic<std::uint32_t> watchers{0};  // who wants to hear of insertions; see WaitQueue
 };
 
 struct TransformValues {

@@ -189,7 +189,7 @@ Missing look_up(const Buffer& buffer, const Deskewing& how, std::vector<Pose>& p
   Failure ignored;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     Stamp time = how.times[i];
-    if (buffer.lookup(how.target, how.source, time, poses[i], ignored)) {
+    if (buffer.lookup_by_id(how.target, how.source, time, poses[i], ignored)) {
       compose(how.onward, poses[i]);
     } else {
       std::fill_n(poses[i].p, 3, kNan);
@@ -236,7 +236,7 @@ Missing deskew(const Buffer& buffer, const Deskewing& how, const Grid& grid,
   if (!plain) {
     Pose ignored_pose;
     Failure ignored;
-    buffer.lookup(how.target, how.source, latest, ignored_pose, ignored);
+    buffer.lookup_by_id(how.target, how.source, latest, ignored_pose, ignored);
     span = told_span(how.times, count, latest);
   }
   Trajectory trajectory;

@@ -40,11 +40,11 @@ void TfReader::forget_writer(dds::Handle writer) {
   sources_.erase(writer);
 }
 
-std::vector<TfReader::Heard> TfReader::heard() const {
+std::vector<TfReader::WriterStatistics> TfReader::writers() const {
   const std::lock_guard lock(mutex_);
-  std::vector<Heard> all;
+  std::vector<WriterStatistics> all;
   for (const auto& [writer, source] : sources_) {
-    all.push_back({writer, source.messages, source.heard_at, source.lag, source.stream.odd});
+    all.push_back({writer, source.messages, source.received_at, source.delay, source.stream.name_problems});
   }
   return all;
 }
@@ -67,7 +67,7 @@ TfReader::Source& TfReader::source_of(dds::Handle writer) {
   const auto found = sources_.find(writer);
   if (found != sources_.end()) return found->second;
   if (sources_.size() >= kMaxSources) std::erase_if(sources_, [](const auto& entry) { return !entry.second.named; });
-  return sources_.emplace(writer, Source{.stream = buffer_->open_stream(is_static_, authority_, renaming_), .lag = {}})
+  return sources_.emplace(writer, Source{.stream = buffer_->open_stream(is_static_, authority_, renaming_), .delay = {}})
       .first->second;
 }
 
@@ -76,13 +76,13 @@ void TfReader::store(const dds::Sample& sample) {
   std::size_t stored = 0;
   Source& source = source_of(sample.info().publication_handle);
   // What is malformed the buffer counts.
-  buffer_->take_in(source.stream, bytes.data(), bytes.size(), stored);
-  source.heard_at = now<std::chrono::steady_clock>();
-  if (stored > 0) stored_at_.store(source.heard_at, std::memory_order_release);
-  buffer_->tell_of_last(source.stream);
+  buffer_->ingest_without_notify(source.stream, bytes.data(), bytes.size(), stored);
+  source.received_at = now<std::chrono::steady_clock>();
+  if (stored > 0) stored_at_.store(source.received_at, std::memory_order_release);
+  buffer_->notify_ingested(source.stream);
   ++source.messages;
   if (!is_static_ && source.stream.newest != 0) {
-    source.lag.add(now<std::chrono::system_clock>() - source.stream.newest);
+    source.delay.add(now<std::chrono::system_clock>() - source.stream.newest);
   }
 }
 

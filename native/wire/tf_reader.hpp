@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/buffer.hpp"
-#include "core/lag.hpp"
+#include "core/stamp_delay.hpp"
 #include "wire/data_reader.hpp"
 #include "wire/qos.hpp"
 
@@ -19,12 +19,12 @@ namespace coframe {
 class TfReader {
  public:
   // What one writer has sent so far.
-  struct Heard {
+  struct WriterStatistics {
     dds::Handle writer;
     std::uint64_t messages;
-    std::int64_t heard_at;  // nanoseconds of the steady clock
-    Lag lag;                // behind the system clock; of transforms that are not static
-    NameOddities odd;
+    std::int64_t received_at;  // nanoseconds of the steady clock
+    StampDelay delay;                // behind the system clock; of transforms that are not static
+    NameProblems name_problems;
   };
 
   // `authority` is what the buffer notes as the source of every transform, until `name_writer` says better. With a
@@ -40,7 +40,7 @@ class TfReader {
   void forget_writer(dds::Handle writer);
 
   // Of each writer that is remembered.
-  std::vector<Heard> heard() const;
+  std::vector<WriterStatistics> writers() const;
 
   // When the newest message's transforms were in the buffer, in nanoseconds of the steady clock; 0: never.
   std::int64_t stored_at() const { return stored_at_; }
@@ -52,8 +52,8 @@ class TfReader {
     TransformStream stream;
     bool named = false;
     std::uint64_t messages = 0;
-    std::int64_t heard_at = 0;
-    Lag lag;
+    std::int64_t received_at = 0;
+    StampDelay delay;
   };
 
   static void on_data(dds::Entity reader, void* self) noexcept;

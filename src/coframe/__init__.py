@@ -1,11 +1,13 @@
 """ROS 2's transform system (tf2) for Python: any frame, any time, on any machine."""
 
 import importlib
+import warnings
 from typing import TYPE_CHECKING, Any
 
-from coframe.buffer import Buffer, EdgeInfo, FrameInfo, Subscription
+from coframe.buffer import Buffer, CallbackHandle, EdgeInfo, FrameInfo
 from coframe.connection import Connection, connect
 from coframe.errors import (
+    CoframeError,
     ConnectivityException,
     DecodeError,
     ExtrapolationException,
@@ -34,6 +36,8 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Buffer",
+    "CallbackHandle",
+    "CoframeError",
     "Connection",
     "ConnectivityException",
     "DecodeError",
@@ -47,7 +51,6 @@ __all__ = [
     "PackageError",
     "RecordingError",
     "RobotDescriptionError",
-    "Subscription",
     "TimeoutException",
     "Transform",
     "TransformException",
@@ -63,7 +66,8 @@ __all__ = [
     "show",
 ]
 
-_LATE = {
+# Functions whose modules take long to import are imported on first use.
+_LAZY = {
     "load": "coframe.frozen",
     "open_bag": "coframe.bags",
     "play": "coframe.recorder",
@@ -71,12 +75,48 @@ _LATE = {
     "relay": "coframe.tf_relay",
     "show": "coframe.viewer",
 }
+_PUBLIC_MODULES = {
+    "bags",
+    "doctor",
+    "frame_names",
+    "messages",
+    "quaternion",
+    "recorder",
+    "robots",
+    "sensors",
+    "time",
+    "tree_drawing",
+    "viewer",
+}
+_RENAMED = {"Subscription": "CallbackHandle"}
+
+
+def _publish(name: str, value: Any) -> Any:
+    """Let a public class or function report `coframe` as its module, as users import it from there."""
+    if name != "__version__":
+        value.__module__ = __name__
+    return value
+
+
+for _name in __all__:
+    if _name not in _LAZY:
+        _publish(_name, globals()[_name])
 
 
 def __getattr__(name: str) -> Any:
-    """What takes long to import, and few need, is imported when it is first used."""
-    if name in _LATE:
-        return getattr(importlib.import_module(_LATE[name]), name)
-    if name in {"bags", "recorder", "robots", "viewer"}:
+    """Import a function or module of the public interface on first use."""
+    if name in _LAZY:
+        value = _publish(name, getattr(importlib.import_module(_LAZY[name]), name))
+        globals()[name] = value
+        return value
+    if name in _PUBLIC_MODULES:
         return importlib.import_module(f"coframe.{name}")
+    if name in _RENAMED:
+        new = _RENAMED[name]
+        warnings.warn(f"coframe.{name} was renamed to coframe.{new}", DeprecationWarning, stacklevel=2)
+        return globals()[new]
     raise AttributeError(f"module 'coframe' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*__all__, *_PUBLIC_MODULES})

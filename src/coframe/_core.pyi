@@ -307,7 +307,7 @@ class Mailbox:
 class Wait:
     """A look-up that waits for its answer."""
 
-    def answer(self) -> PublicTransform | None:
+    def transform(self) -> PublicTransform | None:
         """The transform, or None while there is none."""
 
     def cancel(self) -> None:
@@ -519,26 +519,26 @@ class PoseTable:
     """
 
     def __init__(self, buffer: Buffer, fixed: str, frames: list[str], roots: list[str | None]) -> None: ...
-    def look_up(self, stamp: int, hold: int, poses: Any, told: Any) -> None:
+    def look_up(self, stamp: int, hold: int, poses: Any, states: Any) -> None:
         """Where all of them are at one time.
 
         Args:
             stamp: Nanoseconds; 0 is the latest, for each frame its own.
             hold: How many nanoseconds beyond its samples a link is taken to stand still.
             poses: (N, 7) float64, gets x, y, z, qx, qy, qz, qw, or NaN.
-            told: (N,) uint8, gets 0: exactly; 1: held beyond the samples of a link; 2: not at all; 3: seen from its
+            states: (N,) uint8, gets 0: exactly; 1: held beyond the samples of a link; 2: not at all; 3: seen from its
                 root.
         """
 
-def poses_near(poses: Any, told: Any, origin: Any, fixed: int, reach: float, near: Any) -> int:
+def poses_near(poses: Any, states: Any, origin: Any, fixed: int, limit: float, near: Any) -> int:
     """Poses as float32, relative to an origin; how many are far from it.
 
     Args:
         poses: (N, 7) float64: x, y, z, qx, qy, qz, qw.
-        told: (N,) uint8: how they were come by, as of `PoseTable.look_up`.
+        states: (N,) uint8: how they were found, as of `PoseTable.look_up`.
         origin: (3,) float64.
         fixed: The index of a frame that is never far; -1: none.
-        reach: How far from the origin is far, along an axis; frames are counted whose `told` is 0 or 1.
+        limit: How far from the origin is far, along an axis; frames are counted whose state is 0 or 1.
         near: (N, 7) float32, gets the poses.
     """
 
@@ -584,7 +584,7 @@ class Relay:
         """
 
     def writers(self, source: int) -> list[tuple[tuple[int, int, int, int | None, str, str, str], int, int]]:
-        """What each writer of a source has sent: as TfReader.heard(), messages and transforms that were bad."""
+        """What each writer of a source has sent: as TfReader.writers(), messages and transforms that were bad."""
 
 def frozen_parts(buffer: Buffer) -> tuple[bytes, int]:
     """Of a frozen buffer the table that a file of it begins with, and how many chunks of samples it has."""
@@ -750,7 +750,7 @@ class TfReader:
         authority: str,
         renaming: Renaming | None = None,
     ) -> None: ...
-    def heard(self) -> list[tuple[int, int, int, int | None, str, str, str]]:
+    def writers(self) -> list[tuple[int, int, int, int | None, str, str, str]]:
         """What each writer has sent.
 
         Returns:

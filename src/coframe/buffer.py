@@ -1,4 +1,4 @@
-"""Buffer: transforms over time, and the answer to "where was this frame, seen from that one, then?"."""
+"""Buffer: stores transforms over time and answers "what is the pose of frame A relative to frame B at time t?"."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
 
-from coframe import _core, errors, time
+from coframe import _core, errors, frozen_file, time
 from coframe.dispatcher import Dispatcher
 from coframe.errors import InvalidArgumentException, TimeoutException, TransformException
+from coframe.formatting import duration
 from coframe.resampling import StepLimits
 from coframe.transform import batch_of, stamps_of
 
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from coframe.time import DurationLike, StampLike
     from coframe.transform import Transform
 
-__all__ = ["Buffer", "EdgeInfo", "FrameInfo", "Subscription"]
+__all__ = ["Buffer", "CallbackHandle", "EdgeInfo", "FrameInfo"]
 
 OnError: TypeAlias = Literal["raise", "nan", "clip"]
 Array: TypeAlias = "NDArray[np.float64]"
@@ -39,17 +40,17 @@ _core.register_time(time)
 
 
 class FrameInfo(NamedTuple):
-    """What a buffer knows of one frame.
+    """The state of one frame in a buffer.
 
     Attributes:
-        name: The frame.
-        parent: The frame it is told in by the newest sample; "" for the root of a tree or before any data.
-        static: Whether it is valid for all time.
-        samples: How many samples are kept.
-        oldest: Stamp of the oldest sample in nanoseconds; 0 when static or without data.
-        newest: Stamp of the newest sample.
-        rate: Samples per second over the time that is kept, as tf2 computes it; 0 when static.
-        authority: Who said it last.
+        name: Name of the frame.
+        parent: Parent frame of the newest sample; "" for the root of a tree or before any data.
+        static: Whether the transform is valid for all time.
+        samples: Number of samples in the buffer.
+        oldest: Stamp of the oldest sample in nanoseconds; 0 if static or without data.
+        newest: Stamp of the newest sample in nanoseconds; 0 if static or without data.
+        rate: Samples per second over the length of the cache, as tf2 computes it; 0 if static.
+        authority: Publisher of the newest sample.
     """
 
     name: str
@@ -63,25 +64,25 @@ class FrameInfo(NamedTuple):
 
 
 class EdgeInfo(NamedTuple):
-    """What a buffer knows of the link between a frame and its parent. All times are nanoseconds.
+    """The state of the edge between a frame and its parent. All times are in nanoseconds.
 
     Attributes:
-        parent: The frame that the newest sample is told in; "" before any data.
-        child: The frame that it tells of.
-        static: Whether it is valid for all time; then the times and rates are 0 and the age is None.
-        authority: Who said it last.
-        samples: How many samples are kept.
+        parent: Parent frame of the newest sample; "" before any data.
+        child: The child frame.
+        static: Whether the transform is valid for all time; then the times and rates are 0 and the age is None.
+        authority: Publisher of the newest sample.
+        samples: Number of samples in the buffer.
         oldest: Stamp of the oldest sample.
         newest: Stamp of the newest sample.
-        age: How old the newest sample is; negative if it is ahead of the clock, None if static or without data.
-        rate: Samples per second, from the mean interval between the stamps that are kept.
-        jitter: Standard deviation of those intervals.
-        longest_gap: The longest of them.
-        stored: Samples taken in since the buffer exists.
-        late: Of these, samples put before newer ones.
-        repeated: Exact repetitions, which change nothing.
-        rejected: Samples that were refused, by reason: ``"older than the cache"``, ``"not a number"``,
-            ``"invalid quaternion"``, ``"its own parent"``. Reasons without a case are left out.
+        age: Age of the newest sample; negative if it is ahead of the clock, None if static or without data.
+        rate: Samples per second, from the mean interval between the stamps in the buffer.
+        jitter: Standard deviation of these intervals.
+        longest_gap: The longest of these intervals.
+        stored: Number of samples stored since the buffer was created.
+        late: Number of stored samples that were older than the newest one at that time.
+        repeated: Number of exact repetitions, which change nothing.
+        rejected: Number of rejected samples by reason: ``"older than the cache"``, ``"not a number"``,
+            ``"invalid quaternion"``, ``"its own parent"``. Reasons that did not occur are omitted.
     """
 
     parent: str
@@ -101,14 +102,21 @@ class EdgeInfo(NamedTuple):
     rejected: dict[str, int]
 
 
-class Subscription:
-    """Changes that somebody wants to hear of; usable as a context manager."""
+class CallbackHandle:
+    """A registered callback, as :meth:`Buffer.on_change` returns it; also a context manager that removes it.
+
+    Example:
+        >>> import coframe
+        >>> buffer = coframe.Buffer()
+        >>> with buffer.on_change(lambda edge: print(edge.child)):
+        ...     pass  # the callback is registered here
+    """
 
     def __init__(self, cancel: Callable[[], object]) -> None:
         self._cancel = cancel
 
     def close(self) -> None:
-        """Ends it; doing so twice does no harm. A call that has begun goes on."""
+        """Remove the callback. A call in progress is completed; closing again has no effect."""
         self._cancel()
 
     def __enter__(self) -> Self:
@@ -119,14 +127,19 @@ class Subscription:
 
 
 class Buffer(_core.Buffer):
-    """Transforms over time, by the rules of tf2, for any number of threads.
+    """Store of transforms over time with the semantics of tf2, safe to use from any number of threads.
 
-    All stamps are nanoseconds; 0 or None asks for the latest time at which every link has data. There is no
-    extrapolation. A look-up that fails raises the exception tf2 raises, with tf2's text, and with a ``hint``.
+    All stamps are in nanoseconds; 0 or None means the latest time at which every edge between the frames has data.
+    By default there is no extrapolation. A failed lookup raises the same exception as tf2 with the same text, and
+    with a ``hint``.
 
     Args:
-        cache: How far back dynamic transforms are kept: text such as ``"10s"``, int nanoseconds or timedelta; None
+        cache: How long dynamic transforms are kept: text such as ``"10s"``, int nanoseconds or a timedelta. None
             keeps everything, which suits recordings.
+
+    Raises:
+        TypeError: ``cache`` is not a duration; a float of seconds is not accepted.
+        ValueError: ``cache`` is negative, or its text is not a number and a unit.
 
     Example:
         >>> import coframe
@@ -140,7 +153,7 @@ class Buffer(_core.Buffer):
 
     def __init__(self, cache: DurationLike | None = "10s") -> None:
         super().__init__(_KEEP_EVERYTHING if cache is None else _cache_ns(cache))
-        self.dispatcher = Dispatcher()
+        self._dispatcher = Dispatcher()
 
     def set(
         self,
@@ -152,22 +165,26 @@ class Buffer(_core.Buffer):
         static: bool = False,
         authority: str = DEFAULT_AUTHORITY,
     ) -> bool:
-        """Takes in where ``child`` is, seen from ``parent``.
+        """Store the pose of ``child`` relative to ``parent`` at one time.
 
         Args:
-            parent: The frame that the transform is told in.
-            child: The frame that it tells of.
-            transform: A single transform; if it names its frames, they must be these two.
-            stamp: When; by default the transform's own stamp. Static transforms need none.
-            static: Valid for all time. A frame that changes between static and dynamic starts anew.
-            authority: Who says so.
+            parent: The parent frame, in which the transform is expressed.
+            child: The child frame, whose pose the transform describes.
+            transform: A single transform. If it names its frames, its target must be ``parent`` and its source
+                ``child``.
+            stamp: Time of the sample, in nanoseconds or as another :data:`~coframe.time.StampLike`; by default the
+                stamp of the transform. Static transforms need no stamp.
+            static: Whether the transform is valid for all time. A frame that changes between static and dynamic loses
+                its earlier samples.
+            authority: Name of the publisher, as reports show it.
 
         Returns:
-            False if the sample is older than the cache reaches and was not stored.
+            True if the sample was stored; False if it was older than the cache.
 
         Raises:
-            InvalidArgumentException: tf2 refuses it (empty or equal names, NaN, ...), with tf2's text; or the
-                transform is between other frames, or has no stamp.
+            InvalidArgumentException: tf2 refuses the transform (empty or equal frame names, NaN, ...), with tf2's
+                text; or the transform is between other frames, or has no stamp, or the buffer is frozen.
+            TypeError: ``transform`` is not a :class:`coframe.Transform`.
         """
         refusals = self._set_plain(parent, child, transform, stamp, static) if authority is DEFAULT_AUTHORITY else None
         if refusals is None:
@@ -185,19 +202,22 @@ class Buffer(_core.Buffer):
     def _set(
         self, parent: str, child: str, transform: Transform, stamp: StampLike | None, static: bool, authority: str
     ) -> int:
-        """`set` for all that may be given: the reasons for refusal."""
+        """Store any valid arguments of `set`, and return the reasons for refusal as bits."""
         if not isinstance(transform, _core.Transform):
             raise TypeError(
-                f"set() takes a coframe.Transform, not {type(transform).__name__}: make one by "
-                "Transform(translation, quaternion), Transform.from_rpy(...) or Transform.from_matrix(...)"
+                f"set() takes a coframe.Transform, not {type(transform).__name__}. Create one with "
+                "Transform(translation, quaternion), Transform.from_rpy(...) or Transform.from_matrix(...)."
             )
         if transform.shape:
-            raise InvalidArgumentException("set() takes a single transform, not a batch")
+            raise InvalidArgumentException.with_details(
+                f"set() takes a single transform, not a batch of shape {transform.shape}",
+                hint="Use set_many() for a batch.",
+            )
         _check_frames(parent, child, transform)
         if stamp is None and transform.stamp is None and not static:
             raise InvalidArgumentException.with_details(
-                f"a dynamic transform from {parent!r} to {child!r} needs a stamp",
-                hint="Give stamp=..., or static=True if it never changes.",
+                f"the dynamic transform {parent!r} -> {child!r} has no stamp",
+                hint="Pass stamp=..., or static=True if the transform never changes.",
             )
         self._check_not_frozen(parent, child)
         return self._set_values(parent, child, _stamp_of(transform, stamp), *transform.values, static, authority)
@@ -212,22 +232,24 @@ class Buffer(_core.Buffer):
         static: bool = False,
         authority: str = DEFAULT_AUTHORITY,
     ) -> int:
-        """:meth:`set` for many samples of one edge, as one after the other in the order of their stamps.
+        """Store many samples of one edge, like :meth:`set` for each of them in the order of their stamps.
 
         Args:
-            parent: The frame that the poses are told in.
-            child: The frame that they tell of.
-            stamps: (N,) int64 nanoseconds or datetime64, sorted or not; None: those of the batch.
-            poses: A batch of shape (N,), or an array (N, 7) of x, y, z in metres and qx, qy, qz, qw.
-            static: Valid for all time; then the last one holds.
-            authority: Who says so.
+            parent: The parent frame, in which the poses are expressed.
+            child: The child frame, whose poses these are.
+            stamps: Times of the samples, shape (N,), int64 nanoseconds or datetime64, in any order; None uses the
+                stamps of the batch.
+            poses: A batch of shape (N,), or an array of shape (N, 7): x, y, z in metres and qx, qy, qz, qw.
+            static: Whether the transform is valid for all time; then the last sample is used.
+            authority: Name of the publisher, as reports show it.
 
         Returns:
-            How many were stored: without those that are older than the cache reaches.
+            The number of stored samples. Samples older than the cache are not stored.
 
         Raises:
-            InvalidArgumentException: tf2 refuses one of them, with tf2's text, or the buffer is frozen; then none is
-                stored.
+            InvalidArgumentException: tf2 refuses one of the samples, with tf2's text, or the buffer is frozen; then
+                no sample is stored.
+            ValueError: The shapes do not match.
         """
         if isinstance(poses, _core.Transform):
             _check_frames(parent, child, poses)
@@ -236,13 +258,12 @@ class Buffer(_core.Buffer):
         values = np.ascontiguousarray(poses, dtype=np.float64)
         if stamps is None:
             raise InvalidArgumentException.with_details(
-                f"dynamic transforms from {parent!r} to {child!r} need stamps", hint="Give an array of nanoseconds."
+                f"the dynamic transforms {parent!r} -> {child!r} have no stamps",
+                hint="Pass stamps=..., an array of nanoseconds.",
             )
         times = np.ascontiguousarray(stamps_of(stamps))
         if times.ndim != 1 or values.shape != (*times.shape, 7):
-            raise ValueError(
-                f"stamps of the shape (N,) and poses (N, 7) are wanted, not {times.shape} and {values.shape}"
-            )
+            raise ValueError(f"stamps must have shape (N,) and poses (N, 7), not {times.shape} and {values.shape}")
         self._check_not_frozen(parent, child)
         refusals, stored, row = self._set_rows(parent, child, times, values, static, authority)
         if refusals:
@@ -324,28 +345,30 @@ class Buffer(_core.Buffer):
         extrapolate: DurationLike | None = None,
         hold: bool = False,
     ) -> Transform | Array | tuple[Transform | Array, Array]:
-        """:meth:`lookup` at many times at once.
+        """Look up the transform from ``source`` to ``target`` at many times.
 
         Args:
-            target: The frame the answers are in.
-            source: The frame that is asked about.
-            stamps: (N,) int64 nanoseconds or datetime64; 0 asks for the latest. Need not be sorted.
-            out: Filled and returned instead of a new batch: (N, 7) float64 gets x, y, z, qx, qy, qz, qw; (N, 4, 4)
-                gets matrices.
-            threads: So many share the work.
-            on_error: ``"raise"`` as the first look-up without an answer does, fill its row with ``"nan"``, or
-                ``"clip"`` its time to those for which all links have data.
-            twist: Also tell how fast ``source`` moves, seen from ``target``.
-            extrapolate: As of :meth:`lookup`.
-            hold: As of :meth:`lookup`.
+            target: The target frame.
+            source: The source frame.
+            stamps: Times of the lookups, shape (N,), int64 nanoseconds or datetime64, in any order; 0 means the
+                latest.
+            out: float64 array to fill and return instead of a new batch. Shape (N, 7) receives x, y, z in metres and
+                qx, qy, qz, qw; shape (N, 4, 4) receives matrices.
+            threads: Number of threads to use.
+            on_error: What to do with a time without a transform: ``"raise"`` the exception of :meth:`lookup`, fill
+                its row with ``"nan"``, or ``"clip"`` it to the interval in which all edges have data.
+            twist: Whether to return the twist of ``source`` relative to ``target`` as well.
+            extrapolate: As in :meth:`lookup`.
+            hold: As in :meth:`lookup`.
 
         Returns:
-            A batch of shape (N,), with its ``stamps``, or ``out``. With ``twist`` also an array (N, 6): m/s along x,
-            y, z and rad/s about them, of the origin of ``source`` along the axes of ``target``, by the interpolation
-            between samples (at a sample, of the interval after it).
+            A batch of shape (N,) with its ``stamps``, or ``out``. With ``twist`` a tuple of that and an array of
+            shape (N, 6): linear velocity in m/s and angular velocity in rad/s of the origin of ``source``, expressed
+            in ``target``, from the interpolation between samples (at a sample: in the interval after it).
 
         Raises:
-            TransformException: As :meth:`lookup`; with ``"nan"`` only if no row at all has an answer.
+            TransformException: As :meth:`lookup`; with ``"nan"`` only if no row has a transform.
+            ValueError: ``stamps`` or ``out`` has another shape or type.
 
         Example:
             >>> import coframe
@@ -358,7 +381,7 @@ class Buffer(_core.Buffer):
         """
         times = np.array(stamps_of(stamps), ndmin=1)
         if times.ndim != 1:
-            raise ValueError(f"stamps must have the shape (N,), not {times.shape}")
+            raise ValueError(f"stamps must have shape (N,), not {times.shape}")
         rows = out if out is not None and _is_rows(out, times.size) else np.empty((times.size, 7))
         twists = np.empty((times.size, 6)) if twist else None
         beyond = np.empty_like(times) if extrapolate is not None else None
@@ -381,22 +404,23 @@ class Buffer(_core.Buffer):
         max_translation: float | None = None,
         max_rotation: float | None = None,
     ) -> Transform:
-        """Where ``source`` went, seen from ``target``: at the samples' own times, or as densely as it moves.
+        """Return the path of ``source`` relative to ``target``, at the times of the samples or at a chosen spacing.
 
         Args:
-            target: The frame the poses are in.
-            source: The frame that moves.
-            start: From when on; None: as far back as all links have data.
-            stop: Until when; None: as long as they have.
-            max_translation: Metres from one pose to the next at most.
-            max_rotation: Radians from one pose to the next at most. With one of the two, there are as few poses as
-                that allows, and none where nothing moves, other than the first and the last.
+            target: The target frame, in which the poses are expressed.
+            source: The source frame, whose poses these are.
+            start: Time of the first pose; None starts when all edges have data.
+            stop: Time of the last pose; None stops when an edge has no more data.
+            max_translation: Largest distance between two successive poses, in metres.
+            max_rotation: Largest rotation between two successive poses, in radians. With one of these two limits, the
+                result has as few poses as the limits allow: where nothing moves, only the first and the last pose.
 
         Returns:
-            A batch with its ``stamps``, in order. A single pose where all links are static.
+            A batch with its ``stamps``, in order. If all edges are static, a batch of one pose.
 
         Raises:
             TransformException: As :meth:`lookup`.
+            ValueError: A limit is not positive.
         """
         first, last = self.span(target, source)
         first = first if start is None else max(first, time.stamp_ns(start))
@@ -409,10 +433,13 @@ class Buffer(_core.Buffer):
         return steps.resample(lambda times: self.lookup_many(target, source, times), stamps)
 
     def span(self, target: str, source: str) -> tuple[int, int]:
-        """From when until when every link between two frames has data, in nanoseconds; (0, 0) if all are static.
+        """Return the time interval in which every edge between two frames has data.
+
+        Returns:
+            The first and the last time in nanoseconds; (0, 0) if all edges are static.
 
         Raises:
-            TransformException: As :meth:`lookup`, or the links have no common time.
+            TransformException: As :meth:`lookup`, or the edges have no common time.
         """
         ends = np.array([np.iinfo(np.int64).min + 1, np.iinfo(np.int64).max])
         if self.latest_common_time(target, source) == 0:
@@ -423,25 +450,43 @@ class Buffer(_core.Buffer):
     def wait(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
     ) -> Transform:
-        """Like :meth:`lookup`, but waits for the transform to become possible; ``timeout`` None waits for ever.
+        """Wait until the transform is available, and return it.
+
+        Args:
+            target: The target frame.
+            source: The source frame.
+            stamp: Time of the lookup, as in :meth:`lookup`.
+            timeout: How long to wait, such as ``"2s"``; None waits without a limit.
+
+        Returns:
+            The transform, as :meth:`lookup` returns it.
 
         Raises:
-            TimeoutException: It did not; ``__cause__`` says what was missing.
+            TimeoutException: The transform did not become available in time; ``__cause__`` is the failed lookup.
         """
         try:
             return self.lookup(target, source, stamp, timeout=sys.maxsize if timeout is None else timeout)
         except TransformException as error:
-            raise _in_vain(target, source, timeout, error) from error
+            raise _timed_out(target, source, timeout, error) from error
 
     async def wait_async(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
     ) -> Transform:
-        """:meth:`wait` for asyncio: other tasks run meanwhile, and no thread is needed per wait.
+        """Wait until the transform is available, in asyncio: other tasks run meanwhile, and no thread blocks.
+
+        Args:
+            target: The target frame.
+            source: The source frame.
+            stamp: Time of the lookup, as in :meth:`lookup`.
+            timeout: How long to wait, such as ``"2s"``; None waits without a limit.
+
+        Returns:
+            The transform, as :meth:`lookup` returns it.
 
         Raises:
-            TimeoutException: The transform did not become possible in time; ``__cause__`` says what was missing.
+            TimeoutException: The transform did not become available in time; ``__cause__`` is the failed lookup.
         """
-        import asyncio  # noqa: PLC0415 - takes as long to import as all else here, and few need it
+        import asyncio  # noqa: PLC0415 - asyncio takes as long to import as all of coframe, and few programs need it
 
         loop = asyncio.get_running_loop()
         future: asyncio.Future[Transform | None] = loop.create_future()
@@ -450,13 +495,13 @@ class Buffer(_core.Buffer):
             if not future.done():
                 future.set_result(found)
 
-        def bring(found: Transform | None) -> None:
-            with contextlib.suppress(RuntimeError):  # the loop has ended
+        def settle_in_loop(found: Transform | None) -> None:
+            with contextlib.suppress(RuntimeError):  # the event loop is closed
                 loop.call_soon_threadsafe(settle, found)
 
-        cancel = self.dispatcher.wait(
+        cancel = self._dispatcher.wait(
             lambda mailbox, token: _core.wait(self, mailbox, token, target, source, stamp),
-            bring,
+            settle_in_loop,
             None if timeout is None else time.duration_ns(timeout),
         )
         try:
@@ -468,93 +513,92 @@ class Buffer(_core.Buffer):
         try:
             return self.lookup(target, source, stamp)
         except TransformException as error:
-            raise _in_vain(target, source, timeout, error) from error
+            raise _timed_out(target, source, timeout, error) from error
 
     def why(
         self, target: str, source: str, at: StampLike | None = None, *, now: StampLike | None = None
     ) -> Explanation:
-        """Why :meth:`lookup` has an answer, or why not: by which links, and which one is missing, late or early.
+        """Explain why :meth:`lookup` succeeds or fails: the chain of edges, and which one is missing, late or early.
 
         Args:
-            target: The frame the answer is in.
-            source: The frame that is asked about.
-            at: When; 0 or None is the latest.
-            now: The present, by the clock of the stamps. By default the system's, where the stamps are within an hour
-                of it; a buffer that is frozen or keeps everything, as of a recording, has none.
+            target: The target frame.
+            source: The source frame.
+            at: Time of the lookup; 0 or None means the latest.
+            now: The current time on the clock of the stamps, in nanoseconds. By default the system time, if the stamps
+                are within an hour of it. Buffers that are frozen or keep everything hold recordings, for which there
+                is no current time.
 
         Returns:
-            The facts; ``print()`` draws them.
+            The explanation; ``print()`` draws it.
         """
-        from coframe.explanation import explain  # noqa: PLC0415 - it stands on this module
+        from coframe.explanation import explain  # noqa: PLC0415 - most programs never need an explanation
 
         return explain(self, target, source, at, now=now)
 
-    def on_change(self, callback: Callable[[EdgeInfo], object], *, child: str | None = None) -> Subscription:
-        """Calls back when the link between ``child`` and its parent gets a new sample.
+    def on_change(self, callback: Callable[[EdgeInfo], object], *, child: str | None = None) -> CallbackHandle:
+        """Call ``callback`` when the edge between ``child`` and its parent receives a new sample.
 
-        The calls come from a thread of their own, one after another and with no lock held, so they may use the buffer
-        at will. Samples that arrive while a call is under way are told of by one more call.
+        The calls come from a separate thread, one after another and with no lock held, so the callback may use the
+        buffer. Samples that arrive during a call lead to one more call.
 
         Args:
-            callback: Gets what is known of the edge now.
-            child: Which edge, also one that is not there yet; None: every one.
+            callback: Called with the current state of the edge.
+            child: The child frame of the edge, which need not exist yet; None means every edge.
 
         Returns:
-            To be closed when it is no longer wanted; it also ends with the buffer.
+            A handle. Close it to remove the callback; the callback is also removed together with the buffer.
         """
 
-        def tell(changed: list[str]) -> None:
+        def report(changed: list[str]) -> None:
             for edge in self.edges(changed):
                 callback(edge)
 
-        start = lambda mailbox, token: _core.watch(self, mailbox, token, child or "")  # noqa: E731 - one line of glue
-        return Subscription(self.dispatcher.watch(start, tell))
+        start = lambda mailbox, token: _core.watch(self, mailbox, token, child or "")  # noqa: E731 - one expression
+        return CallbackHandle(self._dispatcher.watch(start, report))
 
     def snapshot(self) -> Buffer:
-        """What is in here now, as a buffer of its own that only answers; the samples are shared, not copied."""
+        """Return a frozen copy of the buffer as it is now; the samples are shared, not copied."""
         copy = Buffer.__new__(Buffer)
         _core.Buffer.__init__(copy, self.cache_ns)
         copy._become_snapshot(self)
-        copy.dispatcher = Dispatcher()
+        copy._dispatcher = Dispatcher()
         return copy
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes what is in here now to a file that :func:`coframe.load` opens at once, however large it is.
+        """Save the buffer to a file that :func:`coframe.load` opens without reading it, whatever its size.
 
-        Samples take 72 bytes each, and each moving frame up to 18 kB more. The file appears whole or not at all.
+        A sample takes 72 bytes, and a moving frame up to 18 kB more. The file is complete or does not appear at all.
 
         Args:
-            path: The file, by custom ``*.cfz``. One that is there is replaced.
+            path: The file, usually ``*.cfz``. An existing file is replaced.
 
         Raises:
-            FrozenFileError: It cannot be written.
+            FrozenFileError: The file cannot be written.
         """
-        from coframe import frozen  # noqa: PLC0415 - it stands on this module
-
-        frozen.save(self, path)
+        frozen_file.save(self.snapshot(), path)
 
     def edges(self, children: list[str] | None = None, *, now: int | None = None) -> list[EdgeInfo]:
-        """The links between frames and their parents, and what came in for them.
+        """Return the state of the edges between frames and their parents.
 
         Args:
-            children: Only the edges of these frames.
-            now: What ages are told from, in nanoseconds; by default the system's clock. Recordings and simulations
-                have a time of their own.
+            children: Child frames of the edges to return; None returns all edges.
+            now: Current time in nanoseconds, from which ages are computed; by default the system time. Pass the time
+                of the clock for recordings and simulations.
         """
         now = system_time.time_ns() if now is None else now
         return [_edge_info(*facts, now) for facts in self._edge_tuples(children)]
 
     def frames(self) -> list[FrameInfo]:
-        """Every frame that was ever mentioned, in the order in which they were."""
+        """Return the state of every frame, in the order in which the buffer received them."""
         return [FrameInfo(*facts) for facts in self._frame_tuples()]
 
     def _check_not_frozen(self, parent: str, child: str) -> None:
         if self.frozen:
             raise InvalidArgumentException.with_details(
-                f"the buffer is frozen: the transform from {parent!r} to {child!r} was not stored",
+                f"the buffer is frozen: the transform {parent!r} -> {child!r} was not stored",
                 target=parent,
                 source=child,
-                hint="A snapshot(), a loaded file or a buffer after freeze() only answers: set it in one that lives.",
+                hint="A snapshot, a loaded file and a buffer after freeze() are read-only. Use a new coframe.Buffer().",
             )
 
     def __contains__(self, frame: object) -> bool:
@@ -568,14 +612,16 @@ class Buffer(_core.Buffer):
 _core.register_buffer_class(Buffer)
 
 
-_REFUSED_HINT = "Names must differ and not be empty, values must be numbers, and a quaternion must not be zero."
+_REFUSED_HINT = "Frame names must differ and not be empty, values must be finite, and a quaternion must not be zero."
 
 
 def _is_rows(out: Array, count: int) -> bool:
-    """Whether the poses can go there straight; False for matrices."""
+    """Return whether poses can be written to `out` directly; False for matrices."""
     if out.dtype == np.float64 and out.shape in {(count, 7), (count, 4, 4)}:
         return out.ndim == 2 and out.flags.c_contiguous and out.flags.writeable
-    raise ValueError(f"out must be float64 of the shape ({count}, 7) or ({count}, 4, 4), not {out.dtype} {out.shape}")
+    raise ValueError(
+        f"out must be float64 of shape ({count}, 7) or ({count}, 4, 4), not {out.dtype} of shape {out.shape}"
+    )
 
 
 _REASONS = ("older than the cache", "its own parent", "not a number", "invalid quaternion")
@@ -609,9 +655,10 @@ def _edge_info(
     )
 
 
-def _in_vain(target: str, source: str, timeout: DurationLike | None, error: TransformException) -> TimeoutException:
+def _timed_out(target: str, source: str, timeout: DurationLike | None, error: TransformException) -> TimeoutException:
+    length = "" if timeout is None else f" after {duration(time.duration_ns(timeout))}"
     return TimeoutException.with_details(
-        f"waited {timeout} in vain for the transform from {source!r} to {target!r}: {error}",
+        f"timed out{length} waiting for the transform from {source!r} to {target!r}: {error}",
         target=error.target,
         source=error.source,
         requested=error.requested,
@@ -619,13 +666,14 @@ def _in_vain(target: str, source: str, timeout: DurationLike | None, error: Tran
         latest=error.latest,
         edge=error.edge,
         hint=error.hint,
+        doctor_code=error.doctor_code,
     )
 
 
 def _cache_ns(cache: DurationLike) -> int:
     nanoseconds = time.duration_ns(cache)
     if nanoseconds < 0:
-        raise ValueError(f"a cache of {nanoseconds} ns: it must not be negative; None keeps everything")
+        raise ValueError(f"cache must not be negative, but is {cache!r}. Use None to keep everything.")
     return nanoseconds
 
 
@@ -634,11 +682,11 @@ def _stamp_of(transform: Transform, stamp: StampLike | None) -> int:
 
 
 def _check_frames(parent: str, child: str, transform: Transform) -> None:
-    told = (transform.target or parent, transform.source or child)
-    if told != (parent, child):
+    frames = (transform.target or parent, transform.source or child)
+    if frames != (parent, child):
         raise InvalidArgumentException.with_details(
-            f"the transform is {told[0]} <- {told[1]}, but is set as {parent} <- {child}",
+            f"cannot store the transform {frames[0]} <- {frames[1]} as {parent} <- {child}",
             target=parent,
             source=child,
-            hint="set(parent, child, transform) wants parent as the transform's target and child as its source.",
+            hint="In set(parent, child, transform), parent must be the transform's target and child its source.",
         )

@@ -1,4 +1,4 @@
-"""`coframe.connect()`: a node with a buffer that fills itself, publishers and subscriptions, in few words."""
+"""`coframe.connect()`: a node with a buffer that receives transforms, and with publishers and subscriptions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from coframe import _core
 from coframe.buffer import Buffer
 from coframe.errors import WireError
 from coframe.frame_names import kept, renaming
-from coframe.time import duration_ns
+from coframe.tf_publishers import TfPublisher, publishers_of
+from coframe.time import SECOND, duration_ns
+from coframe.wire.names import any_ros_name
 from coframe.wire.participant import Participant
 from coframe.wire.qos import DEFAULT, QoS
 
@@ -23,18 +25,15 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from coframe.messages.message import Message
-    from coframe.tf_publishers import TfPublisher
     from coframe.wire.endpoints import Publisher, Subscription
 
 _logger = logging.getLogger("coframe.wire")
 
 M = TypeVar("M", bound="Message")
 
-_NS = 1_000_000_000
-
 
 class MessagePublisher(Generic[M]):
-    """Publishes messages of one class. Made by `Connection.publisher`."""
+    """A publisher of messages of one class. Created by `Connection.publisher`."""
 
     def __init__(self, publisher: Publisher, message_type: type[M]) -> None:
         self._publisher = publisher
@@ -42,33 +41,34 @@ class MessagePublisher(Generic[M]):
 
     @property
     def matched(self) -> int:
-        """How many subscriptions have been found."""
+        """The number of matched subscriptions."""
         return self._publisher.matched
 
     def publish(self, message: M) -> None:
-        """Sends a message.
+        """Publish a message.
 
         Raises:
-            TypeError: it is of another class than the publisher.
-            WireError: the connection is closed, or a reliable subscription does not keep up.
+            TypeError: The message is not of the publisher's class.
+            WireError: The connection is closed, or a reliable subscription has not kept up for one second.
         """
         if not isinstance(message, self._message_type):
-            wanted = self._message_type.__name__
-            raise TypeError(f"{self._publisher.topic} carries {wanted}, not {type(message).__name__}")
-        from coframe.messages.codec import serialize  # noqa: PLC0415 - `import coframe` stays cheap
+            expected = self._message_type.__name__
+            topic = any_ros_name(self._publisher.topic)
+            raise TypeError(f"cannot publish {type(message).__name__} on {topic}: expected {expected}")
+        from coframe.messages.codec import serialize  # noqa: PLC0415 - `import coframe` must be cheap
 
         self._publisher.write(serialize(message))
 
     def close(self) -> None:
-        """Leaves the topic."""
+        """Close the publisher."""
         self._publisher.close()
 
 
 class MessageSubscription(Generic[M]):
-    """Receives messages of one class. Made by `Connection.subscribe`.
+    """A subscription to messages of one class. Created by `Connection.subscribe`.
 
-    With a callback the messages go there, on a thread of this subscription's own; without, to `receive` and to
-    loops over the subscription.
+    If there is a callback, it is called with each message on a thread of this subscription. Otherwise, call `receive`
+    or iterate over the subscription.
     """
 
     def __init__(
@@ -89,23 +89,23 @@ class MessageSubscription(Generic[M]):
 
     @property
     def matched(self) -> int:
-        """How many publishers have been found."""
+        """The number of matched publishers."""
         return self._subscription.matched
 
     def receive(self, timeout: float | str | None = None) -> M | None:
-        """The next message; None if there is none within `timeout`, or when the subscription has closed.
+        """Wait for the next message and return it; None after the timeout or if the subscription is closed.
 
         Args:
-            timeout: seconds, or text such as "100ms"; None waits for ever.
+            timeout: The timeout in seconds, or a text such as "100ms". If None, there is no timeout.
 
         Raises:
-            DecodeError: a publisher has sent something else than it announced.
+            DecodeError: The received bytes are not a message of the announced type.
         """
-        from coframe.messages.codec import deserialize  # noqa: PLC0415 - `import coframe` stays cheap
+        from coframe.messages.codec import deserialize  # noqa: PLC0415 - `import coframe` must be cheap
 
-        deadline = None if timeout is None else time.monotonic_ns() + _patience_ns(timeout)
+        deadline = None if timeout is None else time.monotonic_ns() + _timeout_ns(timeout)
         while True:
-            # One by one: what cannot be decoded must not take others along.
+            # Messages are taken one by one, so that a message that cannot be decoded does not discard others.
             for sample in self._subscription.take(1):
                 return deserialize(sample.data, self._message_type)
             left = None if deadline is None else deadline - time.monotonic_ns()
@@ -118,7 +118,7 @@ class MessageSubscription(Generic[M]):
             yield message
 
     def close(self) -> None:
-        """Leaves the topic and ends the callback's thread."""
+        """Close the subscription and stop the thread of the callback."""
         self._subscription.close()
         self._event.set()
         if self._thread and self._thread is not threading.current_thread():
@@ -134,19 +134,19 @@ class MessageSubscription(Generic[M]):
             if message is not None and self._callback:
                 self._callback(message)
         except Exception:
-            _logger.exception("a message or the callback on %s failed", self._subscription.topic)
+            _logger.exception("Decoding a message on %s or calling its callback failed.", self._subscription.topic)
 
 
 class Connection:
-    """A node on the ROS graph and a buffer of the transforms that are sent there. Made by `connect`.
+    """A node on the ROS graph, with a buffer of the transforms that are published there. Created by `connect`.
 
     Attributes:
-        buffer: all transforms of the graph, as they arrive.
-        participant: the process's membership in the graph, for everything else.
-        node: the node.
-        tf_topics: where moving transforms come, and static ones.
-        prefix: what goes in front of the names of frames.
-        keep: the frames that get no prefix.
+        buffer: The buffer, which contains all received transforms.
+        participant: The DDS participant of this process.
+        node: The node.
+        tf_topics: The topics of dynamic and of static transforms.
+        prefix: The prefix of the frames in the buffer.
+        keep: The frames without a prefix.
     """
 
     def __init__(
@@ -180,9 +180,16 @@ class Connection:
             raise
 
     def publisher(self, topic: str, message_type: type[M], qos: QoS | int | None = None) -> MessagePublisher[M]:
-        """A publisher on a topic; the name is relative to the namespace unless it begins with a slash.
+        """Create a publisher on a topic.
 
-        `qos` may be a number, as in rclpy: how many messages are kept.
+        Args:
+            topic: The name of the topic, relative to the namespace unless it begins with a slash.
+            message_type: The message class.
+            qos: The offered quality of service, or its depth. If None, the publisher is reliable with a depth of 10.
+
+        Raises:
+            TypeError: The topic or the message class has the wrong type.
+            WireError: The connection is closed, or DDS cannot create the publisher.
         """
         self._check(topic, message_type)
         native = self.participant.publisher(self.node, self._qualified(topic), message_type, _qos(qos))
@@ -195,9 +202,19 @@ class Connection:
         callback: Callable[[M], None] | None = None,
         qos: QoS | int | None = None,
     ) -> MessageSubscription[M]:
-        """A subscription to a topic; the name is relative to the namespace unless it begins with a slash.
+        """Create a subscription to a topic.
 
-        `qos` may be a number, as in rclpy: how many messages are kept.
+        Args:
+            topic: The name of the topic, relative to the namespace unless it begins with a slash.
+            message_type: The message class.
+            callback: Called with each message on a thread of the subscription. If None, use
+                `MessageSubscription.receive`.
+            qos: The requested quality of service, or its depth. If None, the subscription is reliable with a depth of
+                10.
+
+        Raises:
+            TypeError: The topic, the message class or the callback has the wrong type.
+            WireError: The connection is closed, or DDS cannot create the subscription.
         """
         self._check(topic, message_type)
         if callback is not None and not callable(callback):
@@ -211,15 +228,15 @@ class Connection:
         return subscription
 
     def frame(self, name: str) -> str:
-        """What a frame that a message names is called in the buffer: with the prefix, if it was given one."""
+        """Return the name in the buffer of a frame in a message: with the prefix, if there is one."""
         return name.removeprefix("/") if self._renaming is None else self._renaming(name)
 
     def publishers(self) -> list[TfPublisher]:
-        """Who has sent transforms: how long ago, by which clock, and whether it is still there."""
-        return [publisher for reader in self._readers for publisher in self.participant.tf_publishers(reader)]
+        """Return the publishers that transforms were received from, including those that have left."""
+        return [publisher for reader in self._readers for publisher in publishers_of(self.participant, reader)]
 
     def close(self) -> None:
-        """Leaves the graph; the buffer keeps what it has. Closing twice does no harm."""
+        """Leave the graph. The buffer keeps its transforms. A second call has no effect."""
         with self._closing:
             if self._closed:
                 return
@@ -239,21 +256,23 @@ class Connection:
 
     def _check(self, topic: Any, message_type: Any) -> None:
         if self._closed:
-            raise WireError(f"The connection of {self.node.name} is closed.", hint="Make a new one: coframe.connect().")
+            raise WireError(
+                f"The connection of {self.node.name} is closed.", hint="Create a new one: coframe.connect()."
+            )
         if not isinstance(topic, str):
-            raise TypeError(f"the topic's name comes first, then the message class; got {topic!r}")
+            raise TypeError(f"the first argument must be the topic's name, not {topic!r}; the message class is second")
         if not isinstance(message_type, type) or not hasattr(message_type, "ROS_TYPE"):
             raise TypeError(
                 f"expected a message class, such as geometry_msgs.msg.PoseStamped, not {message_type!r}; "
-                "coframe.messages.find() finds one by its ROS name"
+                "coframe.messages.find() returns the class of a ROS type"
             )
 
     def _qualified(self, topic: str) -> str:
         return topic if topic.startswith("/") else f"{self.node.namespace.rstrip('/')}/{topic}"
 
 
-def _patience_ns(timeout: float | str) -> int:
-    return duration_ns(timeout) if isinstance(timeout, str) else int(timeout * _NS)
+def _timeout_ns(timeout: float | str) -> int:
+    return duration_ns(timeout) if isinstance(timeout, str) else int(timeout * SECOND)
 
 
 def _qos(qos: QoS | int | None) -> QoS:
@@ -273,24 +292,26 @@ def connect(
     prefix: str = "",
     keep: Iterable[str] = (),
 ) -> Connection:
-    """Joins the ROS 2 graph, with a buffer that fills itself in the background.
+    """Join the ROS 2 graph and receive its transforms into a buffer in the background.
 
-    How far it reaches is ROS's to say: this machine only, unless ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET or one of its
-    relatives opens the network.
+    By default, only nodes on this machine are discovered. ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET includes the local
+    network; ROS_LOCALHOST_ONLY and ROS_STATIC_PEERS are supported, too.
 
     Args:
-        node_name: as the others will see it.
-        namespace: of the node: "/" or "/a/b".
-        domain: the ROS domain, 0 to 232; None: ROS_DOMAIN_ID, or 0.
-        tf_topic: where transforms are sent.
-        tf_static_topic: where static transforms are sent.
-        cache: how far back the buffer remembers: "10s", nanoseconds, a timedelta; None: everything.
-        prefix: goes in front of the names of frames in the buffer, as it is: "robot1/" makes "robot1/base_link".
-        keep: the frames that get no prefix, as they are shared: ["map"].
+        node_name: The name of the node.
+        namespace: The namespace of the node: "/" or "/a/b".
+        domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
+        tf_topic: The topic of dynamic transforms.
+        tf_static_topic: The topic of static transforms.
+        cache: The length of the buffer's cache: a text such as "10s", nanoseconds or a timedelta. If None, the buffer
+            keeps everything.
+        prefix: The prefix of the frames in the buffer, used as given: "robot1/" makes "robot1/base_link" of
+            "base_link".
+        keep: The frames that are shared by robots and get no prefix: ["map"].
 
     Raises:
-        ValueError: the prefix begins with a slash.
-        WireError: cyclonedds is missing, or DDS does not let us in; the text and `.hint` say more.
+        ValueError: The prefix begins with a slash.
+        WireError: cyclonedds is not installed, or DDS cannot join the graph. `.hint` says what to do.
 
     Example:
         >>> with coframe.connect() as ros:                                    # doctest: +SKIP

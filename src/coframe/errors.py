@@ -1,23 +1,27 @@
-"""Everything coframe raises.
+"""All exceptions that coframe raises by itself.
 
     Exception
-    ├── TransformException              a transform could not be given or taken
-    │   ├── LookupException             a frame that nobody has mentioned; a loop in the tree
-    │   ├── ConnectivityException       the frames are in different trees
-    │   ├── ExtrapolationException      no sample at the requested time
-    │   ├── InvalidArgumentException    a name or value that tf2 refuses
-    │   │   └── FrameMismatchException  composing a<-b with c<-d where b is not c
-    │   └── TimeoutException            waited in vain
-    ├── WireError(RuntimeError)         the ROS graph could not be joined
-    ├── ViewerError(RuntimeError)       the viewer could not be started, or a file that it was given is none of its kind
-    ├── DecodeError(ValueError)         bytes that are not what they claim to be
-    ├── RobotDescriptionError(ValueError)  a robot description that contradicts itself
-    ├── PackageError(LookupError)       a package, or a file of one, that is not there
-    ├── FrozenFileError(ValueError)     a file that is no frozen buffer, or a damaged one
-    └── RecordingError(ValueError)      a recording of which nothing can be read
+    └── CoframeError                            base class: catch this to catch everything below
+        ├── TransformException                  a transform could not be looked up or stored
+        │   ├── LookupException                 a frame does not exist, or the tree contains a loop
+        │   ├── ConnectivityException           the frames are in different trees
+        │   ├── ExtrapolationException          no sample at the requested time
+        │   ├── InvalidArgumentException        a name or value that tf2 refuses
+        │   │   └── FrameMismatchException      composing a<-b with c<-d where b is not c
+        │   └── TimeoutException                the transform did not become available in time
+        ├── WireError(RuntimeError)             the ROS graph could not be joined or used
+        ├── ViewerError(RuntimeError)           the viewer could not be started, or cannot show a file
+        ├── DecodeError(ValueError)             bytes that do not match their type
+        ├── RobotDescriptionError(ValueError)   a robot description that is invalid
+        ├── PackageError(LookupError)           a package, or a file in one, that does not exist
+        ├── FrozenFileError(ValueError)         a file that is not a frozen buffer, or is damaged
+        └── RecordingError(ValueError)          a recording without any readable data
 
-The names of the transform exceptions are tf2's, and so are their texts (``str(error)``). Each also carries the facts
-behind its text, where they apply, and ``hint``: what to do next.
+Wrong arguments of Python calls (a wrong type, shape or unit) raise TypeError and ValueError as usual.
+
+The names of the transform exceptions are tf2's, and so are their texts (``str(error)``). Every exception also has a
+``hint``, which says what to do next, and a ``doctor_code``, which names the doctor's page about the problem.
+Transform exceptions carry the facts behind their text as well.
 """
 
 from __future__ import annotations
@@ -27,7 +31,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe import _core
 from coframe.analysis.missing_edges import missing_edge, tree_of
-from coframe.lookup_hints import hint
+from coframe.lookup_hints import doctor_code, hint
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -35,6 +40,7 @@ if TYPE_CHECKING:
     from coframe._core import Failure
 
 __all__ = [
+    "CoframeError",
     "ConnectivityException",
     "DecodeError",
     "ExtrapolationException",
@@ -52,6 +58,23 @@ __all__ = [
 ]
 
 
+class CoframeError(Exception):
+    """Base class of all exceptions that coframe raises by itself."""
+
+    # There is no __init__ here: the native core raises transform exceptions often, and they have to stay cheap.
+    _hint: str = ""
+
+    @property
+    def hint(self) -> str:
+        """What to do next, in one or two sentences; may be empty."""
+        return self._hint
+
+    @property
+    def doctor_code(self) -> str:
+        """The code of the doctor's page about this problem, such as ``"TF013"``; "" if there is none."""
+        return ""
+
+
 class _Facts(NamedTuple):
     target: str | None = None
     source: str | None = None
@@ -61,20 +84,21 @@ class _Facts(NamedTuple):
     edge: tuple[str, str] | None = None
     hint: str = ""
     code: str = ""
+    doctor_code: str = ""
 
 
 _NO_FACTS = _Facts()
 
 
-class TransformException(Exception):  # noqa: N818 - tf2's name
-    """A transform could not be given or taken.
+class TransformException(CoframeError):  # noqa: N818 - tf2's name
+    """A transform could not be looked up or stored.
 
     ``str(error)`` is the text; the properties are the facts behind it, None where they do not apply.
     """
 
-    # An exception of the core holds its Failure in `args` and has no __init__ to run: most failed look-ups are caught
-    # and forgotten, and neither their text nor their facts are ever asked for.
-    _told: _Facts = _NO_FACTS
+    # An exception raised by the core holds its Failure in `args` and has no __init__ to run. Most failed lookups are
+    # caught and forgotten, so their text and their facts are computed only on access.
+    _details: _Facts = _NO_FACTS
 
     @classmethod
     def with_details(
@@ -89,15 +113,16 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
         edge: tuple[str, str] | None = None,
         hint: str = "",
         code: str = "",
+        doctor_code: str = "",
     ) -> Self:
-        """An exception with the text ``reason`` and with these facts."""
+        """Return an exception with the text ``reason`` and with these facts."""
         error = cls(reason)
-        error._told = _Facts(target, source, requested, earliest, latest, edge, hint, code)
+        error._details = _Facts(target, source, requested, earliest, latest, edge, hint, code, doctor_code)
         return error
 
     @property
     def args(self) -> tuple[Any, ...]:
-        """What the exception was made of: its text, as a tuple."""
+        """The text of the exception as a tuple of one element."""
         return self._own_args if self._failure is None else (str(self),)
 
     @args.setter
@@ -116,48 +141,54 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
 
     @property
     def _facts(self) -> Failure | _Facts:
-        return self._failure or self._told
+        return self._failure or self._details
 
     @property
     def code(self) -> str:
-        """What went wrong in a word, ``too_new`` or ``not_connected``; "" where it was no look-up that failed."""
+        """The kind of failure as one word, such as ``too_new`` or ``not_connected``; "" if no lookup failed."""
         return self._facts.code
 
     @property
     def target(self) -> str | None:
-        """The frame the answer was wanted in, or None."""
+        """The target frame of the lookup, or None."""
         return self._facts.target
 
     @property
     def source(self) -> str | None:
-        """The frame that was asked about, or None."""
+        """The source frame of the lookup, or None."""
         return self._facts.source
 
     @property
     def requested(self) -> int | None:
-        """The time asked for, in nanoseconds; None where time plays no part."""
+        """The requested time in nanoseconds; None if the failure does not depend on time."""
         return self._facts.requested
 
     @property
     def earliest(self) -> int | None:
-        """The oldest stamp of the link without a sample at ``requested``, in nanoseconds, or None."""
+        """The oldest stamp of the edge that has no sample at ``requested``, in nanoseconds, or None."""
         return self._facts.earliest
 
     @property
     def latest(self) -> int | None:
-        """The newest stamp of that link, in nanoseconds, or None."""
+        """The newest stamp of the edge that has no sample at ``requested``, in nanoseconds, or None."""
         return self._facts.latest
 
     @property
     def edge(self) -> tuple[str, str] | None:
-        """That link as (parent, child), or None."""
+        """The edge that has no sample at ``requested``, as (parent, child), or None."""
         return self._facts.edge
 
     @property
     def hint(self) -> str:
-        """What to do next, in a sentence; may be empty."""
+        """What to do next, in one or two sentences; may be empty."""
         failure = self._failure
-        return self._told.hint if failure is None else _hint(failure)
+        return self._details.hint if failure is None else _hint(failure)
+
+    @property
+    def doctor_code(self) -> str:
+        """The code of the doctor's page about this problem, such as ``"TF013"``; "" if there is none."""
+        failure = self._failure
+        return self._details.doctor_code if failure is None else _doctor_code(failure)
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({str(self)!r})"
@@ -165,13 +196,13 @@ class TransformException(Exception):  # noqa: N818 - tf2's name
     def __reduce__(self) -> tuple[object, ...]:
         facts = {name: getattr(self, name) for name in _Facts._fields}
         kind = type(self)
-        # By name: tf2_py calls the module of tf2's exceptions `tf2`, as tf2 does, where pickle would not find them.
+        # Pickle by name: tf2_py sets the module of these classes to `tf2`, as tf2 does, where pickle cannot find them.
         is_ours = globals().get(kind.__name__) is kind
         return _restore, (kind.__name__ if is_ours else kind, str(self), facts)
 
 
 class LookupException(TransformException):
-    """A frame that nobody has mentioned, or a loop in the tree."""
+    """A frame does not exist, or the tree contains a loop."""
 
 
 class ConnectivityException(TransformException):
@@ -179,7 +210,7 @@ class ConnectivityException(TransformException):
 
 
 class ExtrapolationException(TransformException):
-    """No sample at the requested time, and tf2 never extrapolates."""
+    """There is no sample at the requested time; tf2 never extrapolates."""
 
 
 class InvalidArgumentException(TransformException):
@@ -191,40 +222,35 @@ class FrameMismatchException(InvalidArgumentException):
 
 
 class TimeoutException(TransformException):
-    """Something was waited for in vain."""
+    """The transform did not become available before the timeout."""
 
 
-class _Hinting(Exception):  # noqa: N818 - what the errors below have in common
-    """An error that says what to do next.
-
-    Attributes:
-        hint: What to do next, in a sentence; may be empty.
-    """
+class _HintedError(CoframeError):
+    """Base class of the errors below, which take their hint as an argument."""
 
     def __init__(self, text: str, *, hint: str = "") -> None:
         super().__init__(text)
-        self.hint = hint
+        self._hint = hint
 
 
-class WireError(_Hinting, RuntimeError):
+class WireError(_HintedError, RuntimeError):
     """The ROS graph could not be joined or used."""
 
 
-class ViewerError(_Hinting, RuntimeError):
-    """The viewer could not be started, or a file that it was given is none of its kind."""
+class ViewerError(_HintedError, RuntimeError):
+    """The viewer could not be started, or cannot show the given file."""
 
 
-class DecodeError(_Hinting, ValueError):
-    """Bytes that are not what they claim to be; the text says which type, where, and what was expected."""
+class DecodeError(_HintedError, ValueError):
+    """Bytes that do not match their type; the text gives the type, the position and the expected value."""
 
 
-class RobotDescriptionError(_Hinting, ValueError):
-    """A robot description that contradicts itself, or is none.
+class RobotDescriptionError(_HintedError, ValueError):
+    """A robot description that is invalid or contradicts itself.
 
     Attributes:
-        line: Where in the text, counted from 1; None where no line is to blame.
-        file: The file's name; None for a text.
-        hint: What to do next, in a sentence; may be empty.
+        line: Line number, counted from 1; None if the problem has no single line.
+        file: Name of the file; None for a description that was given as text.
     """
 
     def __init__(self, text: str, *, line: int | None = None, file: str | None = None, hint: str = "") -> None:
@@ -237,16 +263,16 @@ class RobotDescriptionError(_Hinting, ValueError):
         return ": ".join(filter(None, [", ".join(filter(None, places)), str(self.args[0])]))
 
 
-class PackageError(_Hinting, LookupError):
-    """A package or a file of it that is not there, or a file that is not inside its package."""
+class PackageError(_HintedError, LookupError):
+    """A package, or a file in one, that does not exist, or a file outside its package."""
 
 
-class FrozenFileError(_Hinting, ValueError):
-    """A file that is no frozen buffer, or one that is damaged or cannot be written."""
+class FrozenFileError(_HintedError, ValueError):
+    """A file that is not a frozen buffer, is damaged, or cannot be written."""
 
 
-class RecordingError(_Hinting, ValueError):
-    """A recording of which nothing can be read."""
+class RecordingError(_HintedError, ValueError):
+    """A recording without any readable data."""
 
 
 def _restore(kind: str | type[TransformException], text: str, facts: dict[str, object]) -> TransformException:
@@ -257,8 +283,16 @@ def _restore(kind: str | type[TransformException], text: str, facts: dict[str, o
 _MOST_GUESSES = 3
 
 
+def _doctor_code(failure: Failure) -> str:
+    return "" if _is_in_seconds(failure) else doctor_code(failure.code)
+
+
+def _is_in_seconds(failure: Failure) -> bool:
+    return failure.code == "too_old" and looks_like_seconds(failure)
+
+
 def _hint(failure: Failure) -> str:
-    if failure.code == "too_old" and looks_like_seconds(failure):
+    if _is_in_seconds(failure):
         return hint("in_seconds", requested=str(failure.requested))
     parent, child = failure.edge or ("", "")
     return hint(
@@ -275,27 +309,29 @@ def _hint(failure: Failure) -> str:
 
 
 def looks_like_seconds(failure: Failure | TransformException) -> bool:
-    """Whether the time asked for, taken as seconds, is one that the link has."""
+    """Return whether the requested time, read as seconds, lies within the samples of the edge."""
     if failure.requested is None or failure.earliest is None or failure.latest is None:
         return False
-    return failure.earliest <= failure.requested * 1_000_000_000 <= failure.latest
+    return failure.earliest <= failure.requested * SECOND <= failure.latest
 
 
 def _guess(failure: Failure) -> str:
     known = sorted(failure.parents)
     if not known:
-        return "No transforms have arrived yet: is a broadcaster running, in the same ROS domain?"
-    close = _alike(failure.name, known)
-    if not close:
-        return f"The frames are: {', '.join(known)}."
-    asked = (failure.target, failure.source)
-    target, source = (name if name in failure.parents else (_alike(name, known) or [name])[0] for name in asked)
-    line = f" In a node: lookup_transform({target!r}, {source!r}, ...)." if failure.name in asked else ""
-    return f"Did you mean {' or '.join(map(repr, close))}? The frames are: {', '.join(known)}.{line}"
+        return "The buffer has not received any transforms. Is a broadcaster running in the same ROS domain?"
+    similar = _similar_names(failure.name, known)
+    if not similar:
+        return f"Known frames: {', '.join(known)}."
+    arguments = (failure.target, failure.source)
+    target, source = (
+        name if name in failure.parents else (_similar_names(name, known) or [name])[0] for name in arguments
+    )
+    line = f" In a node: lookup_transform({target!r}, {source!r}, ...)." if failure.name in arguments else ""
+    return f"Did you mean {' or '.join(map(repr, similar))}? Known frames: {', '.join(known)}.{line}"
 
 
-def _alike(name: str, known: list[str]) -> list[str]:
-    """The frames that may be meant: with a prefix or without, or spelt nearly like it."""
+def _similar_names(name: str, known: list[str]) -> list[str]:
+    """Return the frames that may be meant: the same name with another prefix, or a similar spelling."""
     bare = name.rpartition("/")[2]
     same = [frame for frame in known if frame.rpartition("/")[2] == bare]
     return same[:_MOST_GUESSES] or difflib.get_close_matches(name, known, n=1)
@@ -304,10 +340,12 @@ def _alike(name: str, known: list[str]) -> list[str]:
 def _trees(failure: Failure) -> str:
     roots = failure.roots or ("", "")
     trees = [tree_of(root, failure.parents) for root in roots]
-    told = " and ".join(f"{root!r} with {', '.join(below)}" if below else f"{root!r} alone" for root, *below in trees)
+    described = " and ".join(
+        f"{root!r} with {', '.join(below)}" if below else f"{root!r} alone" for root, *below in trees
+    )
     target_root, source_root = roots
-    link = missing_edge(*sorted(trees, key=len, reverse=True))
+    edge = missing_edge(*sorted(trees, key=len, reverse=True))
     return (
-        f"The trees are {told}. The missing link is a transform with the child {source_root!r} (or {target_root!r})."
-        + (f" {link.fix}" if link else "")
+        f"The two trees are {described}. Publish a transform with the child {source_root!r} (or {target_root!r}) to "
+        "connect them." + (f" {edge.hint}" if edge else "")
     )

@@ -1,14 +1,16 @@
-"""Durations and stamps as sentences tell them."""
+"""Durations and stamps as text for sentences."""
 
 from __future__ import annotations
 
+from coframe.time import DAY, HOUR, MICROSECOND, MILLISECOND, SECOND
+
 __all__ = ["duration", "seconds"]
 
-_UNITS = ((86_400e9, "days"), (3_600e9, "h"), (1e9, "s"), (1e6, "ms"), (1e3, "us"))
+_UNITS = ((DAY, "days"), (HOUR, "h"), (SECOND, "s"), (MILLISECOND, "ms"), (MICROSECOND, "us"))
 
 
 def duration(nanoseconds: float) -> str:
-    """Three digits and a unit: ``17.3 ms``."""
+    """Return a duration with three digits and a unit, such as ``17.3 ms``."""
     for size, unit in _UNITS:
         number = nanoseconds / size
         if abs(number) >= 0.9995:
@@ -17,6 +19,6 @@ def duration(nanoseconds: float) -> str:
 
 
 def seconds(nanoseconds: int) -> str:
-    """A stamp, with all nine digits."""
+    """Return a stamp in seconds with all nine decimal places."""
     sign, size = ("-", -nanoseconds) if nanoseconds < 0 else ("", nanoseconds)
-    return f"{sign}{size // 10**9}.{size % 10**9:09d}"
+    return f"{sign}{size // SECOND}.{size % SECOND:09d}"

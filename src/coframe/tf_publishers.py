@@ -1,4 +1,4 @@
-"""Who sends transforms: since when nothing came, and by which clock they are stamped."""
+"""The publishers of transforms: their state, clocks and frame names, from the messages that a subscription received."""
 
 from __future__ import annotations
 
@@ -6,36 +6,38 @@ import time
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe import frame_names
+from coframe.time import DAY, MILLISECOND, SECOND
+from coframe.wire.names import any_ros_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable
+    from collections.abc import Collection, Iterable
 
-__all__ = ["OnceEach", "TfPublisher", "publisher_of", "state_of"]
+    from coframe.wire.participant import Participant
+    from coframe.wire.tf_reader import TfReader, WriterStatistics
 
-_NS = 1_000_000_000
-SILENT_AFTER = 1.0  # seconds
-# Stamps that are so far from this machine's clock are not explained by the way they had.
-_CLOCK_TOLERANCE = _NS // 2
-# Localisation stamps map -> odom ahead on purpose, so that it can be used till the next one comes.
-_AHEAD_ON_PURPOSE = 2 * _NS
-_DAY = 86_400 * _NS
+__all__ = ["TfPublisher", "publisher_state", "publishers_of", "tf_publisher"]
 
-Heard = tuple[int, int, int, "int | None", str, str, str]
+STALE_AFTER = 1.0  # seconds
+# A larger difference between stamps and the clock of this machine is not explained by the transport delay.
+_CLOCK_TOLERANCE = 500 * MILLISECOND
+# Localization nodes stamp map -> odom ahead of time, so that the transform is valid until the next one.
+_INTENTIONAL_LEAD = 2 * SECOND
 
 
 class TfPublisher(NamedTuple):
-    """A publisher of transforms, as one listener hears it.
+    """A publisher of transforms, as one subscription receives it.
 
     Attributes:
-        node: Its node, such as "/robot1/driver"; "an unnamed node" where the graph does not tell.
-        topic: Where it publishes.
-        static: Whether its transforms hold for all times.
-        messages: How many came.
-        age: Seconds since the last one.
-        lag: By how much its stamps were behind this machine's clock when they came, in nanoseconds, the lower
-            quartile of its last messages; negative: ahead. None: static, or not enough messages yet.
-        present: Whether it is still there.
-        oddities: What is odd about its names, a sentence each.
+        node: The full name of its node, such as "/robot1/driver"; "an unnamed node" if it is unknown.
+        topic: The topic.
+        static: Whether its transforms are static.
+        messages: The number of messages received.
+        age: The time since the last message arrived, in seconds.
+        lag: The delay of its stamps relative to the clock of this machine on arrival, in nanoseconds: the lower
+            quartile of the last messages. Negative if the stamps are ahead. None if it is static or there are too
+            few messages.
+        present: Whether the publisher is still on the graph.
+        naming_problems: The problems of its frame names, one text each.
     """
 
     node: str
@@ -45,71 +47,85 @@ class TfPublisher(NamedTuple):
     age: float
     lag: int | None
     present: bool
-    oddities: list[str]
+    naming_problems: list[str]
 
-    def silent(self) -> bool:
-        """Whether nothing came for a second of what should always move."""
-        return not self.static and self.age > SILENT_AFTER
+    def stale(self) -> bool:
+        """Return whether the transforms are dynamic and none has arrived for one second."""
+        return not self.static and self.age > STALE_AFTER
 
     def clock_problem(self, children: Collection[str] = ()) -> str:
-        """A sentence where its stamps are not of this machine's time; "" where they are.
+        """Return a text if the stamps do not match the clock of this machine, "" otherwise.
 
         Args:
-            children: The frames that it tells of, if they are known: a localisation may stamp odom a little ahead.
+            children: The child frames of its transforms, if known. A localization node may stamp the transform to odom
+                up to 2 s ahead.
         """
         if self.lag is None or abs(self.lag) < _CLOCK_TOLERANCE:
             return ""
         only_odom = bool(children) and all(child.rpartition("/")[2] == "odom" for child in children)
-        if only_odom and -_AHEAD_ON_PURPOSE <= self.lag < 0:
+        if only_odom and -_INTENTIONAL_LEAD <= self.lag < 0:
             return ""
+        if abs(self.lag) > DAY:
+            return (
+                f"{self.node} on {self.topic} uses a different clock for its stamps than this machine, such as a "
+                "simulated or recorded one: check use_sim_time"
+            )
         where = "behind" if self.lag > 0 else "ahead of"
-        if abs(self.lag) > _DAY:
-            return f"{self.node} on {self.topic} stamps by another clock than this machine's: simulated, or recorded?"
         return (
-            f"the clock of {self.node} on {self.topic} is {abs(self.lag) / _NS:.2f} s {where} this machine's: "
-            "synchronise both (chrony, NTP), or its transforms meet no others"
+            f"the clock of {self.node} on {self.topic} is {abs(self.lag) / SECOND:.2f} s {where} the clock of this "
+            "machine: synchronize the clocks (chrony, NTP), or lookups with its transforms will fail"
         )
 
 
-def state_of(publishers: Iterable[TfPublisher]) -> str:
-    """How whoever has these publishers does.
+def publisher_state(publishers: Iterable[TfPublisher]) -> str:
+    """Return the state of a robot from its publishers.
 
     Returns:
-        "waiting" (nothing came yet), "live", "silent" (nothing that moves for a second) or "gone" (none of them is
-        there any more).
+        "waiting" (no message has arrived), "live", "stale" (no dynamic transform has arrived recently) or "gone" (all
+        publishers have left).
     """
-    everyone = list(publishers)
-    present = [publisher for publisher in everyone if publisher.present]
-    moving = [publisher for publisher in everyone if not publisher.static]
-    if not everyone:
+    received = list(publishers)
+    dynamic = [publisher for publisher in received if not publisher.static]
+    if not received:
         return "waiting"
-    if not present:
+    if not any(publisher.present for publisher in received):
         return "gone"
-    if moving and not any(publisher.present and not publisher.silent() for publisher in moving):
-        return "silent"
+    if dynamic and not any(publisher.present and not publisher.stale() for publisher in dynamic):
+        return "stale"
     return "live"
 
 
-def publisher_of(heard: Heard, node: str | None, topic: str, *, static: bool, present: bool) -> TfPublisher:
-    """What the native reader tells of a writer, with its node."""
-    _, messages, heard_at, lag, *examples = heard
+def publishers_of(participant: Participant, reader: TfReader) -> list[TfPublisher]:
+    """Return the publishers that a reader has received transforms from, including those that have left."""
+    topic = any_ros_name(reader.topic)
+    present = participant.writers(topic)
+    return [
+        tf_publisher(
+            statistics,
+            participant.writer_node(statistics.writer),
+            topic,
+            static=reader.static,
+            present=statistics.writer in present,
+        )
+        for statistics in reader.writer_statistics()
+    ]
+
+
+def tf_publisher(
+    statistics: WriterStatistics, node: str | None, topic: str, *, static: bool, present: bool
+) -> TfPublisher:
+    """Return a publisher from the statistics of its DDS writer.
+
+    Args:
+        statistics: What was received from the writer.
+        node: The full name of its node; None if it is unknown.
+        topic: The topic.
+        static: Whether its transforms are static.
+        present: Whether the writer is still on the graph.
+    """
     node = node or "an unnamed node"
-    age = max(0, time.monotonic_ns() - heard_at) / _NS
-    odd = frame_names.oddities(f"{node} on {topic}", *examples)
-    return TfPublisher(node, topic, static, messages, age, lag, present, odd)
-
-
-class OnceEach:
-    """Passes each sentence on once."""
-
-    _MOST = 1000  # names come from the network
-
-    def __init__(self, tell: Callable[[str], None]) -> None:
-        self._tell = tell
-        self._told: set[str] = set()
-
-    def __call__(self, key: str, sentence: str) -> None:
-        """Tells `sentence`, unless one with the same key was told."""
-        if sentence and key not in self._told and len(self._told) < self._MOST:
-            self._told.add(key)
-            self._tell(sentence)
+    age = max(0, time.monotonic_ns() - statistics.received_at) / SECOND
+    problems = frame_names.naming_problems(
+        f"{node} on {topic}", statistics.slashed, statistics.prefixed, statistics.plain
+    )
+    return TfPublisher(node, topic, static, statistics.messages, age, statistics.lag, present, problems)

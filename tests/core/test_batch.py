@@ -89,7 +89,7 @@ def test_out_is_filled(tree):
     batch = buffer.lookup_many("map", "odom", samples)
     np.testing.assert_array_equal(poses[:, :3], batch.translation)
     np.testing.assert_array_equal(matrices, batch.matrix)
-    with pytest.raises(ValueError, match=r"out must be float64 of the shape \(700, 7\)"):
+    with pytest.raises(ValueError, match=r"out must be float64 of shape \(700, 7\)"):
         buffer.lookup_many("map", "odom", samples, out=np.empty((700, 6)))
 
 
@@ -180,7 +180,7 @@ class TestSetMany:
         assert buffer.frame_names() == []
 
     def test_shapes_are_checked(self):
-        with pytest.raises(ValueError, match=r"stamps of the shape \(N,\) and poses \(N, 7\)"):
+        with pytest.raises(ValueError, match=r"stamps must have shape \(N,\) and poses \(N, 7\)"):
             coframe.Buffer().set_many("a", "b", [1, 2], np.zeros((3, 7)))
 
     def test_it_wakes_who_waits(self):

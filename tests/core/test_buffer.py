@@ -314,7 +314,9 @@ def test_timeout_waits_for_another_thread_and_no_longer(buffer):
 
 
 def test_wait_gives_up_with_the_reason(buffer):
-    with pytest.raises(coframe.TimeoutException, match=r"waited 20ms in vain .* does not exist") as caught:
+    with pytest.raises(
+        coframe.TimeoutException, match=r"timed out after 20 ms waiting for .* does not exist"
+    ) as caught:
         buffer.wait("odom", "nobody", timeout="20ms")
     assert isinstance(caught.value.__cause__, coframe.LookupException)
 
@@ -341,12 +343,12 @@ def test_set_checks_the_frames_a_transform_names():
     transform = coframe.Transform(target="a", source="b", stamp=1)
     buffer = coframe.Buffer()
     assert buffer.set("a", "b", transform)
-    with pytest.raises(coframe.InvalidArgumentException, match="is a <- b, but is set as b <- a"):
+    with pytest.raises(coframe.InvalidArgumentException, match="cannot store the transform a <- b as b <- a"):
         buffer.set("b", "a", transform)
 
 
 def test_a_dynamic_transform_needs_a_stamp():
-    with pytest.raises(coframe.InvalidArgumentException, match="needs a stamp"):
+    with pytest.raises(coframe.InvalidArgumentException, match="has no stamp"):
         coframe.Buffer().set("a", "b", coframe.Transform())
 
 
@@ -405,11 +407,11 @@ def test_seconds_where_nanoseconds_are_wanted_are_noticed():
         buffer.set("a", "b", coframe.Transform(), stamp=stamp)
     with pytest.raises(coframe.ExtrapolationException) as caught:
         buffer.lookup("a", "b", 2)
-    assert caught.value.hint == "Stamps are nanoseconds: 2 s would be 2_000_000_000."
+    assert caught.value.hint == "Stamps are in nanoseconds: 2 s is 2_000_000_000."
     assert repr(caught.value).startswith("ExtrapolationException('Lookup would require extrapolation into the past.")
     with pytest.raises(coframe.ExtrapolationException) as caught:
         buffer.lookup("a", "b", 500_000_000)
-    assert "has forgotten that time" in caught.value.hint
+    assert "no longer has a sample" in caught.value.hint
 
 
 @pytest.mark.parametrize("wrong", [{"timeout": 0.5}, {"timeout": "soon"}, {"extrapolate": 0.1}, {"timeout": [1]}])

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import coframe
-from coframe import frozen
+from coframe import frozen_file
 
 SECOND = 1_000_000_000
 SPAN = (SECOND, 20 * SECOND)
@@ -114,7 +114,7 @@ def test_worker_processes_open_the_file_themselves(path):
 
 def test_a_file_appears_whole_or_not_at_all(path, monkeypatch):
     before = path.read_bytes()
-    monkeypatch.setattr(frozen._core, "frozen_chunks", lambda *_: 1 / 0)
+    monkeypatch.setattr(frozen_file._core, "frozen_chunks", lambda *_: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         filled().save(path)
     assert path.read_bytes() == before
@@ -124,13 +124,13 @@ def test_a_file_appears_whole_or_not_at_all(path, monkeypatch):
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        (lambda _data: b"", "is no frozen buffer"),
-        (lambda data: b"SQLite format 3\0" + data[16:], "is no frozen buffer"),
-        (lambda data: data[:20], "is damaged: it is cut off"),
-        (lambda data: data[:-1], "is damaged: it is cut off"),
-        (lambda data: data[:8] + b"\x07" + data[9:], "has the version 7 of the format"),
-        (lambda data: data[:30] + b"\x07" + data[31:], "the checksum of its header differs"),
-        (lambda data: data[:-3] + b"\x07" + data[-2:], "the checksum of its table differs"),
+        (lambda _data: b"", "is not a frozen buffer"),
+        (lambda data: b"SQLite format 3\0" + data[16:], "is not a frozen buffer"),
+        (lambda data: data[:20], "is damaged: it is truncated"),
+        (lambda data: data[:-1], "is damaged: it is truncated"),
+        (lambda data: data[:8] + b"\x07" + data[9:], "has version 7 of the format"),
+        (lambda data: data[:30] + b"\x07" + data[31:], "the checksum of its header is wrong"),
+        (lambda data: data[:-3] + b"\x07" + data[-2:], "the checksum of its table is wrong"),
     ],
 )
 def test_damaged_files_are_refused_in_one_sentence(path, change, says):
@@ -146,7 +146,7 @@ def test_a_flipped_bit_among_the_samples_is_found_when_asked_for(path):
     data[4096 + 5000] ^= 1
     path.write_bytes(data)
     coframe.load(path)
-    with pytest.raises(coframe.FrozenFileError, match="the checksum of its samples differs"):
+    with pytest.raises(coframe.FrozenFileError, match="the checksum of its samples is wrong"):
         coframe.load(path, verify=True)
 
 
@@ -160,19 +160,21 @@ def test_a_place_that_cannot_be_written_or_read(tmp_path, where):
 
 def sealed(data):
     """With checksums that fit whatever is in there."""
-    header = frozen._Header(*frozen._HEADER.unpack_from(data))
+    header = frozen_file.Header(*frozen_file._HEADER.unpack_from(data))
     table = data[header.table : header.table + header.table_size]
-    data[: frozen._HEADER.size] = frozen._HEADER.pack(*header._replace(table_crc=zlib.crc32(table)))
-    data[frozen._HEADER.size : frozen._HEADER.size + 4] = struct.pack("<I", zlib.crc32(data[: frozen._HEADER.size]))
+    data[: frozen_file._HEADER.size] = frozen_file._HEADER.pack(*header._replace(table_crc=zlib.crc32(table)))
+    data[frozen_file._HEADER.size : frozen_file._HEADER.size + 4] = struct.pack(
+        "<I", zlib.crc32(data[: frozen_file._HEADER.size])
+    )
     return data
 
 
 def mutated(rng, whole):
     """Changed in its numbers, in its table, among its samples; then sealed."""
     data = bytearray(whole)
-    header = frozen._Header(*frozen._HEADER.unpack_from(data))
+    header = frozen_file.Header(*frozen_file._HEADER.unpack_from(data))
     for _ in range(rng.choice([1, 2, 8])):
-        start, end = rng.choice([(16, frozen._HEADER.size), (header.table, len(data)), (4096, header.table)])
+        start, end = rng.choice([(16, frozen_file._HEADER.size), (header.table, len(data)), (4096, header.table)])
         where = rng.randrange(start, end)
         piece = rng.choice([b"\xff", b"\0", b"\x7f", b"\xff" * 8, bytes(8), rng.randbytes(4), rng.randbytes(8)])
         data[where : where + len(piece)] = piece

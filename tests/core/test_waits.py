@@ -161,7 +161,7 @@ def test_a_wait_is_answered_when(story):
     wait = _core.wait(buffer, _core.Mailbox(), 1, *question)
     next(telling, None)
     assert buffer.can_transform(*question), "the test is wrong"
-    assert wait.answer() is not None
+    assert wait.transform() is not None
 
 
 def change(buffer, rng, names, ordered):
@@ -200,7 +200,7 @@ def test_no_wait_is_forgotten(seed):
             start = _core.wait if len(asked) == 3 else _core.wait_full
             waits[step, number] = asked, start(buffer, mailbox, 1, *asked)
         change(buffer, rng, names, ordered)
-        waits = {key: one for key, one in list(waits.items())[-60:] if one[1].answer() is None}
+        waits = {key: one for key, one in list(waits.items())[-60:] if one[1].transform() is None}
         for asked, _ in waits.values():
             can = buffer.can_transform if len(asked) == 3 else buffer._can_transform_full
             assert not can(*asked), f"nobody answered {asked}"

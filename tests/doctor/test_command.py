@@ -45,7 +45,7 @@ def test_one_finding_a_line_then_why_and_what_to_do(ill):
     assert first.endswith("; first stamp 1700000000.000000000")
     assert why.startswith("      why: A look-up between frames of two trees never succeeds")
     assert fix.startswith(
-        "      do:  In the node that sends 'base_lnk', change the line to t.header.frame_id = 'base_link'"
+        "      do:  In the node that publishes 'base_lnk', change the line to t.header.frame_id = 'base_link'"
     )
 
 
@@ -145,14 +145,14 @@ def test_every_page_is_printed(code):
 @pytest.mark.parametrize(
     ("arguments", "code", "text"),
     [
-        (["--explain", "TF999"], 2, "there is no page for 'TF999'"),
+        (["--explain", "TF999"], 2, "--explain: unknown code 'TF999'"),
         (["--explain", "TF12"], 2, "Did you mean TF012 (Time jumped back)?"),
         (["--explain", "jumps"], 2, "Did you mean TF020 (Jumps)?"),
-        (["--ignore", "TF999"], 2, "there is no check 'TF999'"),
-        (["--ignore", "TF001,TF26"], 2, "there is no check 'TF26'"),
+        (["--ignore", "TF999"], 2, "--ignore: unknown code 'TF999'"),
+        (["--ignore", "TF001,TF26"], 2, "--ignore: unknown code 'TF26'"),
         (["nowhere.mcap"], 1, "nowhere.mcap cannot be read"),
         (["--duration", "soon"], 2, "--duration"),
-        (["--json", "--sarif"], 2, "exclude each other"),
+        (["--json", "--sarif"], 2, "--json cannot be combined with --sarif"),
         (["--namespace", "/robot1"], 2, "For live transforms, use --tf-topic /robot1/tf"),
     ],
 )

@@ -71,7 +71,7 @@ def test_namespaces_are_apart(tmp_path):
     assert sorted(json.loads(frames(bag, "--json").stdout)["namespaces"]) == ["/r1", "/r2"]
     refused = frames(bag, "-o", tmp_path / "x.svg")
     assert refused.exit_code == 2
-    assert "--namespace: /r1, /r2" in refused.output
+    assert "in several namespaces: /r1, /r2\n  Choose one with --namespace." in refused.output
     assert frames(bag, "-o", tmp_path / "x.svg", "--namespace", "/r1").exit_code == 0
     data = json.loads(frames(bag, "--namespace", "r2", "--prefix", "r2/", "--keep", "odom", "--json").stdout)
     data = data["namespaces"]["/r2"] if "namespaces" in data else data
@@ -81,9 +81,9 @@ def test_namespaces_are_apart(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "code", "text"),
     [
-        (["-o", "frames.png"], 2, "Let it end in .gv"),
-        (["--watch", "-o", "frames.svg"], 2, "--watch excludes"),
-        (["--duration", "0s"], 2, "more than 0"),
+        (["-o", "frames.png"], 2, "unknown suffix '.png'. Suffixes: .gv"),
+        (["--watch", "-o", "frames.svg"], 2, "--watch cannot be combined with --output"),
+        (["--duration", "0s"], 2, "greater than 0"),
         (["nowhere.mcap"], 1, "nowhere.mcap"),
     ],
 )
@@ -121,13 +121,13 @@ def test_live_trees_name_their_publishers(inside, tmp_path, eventually):
     with told.open("w") as output:
         inside.start("-m", "coframe.cli", "frames", "--watch", "--json", stdout=output)
         inside.start("-m", "coframe.lab.complete_tf_tree")
-        eventually(lambda: len(frames()) == 11 and frames()["link1"]["links"][-1]["transforms"] > 40)
+        eventually(lambda: len(frames()) == 11 and frames()["link1"]["edges"][-1]["transforms"] > 40)
     found = frames()
     # What comes before it is known who is there has no name.
-    assert {link["publisher"] for frame in found.values() for link in frame["links"]} - {""} == {"/complete_tf_tree"}
+    assert {edge["publisher"] for frame in found.values() for edge in frame["edges"]} - {""} == {"/complete_tf_tree"}
     assert found["link1"]["parent"] == "base_link"
-    assert 40 < found["link1"]["links"][-1]["rate"] < 60
-    assert found["link1"]["links"][-1]["age"] is not None
+    assert 40 < found["link1"]["edges"][-1]["rate"] < 60
+    assert found["link1"]["edges"][-1]["age"] is not None
     assert found["lidar_link"]["static"]
 
 

@@ -88,4 +88,4 @@ def test_how_many_messages_are_transformable_at_once(examine, shared, name, topi
 
 def test_a_recording_whose_file_was_renamed_is_examined_and_says_so(examine, shared):
     report = examine(shared / "recordings" / "broken" / "db3_renamed_metadata_stale")
-    assert any("which is not there" in problem for problem in report.observation.unread)
+    assert any("which does not exist" in problem for problem in report.observation.unread)

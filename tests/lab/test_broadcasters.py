@@ -247,7 +247,7 @@ def test_a_parameter_that_makes_no_sense_ends_the_node_with_a_sentence(node, par
 @pytest.mark.parametrize(
     ("arguments", "environment", "sentence"),
     [
-        (["-r", "nonsense"], {}, "--remap 'nonsense' is not of the form from:=to"),
+        (["-r", "nonsense"], {}, "--remap 'nonsense' does not have the form from:=to"),
         (["--params-file", "nowhere.yaml"], {}, "--params-file nowhere.yaml"),
         (["-r", "__node:=a-b"], {}, "Invalid node name"),
         ([], {"ROS_DOMAIN_ID": "abc"}, "ROS_DOMAIN_ID is 'abc'"),

@@ -85,8 +85,8 @@ class Fuzzer {
 
  private:
   void damage(std::string& bytes) {
-    static const std::array<std::uint64_t, 8> odd{0, 1, 0xff, 0x7fffffff, 0xffffffff, 1ull << 63, ~0ull, ~0ull >> 1};
-    const std::uint64_t number = rng_() % 2 == 0 ? odd[rng_() % odd.size()] : rng_();
+    static const std::array<std::uint64_t, 8> name_problems{0, 1, 0xff, 0x7fffffff, 0xffffffff, 1ull << 63, ~0ull, ~0ull >> 1};
+    const std::uint64_t number = rng_() % 2 == 0 ? name_problems[rng_() % name_problems.size()] : rng_();
     const std::size_t size = std::size_t{1} << rng_() % 4, at = rng_() % (bytes.size() - size);
     std::memcpy(&bytes[at], &number, size);
   }
@@ -112,7 +112,7 @@ class Fuzzer {
         Stamp stamp = asked;
         Pose pose;
         Failure failure;
-        if (buffer.lookup(target, source, stamp, pose, failure)) continue;
+        if (buffer.lookup_by_id(target, source, stamp, pose, failure)) continue;
         expect(!buffer.read([&](const Tree& tree) { return lookup_text(failure, tree); }).empty(), "no words");
       }
       many(buffer, names[i], names[names.size() - 1 - i]);
@@ -128,13 +128,13 @@ class Fuzzer {
     std::vector<Stamp> stamps(200);
     for (Stamp& stamp : stamps) stamp = static_cast<Stamp>(rng_() % (13 * kSecond));
     std::vector<double> poses(7 * stamps.size()), twists(6 * stamps.size());
-    Question question;
-    question.target = target;
-    question.source = source;
+    LookupQuery query;
+    query.target = target;
+    query.source = source;
     Failure failure;
     const Batch batch{stamps.size(), stamps.data(), poses.data(), twists.data(), nullptr, Batch::Missing::nan};
-    buffer.answer_many(question, nullptr, batch, 1, failure);
-    buffer.stamps_between(question, kSecond, 3 * kSecond, stamps, failure);
+    buffer.lookup_many(query, nullptr, batch, 1, failure);
+    buffer.stamps_between(query, kSecond, 3 * kSecond, stamps, failure);
   }
 
   std::mt19937_64 rng_{20};

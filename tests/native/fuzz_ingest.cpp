@@ -83,7 +83,7 @@ class Fuzzer {
       Bytes bytes = message(kind, transforms);
       const bool damaged = rng_() % 4 != 0;
       for (unsigned n = damaged ? 1 + rng_() % 4 : 0; n > 0; --n) damage(bytes);
-      take_in(kind, bytes, transforms, damaged);
+      ingest_without_notify(kind, bytes, transforms, damaged);
       relay(bytes);
       if (i % 16 == 0) ask();
       if (i % 5000 == 0) buffer_.clear();
@@ -106,13 +106,13 @@ class Fuzzer {
   }
 
   std::string name() {
-    static const std::array<std::string, 8> odd{"", "/", "//", "/a", "größe", "NO_PARENT", "a b", std::string(300, 'x')};
-    return rng_() % 8 == 0 ? one_of(odd) : "frame" + std::to_string(rng_() % 20);
+    static const std::array<std::string, 8> name_problems{"", "/", "//", "/a", "größe", "NO_PARENT", "a b", std::string(300, 'x')};
+    return rng_() % 8 == 0 ? one_of(name_problems) : "frame" + std::to_string(rng_() % 20);
   }
 
   double value() {
-    static const std::array<double, 8> odd{0.0, -0.0, 1e308, -1e308, 1e-308, NAN, INFINITY, -INFINITY};
-    return rng_() % 50 == 0 ? one_of(odd) : std::uniform_real_distribution<double>(-10, 10)(rng_);
+    static const std::array<double, 8> name_problems{0.0, -0.0, 1e308, -1e308, 1e-308, NAN, INFINITY, -INFINITY};
+    return rng_() % 50 == 0 ? one_of(name_problems) : std::uniform_real_distribution<double>(-10, 10)(rng_);
   }
 
   Bytes message(Kind kind, std::size_t& transforms) {
@@ -155,7 +155,7 @@ class Fuzzer {
     }
   }
 
-  void take_in(Kind kind, const Bytes& bytes, std::size_t transforms, bool damaged) {
+  void ingest_without_notify(Kind kind, const Bytes& bytes, std::size_t transforms, bool damaged) {
     // Not a byte more: what is read beyond is seen.
     const std::unique_ptr<std::uint8_t[]> exact(new std::uint8_t[bytes.size()]);
     std::copy(bytes.begin(), bytes.end(), exact.get());
@@ -200,7 +200,7 @@ class Fuzzer {
     Stamp stamp = rng_() % 2 == 0 ? 0 : static_cast<Stamp>(1000 + rng_() % 20) * 1'000'000'000;
     Pose pose;
     Failure failure;
-    if (target != 0 && source != 0 && !buffer_.lookup(target, source, stamp, pose, failure)) {
+    if (target != 0 && source != 0 && !buffer_.lookup_by_id(target, source, stamp, pose, failure)) {
       expect(!buffer_.read([&](const Tree& tree) { return lookup_text(failure, tree); }).empty(), "no words");
     }
     for (const bool is_static : {false, true}) {

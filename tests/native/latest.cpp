@@ -26,15 +26,15 @@ void expect(bool holds, const char* what) {
 int main(int argc, char** argv) {
   Buffer buffer(0);
   const AuthorityId authority = buffer.authority("writer");
-  const auto tell = [&](Stamp stamp) {
+  const auto notify = [&](Stamp stamp) {
     buffer.insert("map", "odom", stamp, kHere, false, authority);
     buffer.insert("odom", "base", stamp, kHere, false, authority);
   };
-  tell(1);
+  notify(1);
   const FrameId map = buffer.find("map"), odom = buffer.find("odom"), base = buffer.find("base");
   std::atomic<bool> over{false};
   std::thread writer([&] {
-    for (Stamp stamp = 2; !over; ++stamp) tell(stamp);
+    for (Stamp stamp = 2; !over; ++stamp) notify(stamp);
   });
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(argc > 1 ? std::atof(argv[1]) : 10);
   long looks = 0;
@@ -42,9 +42,9 @@ int main(int argc, char** argv) {
     Stamp stamp = 0;
     Pose pose;
     Failure failure;
-    expect(buffer.lookup(map, base, stamp, pose, failure), "the latest is not there");
+    expect(buffer.lookup_by_id(map, base, stamp, pose, failure), "the latest is not there");
     stamp = 0;
-    expect(buffer.lookup_full(map, stamp, base, 0, odom, pose, failure), "the latest is not there for time travel");
+    expect(buffer.lookup_full_by_id(map, stamp, base, 0, odom, pose, failure), "the latest is not there for time travel");
   }
   over = true;
   writer.join();

@@ -332,8 +332,8 @@ class Reader {
     const FrameId target_id = buffer_.find(target), source_id = buffer_.find(source);
     if (target_id == 0 || source_id == 0) return false;
     Failure failure;
-    const bool was_possible = target_id != source_id && buffer_.quick_check(paths_, target_id, source_id, stamp);
-    const bool ok = buffer_.lookup(target_id, source_id, stamp, pose, failure);
+    const bool was_possible = target_id != source_id && buffer_.check_cached_path(paths_, target_id, source_id, stamp);
+    const bool ok = buffer_.lookup_by_id(target_id, source_id, stamp, pose, failure);
     const bool is_dropped = failure.code == ErrorCode::too_old || failure.code == ErrorCode::only_other;
     expect(ok || !was_possible || !world_.always_there || is_dropped, "what was possible is not");
     return count(ok, failure, kind);
@@ -370,13 +370,13 @@ class Reader {
     for (Stamp& stamp : stamps) stamp = when();
     if (rng_() % 2 == 0) std::sort(stamps.begin(), stamps.end());
     std::vector<double> poses(7 * stamps.size()), twists(6 * stamps.size());
-    Question question;
-    question.target = down ? below : above;
-    question.source = down ? above : below;
+    LookupQuery query;
+    query.target = down ? below : above;
+    query.source = down ? above : below;
     const Batch batch{stamps.size(), stamps.data(), poses.data(), rng_() % 2 == 0 ? twists.data() : nullptr, nullptr,
                       Batch::Missing::nan};
     Failure failure;
-    const bool ok = buffer_.answer_many(question, nullptr, batch, 1, failure) == stamps.size();
+    const bool ok = buffer_.lookup_many(query, nullptr, batch, 1, failure) == stamps.size();
     bool any = false;
     for (std::size_t row = 0; row < stamps.size(); ++row) {
       const double* v = &poses[7 * row];
@@ -399,7 +399,7 @@ class Reader {
     const Stamp source_stamp = when();
     Pose pose;
     Failure failure;
-    const bool ok = buffer_.lookup_full(target_id, target_stamp, source_id, source_stamp, fixed_id, pose, failure);
+    const bool ok = buffer_.lookup_full_by_id(target_id, target_stamp, source_id, source_stamp, fixed_id, pose, failure);
     if (!count(ok, failure, Kind::full)) return;
     expect_pose(pose, inverse(along(0, target, target_stamp)) * along(0, source, source_stamp), "time travel");
   }
@@ -494,20 +494,20 @@ class Reader {
   void check_promise() {
     const int number = ++promises_;
     const std::string target = parent_name(0), source = promised_name(number_, number);
-    Question question;
-    question.target = target;
-    question.source = source;
-    question.stamp = promised_stamp(number);
+    LookupQuery query;
+    query.target = target;
+    query.source = source;
+    query.stamp = promised_stamp(number);
     const std::uint64_t clears = world_.clears.load();
-    const auto wait = std::make_shared<Wait>(question);
+    const auto wait = std::make_shared<Wait>(query);
     world_.promised[number_].store(number);
-    const SeatedWait seat(buffer_.waiting_room(), wait);
+    const ScopedWait condition(buffer_.wait_queue(), wait);
     while (!wait->wait_for(50 * kTick)) {
       if (world_.over.load() || cleared_since(clears)) return;
       if (world_.promised[number_].load() != 0 || wait->wait_for(10 * kSecond)) continue;
       return expect(cleared_since(clears), "a wait was forgotten");
     }
-    expect_sample(wait->answer().pose, 0, kPromised, "promised");
+    expect_sample(wait->result().pose, 0, kPromised, "promised");
     tally_.note(Kind::promise);
   }
 
@@ -517,15 +517,15 @@ class Reader {
   void check_wait() {
     const int bottom = 1 + static_cast<int>(rng_() % kDepth);
     const std::string target = chain_name(0), source = chain_name(bottom);
-    Question question;
-    question.target = target;
-    question.source = source;
-    question.stamp = world_.now.load() + static_cast<Stamp>(rng_() % 10) * kTick;
-    const auto wait = std::make_shared<Wait>(question);
-    const SeatedWait seat(buffer_.waiting_room(), wait);
+    LookupQuery query;
+    query.target = target;
+    query.source = source;
+    query.stamp = world_.now.load() + static_cast<Stamp>(rng_() % 10) * kTick;
+    const auto wait = std::make_shared<Wait>(query);
+    const ScopedWait condition(buffer_.wait_queue(), wait);
     if (!wait->wait_for(20 * kTick)) return;
-    expect(wait->answer().stamp == question.stamp, "another time than was waited for");
-    expect_pose(wait->answer().pose, along(0, bottom, question.stamp), "waited");
+    expect(wait->result().stamp == query.stamp, "another time than was waited for");
+    expect_pose(wait->result().pose, along(0, bottom, query.stamp), "waited");
     tally_.note(Kind::wait);
   }
 

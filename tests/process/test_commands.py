@@ -43,7 +43,7 @@ def test_echo_of_an_unknown_frame_says_what_there_is(processes):
     processes.start("static", "python", "-m", "coframe.cli", "static", "--frame-id", "a", "--child-frame-id", "lidar")
     start_echo(processes, "a", "lider")
     eventually(lambda: "Did you mean" in processes.text("echo"), lambda: processes.text("echo"))
-    assert "Did you mean 'lidar'? The frames are: a, lidar." in processes.text("echo")
+    assert "Did you mean 'lidar'? Known frames: a, lidar." in processes.text("echo")
     code, text = processes.end("echo", signal.SIGINT)
     assert code == 0
     assert "Traceback" not in text
@@ -80,7 +80,7 @@ def test_static_with_both_argument_styles(processes):
         (["static", "--child-frame-id", "b"], 1, "Frame id must not be empty"),
         (["static", "--frame-id", "b"], 1, "Child frame id must not be empty"),
         (["static", "--frame-id=a", "--colour=red"], 1, "Extra unparsed arguments on command-line: --colour"),
-        (["static", "--frame-id", "a", "--child-frame-id", "\udcff"], 1, "Frame ids are UTF-8 texts"),
+        (["static", "--frame-id", "a", "--child-frame-id", "\udcff"], 1, "Frame ids must be valid UTF-8"),
         (["static", "--frame-id=a", "--child-frame-id=b", "--tf-static-topic", "x y"], 1, "Check the topic's name"),
         (["echo", "a", "b", "--tf-topic", "x y"], 1, "Check the topic's name"),
         (["echo", "a", "b", "inf"], 1, "Rate must be at most 10000"),

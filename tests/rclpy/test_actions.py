@@ -270,7 +270,7 @@ def test_abort(serve, connect, result_of, mistake, capfd, fibonacci):
     log = {
         "raises": "Error raised in execute callback: no more numbers",
         "sets no state": "Goal state not set, assuming aborted. Goal ID:",
-        "returns nothing": "The execute callback returned NoneType, not Fibonacci_Result",
+        "returns nothing": "The execute callback returned NoneType instead of Fibonacci_Result",
         "aborts": "",
     }
     assert log[mistake] in capfd.readouterr().err
@@ -504,9 +504,9 @@ def test_a_server_that_is_destroyed_forgets_its_goals(serve, connect, result_of,
 
 def test_mistakes(make_node, count, fibonacci):
     node = make_node()
-    with pytest.raises(NoTypeSupportImportedException, match="expected an action type"):
+    with pytest.raises(NoTypeSupportImportedException, match="Expected an action type"):
         ActionClient(node, SetBool, "fibonacci")
-    with pytest.raises(NoTypeSupportImportedException, match="expected an action type"):
+    with pytest.raises(NoTypeSupportImportedException, match="Expected an action type"):
         ActionServer(node, fibonacci.Goal, "fibonacci", count)
     with pytest.raises(ValueError, match="Failed to create action client due to invalid topic name 'no name'"):
         ActionClient(node, fibonacci, "no name")

@@ -27,14 +27,14 @@ def test_only_ros_sections_are_ours():
     [
         (["--bogus"], UnknownROSArgsError, "unknown ROS arguments: .'--bogus'"),
         (["-r"], RCLInvalidROSArgsError, "-r needs an argument"),
-        (["-r", "chatter"], RCLInvalidROSArgsError, "not of the form from:=to"),
-        (["-r", "chatter:="], RCLInvalidROSArgsError, "nothing after :="),
-        (["-p", "rate"], RCLInvalidROSArgsError, "not of the form"),
-        (["--log-level", "loud"], RCLInvalidROSArgsError, "the levels are debug, info"),
+        (["-r", "chatter"], RCLInvalidROSArgsError, "does not have the form from:=to"),
+        (["-r", "chatter:="], RCLInvalidROSArgsError, "no value after :="),
+        (["-p", "rate"], RCLInvalidROSArgsError, "does not have the form"),
+        (["--log-level", "loud"], RCLInvalidROSArgsError, "Known levels: debug, info"),
         (["--params-file", "/nowhere.yaml"], RCLInvalidROSArgsError, "No such file"),
     ],
 )
-def test_mistakes_are_named(args, error, text):
+def test_invalid_arguments_are_reported(args, error, text):
     with pytest.raises(error, match=text):
         _arguments.parse(["--ros-args", *args])
 
@@ -107,10 +107,10 @@ def test_values_are_typed_as_ros_does(text, value):
 
 def test_parameter_rules_choose_their_nodes():
     [everywhere, named] = _arguments.parse(["--ros-args", "-p", "a:=1", "-p", "arm:b:=2"]).parameters
-    assert everywhere.fits("/x/leg")
-    assert named.fits("/arm")
-    assert named.fits("/robot1/arm")
-    assert not named.fits("/robot1/leg")
+    assert everywhere.matches("/x/leg")
+    assert named.matches("/arm")
+    assert named.matches("/robot1/arm")
+    assert not named.matches("/robot1/leg")
 
 
 def test_parameter_files(tmp_path):
@@ -123,7 +123,7 @@ def test_parameter_files(tmp_path):
     parameters = _arguments.parse(["--ros-args", "--params-file", str(path)]).parameters
 
     def of(node: str) -> dict:
-        return {item.name: item.value for item in parameters if item.fits(node)}
+        return {item.name: item.value for item in parameters if item.matches(node)}
 
     assert of("/arm") == {"use": True, "gain.p": 1000.0, "gain.i": "5"}
     assert of("/robot1/leg") == {"use": True, "names": ["a", "b"]}

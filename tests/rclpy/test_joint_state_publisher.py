@@ -112,7 +112,7 @@ def test_the_programs_end_with_a_sentence(tmp_path):
     wrong = {
         endless: ["joint_state_publisher", file, *circle],
         f"coframe: {endless}": ["coframe.cli", "joints", file, *circle],
-        "no joint 'trun'": ["coframe.cli", "joints", file, "--zero", "trun=1"],
+        "no joint named 'trun'": ["coframe.cli", "joints", file, "--zero", "trun=1"],
         "coframe: Failed to parse ROS arguments: --param": ["coframe.cli", "robot", file, "--ros-args", "-p", "x"],
         "No such file": ["robot_state_publisher", file, "--ros-args", "--params-file", "/nowhere"],
     }

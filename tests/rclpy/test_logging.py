@@ -138,5 +138,5 @@ def test_sinks_get_the_records_of_children():
 
 def test_severity_from_text():
     assert rclpy.logging.get_logging_severity_from_string("warn") is LoggingSeverity.WARN
-    with pytest.raises(RuntimeError, match="no logging severity 'loud'"):
+    with pytest.raises(RuntimeError, match="Unknown logging severity 'loud'"):
         rclpy.logging.get_logging_severity_from_string("loud")

@@ -12,7 +12,7 @@ from rclpy.time import Time
 from std_srvs.srv import Trigger
 
 
-def test_a_forgotten_super_init():
+def test_missing_super_init_is_reported():
     class Forgetful(Node):
         def __init__(self):
             self.timer = self.create_timer(1.0, print)
@@ -22,17 +22,17 @@ def test_a_forgotten_super_init():
             self.get_logger()
 
     for kind in (Forgetful, Logging):
-        with pytest.raises(AttributeError, match=r"its __init__ must call super\(\).__init__"):
+        with pytest.raises(AttributeError, match=r"Call super\(\).__init__\('node_name'\) first"):
             kind()
 
 
-def test_an_attribute_that_a_node_has_not(node):
+def test_unknown_attribute_of_a_node(node):
     with pytest.raises(AttributeError, match="'Node' object has no attribute 'create_subscripton'"):
         node.create_subscripton()
     assert not hasattr(node, "timer")
 
 
-def test_a_callback_that_was_called_instead_of_given(node):
+def test_callback_that_was_called_instead_of_passed(node):
     with pytest.raises(TypeError, match="must be a function, not None"):
         node.create_timer(1.0, print())
     with pytest.raises(TypeError, match="must be a function, not None"):
@@ -41,27 +41,27 @@ def test_a_callback_that_was_called_instead_of_given(node):
         node.create_service(Trigger, "trigger", print())
 
 
-def test_a_message_where_its_class_is_wanted(node):
-    with pytest.raises(NoTypeSupportImportedException, match="the class PoseStamped, got an object of it"):
+def test_message_instance_instead_of_class(node):
+    with pytest.raises(NoTypeSupportImportedException, match="the class PoseStamped, got an instance of it"):
         node.create_publisher(PoseStamped(), "/pose", 10)
 
 
 @pytest.mark.parametrize("kind", [Duration, Time])
-def test_a_number_that_is_still_text(kind):
-    with pytest.raises(TypeError, match="got the text '1'"):
+def test_string_instead_of_number(kind):
+    with pytest.raises(TypeError, match="got the string '1'"):
         kind(seconds="1")
-    with pytest.raises(TypeError, match="got the text '1'"):
+    with pytest.raises(TypeError, match="got the string '1'"):
         kind(nanoseconds="1")
 
 
 @pytest.mark.usefixtures("domain_id")
-def test_spinning_a_node_of_before_the_shutdown():
+def test_spinning_a_node_of_a_context_that_was_shut_down():
     rclpy.init(args=[])
     node = rclpy.create_node("old")
     rclpy.shutdown()
     rclpy.init(args=[])
     try:
-        with SingleThreadedExecutor() as executor, pytest.raises(RuntimeError, match=r"has ended with rclpy.shutdown"):
+        with SingleThreadedExecutor() as executor, pytest.raises(RuntimeError, match="context that was shut down"):
             executor.add_node(node)
     finally:
         node.destroy_node()

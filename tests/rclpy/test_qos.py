@@ -19,8 +19,8 @@ from rclpy.qos import (
     QoSProfile,
     QoSReliabilityPolicy,
     ReliabilityPolicy,
+    as_qos_profile,
     qos_check_compatible,
-    qos_from,
     qos_profile_sensor_data,
     qos_profile_system_default,
 )
@@ -82,11 +82,11 @@ def test_profiles_are_values():
 
 
 def test_numbers_are_depths():
-    assert qos_from(3) == QoSProfile(depth=3)
+    assert as_qos_profile(3) == QoSProfile(depth=3)
     with pytest.raises(ValueError, match="greater than or equal to zero"):
-        qos_from(-1)
+        as_qos_profile(-1)
     with pytest.raises(TypeError, match="Expected QoSProfile or int"):
-        qos_from("sensor_data")
+        as_qos_profile("sensor_data")
 
 
 def test_compatibility():
@@ -118,7 +118,9 @@ def test_parameters_override_what_a_node_lets_them(make_node):
     late = QoSOverridingOptions([QoSPolicyKind.LIFESPAN], entity_id="late")
     publisher = node.create_publisher(String, "words", 10, qos_overriding_options=late)
     assert publisher.qos_profile.lifespan == Duration(seconds=2)
-    with pytest.raises(InvalidQosOverridesError, match=r"'sometimes' is no reliability, which are .*best_effort"):
+    with pytest.raises(
+        InvalidQosOverridesError, match=r"Invalid reliability 'sometimes' \(valid values: .*best_effort"
+    ):
         node.create_publisher(String, "wrong", 10, qos_overriding_options=usual)
     never = QoSOverridingOptions([], callback=lambda _: SetParametersResult(successful=False, reason="not so"))
     with pytest.raises(InvalidQosOverridesError, match="not so"):

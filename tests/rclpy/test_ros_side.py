@@ -19,9 +19,9 @@ def test_half_a_ros_before_ours_is_refused(tmp_path):
     package = tmp_path / "geometry_msgs"
     package.mkdir()
     (package / "__init__.py").touch()
-    path = [str(tmp_path), str(ros_side.ours())]
+    path = [str(tmp_path), str(ros_side.ros_folder())]
     assert ros_side.foreign_packages(tuple(path)) == {"geometry_msgs": str(tmp_path)}
-    with pytest.raises(ImportError, match=r"tf2_ros is being imported, but geometry_msgs would .* a complete ROS 2"):
+    with pytest.raises(ImportError, match=r"import coframe's tf2_ros: geometry_msgs would .* a complete ROS 2"):
         ros_side.check("tf2_ros", path)
 
 
@@ -29,7 +29,7 @@ def test_the_documentation_quotes_it(tmp_path):
     (tmp_path / "geometry_msgs").mkdir()
     (tmp_path / "geometry_msgs" / "__init__.py").touch()
     with pytest.raises(ImportError) as caught:
-        ros_side.check("tf2_ros", [str(tmp_path), str(ros_side.ours())])
+        ros_side.check("tf2_ros", [str(tmp_path), str(ros_side.ros_folder())])
     page = (Path(__file__).parents[2] / "docs" / "migration.md").read_text()
     assert f"ImportError: {caught.value}".replace(str(tmp_path), "/opt/ros/humble/lib/python3.10/site-packages") in page
 
@@ -37,12 +37,12 @@ def test_the_documentation_quotes_it(tmp_path):
 def test_what_comes_after_ours_does_not_matter(tmp_path):
     (tmp_path / "rclpy").mkdir()
     (tmp_path / "rclpy" / "__init__.py").touch()
-    ros_side.check("rclpy", [str(ros_side.ours()), str(tmp_path)])
+    ros_side.check("rclpy", [str(ros_side.ros_folder()), str(tmp_path)])
 
 
 def test_folders_without_code_do_not_matter(tmp_path):
     (tmp_path / "std_msgs").mkdir()
-    ros_side.check("rclpy", [str(tmp_path), str(ros_side.ours())])
+    ros_side.check("rclpy", [str(tmp_path), str(ros_side.ros_folder())])
 
 
 def test_a_sourced_ros_wins(tmp_path):
@@ -54,4 +54,4 @@ def test_a_sourced_ros_wins(tmp_path):
     assert result.stdout == "theirs\n"
     code = "import tf2_ros"
     result = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
-    assert "coframe's tf2_ros is being imported, but rclpy would come from" in result.stderr
+    assert "cannot import coframe's tf2_ros: rclpy would be imported from" in result.stderr

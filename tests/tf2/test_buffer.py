@@ -143,7 +143,7 @@ def test_cancelled_futures_are_forgotten(buffer, stamped):
     future.cancel()
     buffer.set_transform(stamped("a", "b", 1.0), "me")
     assert not future.done()
-    assert buffer._coframe_buffer.dispatcher.is_idle
+    assert buffer._coframe_buffer._dispatcher.is_idle
 
 
 def test_the_waiting_thread_ends_with_the_waits(buffer, stamped):

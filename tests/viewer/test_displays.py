@@ -129,7 +129,7 @@ def test_what_cannot_be_transformed_says_why(ros, robot, view, open_tab):
     early = Talker(ros, tab, "/early", scan("lidar", robot - 60 * SECOND, [1.0]))
     told = early.until("display", lambda told: told["id"] == 1 and told["state"] == "error")
     assert "extrapolation into the past" in told["text"]
-    assert "map -> base has forgotten that time" in told["text"], "the hint"
+    assert "map -> base no longer has a sample" in told["text"], "the hint"
     lost = Talker(ros, tab, "/lost", scan("lider", robot, [1.0]))
     told = lost.until("display", lambda told: told["id"] == 2 and told["state"] == "error")
     assert "Did you mean 'lidar'?" in told["text"]
@@ -170,7 +170,7 @@ def test_publishers_that_come_later_are_heard_whatever_they_offer(ros, robot, vi
         assert tab.wait("shapes", lambda shown: shown.payload[0] == 2.0)
     else:
         assert later.until("shapes", lambda shown: shown.payload[0] == 2.0)
-    assert "this subscription asks for" not in caplog.text
+    assert "this subscription requests" not in caplog.text
 
 
 def test_what_was_published_before_is_heard_beside_publishers_that_keep_nothing(ros, view, open_tab):

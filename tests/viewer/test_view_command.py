@@ -81,6 +81,5 @@ def test_an_address_of_another_machine_is_a_sentence():
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (result.returncode, result.stdout) == (1, "")
     assert result.stderr == (
-        "coframe: cannot listen on 192.0.2.1: it is no address of this machine\n"
-        "  Choose another --host, or 127.0.0.1.\n"
+        "coframe: cannot listen on 192.0.2.1: it is no address of this machine\n  Choose another host, or 127.0.0.1.\n"
     )

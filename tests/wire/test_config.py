@@ -62,7 +62,7 @@ def test_the_users_own_configuration_comes_last_and_wins():
 
 @pytest.mark.parametrize("text", ["233", "-1", "abc", "1.5", "1000", "²"])
 def test_a_domain_that_is_none(text):
-    with pytest.raises(WireError, match=r"ROS_DOMAIN_ID is '.*': a domain is a number from 0 to 232\.") as caught:
+    with pytest.raises(WireError, match=r"ROS_DOMAIN_ID is '.*': a domain ID is an integer from 0 to 232\.") as caught:
         config.domain_id({"ROS_DOMAIN_ID": text})
     assert caught.value.hint
 
@@ -70,12 +70,12 @@ def test_a_domain_that_is_none(text):
 def test_a_range_that_is_none():
     with pytest.raises(WireError, match="'GALAXY': it must be one of OFF, LOCALHOST, SUBNET, SYSTEM_DEFAULT") as caught:
         config.discovery_range({"ROS_AUTOMATIC_DISCOVERY_RANGE": "galaxy"})
-    assert "SUBNET opens the local network" in caught.value.hint
+    assert "SUBNET includes the local network" in caught.value.hint
     with pytest.raises(WireError, match="ROS_LOCALHOST_ONLY is 'yes': it must be 0 or 1"):
         config.discovery_range({"ROS_LOCALHOST_ONLY": "yes"})
 
 
 def test_a_peer_that_is_none():
-    with pytest.raises(WireError, match="neither an address nor a host name") as caught:
+    with pytest.raises(WireError, match="not an address or a host name") as caught:
         config.static_peers({"ROS_STATIC_PEERS": '10.0.0.1,"/><Domain'})
     assert "semicolons" in caught.value.hint

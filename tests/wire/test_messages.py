@@ -94,7 +94,7 @@ def test_bytes_of_another_type_are_refused(participant, node):
     publisher = participant.publisher(node, "/chatter", STRING, QoS())
     with pytest.raises(WireError, match="Publishing on /chatter failed") as caught:
         publisher.write(b"\0\1\0\0\xff\xff\xff\xff")
-    assert "must be the CDR of a std_msgs/msg/String" in caught.value.hint
+    assert "must be the CDR serialization of a std_msgs/msg/String" in caught.value.hint
     with pytest.raises(ValueError, match="4 bytes of encapsulation"):
         publisher.write(b"\0\1")
 
@@ -106,7 +106,7 @@ def test_bytes_that_are_no_transforms_are_refused(participant, node):
     for bad in (good[:-1], good + b"four", good[:4], b"\0\1\0\0\xff\xff\xff\xff", b"\1" + good[1:]):
         with pytest.raises(WireError, match="Publishing on /tf failed") as caught:
             publisher.write(bad)
-        assert "must be the CDR of a tf2_msgs/msg/TFMessage" in caught.value.hint
+        assert "must be the CDR serialization of a tf2_msgs/msg/TFMessage" in caught.value.hint
 
 
 def test_transforms_reach_programs_that_know_their_type(participant, node, child, eventually):

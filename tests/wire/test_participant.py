@@ -132,15 +132,15 @@ def test_the_graph_event_is_set_by_a_change(participant):
 
 
 def test_names_that_the_graph_cannot_carry(participant):
-    with pytest.raises(WireError, match="has 300 bytes: the ROS graph takes 256"):
+    with pytest.raises(WireError, match=r"has 300 bytes\. The limit is 256 bytes"):
         participant.add_node("/", "x" * 300)
     with pytest.raises(WireError, match="Namespace 'robot' is not absolute") as caught:
         participant.add_node("robot", "x")
-    assert caught.value.hint == "Write it as '/robot'."
+    assert caught.value.hint == "Use '/robot'."
 
 
 def test_a_domain_that_is_none():
-    with pytest.raises(WireError, match="a domain is a number from 0 to 232"):
+    with pytest.raises(WireError, match="a domain ID is an integer from 0 to 232"):
         Participant.get(233)
 
 
@@ -155,7 +155,9 @@ def test_a_full_domain_is_told_in_words(domain_id, monkeypatch, child):
     monkeypatch.setattr("coframe.wire.config.MAX_PARTICIPANT_INDEX", 0)
     other = child(NODE_IN_A_CHILD.format(name="first"))
     assert other.read() == "ready"
-    with pytest.raises(WireError, match=f"Domain {domain_id} is full on this machine: all 1 places") as caught:
+    with pytest.raises(
+        WireError, match=f"Domain {domain_id} is full on this machine: all 1 participant indexes"
+    ) as caught:
         Participant.get(domain_id)
     assert "ROS_DOMAIN_ID" in caught.value.hint
 

@@ -50,15 +50,26 @@ class MissingEdge(NamedTuple):
 
     @property
     def fix(self) -> str:
-        """What to do: the line to change, or the command."""
+        """What to do, as a finding says it: the line to change, or the command to run."""
         if self.misspelt:
-            return (
-                f"In the node that sends {self.child!r}, change the line to t.header.frame_id = {self.parent!r} "
-                f"(or t.child_frame_id); the two names must be the same."
-            )
+            return self.hint
         names = f"--frame-id {shlex.quote(self.parent)} --child-frame-id {shlex.quote(self.child)}"
         command = f"coframe static {names} --x ... --yaw ..."
         return f"If {self.parent} -> {self.child} never moves: `{command}`; else start the node that publishes it."
+
+    @property
+    def hint(self) -> str:
+        """What to do, as an exception says it: in terms of the Python API."""
+        if self.misspelt:
+            return (
+                f"In the node that publishes {self.child!r}, change the line to t.header.frame_id = {self.parent!r} "
+                f"(or t.child_frame_id); the two names must be the same."
+            )
+        return (
+            f"If {self.parent} -> {self.child} never moves, publish it with a StaticTransformBroadcaster or insert it "
+            f"with buffer.set({self.parent!r}, {self.child!r}, ..., static=True); otherwise start the node that "
+            "publishes it."
+        )
 
 
 def unknown_mount(root: str) -> str:

@@ -279,7 +279,7 @@ class _NewBag:
             encoding="cdr",
             definition=definition_of(_TYPE),
             definition_format="ros2msg",
-            about={},
+            metadata={},
         )
 
     def add(self, cloud: Cloud) -> None:

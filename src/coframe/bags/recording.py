@@ -16,7 +16,7 @@ from coframe import time
 from coframe.bags import tree
 from coframe.bags.compression import DamagedError
 from coframe.bags.decoding import decoder, ros2_name
-from coframe.bags.opening import open_files
+from coframe.bags.file_discovery import open_files
 from coframe.bags.problems import Problems
 from coframe.bags.table import edge_table
 from coframe.bags.transforms import ingest_for
@@ -155,7 +155,7 @@ def open_bag(
         >>> import coframe
         >>> coframe.open_bag("nowhere.mcap")
         Traceback (most recent call last):
-        coframe.errors.RecordingError: nowhere.mcap cannot be read: No such file or directory
+        coframe.RecordingError: nowhere.mcap cannot be read: No such file or directory
     """
     keep = kept(keep)
     tf_topics = None if tf_topics is None else list(tf_topics)
@@ -241,7 +241,7 @@ class Recording:
         missing = set(map(absolute, chosen)) - set(map(absolute, self._tracks)) - {"/tf", "/tf_static"}
         if missing:
             there = sorted(name for name, tracks in self._tracks.items() if _has_transforms(tracks[0].channel))
-            hint = f"It has transforms on {', '.join(there) or 'none'}."
+            hint = f"Topics with transforms: {', '.join(there) or 'none'}."
             raise RecordingError(f"{self.path} has no topic {', '.join(sorted(missing))}", hint=hint)
 
     def _transform_messages(self) -> Iterator[tuple[Channel, Slices]]:
@@ -444,7 +444,7 @@ class Recording:
         try:
             return track.storage.read(position)
         except (DamagedError, OSError) as error:
-            track.storage.problem(f"a message on {track.channel.topic} cannot be read again: {error}")
+            track.storage.add_problem(f"a message on {track.channel.topic} cannot be read again: {error}")
             return None
 
     def _track_stamps(self, track: _Track) -> NDArray[np.int64]:

@@ -10,15 +10,7 @@ from typing import TYPE_CHECKING
 import typer
 
 from coframe.cli.output import fail
-from coframe.errors import (
-    DecodeError,
-    FrozenFileError,
-    RecordingError,
-    RobotDescriptionError,
-    TransformException,
-    ViewerError,
-    WireError,
-)
+from coframe.errors import CoframeError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -26,15 +18,6 @@ if TYPE_CHECKING:
 
 __all__ = ["run_to_completion", "run_until_interrupted"]
 
-_LIBRARY_ERRORS = (
-    DecodeError,
-    FrozenFileError,
-    RecordingError,
-    RobotDescriptionError,
-    TransformException,
-    ViewerError,
-    WireError,
-)
 # Windows has no SIGHUP.
 _END_SIGNALS = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name)]
 _INTERRUPTED = 130  # exit code: 128 + SIGINT, as shells have it
@@ -52,8 +35,8 @@ def run_until_interrupted() -> Iterator[None]:
         pass
     except BrokenPipeError:  # The reader of a pipe, such as `head`, has closed it.
         sys.stderr.close()
-    except _LIBRARY_ERRORS as error:
-        fail(str(error), _hint_with_page(error))
+    except CoframeError as error:
+        fail(str(error), error.hint)
     finally:
         for number, handler in previous.items():
             signal.signal(number, handler)
@@ -67,14 +50,6 @@ def run_to_completion() -> Iterator[None]:
             yield
         except KeyboardInterrupt:
             raise typer.Exit(_INTERRUPTED) from None
-
-
-def _hint_with_page(error: Exception) -> str:
-    """Return the hint of an error, followed by the command that prints the doctor's page about it."""
-    hint: str = getattr(error, "hint", "")
-    code: str = getattr(error, "doctor_code", "") or ""
-    page = f"More: coframe doctor --explain {code}" if code and code not in hint else ""
-    return " ".join(filter(None, [hint, page]))
 
 
 def _interrupt(_signal: int, _frame: FrameType | None) -> None:

@@ -1,4 +1,4 @@
-"""The tree as a table that moves: frame, parent, rate, age, pose."""
+"""The transform tree of a live buffer as a table: frame, parent, rate, age and pose."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ if TYPE_CHECKING:
 
 __all__ = ["tree_table"]
 
-# A dynamic frame that was not heard of for so long, in seconds, is shown as stale.
+# A dynamic frame without a new transform for this long, in seconds, is shown as stale.
 STALE_AFTER = 1.0
 
 
 def tree_table(buffer: Buffer, reference: str, *, wide: bool = True) -> Table:
-    """Every frame below its parent; poses are seen from ``reference``, in metres and degrees.
+    """Return a table with each frame below its parent, and poses in metres and degrees.
 
     Args:
-        buffer: Where the frames are.
-        reference: The frame that poses are told in.
-        wide: Whether there is room for millimetres: about 100 columns.
+        buffer: The buffer that contains the frames.
+        reference: The frame in which poses are expressed.
+        wide: Whether the terminal has at least 100 columns, enough to show millimetres.
     """
-    title = f"transform tree, poses seen from {reference} (metres, degrees)"
+    title = f"transform tree, poses relative to {reference} (metres, degrees)"
     table = Table(title=title, title_justify="left", box=None, padding=(0, 1, 0, 0), pad_edge=False)
     for column in ("frame", "parent"):
         table.add_column(column, no_wrap=True)
     decimals = 3 if wide else 2
-    position, angles = decimals + 3, decimals + 2  # characters a number
+    position, angles = decimals + 3, decimals + 2  # characters per number
     axes = " ".join(f"{axis:>{position}}" for axis in "xyz")
     turns = " ".join(f"{turn:>{angles}}" for turn in ("roll", "pit", "yaw"))
     for column in ("rate Hz", "age ms", axes, turns):
@@ -54,7 +54,7 @@ def tree_table(buffer: Buffer, reference: str, *, wide: bool = True) -> Table:
 
 
 def _in_tree_order(frames: list[FrameInfo]) -> list[tuple[int, FrameInfo]]:
-    """Each frame with its depth: roots by name, children below their parent, by name."""
+    """Return each frame with its depth; roots and siblings are sorted by name."""
     children: dict[str, list[FrameInfo]] = {}
     for frame in sorted(frames):
         children.setdefault(frame.parent, []).append(frame)

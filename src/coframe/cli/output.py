@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import time
 from typing import TYPE_CHECKING, NoReturn
@@ -13,15 +14,21 @@ from coframe.time import SECOND
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["count", "fail", "log", "printable", "report_console", "warn"]
+__all__ = ["count", "fail", "log", "printable", "report_console", "warn", "with_doctor_command"]
 
 _REDIRECTED_WIDTH = 200  # columns
 
 
 def fail(text: str, hint: str = "", *, code: int = 1) -> NoReturn:
     """Print what failed and, below it, what to do; end the command with this exit code."""
-    typer.echo(f"coframe: {printable(text)}" + (f"\n  {printable(hint)}" if hint else ""), err=True)
+    advice = f"\n  {printable(with_doctor_command(hint))}" if hint else ""
+    typer.echo(f"coframe: {printable(text)}{advice}", err=True)
     raise typer.Exit(code)
+
+
+def with_doctor_command(hint: str) -> str:
+    """Replace the doctor code in a hint of the library by the command that prints the page about it."""
+    return re.sub(r"See doctor code (TF\d+)\.", r"More: coframe doctor --explain \1", hint)
 
 
 def warn(text: str) -> None:

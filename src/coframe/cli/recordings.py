@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from coframe.bags import open_bag, parse_instant
+from coframe.bags import open_bag, parse_time_point
 from coframe.cli.options import recorded_tf_topics
 from coframe.cli.output import fail, warn
 from coframe.cli.progress import reading_progress
@@ -49,6 +49,6 @@ def open_recording(
 def parse_time(option: str, text: str, recording: Recording) -> int:
     """Return the time that an option gives, in nanoseconds; end the command if it is not a time."""
     try:
-        return parse_instant(text, recording.span)
+        return parse_time_point(text, recording.span)
     except ValueError as error:
         fail(f"{option}: {error}", code=2)

@@ -12,6 +12,7 @@ from array import array
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+from coframe.errors import CoframeError
 from coframe.messages.layout import Offset, Run, plan_run
 
 if TYPE_CHECKING:
@@ -21,8 +22,8 @@ if TYPE_CHECKING:
     from coframe.messages.encapsulation import Order
 
 
-class RefusedError(ValueError):
-    """The bytes or values are not what the type allows; says what was expected."""
+class RefusedError(CoframeError, ValueError):
+    """Bytes or values that the type does not allow; the text says what was expected."""
 
 
 class Compiler(ABC):

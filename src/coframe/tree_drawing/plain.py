@@ -31,6 +31,6 @@ def _frame(frame: Frame) -> dict[str, Any]:
         "children": list(frame.children),
         "static": frame.static,
         "silent_ns": frame.silence,
-        "links": [link._asdict() for link in frame.links],
-        "other_links": [link._asdict() for link in frame.others],
+        "edges": [link._asdict() for link in frame.links],
+        "other_edges": [link._asdict() for link in frame.others],
     }

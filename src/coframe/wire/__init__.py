@@ -1,4 +1,6 @@
-"""Joining the ROS 2 graph over DDS. Needs the package cyclonedds, but only when somebody joins.
+"""Communication with the ROS 2 graph over DDS.
+
+The package `cyclonedds` is loaded when the process joins the graph, not when this package is imported.
 
 Example:
     >>> participant = Participant.get()                                      # doctest: +SKIP
@@ -7,32 +9,26 @@ Example:
     >>> participant.close()                                                  # doctest: +SKIP
 """
 
-from coframe.wire.endpoints import (
-    GraphNode,
-    Publisher,
-    RawPublisher,
-    Sample,
-    Subscription,
-    Tap,
-    TappedMessages,
-    TfReader,
-)
-from coframe.wire.graph import Endpoint
+from coframe.wire.batch_subscription import BatchSubscription, MessageBatch
+from coframe.wire.endpoints import GraphNode, Publisher, RawPublisher, Sample, Subscription
+from coframe.wire.graph import EndpointInfo
 from coframe.wire.participant import Participant
 from coframe.wire.qos import QoS
-from coframe.wire.statics import StaticWriter
+from coframe.wire.static_broadcaster import StaticBroadcaster
+from coframe.wire.tf_reader import TfReader, WriterStatistics
 
 __all__ = [
-    "Endpoint",
+    "BatchSubscription",
+    "EndpointInfo",
     "GraphNode",
+    "MessageBatch",
     "Participant",
     "Publisher",
     "QoS",
     "RawPublisher",
     "Sample",
-    "StaticWriter",
+    "StaticBroadcaster",
     "Subscription",
-    "Tap",
-    "TappedMessages",
     "TfReader",
+    "WriterStatistics",
 ]

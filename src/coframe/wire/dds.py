@@ -1,4 +1,4 @@
-"""The `cyclonedds` wheel: found when somebody joins, not when coframe is imported."""
+"""Access to the `cyclonedds` package, which is loaded when the process joins the graph."""
 
 from __future__ import annotations
 
@@ -11,26 +11,26 @@ from coframe.wire import config
 
 
 def load() -> None:
-    """Loads the wheel's DDS library into the native core.
+    """Load the DDS library of `cyclonedds` into the native core.
 
     Raises:
-        WireError: cyclonedds is not installed or does not fit.
+        WireError: cyclonedds is not installed or not compatible.
     """
     try:
         from cyclonedds.internal import DDS  # noqa: PLC0415 - optional, and 100 ms
     except ImportError as error:
         raise _not_installed() from error
     try:
-        _core.load_dds(DDS._dll_handle._name)  # noqa: SLF001 - the only place that knows the library's path
+        _core.load_dds(DDS._dll_handle._name)  # noqa: SLF001 - no public attribute has the library's path
     except RuntimeError as error:
         raise WireError(
-            f"This cyclonedds does not fit: {error}.",
-            hint="Install the version coframe asks for: pip install 'coframe[dds]'.",
+            f"The installed cyclonedds is not compatible: {error}.",
+            hint="Install the version that coframe requires: pip install 'coframe[dds]'.",
         ) from error
 
 
 def check() -> None:
-    """Whether the wheel is there, without loading it.
+    """Check that `cyclonedds` is installed, without loading it.
 
     Raises:
         WireError: cyclonedds is not installed.
@@ -41,35 +41,41 @@ def check() -> None:
 
 def _not_installed() -> WireError:
     return WireError(
-        "Joining the ROS graph needs the package cyclonedds, which is not installed: pip install 'coframe[dds]'.",
-        hint="There are wheels for Python 3.10 to 3.13 on Linux x86-64, macOS and Windows; "
-        "everything else of coframe works without.",
+        "Joining the ROS graph requires the package cyclonedds, which is not installed: pip install 'coframe[dds]'.",
+        hint="It has wheels for Python 3.10 to 3.13 on Linux x86-64, macOS and Windows. "
+        "All other features of coframe work without it.",
     )
 
 
 def join(domain: int, xml: str, user_data: str) -> _core.DomainParticipant:
-    """A participant in `domain`, which is opened with Cyclone's configuration `xml`.
+    """Return a new participant in `domain`.
+
+    Args:
+        domain: The domain ID.
+        xml: The configuration of Cyclone DDS.
+        user_data: The DDS user data of the participant.
 
     Raises:
-        WireError: DDS does not let us in.
+        WireError: DDS cannot create the participant.
     """
     try:
         return _core.DomainParticipant(domain, xml, user_data)
     except _core.DdsError as error:
         if not _free_participant_index(domain):
             raise WireError(
-                f"Domain {domain} is full on this machine: all {config.MAX_PARTICIPANT_INDEX + 1} places are taken.",
-                hint="End some of them, or use another domain: ROS_DOMAIN_ID=1.",
+                f"Domain {domain} is full on this machine: all {config.MAX_PARTICIPANT_INDEX + 1} participant indexes "
+                "are in use.",
+                hint="Stop some ROS processes, or use another domain: ROS_DOMAIN_ID=1.",
             ) from error
         raise WireError(
             f"Joining domain {domain} failed: {error}.",
-            hint="DDS wrote the reason to stderr. If CYCLONEDDS_URI is set, check it; "
-            "otherwise check that this machine has the network interface that is asked for.",
+            hint="DDS wrote the reason to stderr. If CYCLONEDDS_URI is set, check it. "
+            "Otherwise, check that this machine has the configured network interface.",
         ) from error
 
 
 def _free_participant_index(domain: int) -> bool:
-    """Whether one of the UDP ports that RTPS gives to participants of `domain` is free."""
+    """Return whether one of the UDP ports that RTPS assigns to participants of `domain` is free."""
     first = 7400 + 250 * domain + 10
     for port in range(first, min(first + 2 * config.MAX_PARTICIPANT_INDEX, 65535) + 1, 2):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:

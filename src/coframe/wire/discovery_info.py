@@ -1,7 +1,7 @@
-"""The topic ros_discovery_info, by which ROS participants tell their nodes: its message as CDR.
+"""The CDR message of the topic ros_discovery_info, on which ROS participants publish their nodes.
 
-The definition, rmw_dds_common/ParticipantEntitiesInfo: the participant's identifier, then for each node its
-namespace, its name, and the identifiers of its readers and of its writers.
+The message, rmw_dds_common/msg/ParticipantEntitiesInfo, contains the identifier of the participant, then for each node
+its namespace, its name, and the identifiers of its readers and of its writers.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ MAX_NAME = 256  # bytes of a namespace or a name
 
 _LONG_GID_DISTROS = ("foxy", "galactic", "humble")
 _GUID_SIZE = 16
-_GID_SIZES = (24, 16)  # the longer is the GUID and zeros
+_GID_SIZES = (24, 16)  # the longer form is the GUID, padded with zeros
 
 
 class NodeInfo(NamedTuple):
-    """One node and its endpoints, by their 16-byte GUIDs."""
+    """A node and the 16-byte GUIDs of its endpoints."""
 
     namespace: str
     name: str
@@ -30,13 +30,13 @@ class NodeInfo(NamedTuple):
 
 
 def gid_size(environment: Mapping[str, str]) -> int:
-    """Bytes of an identifier in what is sent: 24 for Humble and older or an unset ROS_DISTRO, 16 from Iron on."""
+    """Return the size of a published identifier in bytes: 24 up to Humble and if ROS_DISTRO is unset, else 16."""
     distro = environment.get("ROS_DISTRO", "").strip().lower() or "humble"
     return 24 if distro in _LONG_GID_DISTROS else 16
 
 
 def encode_info(participant: bytes, nodes: list[NodeInfo], size: int) -> bytes:
-    """The message as CDR, with identifiers of `size` bytes."""
+    """Return the message as CDR, with identifiers of `size` bytes."""
     padding = bytes(size - _GUID_SIZE)
     body = bytearray(participant + padding)
 
@@ -58,12 +58,12 @@ def encode_info(participant: bytes, nodes: list[NodeInfo], size: int) -> bytes:
 
 
 def decode_info(message: bytes) -> tuple[bytes, list[NodeInfo]] | None:
-    """The participant's GUID and its nodes from a message in either form; None if it is in neither."""
+    """Return the GUID of the participant and its nodes from a message with either identifier size; None if invalid."""
     if len(message) < 4 or message[0] != 0 or message[1] not in (0, 1):
         return None
     order = "<" if message[1] else ">"
-    forms = (_decode(message[4:], order, size) for size in _GID_SIZES)
-    return next((info for info in forms if info is not None), None)
+    decoded = (_decode(message[4:], order, size) for size in _GID_SIZES)
+    return next((info for info in decoded if info is not None), None)
 
 
 def _decode(body: bytes, order: str, size: int) -> tuple[bytes, list[NodeInfo]] | None:
@@ -74,7 +74,7 @@ def _decode(body: bytes, order: str, size: int) -> tuple[bytes, list[NodeInfo]] 
 
 
 class _Cursor:
-    """Reads CDR from the front; ValueError where the bytes cannot be what is read."""
+    """A reader of CDR values in order, which raises ValueError if the bytes are invalid."""
 
     def __init__(self, body: bytes, order: str, gid_size: int) -> None:
         self._body = body
@@ -89,13 +89,13 @@ class _Cursor:
             for _ in range(self._number(len(self._body)))
         ]
         if len(self._body) - self._offset >= 4:
-            raise ValueError("bytes are left over")
+            raise ValueError("the message has extra bytes")
         return participant, nodes
 
     def _take(self, size: int) -> bytes:
         data = self._body[self._offset : self._offset + size]
         if len(data) < size:
-            raise ValueError("the message ends early")
+            raise ValueError("the message is truncated")
         self._offset += size
         return data
 
@@ -103,13 +103,13 @@ class _Cursor:
         self._offset += -self._offset % 4
         (number,) = self._count.unpack(self._take(4))
         if number > limit:
-            raise ValueError("more than there can be")
+            raise ValueError("the count exceeds the limit")
         return int(number)
 
     def _text(self) -> str:
         data = self._take(self._number(MAX_NAME + 1))
         if not data.endswith(b"\0"):
-            raise ValueError("a string does not end")
+            raise ValueError("a string has no terminator")
         return data[:-1].decode()
 
     def _guid(self) -> bytes:

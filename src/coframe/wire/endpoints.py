@@ -1,28 +1,19 @@
-"""What a node has on the wire: publishers, subscriptions, and listeners that fill a buffer."""
+"""The nodes, publishers and subscriptions of this process."""
 
 from __future__ import annotations
 
 import threading
-from collections import deque
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
-
-import numpy as np
 
 from coframe import _core
 from coframe.errors import WireError
-from coframe.tf_publishers import TfPublisher, publisher_of
 from coframe.wire import names
 from coframe.wire.discovery_info import NodeInfo
-from coframe.wire.graph import DdsEndpoint, Graph
+from coframe.wire.graph import DiscoveredEndpoint
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from coframe.wire.participant import Participant
     from coframe.wire.qos import QoS
-
-_REMEMBERED = 100  # publishers that have left
-_NO_AUTHORITY = "<no authority available>"
 
 NativeEndpoint: TypeAlias = "_core.Writer | _core.Reader | _core.Tap | _core.TfReader"
 
@@ -31,9 +22,9 @@ class Sample(NamedTuple):
     """A received message.
 
     Attributes:
-        data: 4 bytes of encapsulation, then CDR.
-        source_timestamp: when it was written, in nanoseconds since 1970 by the writer's clock.
-        writer: its writer's handle, for `Participant.writer_node`.
+        data: The message: 4 bytes of encapsulation, then CDR.
+        source_timestamp: The time at which it was published, in nanoseconds since 1970 on the publisher's clock.
+        writer: The handle of the DDS writer that sent it, for `Participant.writer_node`.
     """
 
     data: bytes
@@ -42,26 +33,26 @@ class Sample(NamedTuple):
 
 
 class GraphNode:
-    """A node of this process, as the graph sees it. Made by `Participant.add_node`."""
+    """A node of this process on the ROS graph. Created by `Participant.add_node`."""
 
     def __init__(self, participant: Participant, namespace: str, name: str) -> None:
         self.namespace = namespace
         self.name = name
         self._participant = participant
-        self._endpoints: dict[bytes, WireEndpoint] = {}
+        self._endpoints: dict[bytes, LocalEndpoint] = {}
 
     @property
     def full_name(self) -> str:
-        """With the namespace: "/talker"."""
+        """The node's name with its namespace, such as "/talker"."""
         return names.full_name(self.namespace, self.name)
 
     @property
-    def endpoints(self) -> list[WireEndpoint]:
-        """The open endpoints."""
+    def endpoints(self) -> list[LocalEndpoint]:
+        """The node's open endpoints."""
         return list(self._endpoints.values())
 
     def info(self) -> NodeInfo:
-        """What the graph is told."""
+        """Return the description of this node that is published on the graph."""
         endpoints = self.endpoints
         return NodeInfo(
             self.namespace,
@@ -70,31 +61,32 @@ class GraphNode:
             writers=tuple(endpoint.guid for endpoint in endpoints if endpoint.is_writer),
         )
 
-    def add(self, endpoint: WireEndpoint) -> None:
-        """Shows `endpoint` as this node's."""
+    def add(self, endpoint: LocalEndpoint) -> None:
+        """Announce `endpoint` as an endpoint of this node."""
         self._endpoints[endpoint.guid] = endpoint
         self._participant.announce()
 
-    def remove(self, endpoint: WireEndpoint) -> None:
-        """Shows `endpoint` as this node's no longer."""
+    def remove(self, endpoint: LocalEndpoint) -> None:
+        """Stop announcing `endpoint` as an endpoint of this node."""
         if self._endpoints.pop(endpoint.guid, None):
             self._participant.announce()
 
     def close(self) -> None:
-        """Takes the node off the graph and closes its endpoints."""
+        """Remove the node from the graph and close its endpoints."""
         for endpoint in self.endpoints:
             endpoint.leave(self)
         self._participant.remove_node(self)
 
 
-class WireEndpoint:
-    """A DDS reader or writer on a topic, announced as that of one node or of several.
+class LocalEndpoint:
+    """A DDS reader or writer of this process, announced as an endpoint of one or more of its nodes.
 
-    The constructor announces it, and from then on the housekeeping thread uses it: it must be the last thing that a
-    child's constructor calls.
+    The constructor announces the endpoint, after which the maintenance thread uses it. A subclass must therefore
+    call this constructor last.
 
     Attributes:
-        adapts: Whether somebody follows what the other side offers, so that nobody need be warned of it.
+        adapts: Whether the caller replaces the endpoint when its QoS does not match the other side. If so, no
+            warning about incompatible QoS is logged.
     """
 
     adapts = False
@@ -104,7 +96,7 @@ class WireEndpoint:
         self.topic = topic
         self.qos = qos
         self.is_writer = isinstance(native, _core.Writer)
-        self.description = DdsEndpoint(self.guid, b"", topic, dds_type, qos)
+        self.description = DiscoveredEndpoint(self.guid, b"", topic, dds_type, qos)
         self._endpoint = native
         self._nodes: list[GraphNode] = []
         self._lock = threading.Lock()
@@ -113,32 +105,32 @@ class WireEndpoint:
 
     @property
     def matched(self) -> int:
-        """How many endpoints on the other side have been found; 0 once closed."""
+        """The number of matched endpoints on the other side; 0 after `close`."""
         return 0 if self._closed else self._endpoint.matched
 
     def matched_handles(self) -> set[int]:
-        """The handles of the endpoints on the other side that have been found."""
+        """Return the handles of the matched endpoints on the other side."""
         return set() if self._closed else set(self._endpoint.matched_handles())
 
     @property
     def refused_policy(self) -> int:
-        """DDS's number of the policy by which the last endpoint was refused; 0: none was."""
+        """The DDS number of the QoS policy that made the last match fail; 0 if no match failed."""
         return 0 if self._closed else self._endpoint.refused_policy
 
     @property
     def closed(self) -> bool:
-        """Whether it has left the topic."""
+        """Whether the endpoint is closed."""
         return self._closed
 
     def share(self, node: GraphNode) -> None:
-        """Announces it as that of `node` too."""
+        """Announce this as an endpoint of `node` as well."""
         with self._lock:
             if node not in self._nodes:
                 self._nodes.append(node)
         node.add(self)
 
     def leave(self, node: GraphNode) -> None:
-        """Takes it from `node`; taken from the last one, it closes. Leaving twice does no harm."""
+        """Remove this endpoint from `node`, and close it if no other node uses it. A second call has no effect."""
         with self._lock:
             if node in self._nodes:
                 self._nodes.remove(node)
@@ -149,24 +141,24 @@ class WireEndpoint:
             self._endpoint.close()
 
     def close(self) -> None:
-        """Leaves the topic. Closing twice does no harm."""
+        """Remove this endpoint from all nodes and close it. A second call has no effect."""
         for node in list(self._nodes):
             self.leave(node)
 
 
-class Publisher(WireEndpoint):
-    """Writes serialised messages."""
+class Publisher(LocalEndpoint):
+    """A publisher of serialized messages."""
 
     def __init__(self, native: _core.Writer, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
         self._writer = native
         super().__init__(native, node, topic, dds_type, qos)
 
     def write(self, cdr: bytes) -> None:
-        """Sends a message: 4 bytes of encapsulation, then CDR. Other threads go on meanwhile.
+        """Publish a message: 4 bytes of encapsulation, then CDR. The GIL is released while it is sent.
 
         Raises:
-            WireError: the publisher is closed, the bytes are not of the topic's type, or a reliable subscription
-                has not kept up for a second.
+            WireError: The publisher is closed, the bytes are not a message of the topic's type, or a reliable
+                subscription has not kept up for one second.
         """
         try:
             self._send(cdr)
@@ -179,27 +171,28 @@ class Publisher(WireEndpoint):
     def _write_error(self, error: _core.DdsError) -> WireError:
         topic = names.any_ros_name(self.topic)
         if self._closed:
-            return WireError(f"The publisher on {topic} is closed.", hint="Publish before closing the node.")
+            return WireError(f"The publisher on {topic} is closed.", hint="Publish before you close the node.")
         if error.args[0].endswith("Timeout"):
             return WireError(
-                f"Publishing on {topic} failed: a reliable subscription has not kept up for a second.",
-                hint="Publish less, or best-effort (qos_profile_sensor_data), or find out which subscriber hangs.",
+                f"Publishing on {topic} failed: a reliable subscription has not kept up for 1 s.",
+                hint="Publish less often, publish with best-effort reliability (qos_profile_sensor_data), "
+                "or find the subscriber that hangs.",
             )
         return WireError(
             f"Publishing on {topic} failed: {error}.",
-            hint=f"The bytes must be the CDR of a {names.ros_type(self.description.type)}.",
+            hint=f"The bytes must be the CDR serialization of a {names.ros_type(self.description.type)}.",
         )
 
 
 class RawPublisher(Publisher):
-    """Writes serialised messages whose type nobody here knows."""
+    """A publisher of serialized messages whose type does not have to be known in this process."""
 
     def _send(self, cdr: bytes) -> None:
         self._writer.forward(cdr)
 
 
-class Subscription(WireEndpoint):
-    """Holds serialised messages until they are taken."""
+class Subscription(LocalEndpoint):
+    """A subscription that queues serialized messages until they are taken."""
 
     def __init__(
         self, native: _core.Reader, node: GraphNode, topic: str, dds_type: str, qos: QoS, *, adapts: bool = False
@@ -209,120 +202,9 @@ class Subscription(WireEndpoint):
         super().__init__(native, node, topic, dds_type, qos)
 
     def take(self, limit: int = 100) -> list[Sample]:
-        """Up to `limit` messages, the oldest first; without waiting."""
+        """Return up to `limit` queued messages, oldest first, without waiting."""
         return [Sample(*message) for message in self._reader.take(limit)]
 
     def pending(self) -> bool:
-        """Whether messages may be waiting: cheap, and now and then true although `take` finds none."""
+        """Return whether messages may be queued. The check is cheap and can be true although `take` finds none."""
         return not self._closed and self._reader.pending
-
-
-class TappedMessages(NamedTuple):
-    """Messages, or their first bytes, the oldest first. Times are nanoseconds since 1970.
-
-    Attributes:
-        data: of each 4 bytes of encapsulation, then CDR, or the first bytes of it; one after the other.
-        ends: where each ends, (N,) uint64.
-        arrived: (N,) by this machine's clock.
-        sent: (N,) by the clock of its writer's machine.
-        writers: (N,) its writer's handle, uint64, for `Participant.writer_node`.
-    """
-
-    data: bytes
-    ends: NDArray[np.uint64]
-    arrived: NDArray[np.int64]
-    sent: NDArray[np.int64]
-    writers: NDArray[np.uint64]
-
-
-class Tap(WireEndpoint):
-    """Notes when messages come, on DDS's own thread, for those who look now and then."""
-
-    def __init__(self, native: _core.Tap, node: GraphNode, topic: str, dds_type: str, qos: QoS) -> None:
-        self._tap = native
-        super().__init__(native, node, topic, dds_type, qos)
-
-    def take(self) -> TappedMessages:
-        """The messages since the last call."""
-        data, ends, arrived, sent, writers = self._tap.take()
-        return TappedMessages(
-            data,
-            np.frombuffer(ends, np.uint64),
-            np.frombuffer(arrived, np.int64),
-            np.frombuffer(sent, np.int64),
-            np.frombuffer(writers, np.uint64),
-        )
-
-    @property
-    def missed(self) -> int:
-        """How many messages came while too many were waiting."""
-        return self._tap.missed
-
-
-class TfReader(WireEndpoint):
-    """Stores the transforms of a topic in a buffer as they arrive, on DDS's own thread."""
-
-    def __init__(
-        self,
-        native: _core.TfReader,
-        node: GraphNode,
-        topic: str,
-        dds_type: str,
-        qos: QoS,
-        *,
-        static: bool,
-        name_writers: bool,
-    ) -> None:
-        self._reader = native
-        self._static = static
-        self._named: dict[int, str] | None = {} if name_writers else None
-        self._gone: deque[int] = deque()
-        self._naming = threading.Lock()
-        super().__init__(native, node, topic, dds_type, qos)
-
-    @property
-    def stored_at(self) -> int:
-        """When the newest message's transforms were in the buffer: `time.monotonic_ns()`; 0: never."""
-        return self._reader.stored_at
-
-    def pending(self) -> bool:
-        """Whether messages may be waiting, as for a `Subscription`: never, they are in the buffer already."""
-        return False
-
-    def take(self, limit: int = 100) -> list[Sample]:
-        """The messages that wait, as for a `Subscription`: none."""
-        del limit
-        return []
-
-    def publishers(self, graph: Graph) -> list[TfPublisher]:
-        """Who was heard so far, also who has left."""
-        if self._closed:
-            return []
-        present = graph.writers(self.topic)
-        topic = names.any_ros_name(self.topic)
-        return [
-            publisher_of(heard, graph.writer_node(heard[0]), topic, static=self._static, present=heard[0] in present)
-            for heard in self._reader.heard()
-        ]
-
-    def name_writers(self, graph: Graph) -> None:
-        """Lets the buffer note the publishing nodes, as far as the graph tells them."""
-        if self._named is None or self._closed:
-            return
-        with self._naming:
-            writers = graph.writers(self.topic)
-            for handle in self._named.keys() - writers.keys():
-                self._gone.append(handle)
-                del self._named[handle]
-            while len(self._gone) > _REMEMBERED:
-                self._reader.forget_writer(self._gone.popleft())
-            for handle, writer in writers.items():
-                node = graph.owner(writer.guid)
-                if node is not None and self._named.get(handle) != node:
-                    self._reader.name_writer(handle, node)
-                    self._named[handle] = node
-
-
-def initial_authority(authority: str | None) -> str:
-    """What a buffer notes before a publisher's node is known."""
-    return _NO_AUTHORITY if authority is None else authority

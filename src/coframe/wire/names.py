@@ -1,4 +1,4 @@
-"""ROS names and what they are called in DDS."""
+"""Conversion between ROS names and DDS names."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _AFFIXES: dict[Kind, tuple[str, str]] = {
 
 
 def dds_topic(name: str, kind: Kind = "topic") -> str:
-    """The DDS topic of a ROS topic or service: "/tf" is "rt/tf", a service "/add" has "rq/addRequest"."""
+    """Return the DDS topic of a ROS topic or service: "rt/tf" for "/tf", "rq/addRequest" for requests of "/add"."""
     if not name.startswith("/"):
         raise ValueError(f"topic name {name!r} is not fully qualified: it must begin with a slash")
     prefix, suffix = _AFFIXES[kind]
@@ -22,7 +22,7 @@ def dds_topic(name: str, kind: Kind = "topic") -> str:
 
 
 def ros_topic(name: str, kind: Kind = "topic") -> str | None:
-    """The ROS name behind a DDS topic; None if the topic is not of this kind."""
+    """Return the ROS name of a DDS topic; None if the topic is not of this kind."""
     prefix, suffix = _AFFIXES[kind]
     if name.startswith(prefix + "/") and name.endswith(suffix):
         return name[len(prefix) : len(name) - len(suffix)]
@@ -30,13 +30,13 @@ def ros_topic(name: str, kind: Kind = "topic") -> str | None:
 
 
 def dds_type(ros_type: str) -> str:
-    """The DDS type of a ROS type: "tf2_msgs/msg/TFMessage" is "tf2_msgs::msg::dds_::TFMessage_"."""
+    """Return the DDS type of a ROS type: "tf2_msgs::msg::dds_::TFMessage_" for "tf2_msgs/msg/TFMessage"."""
     *package, name = ros_type.split("/")
     return "::".join([*package, "dds_", f"{name}_"])
 
 
 def ros_type(name: str) -> str:
-    """The ROS type behind a DDS type; the name itself where it does not follow ROS's rule."""
+    """Return the ROS type of a DDS type; the name itself if it does not follow the ROS convention."""
     parts = name.split("::")
     if len(parts) < 3 or parts[-2] != "dds_" or not parts[-1].endswith("_"):
         return name
@@ -44,12 +44,12 @@ def ros_type(name: str) -> str:
 
 
 def full_name(namespace: str, name: str) -> str:
-    """A node's name with its namespace: ("/", "talker") is "/talker"."""
+    """Return the full name of a node: "/talker" for ("/", "talker")."""
     return f"{namespace.rstrip('/')}/{name}"
 
 
 def any_ros_name(topic: str) -> str:
-    """The ROS topic or service behind a DDS topic of any kind; the name itself if it is not of ROS."""
+    """Return the ROS name of a DDS topic of any kind; the name itself if it is not a ROS topic."""
     for kind in _AFFIXES:
         if (name := ros_topic(topic, kind)) is not None:
             return name

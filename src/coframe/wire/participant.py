@@ -1,4 +1,4 @@
-"""One membership in the ROS graph for each process and domain, shared by all its nodes."""
+"""The DDS participant of this process in a ROS domain, shared by all its nodes."""
 
 from __future__ import annotations
 
@@ -10,41 +10,37 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from coframe import _core
 from coframe.errors import WireError
-from coframe.tf_publishers import OnceEach
+from coframe.frame_names import naming_problems
+from coframe.time import SECOND
 from coframe.wire import config, dds, names, types
+from coframe.wire.batch_subscription import BatchSubscription
 from coframe.wire.discovery_info import MAX_NAME, TOPIC, encode_info, gid_size
-from coframe.wire.endpoints import (
-    GraphNode,
-    Publisher,
-    RawPublisher,
-    Subscription,
-    Tap,
-    TfReader,
-    WireEndpoint,
-    initial_authority,
-)
-from coframe.wire.graph import DdsEndpoint, Endpoint, Graph
-from coframe.wire.mismatch import MismatchWatch
+from coframe.wire.endpoint_mismatch import MismatchMonitor
+from coframe.wire.endpoints import GraphNode, LocalEndpoint, Publisher, RawPublisher, Subscription
+from coframe.wire.graph import DiscoveredEndpoint, EndpointInfo, Graph
 from coframe.wire.qos import GRAPH_WRITER, TF, TF_STATIC_READER, QoS
-from coframe.wire.refusals import RefusalWatch
-from coframe.wire.statics import StaticTopic, StaticWriter
+from coframe.wire.rejected_transforms import RejectedTransformMonitor
+from coframe.wire.static_broadcaster import SharedStaticPublisher, StaticBroadcaster
+from coframe.wire.tf_reader import NO_AUTHORITY, TfReader
+from coframe.wire.warn_once import WarnOnce
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from coframe import Buffer
-    from coframe.tf_publishers import TfPublisher
     from coframe.wire.names import Kind
 
 _logger = logging.getLogger("coframe.wire")
 
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
-_ENCLAVE = "enclave=/;"  # what ROS participants say of themselves
-_CHECK_PERIOD_NS = 1_000_000_000
+_ENCLAVE = "enclave=/;"  # the user data that every ROS participant has
 
 
 class Participant:
-    """A process's membership in a DDS domain. Got by `get`, given back by `close`; all methods are thread-safe."""
+    """The participant of this process in a DDS domain. All methods are thread-safe.
+
+    The participant is shared by reference counting: each call of `get` needs one call of `close`.
+    """
 
     _instances: ClassVar[dict[int, Participant]] = {}
     _instances_lock: ClassVar[threading.RLock] = threading.RLock()
@@ -59,39 +55,39 @@ class Participant:
         self._topics: dict[tuple[str, str], int] = {}
         self._unchecked_topics: dict[tuple[str, str], int] = {}
         self._nodes: list[GraphNode] = []
-        self._statics: dict[str, StaticTopic] = {}
+        self._statics: dict[str, SharedStaticPublisher] = {}
         self._gid_size = gid_size(os.environ)
 
         graph_topic = self._topic(TOPIC, types.graph_type())
         self._info_writer = _core.Writer(self._native.entity, graph_topic, _native_qos(GRAPH_WRITER), "")
         self._wake = _core.Event()
         self._graph = Graph(self._native.entity, graph_topic, self._wake)
-        self._mismatches = MismatchWatch(self._graph, self._warn)
-        self._refusals = RefusalWatch(self._graph, self._warn)
-        self._odd_names = OnceEach(self._warn)
+        self._mismatches = MismatchMonitor(self._graph, self._warn)
+        self._rejections = RejectedTransformMonitor(self._graph, self._warn)
+        self._warn_of_name = WarnOnce(self._warn)
         self._watchers: list[_core.Event] = []
         self._warning_callbacks: list[Callable[[str], None]] = []
-        self._ending = False
-        self._thread = threading.Thread(target=self._keep_house, name=f"coframe-wire-{domain_id}", daemon=True)
+        self._closing = False
+        self._thread = threading.Thread(target=self._run_maintenance, name=f"coframe-wire-{domain_id}", daemon=True)
         self._thread.start()
 
     @classmethod
     def get(cls, domain_id: int | None = None) -> Participant:
-        """This process's participant in a domain; each call is given back by one `close`.
+        """Return the participant of this process in a domain, and join the domain if necessary.
 
         Args:
-            domain_id: 0 to 232; None: ROS_DOMAIN_ID, or 0.
+            domain_id: The domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
 
         Raises:
-            WireError: cyclonedds is missing, an environment variable holds nonsense, the domain is full, or this
-                is a forked child of a process that had joined.
+            WireError: cyclonedds is not installed, an environment variable has an invalid value, the domain has no
+                free participant index, or this process was forked from a process that had joined a domain.
         """
         domain = config.domain_id() if domain_id is None else config.check_domain_id(domain_id)
         with cls._instances_lock:
             if any(joined.is_inherited() for joined in cls._instances.values()):
                 raise WireError(
-                    "This process was forked from one that had joined the ROS graph, and DDS does not survive that.",
-                    hint="Start it by 'spawn': multiprocessing.set_start_method('spawn').",
+                    "This process was forked from one that had joined the ROS graph. DDS does not work after a fork.",
+                    hint="Start processes with 'spawn': multiprocessing.set_start_method('spawn').",
                 )
             participant = cls._instances.get(domain)
             if participant is None:
@@ -100,29 +96,29 @@ class Participant:
             return participant
 
     def close(self) -> None:
-        """Gives one reference back. The last one ends all endpoints, the housekeeping thread and DDS's threads."""
+        """Release one reference. The last one closes all endpoints and stops the maintenance and DDS threads."""
         with self._instances_lock:
             self._references -= 1
             if self._references == 0 and self._process == os.getpid():
                 self._end()
 
     def add_node(self, namespace: str, name: str) -> GraphNode:
-        """Shows a node on the graph.
+        """Add a node to the graph.
 
         Args:
-            namespace: "/" or "/a/b".
-            name: without a namespace.
+            namespace: The absolute namespace: "/" or "/a/b".
+            name: The name without the namespace.
 
         Raises:
-            WireError: a name is too long for the graph, or the namespace is not absolute.
+            WireError: The namespace is not absolute, or a name is longer than 256 bytes.
         """
         if not namespace.startswith("/"):
-            raise WireError(f"Namespace {namespace!r} is not absolute.", hint=f"Write it as '/{namespace}'.")
+            raise WireError(f"Namespace {namespace!r} is not absolute.", hint=f"Use '/{namespace}'.")
         for text in (namespace, name):
             if len(text.encode()) > MAX_NAME:
                 raise WireError(
-                    f"The name {text[:20]!r}... has {len(text.encode())} bytes: the ROS graph takes {MAX_NAME}.",
-                    hint="Choose a shorter one.",
+                    f"The name {text[:20]!r}... has {len(text.encode())} bytes. The limit is {MAX_NAME} bytes.",
+                    hint="Choose a shorter name.",
                 )
         node = GraphNode(self, namespace, name)
         with self._lock:
@@ -131,7 +127,7 @@ class Participant:
         return node
 
     def remove_node(self, node: GraphNode) -> None:
-        """Takes a node off the graph. `GraphNode.close` calls it."""
+        """Remove a node from the graph. `GraphNode.close` calls this."""
         with self._lock:
             if node in self._nodes:
                 self._nodes.remove(node)
@@ -140,19 +136,20 @@ class Participant:
     def publisher(
         self, node: GraphNode, topic: str, message_type: type, qos: QoS, *, kind: Kind = "topic", user_data: str = ""
     ) -> Publisher:
-        """A publisher of `node`.
+        """Create a publisher of `node`.
 
         Args:
-            node: its node.
-            topic: fully qualified: "/scan"; of a service for the kinds "request" and "reply".
-            message_type: the message class. For requests and replies the caller writes ROS's 16-byte header
-                (client's identifier, sequence number) between the encapsulation and the message.
-            qos: what is offered.
+            node: The node that owns the publisher.
+            topic: The fully qualified name of the topic, such as "/scan", or of the service if `kind` is "request" or
+                "reply".
+            message_type: The message class. For requests and replies, the caller writes the 16-byte ROS header
+                (client identifier, sequence number) between the encapsulation and the message.
+            qos: The offered quality of service.
             kind: "topic", "request" or "reply".
-            user_data: what readers can learn of it from DDS, before the first message.
+            user_data: The DDS user data, which subscribers can read before the first message.
 
         Raises:
-            WireError: DDS refuses.
+            WireError: DDS cannot create the publisher.
         """
         of_transforms = types.ros_type(message_type) == _TF_TYPE
         name, type_name, entity = (
@@ -174,35 +171,36 @@ class Participant:
         kind: Kind = "topic",
         adapts: bool = False,
     ) -> Subscription:
-        """A subscription of `node`; the arguments are those of `publisher`.
+        """Create a subscription of `node`.
 
         Args:
-            node: its node.
-            topic: fully qualified.
-            message_type: the message class.
-            qos: what is asked for.
-            on_data: is set whenever messages arrive.
+            node: The node that owns the subscription.
+            topic: The fully qualified name of the topic or service.
+            message_type: The message class.
+            qos: The requested quality of service.
+            on_data: An event that is set whenever messages arrive.
             kind: "topic", "request" or "reply".
-            adapts: the caller follows what publishers offer, so that nobody is warned of those that offer less.
+            adapts: Whether the caller replaces the subscription when publishers offer less than `qos`. If so, no
+                warning about incompatible QoS is logged.
 
         Raises:
-            WireError: DDS refuses.
+            WireError: DDS cannot create the subscription.
         """
         name, type_name, entity = self._topic_of(topic, message_type, kind)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
         return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
     def raw_publisher(self, node: GraphNode, topic: str, ros_type: str, qos: QoS) -> RawPublisher:
-        """A publisher of `node` for messages of any type, whose bytes it passes on as they are.
+        """Create a publisher of `node` for serialized messages of any type.
 
         Args:
-            node: its node.
-            topic: fully qualified: "/scan".
-            ros_type: such as "sensor_msgs/msg/LaserScan"; nobody here needs to know it.
-            qos: what is offered.
+            node: The node that owns the publisher.
+            topic: The fully qualified name of the topic, such as "/scan".
+            ros_type: The type, such as "sensor_msgs/msg/LaserScan". It does not have to be known in this process.
+            qos: The offered quality of service.
 
         Raises:
-            WireError: DDS refuses.
+            WireError: DDS cannot create the publisher.
         """
         name, type_name, entity = self._unchecked_topic(topic, ros_type)
         native = _create(lambda: _core.Writer(self._native.entity, entity, _native_qos(qos), "", True), topic)
@@ -218,40 +216,45 @@ class Participant:
         on_data: _core.Event | None = None,
         adapts: bool = False,
     ) -> Subscription:
-        """A subscription of `node` to messages of any type, whose bytes nobody checks.
+        """Create a subscription of `node` to messages of any type. The bytes of the messages are not checked.
 
         Args:
-            node: its node.
-            topic: fully qualified: "/scan".
-            ros_type: such as "sensor_msgs/msg/LaserScan"; nobody here needs to know it.
-            qos: what is asked for.
-            on_data: is set whenever messages arrive.
-            adapts: the caller follows what publishers offer, so that nobody is warned of those that offer less.
+            node: The node that owns the subscription.
+            topic: The fully qualified name of the topic, such as "/scan".
+            ros_type: The type, such as "sensor_msgs/msg/LaserScan". It does not have to be known in this process.
+            qos: The requested quality of service.
+            on_data: An event that is set whenever messages arrive.
+            adapts: Whether the caller replaces the subscription when publishers offer less than `qos`. If so, no
+                warning about incompatible QoS is logged.
 
         Raises:
-            WireError: DDS refuses.
+            WireError: DDS cannot create the subscription.
         """
         name, type_name, entity = self._unchecked_topic(topic, ros_type)
         native = _create(lambda: _core.Reader(self._native.entity, entity, _native_qos(qos), "", on_data), topic)
         return Subscription(native, node, name, type_name, qos, adapts=adapts)
 
-    def tap(self, node: GraphNode, topic: str, ros_type: str, qos: QoS, *, head: int, capacity: int = 100_000) -> Tap:
-        """A subscription of `node` that notes when messages of any type come, without Python.
+    def batch_subscription(
+        self, node: GraphNode, topic: str, ros_type: str, qos: QoS, *, max_bytes: int, capacity: int = 100_000
+    ) -> BatchSubscription:
+        """Create a subscription of `node` that records messages and their arrival times on the DDS thread.
 
         Args:
-            node: its node.
-            topic: fully qualified: "/scan".
-            ros_type: such as "sensor_msgs/msg/LaserScan"; nobody here needs to know it.
-            qos: what is asked for.
-            head: so many bytes of each message are kept.
-            capacity: so many messages may wait to be taken; others are counted only.
+            node: The node that owns the subscription.
+            topic: The fully qualified name of the topic, such as "/scan".
+            ros_type: The type, such as "sensor_msgs/msg/LaserScan". It does not have to be known in this process.
+            qos: The requested quality of service.
+            max_bytes: The number of bytes to keep of each message.
+            capacity: The number of messages that can be queued; further messages are dropped and counted.
 
         Raises:
-            WireError: DDS refuses.
+            WireError: DDS cannot create the subscription.
         """
         name, type_name, entity = self._unchecked_topic(topic, ros_type)
-        native = _create(lambda: _core.Tap(self._native.entity, entity, _native_qos(qos), "", head, capacity), topic)
-        return Tap(native, node, name, type_name, qos)
+        native = _create(
+            lambda: _core.Tap(self._native.entity, entity, _native_qos(qos), "", max_bytes, capacity), topic
+        )
+        return BatchSubscription(native, node, name, type_name, qos)
 
     def tf_reader(
         self,
@@ -264,23 +267,23 @@ class Participant:
         authority: str | None = "default_authority",
         renaming: _core.Renaming | None = None,
     ) -> TfReader:
-        """A subscription of `node` that stores transforms in `buffer` as they arrive, without Python.
+        """Create a subscription of `node` that stores transforms in `buffer` on the DDS thread, without the GIL.
 
         Args:
-            node: its node.
-            topic: fully qualified: "/tf".
-            buffer: where the transforms go.
-            static: whether they hold for all times.
-            qos: what is asked for; None: as tf2's listener.
-            authority: what the buffer notes as their source; None: the name of the publishing node.
-            renaming: what the frames are called in the buffer (`coframe.frame_names.renaming`); None: as they come.
+            node: The node that owns the subscription.
+            topic: The fully qualified name of the topic, such as "/tf".
+            buffer: The buffer that stores the transforms.
+            static: Whether the transforms are static.
+            qos: The requested quality of service. If None, it is that of tf2's listener.
+            authority: The source that the buffer records for the transforms. If None, it is the publishing node.
+            renaming: The renaming of frames (see `coframe.frame_names.renaming`). If None, frames keep their names.
 
         Raises:
-            WireError: DDS refuses.
+            WireError: DDS cannot create the subscription.
         """
         chosen = qos or (TF_STATIC_READER if static else TF)
         name, type_name, entity = self._unchecked_topic(topic, _TF_TYPE)
-        source = initial_authority(authority)
+        source = NO_AUTHORITY if authority is None else authority
         native = _create(
             lambda: _core.TfReader(
                 self._native.entity, entity, _native_qos(chosen), "", buffer, static, source, renaming
@@ -289,41 +292,48 @@ class Participant:
         )
         reader = TfReader(native, node, name, type_name, chosen, static=static, name_writers=authority is None)
         reader.name_writers(self._graph)
-        self._refusals.add(reader, buffer)
+        self._rejections.add(reader, buffer)
         return reader
 
-    def static_broadcaster(self, node: GraphNode, topic: str = "/tf_static") -> StaticWriter:
-        """A writer of static transforms; all of this process on one topic share one DDS writer.
+    def static_broadcaster(self, node: GraphNode, topic: str = "/tf_static") -> StaticBroadcaster:
+        """Create a broadcaster of static transforms for `node`.
 
-        A late joiner is given a writer's last message only: it must hold all static transforms of the process.
+        All broadcasters of this process on one topic share one DDS writer: a late-joining subscriber receives only the
+        last message of a writer, so that message must contain all static transforms of the process.
 
         Raises:
-            WireError: DDS refuses.
+            WireError: DDS cannot create the publisher.
         """
         with self._lock:
             shared = self._statics.get(topic)
             if shared is None or shared.closed:
-                shared = self._statics[topic] = StaticTopic(self, topic)
+                shared = self._statics[topic] = SharedStaticPublisher(self, topic)
             return shared.join(node)
 
     def nodes(self) -> list[tuple[str, str]]:
-        """(namespace, name) of every node on the graph, our own among them."""
+        """Return the (namespace, name) of every node on the graph, including the nodes of this process."""
         return self._graph.nodes()
 
     def topics(self) -> dict[str, list[str]]:
-        """The topics with their ROS types: {"/tf": ["tf2_msgs/msg/TFMessage"]}."""
+        """Return the topics and their ROS types: {"/tf": ["tf2_msgs/msg/TFMessage"]}."""
         return self._graph.types(("topic",))
 
     def services(self) -> dict[str, list[str]]:
-        """The services with the ROS types of their requests and replies, such as "std_srvs/srv/SetBool_Request"."""
+        """Return the services and the ROS types of their requests and replies.
+
+        An example is {"/reset": ["std_srvs/srv/Empty_Request", "std_srvs/srv/Empty_Response"]}.
+        """
         return self._graph.types(("request", "reply"))
 
-    def publishers(self, topic: str, *, kind: Kind = "topic") -> list[Endpoint]:
-        """Who publishes on a topic, by its ROS name."""
+    def publishers(self, topic: str, *, kind: Kind = "topic") -> list[EndpointInfo]:
+        """Return the publishers on a topic, given its ROS name."""
         return self._describe(self._graph.writers(names.dds_topic(topic, kind)))
 
-    def published(self) -> dict[str, dict[int, Endpoint]]:
-        """All topics that somebody publishes on, by their ROS names; the publishers by their handles, as of samples."""
+    def published(self) -> dict[str, dict[int, EndpointInfo]]:
+        """Return the publishers of every topic: {ROS name of the topic: {handle of the writer: publisher}}.
+
+        The handles are those in `Sample.writer`.
+        """
         self._graph.refresh()
         found = {}
         for name, writers in self._graph.by_topic(writers=True).items():
@@ -331,54 +341,50 @@ class Participant:
                 found[topic] = {handle: self._graph.describe(writer) for handle, writer in writers.items()}
         return found
 
-    def subscribers(self, topic: str, *, kind: Kind = "topic") -> list[Endpoint]:
-        """Who subscribes to a topic, by its ROS name."""
+    def subscribers(self, topic: str, *, kind: Kind = "topic") -> list[EndpointInfo]:
+        """Return the subscriptions to a topic, given its ROS name."""
         return self._describe(self._graph.readers(names.dds_topic(topic, kind)))
 
-    def tf_publishers(self, reader: TfReader) -> list[TfPublisher]:
-        """Who was heard by a reader of transforms, also who has left."""
-        return reader.publishers(self._graph)
-
-    def writers(self, topic: str) -> dict[int, DdsEndpoint]:
-        """The writers on a topic as DDS describes them, by the handles that their samples bear."""
+    def writers(self, topic: str) -> dict[int, DiscoveredEndpoint]:
+        """Return the DDS writers on a topic, given its ROS name, by the handles in `Sample.writer`."""
         return self._graph.writers(names.dds_topic(topic))
 
     def writer_node(self, handle: int) -> str | None:
-        """The full name of the node that wrote a sample, such as "/talker"; None if no node has claimed it."""
+        """Return the full name of the node that a DDS writer belongs to, such as "/talker"; None if it is unknown."""
         return self._graph.writer_node(handle)
 
     def watch_graph(self, event: _core.Event) -> None:
-        """Sets `event` whenever the graph has changed, until `unwatch_graph`."""
+        """Set `event` whenever the graph changes, until `unwatch_graph` is called."""
         with self._lock:
             self._watchers.append(event)
 
     def unwatch_graph(self, event: _core.Event) -> None:
-        """Ends what `watch_graph` began."""
+        """Stop setting `event` when the graph changes."""
         with self._lock:
             self._watchers = [watcher for watcher in self._watchers if watcher is not event]
 
     def on_warning(self, callback: Callable[[str], None]) -> None:
-        """Calls `callback`, on a thread of its own, with one sentence for each thing that is wrong on the wire.
+        """Call `callback` with the text of each communication warning, on the maintenance thread.
 
-        Without any callback the sentences go to the logger "coframe.wire".
+        If no callback is registered, warnings go to the logger "coframe.wire".
         """
         with self._lock:
             self._warning_callbacks.append(callback)
 
     def announce(self) -> None:
-        """Tells the graph about the nodes of this process and their endpoints."""
+        """Publish the nodes of this process and their endpoints on the graph."""
         with self._lock:
-            if self._ending or self.is_inherited():
+            if self._closing or self.is_inherited():
                 return
             infos = [node.info() for node in self._nodes]
             self._info_writer.write(encode_info(self._native.guid, infos, self._gid_size))
 
     def is_inherited(self) -> bool:
-        """Whether this process is a forked child, and the participant its parent's."""
+        """Return whether this process was forked from the one that created the participant."""
         return self._process != os.getpid()
 
     def _topic_of(self, topic: str, message_type: type, kind: Kind) -> tuple[str, str, int]:
-        """The DDS topic's name, its type's name, and its number."""
+        """Return the name of the DDS topic, the name of its type, and its handle."""
         name = names.dds_topic(topic, kind)
         data_type = types.dds_type(message_type, kind)
         return name, data_type.__idl_typename__, self._topic(name, data_type)
@@ -391,7 +397,7 @@ class Participant:
             return self._topics[key]
 
     def _unchecked_topic(self, topic: str, ros_type: str) -> tuple[str, str, int]:
-        """As `_topic_of`, for those who check the bytes themselves, or only pass them on."""
+        """Return what `_topic_of` returns, for endpoints that validate the bytes themselves or only forward them."""
         name, type_name = names.dds_topic(topic), names.dds_type(ros_type)
         with self._lock:
             if (name, type_name) not in self._unchecked_topics:
@@ -399,7 +405,7 @@ class Participant:
                 self._unchecked_topics[name, type_name] = entity
             return name, type_name, self._unchecked_topics[name, type_name]
 
-    def _describe(self, endpoints: dict[int, DdsEndpoint]) -> list[Endpoint]:
+    def _describe(self, endpoints: dict[int, DiscoveredEndpoint]) -> list[EndpointInfo]:
         return [self._graph.describe(endpoint) for endpoint in endpoints.values()]
 
     def _warn(self, text: str) -> None:
@@ -408,13 +414,13 @@ class Participant:
         for callback in callbacks or [_logger.warning]:
             callback(text)
 
-    def _endpoints(self) -> list[WireEndpoint]:
+    def _endpoints(self) -> list[LocalEndpoint]:
         with self._lock:
             return list({endpoint.guid: endpoint for node in self._nodes for endpoint in node.endpoints}.values())
 
-    def _keep_house(self) -> None:
+    def _run_maintenance(self) -> None:
         seen = -1
-        while not self._ending:
+        while not self._closing:
             try:
                 version = self._graph.refresh()
                 if version != seen:
@@ -422,20 +428,23 @@ class Participant:
                 if version != seen or self._mismatches.waiting:
                     self._mismatches.check(self._endpoints())
                 seen = version
-                listeners = [end for end in self._endpoints() if isinstance(end, TfReader)]
-                self._refusals.check(listeners)
-                self._tell_odd_names(listeners)
+                readers = [endpoint for endpoint in self._endpoints() if isinstance(endpoint, TfReader)]
+                self._rejections.check(readers)
+                self._warn_of_naming_problems(readers)
             except Exception:
-                # A callback of the user's, or an endpoint that was closed meanwhile.
-                if not self._ending:
-                    _logger.exception("coframe's housekeeping of the ROS graph failed and goes on")
-            self._wake.wait(_CHECK_PERIOD_NS)
+                # A warning callback raised, or an endpoint was closed in the meantime.
+                if not self._closing:
+                    _logger.exception("The maintenance of the ROS graph failed. It is tried again in 1 s.")
+            self._wake.wait(SECOND)
 
-    def _tell_odd_names(self, listeners: list[TfReader]) -> None:
-        for listener in listeners:
-            for publisher in listener.publishers(self._graph):
-                for sentence in publisher.oddities:
-                    self._odd_names(sentence, sentence)
+    def _warn_of_naming_problems(self, readers: list[TfReader]) -> None:
+        for reader in readers:
+            topic = names.any_ros_name(reader.topic)
+            for statistics in reader.writer_statistics():
+                node = self._graph.writer_node(statistics.writer) or "an unnamed node"
+                examples = statistics.slashed, statistics.prefixed, statistics.plain
+                for problem in naming_problems(f"{node} on {topic}", *examples):
+                    self._warn_of_name(problem, problem)
 
     def _graph_changed(self) -> None:
         with self._lock:
@@ -448,7 +457,7 @@ class Participant:
 
     def _end(self) -> None:
         del self._instances[self.domain_id]
-        self._ending = True
+        self._closing = True
         self._wake.set()
         if self._thread is not threading.current_thread():
             self._thread.join()
@@ -467,11 +476,13 @@ def _create(make: Callable[[], Any], topic: str) -> Any:
     try:
         return make()
     except _core.DdsError as error:
-        raise WireError(f"DDS refuses {topic}: {error}.", hint="Has the participant been closed already?") from error
+        raise WireError(
+            f"DDS cannot create an endpoint on {topic}: {error}.", hint="Check that the participant is not closed."
+        ) from error
 
 
 def _renew_locks() -> None:
-    """In a forked child: whoever held them is not here to give them back."""
+    """Replace the locks in a forked child, where the threads that held them do not exist."""
     Participant._instances_lock = threading.RLock()  # noqa: SLF001 - our own class
     for participant in Participant._instances.values():  # noqa: SLF001 - our own class
         participant._lock = threading.RLock()  # noqa: SLF001 - our own class
@@ -483,7 +494,7 @@ if hasattr(os, "register_at_fork"):
 
 @atexit.register
 def _end_all() -> None:
-    """DDS's threads must have ended before the interpreter does."""
+    """Close all participants, because the DDS threads must stop before the interpreter exits."""
     with Participant._instances_lock:  # noqa: SLF001 - our own class
         for participant in list(Participant._instances.values()):  # noqa: SLF001 - our own class
             if participant._process == os.getpid():  # noqa: SLF001 - our own class

@@ -1,4 +1,4 @@
-"""Quality of service: what a publisher offers and a subscription asks for."""
+"""Quality of service: what a publisher offers and a subscription requests."""
 
 from __future__ import annotations
 
@@ -7,13 +7,17 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class QoS:
-    """The four policies that ROS programs set.
+    """A quality of service profile.
 
     Args:
-        depth: how many messages are kept, at least 1; of no effect with ``keep_all``.
-        reliable: lost messages are sent again; False is ROS's "best effort".
-        transient_local: late joiners get the last messages; False is ROS's "volatile".
-        keep_all: every message is kept until it is delivered.
+        depth: The number of messages to keep, at least 1. Ignored if `keep_all` is set.
+        reliable: Whether lost messages are sent again ("reliable"), or not ("best effort").
+        transient_local: Whether late-joining subscriptions receive the last messages ("transient local"), or not
+            ("volatile").
+        keep_all: Whether every message is kept until it is delivered.
+
+    Raises:
+        ValueError: The depth is less than 1.
     """
 
     depth: int = 10
@@ -23,13 +27,13 @@ class QoS:
 
     def __post_init__(self) -> None:
         if self.depth < 1:
-            raise ValueError(f"QoS depth {self.depth} keeps no message: it must be at least 1")
+            raise ValueError(f"the QoS depth must be at least 1, not {self.depth}")
 
 
 DEFAULT = QoS()
 SENSOR = QoS(depth=5, reliable=False)
 TF = QoS(depth=100)
 TF_STATIC_WRITER = QoS(depth=1, transient_local=True)
-# The topic has no key: with a depth of 1 a reader keeps the message of one broadcaster only.
+# The topic has no key, so a reader with a depth of 1 would keep the message of only one broadcaster.
 TF_STATIC_READER = QoS(depth=100, transient_local=True)
 GRAPH_WRITER = QoS(depth=1, transient_local=True)

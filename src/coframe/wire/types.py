@@ -1,4 +1,4 @@
-"""Message types as DDS knows them: a name and a layout. Encoding and decoding is `coframe.messages.codec`'s."""
+"""The DDS types of ROS messages: name and layout. `coframe.messages.codec` encodes and decodes the messages."""
 
 from __future__ import annotations
 
@@ -13,44 +13,44 @@ from coframe.wire.discovery_info import MAX_NAME
 if TYPE_CHECKING:
     from coframe.wire.names import Kind
 
-# Basic types of `SLOT_TYPES` that cyclonedds calls differently.
+# The basic types of `SLOT_TYPES` that have another name in cyclonedds.
 _BASIC = {"octet": "byte", "char": "uint8", "float": "float32", "double": "float64"}
 _BASIC_PYTHON = {"boolean": bool}
 
 
 @cache
 def dds_type(message_type: type, kind: Kind = "topic") -> Any:
-    """The DDS type of a message class; for requests and replies with the header that ROS puts before them.
+    """Return the DDS type of a message class. For requests and replies, it includes the header that ROS adds.
 
     Raises:
-        WireError: it has a field that DDS's Python types cannot express.
+        WireError: The message has a field of a type that cyclonedds does not support.
     """
     types = _idl_types()
     fields: dict[str, Any] = {}
     if kind != "topic":
-        # Who asks, and which of its questions: rmw_cyclonedds's way to match replies with requests.
+        # rmw_cyclonedds matches replies with requests by the client and the sequence number.
         fields |= {"client_guid": types.uint64, "sequence_number": types.int64}
     field_names = message_type.get_fields_and_field_types()  # type: ignore[attr-defined]
     slots = message_type.SLOT_TYPES  # type: ignore[attr-defined]
     for name, slot in zip(field_names, slots, strict=True):
         fields[name] = _field_type(slot, f"{ros_type(message_type)}.{name}")
     if not fields:
-        # DDS has no empty structure; this is the member that ROS puts in.
+        # DDS does not allow an empty structure, so ROS adds this member.
         fields["structure_needs_at_least_one_member"] = types.uint8
     return _struct(names.dds_type(ros_type(message_type)), fields)
 
 
 def ros_type(message_type: type) -> str:
-    """The ROS type of a message class, such as "tf2_msgs/msg/TFMessage"."""
+    """Return the ROS type of a message class, such as "tf2_msgs/msg/TFMessage"."""
     return str(message_type.ROS_TYPE)  # type: ignore[attr-defined]
 
 
 @cache
 def graph_type() -> Any:
-    """The DDS type of the topic ros_discovery_info.
+    """Return the DDS type of the topic ros_discovery_info.
 
-    The identifiers are declared with 16 bytes, whatever is sent. Humble's form, with 24, has zeros where this
-    layout has the number of nodes, so DDS lets both forms through to a reader of this type.
+    The identifiers are declared with 16 bytes, although Humble sends 24. Humble's messages have zeros at the position
+    of the node count in this layout, so DDS delivers both forms to a reader of this type.
     """
     types = _idl_types()
     prefix = "rmw_dds_common::msg::dds_::"
@@ -68,10 +68,15 @@ def graph_type() -> Any:
 
 
 def create_topic(participant: int, name: str, data_type: Any) -> int:
-    """A DDS topic in the participant with this number: the topic's number.
+    """Create a DDS topic and return its handle.
+
+    Args:
+        participant: The handle of the participant.
+        name: The DDS name of the topic.
+        data_type: The type, from `dds_type` or `graph_type`.
 
     Raises:
-        WireError: DDS refuses.
+        WireError: DDS cannot create the topic.
     """
     from cyclonedds import _clayer  # noqa: PLC0415 - optional, see dds.py
 
@@ -79,28 +84,33 @@ def create_topic(participant: int, name: str, data_type: Any) -> int:
     data_type.__idl__.fill_type_data()
     topic: int = _clayer.ddspy_topic_create(participant, name, data_type, None, None)
     if topic < 0:
-        raise _refused(name, f"code {topic}")
+        raise _topic_error(name, f"code {topic}")
     return topic
 
 
 def create_unchecked_topic(participant: int, name: str, type_name: str) -> int:
-    """A DDS topic for endpoints that check the bytes by themselves: its number.
+    """Create a DDS topic whose messages DDS does not validate, and return its handle.
+
+    Args:
+        participant: The handle of the participant.
+        name: The DDS name of the topic.
+        type_name: The DDS name of the type.
 
     Raises:
-        WireError: DDS refuses.
+        WireError: DDS cannot create the topic.
     """
     try:
         return _core.create_unchecked_topic(participant, name, type_name)
     except _core.DdsError as error:
-        raise _refused(name, str(error)) from error
+        raise _topic_error(name, str(error)) from error
 
 
-def _refused(name: str, why: str) -> WireError:
-    return WireError(f"DDS refuses the topic {name} ({why}).", hint="Check the topic's name.")
+def _topic_error(name: str, why: str) -> WireError:
+    return WireError(f"DDS cannot create the topic {name} ({why}).", hint="Check the name of the topic.")
 
 
 def _field_type(slot: Any, where: str) -> Any:
-    from coframe.messages import definition  # noqa: PLC0415 - not needed for joining
+    from coframe.messages import definition  # noqa: PLC0415 - joining the graph does not need it
 
     types = _idl_types()
     match slot:
@@ -115,7 +125,7 @@ def _field_type(slot: Any, where: str) -> Any:
 
 
 def _single_type(slot: Any, where: str) -> Any:
-    from coframe.messages import definition, registry  # noqa: PLC0415 - not needed for joining
+    from coframe.messages import definition, registry  # noqa: PLC0415 - joining the graph does not need it
 
     types = _idl_types()
     match slot:
@@ -129,8 +139,8 @@ def _single_type(slot: Any, where: str) -> Any:
             return dds_type(registry.find("/".join(slot.namespaced_name())))
         case _:
             raise WireError(
-                f"{where} is a {type(slot).__name__}, which DDS cannot carry from Python.",
-                hint="Use a string, which is UTF-8.",
+                f"{where} is a {type(slot).__name__}, which cyclonedds does not support.",
+                hint="Use the type string, which is UTF-8.",
             )
 
 

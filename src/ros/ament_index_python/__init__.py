@@ -1,4 +1,4 @@
-"""Where packages are installed, as the ROS 2 package `ament_index_python` answers."""
+"""Locations of installed packages, with the API of the ROS 2 package `ament_index_python`."""
 
 from ament_index_python.packages import (
     PackageNotFoundError,

@@ -1,7 +1,7 @@
-"""Finding packages in the installation prefixes of ROS (`AMENT_PREFIX_PATH`) and in plain folders.
+"""Search for packages in installation prefixes (`AMENT_PREFIX_PATH`) and in source directories.
 
-`COFRAME_PACKAGE_PATH` lists folders with packages as they lie in a source tree: `<folder>/<package>/...`; nothing has
-to be built or installed.
+`COFRAME_PACKAGE_PATH` lists directories that contain packages as in a source tree, `<directory>/<package>/...`. These
+packages do not need to be built or installed.
 """
 
 import os
@@ -25,44 +25,44 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_\-]*")
 
 
 class PackageNotFoundError(KeyError):
-    """No package of that name in any of the places searched."""
+    """No package with this name exists in the searched directories."""
 
     def __str__(self) -> str:
         return str(self.args[0]) if self.args else ""
 
 
 def get_package_prefix(package_name: str) -> str:
-    """The installation prefix of a package; for one in a plain folder, that folder.
+    """Return the installation prefix of a package. For a package in `COFRAME_PACKAGE_PATH`, return that directory.
 
     Raises:
-        PackageNotFoundError: There is no such package.
-        ValueError: That cannot be the name of a package.
+        PackageNotFoundError: The package was not found.
+        ValueError: The name is not a valid package name.
     """
     return str(_find(package_name)[0])
 
 
 def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
-    """The folder with a package's data files: launch files, robot descriptions, meshes.
+    """Return the share directory of a package, which contains its launch files, robot descriptions and meshes.
 
     Args:
         package_name: Name of the package.
-        print_warning: Upstream warns of a folder that is missing; here that is always an error.
+        print_warning: Ignored, accepted for compatibility. A missing directory is always an error.
 
     Raises:
-        PackageNotFoundError: There is no such package.
-        ValueError: That cannot be the name of a package.
+        PackageNotFoundError: The package was not found.
+        ValueError: The name is not a valid package name.
     """
     del print_warning
     return str(_find(package_name)[1])
 
 
 def get_package_share_path(package_name: str, print_warning: bool = True) -> Path:
-    """`get_package_share_directory` as a path."""
+    """Return the share directory of a package as a Path; see `get_package_share_directory`."""
     return Path(get_package_share_directory(package_name, print_warning))
 
 
 def get_packages_with_prefixes() -> dict[str, str]:
-    """The names of all packages with their prefixes; the first place a package is found in counts."""
+    """Return the names of all packages with their prefixes. The first prefix that contains a package applies."""
     found: dict[str, str] = {}
     for prefix in _folders(AMENT_PREFIX_PATH):
         index = prefix / _INDEX
@@ -76,7 +76,7 @@ def get_packages_with_prefixes() -> dict[str, str]:
 
 
 def _find(package_name: str) -> tuple[Path, Path]:
-    """Prefix and share folder of a package."""
+    """Return the prefix and the share directory of a package."""
     if not _NAME.fullmatch(package_name):
         raise ValueError(f"'{package_name}' is not a valid package name")
     for prefix in _folders(AMENT_PREFIX_PATH):
@@ -88,13 +88,13 @@ def _find(package_name: str) -> tuple[Path, Path]:
             return folder, folder / package_name
     searched = [str(folder) for name in (AMENT_PREFIX_PATH, COFRAME_PACKAGE_PATH) for folder in _folders(name)]
     raise PackageNotFoundError(
-        f"package '{package_name}' not found, searching: {searched}; "
-        f"set {COFRAME_PACKAGE_PATH} to the folder that holds the package"
+        f"package '{package_name}' not found, searching: {searched}. "
+        f"Set {COFRAME_PACKAGE_PATH} to the directory that contains the package directory."
     )
 
 
 def _folders(variable: str) -> Iterator[Path]:
-    """The existing folders an environment variable lists."""
+    """Yield the existing directories that an environment variable lists."""
     for entry in os.environ.get(variable, "").split(os.pathsep):
         if entry and Path(entry).is_dir():
             yield Path(entry)

@@ -165,7 +165,7 @@ class JointStatePublisher(Node):
 
 
 def run(args: list[str], robot: Robot | None = None, *, domain_id: int | None = None, **options: Any) -> None:
-    """Runs the node until it is ended from outside.
+    """Run the node until it is ended from outside.
 
     Args:
         args: A command line; what follows `--ros-args` is the node's.

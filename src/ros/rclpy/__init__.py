@@ -1,4 +1,4 @@
-"""ROS 2's client library for Python (the API of Humble) without a ROS installation.
+"""The ROS 2 client library for Python (the API of Humble) without a ROS installation.
 
     import rclpy
 
@@ -6,7 +6,7 @@
     node = rclpy.create_node("my_node")
     rclpy.spin(node)
 
-It is found where no ROS is sourced; a real ROS on the path wins over it as a whole.
+This package is used if no ROS installation is sourced. A ROS installation on the path takes precedence as a whole.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from coframe import ros_side
 
 ros_side.check(__name__)
 
-# Users reach the modules as attributes: rclpy.time.Time after `import rclpy`.
+# The modules are imported because programs use them as attributes, for example rclpy.time.Time.
 from rclpy import (
     action,
     callback_groups,
@@ -139,7 +139,7 @@ _global_executor: Executor | None = None
 
 
 class InitContextManager:
-    """What `init()` returns: `with rclpy.init(): ...` shuts down at the end of the block."""
+    """Context manager returned by `init()`. `with rclpy.init(): ...` shuts down at the end of the block."""
 
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -164,20 +164,20 @@ def init(
     domain_id: int | None = None,
     signal_handler_options: SignalHandlerOptions | None = None,
 ) -> InitContextManager:
-    """Starts ROS communication; call it once before anything else.
+    """Initialize ROS communication. Call this once before using other functions.
 
     Args:
-        args: Command line with `--ros-args`; None: `sys.argv`.
-        context: What to start; None: the default context.
-        domain_id: DDS domain; None: ROS_DOMAIN_ID or 0.
-        signal_handler_options: Signals that shut everything down; None: SIGINT and SIGTERM for the default context,
-            none for others.
+        args: Command line with `--ros-args`. None: `sys.argv`.
+        context: Context to initialize. None: the default context.
+        domain_id: DDS domain. None: ROS_DOMAIN_ID or 0.
+        signal_handler_options: Signals that shut down all contexts. None: SIGINT and SIGTERM for the default context,
+            no signals for other contexts.
 
     Returns:
-        A context manager that calls `shutdown()`; ignore it, or write `with rclpy.init():`.
+        A context manager that calls `shutdown()`. Its use is optional.
 
     Raises:
-        RuntimeError: It was called before.
+        RuntimeError: The context was initialized before.
         RCLInvalidROSArgsError: The arguments are malformed.
     """
     if signal_handler_options is None:
@@ -189,22 +189,22 @@ def init(
 
 
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """Ends ROS communication; what spins or sleeps returns.
+    """Shut down ROS communication. Calls that spin or sleep return.
 
-    After a signal has done so already, it is quiet.
+    If a signal has shut down the context already, this does nothing.
 
     Args:
-        context: What to end; None: the default context.
-        uninstall_handlers: Whether signals are Python's again; None: for the default context.
+        context: Context to shut down. None: the default context.
+        uninstall_handlers: Whether to restore the previous signal handlers. None: only for the default context.
 
     Raises:
-        RuntimeError: It was not started, or was ended before.
+        RuntimeError: The context was never initialized, or was shut down before.
     """
     _shut_down(context, uninstall_handlers=uninstall_handlers)
 
 
 def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """Ends ROS communication unless that happened before; see `shutdown`."""
+    """Shut down ROS communication unless it is shut down already; see `shutdown`."""
     chosen = get_default_context() if context is None else context
     if chosen.ok():
         _shut_down(context, uninstall_handlers=uninstall_handlers)
@@ -235,7 +235,7 @@ def create_node(
     allow_undeclared_parameters: bool = False,
     automatically_declare_parameters_from_overrides: bool = False,
 ) -> Node:
-    """Makes a node; the arguments are those of `rclpy.node.Node`."""
+    """Create a node. The arguments are those of `rclpy.node.Node`."""
     return node.Node(
         node_name,
         context=context,
@@ -251,7 +251,7 @@ def create_node(
 
 
 def get_global_executor() -> Executor:
-    """Returns the executor that `spin` and the like use where none is given."""
+    """Return the executor that `spin` and related functions use if no executor is given."""
     global _global_executor  # noqa: PLW0603
     if _global_executor is None or _global_executor.context is not get_default_context():
         _global_executor = SingleThreadedExecutor()
@@ -259,11 +259,11 @@ def get_global_executor() -> Executor:
 
 
 def spin(node: Node, executor: Executor | None = None) -> None:
-    """Runs the callbacks of a node until the shutdown.
+    """Run the callbacks of a node until the context is shut down.
 
     Args:
-        node: The node.
-        executor: None: the global one.
+        node: Node to spin.
+        executor: Executor to use. None: the global executor.
     """
     executor, is_new = _add(node, executor)
     try:
@@ -274,12 +274,12 @@ def spin(node: Node, executor: Executor | None = None) -> None:
 
 
 def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
-    """Waits for one callback of a node and runs it.
+    """Wait for one callback of a node and run it.
 
     Args:
-        node: The node.
-        executor: None: the global one.
-        timeout_sec: Longest wait in seconds; None or negative: as long as it takes.
+        node: Node to spin.
+        executor: Executor to use. None: the global executor.
+        timeout_sec: Maximum time to wait in seconds. None or negative: no limit.
 
     Raises:
         ExternalShutdownException: The context was shut down.
@@ -298,13 +298,13 @@ def spin_until_future_complete(
     executor: Executor | None = None,
     timeout_sec: float | None = None,
 ) -> None:
-    """Runs the callbacks of a node until a future is over.
+    """Run the callbacks of a node until a future is complete.
 
     Args:
         node: The node.
-        future: What to wait for.
+        future: Future to wait for.
         executor: None: the global one.
-        timeout_sec: Longest wait in seconds; None or negative: as long as it takes.
+        timeout_sec: Maximum time to wait in seconds. None or negative: no limit.
 
     Raises:
         ExternalShutdownException: The context was shut down.

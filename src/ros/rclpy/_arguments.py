@@ -1,4 +1,4 @@
-"""The command line after `--ros-args`: remapping rules, parameters and logging."""
+"""Parser of `--ros-args`: remapping rules, parameters and logging."""
 
 from __future__ import annotations
 
@@ -20,9 +20,10 @@ _SWITCHES: Final = ("stdout-logs", "rosout-logs", "external-lib-logs")
 
 @dataclass(frozen=True)
 class Remap:
-    """One rule `[node:]from:=to`.
+    """A remapping rule `[node:]from:=to`.
 
-    `kind` is "name" or "namespace" for a rule about the node itself; else "topic", "service", or "any" for both.
+    `kind` is "name" or "namespace" for a rule about the node itself. Otherwise it is "topic", "service", or "any" for
+    both.
     """
 
     node: str | None
@@ -33,21 +34,21 @@ class Remap:
 
 @dataclass(frozen=True)
 class ParameterOverride:
-    """One parameter value for the nodes whose fully qualified name fits the pattern (`/**` fits all)."""
+    """A parameter value for the nodes whose fully qualified name matches a pattern (`/**` matches all nodes)."""
 
     node_pattern: str
     name: str
     value: Any
 
-    def fits(self, fully_qualified_name: str) -> bool:
-        """Whether it is for the node of this name."""
+    def matches(self, fully_qualified_name: str) -> bool:
+        """Return whether the override applies to the node with this name."""
         pattern = re.escape(self.node_pattern).replace(r"/\*\*", "(/[^/]+)*").replace(r"\*", "[^/]+")
         return re.fullmatch(pattern, fully_qualified_name) is not None
 
 
 @dataclass
 class LoggingArguments:
-    """What the command line says about logging."""
+    """Logging options of the command line."""
 
     default_level: LoggingSeverity | None = None
     levels: dict[str, LoggingSeverity] = field(default_factory=dict)
@@ -57,7 +58,7 @@ class LoggingArguments:
 
 @dataclass
 class Arguments:
-    """A parsed command line."""
+    """Parsed ROS arguments."""
 
     remaps: list[Remap] = field(default_factory=list)
     parameters: list[ParameterOverride] = field(default_factory=list)
@@ -65,11 +66,11 @@ class Arguments:
 
 
 def parse(args: list[str]) -> Arguments:
-    """Parses a whole command line; what is not between `--ros-args` and `--` is not ours.
+    """Parse a command line. Arguments outside of `--ros-args ... --` are ignored.
 
     Raises:
-        RCLInvalidROSArgsError: A rule is malformed or its argument is missing.
-        UnknownROSArgsError: There is an argument ROS does not know.
+        RCLInvalidROSArgsError: A rule is malformed, or an option has no argument.
+        UnknownROSArgsError: An argument is not a ROS argument.
     """
     result = Arguments()
     unknown: list[str] = []
@@ -82,15 +83,15 @@ def parse(args: list[str]) -> Arguments:
 
 
 def remove(args: list[str]) -> list[str]:
-    """Returns the arguments without `--ros-args ... --`."""
+    """Return the arguments without `--ros-args ... --`."""
     kept = []
-    is_ours = False
+    is_ros_argument = False
     for word in args:
         if word == _START:
-            is_ours = True
-        elif is_ours and word == _END:
-            is_ours = False
-        elif not is_ours:
+            is_ros_argument = True
+        elif is_ros_argument and word == _END:
+            is_ros_argument = False
+        elif not is_ros_argument:
             kept.append(word)
     return kept
 
@@ -120,7 +121,7 @@ def _parse_word(word: str, rest: Iterator[str], result: Arguments) -> bool:
     elif word == "--log-level":
         _parse_log_level(_argument_of(word, rest), result.logging)
     elif word in {"--log-config-file", "-e", "--enclave"}:
-        _argument_of(word, rest)  # for log files and for security, which are not here
+        _argument_of(word, rest)  # Log files and security enclaves are not supported, so the argument is ignored.
     elif word.startswith("--enable-") and word[len("--enable-") :] in _SWITCHES:
         _switch(word[len("--enable-") :], result.logging, on=True)
     elif word.startswith("--disable-") and word[len("--disable-") :] in _SWITCHES:
@@ -147,10 +148,10 @@ def _switch(name: str, logging: LoggingArguments, *, on: bool) -> None:
 
 
 def _split_rule(rule: str, flag: str) -> tuple[str | None, str, str]:
-    """Splits `[node:]left:=right`."""
+    """Return node, left side and right side of `[node:]left:=right`."""
     left, separator, right = rule.partition(":=")
     if not separator or not left:
-        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {flag} {rule!r} is not of the form from:=to")
+        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: {flag} {rule!r} does not have the form from:=to")
     node: str | None = None
     if match := re.match(r"([A-Za-z_]\w*):(?!//)", left):
         node, left = match[1], left[match.end() :]
@@ -164,7 +165,7 @@ def _parse_remap(rule: str) -> Remap:
     if match == "__ns":
         return Remap(node, "namespace", match, replacement)
     if not replacement:
-        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: --remap {rule!r} has nothing after :=")
+        raise RCLInvalidROSArgsError(f"Failed to parse ROS arguments: --remap {rule!r} has no value after :=")
     for scheme, kind in (("rostopic://", "topic"), ("rosservice://", "service")):
         if match.startswith(scheme):
             return Remap(node, kind, match[len(scheme) :], replacement)
@@ -184,7 +185,8 @@ def _parse_log_level(text: str, logging: LoggingArguments) -> None:
         level = LoggingSeverity[level_name.upper()]
     except KeyError:
         raise RCLInvalidROSArgsError(
-            f"Failed to parse ROS arguments: --log-level {text!r}: the levels are debug, info, warn, error and fatal"
+            f"Failed to parse ROS arguments: unknown log level in --log-level {text!r}. "
+            "Known levels: debug, info, warn, error, fatal"
         ) from None
     if name:
         logging.levels[name] = level

@@ -1,6 +1,6 @@
-"""Awaiting rclpy's futures in asyncio's tasks, which know other futures only."""
+"""Support for awaiting rclpy's futures in asyncio tasks."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
 
 class _Thread(threading.local):
-    """What each thread is in the midst of."""
+    """Per-thread state."""
 
-    # The asyncio task that stands still while rclpy drives a coroutine inside it (`executor.spin_once()`, say).
+    # The asyncio task that is blocked while rclpy runs a coroutine inside it, for example in `executor.spin_once()`.
     suspended: asyncio.Task[Any] | None = None
 
 
@@ -28,7 +28,7 @@ _thread = _Thread()
 
 
 def step(coroutine: Coroutine[Any, Any, Any]) -> Any:
-    """Runs a coroutine of rclpy's to its next await; what it awaits there is rclpy's matter, not asyncio's."""
+    """Run a coroutine of an rclpy task to its next await, which rclpy handles, not asyncio."""
     outer, _thread.suspended = _thread.suspended, _current_task()
     try:
         return coroutine.send(None)
@@ -37,22 +37,25 @@ def step(coroutine: Coroutine[Any, Any, Any]) -> Any:
 
 
 def awaiting_loop() -> asyncio.AbstractEventLoop | None:
-    """The loop whose task awaits in this thread; None where rclpy or a program's own hand drives the coroutine."""
+    """Return the loop of the asyncio task that awaits in this thread.
+
+    Return None if rclpy, or the program itself by `send()`, runs the coroutine.
+    """
     task = _current_task()
     return None if task is None or task is _thread.suspended else task.get_loop()
 
 
-def until_over(future: Future[Any], loop: asyncio.AbstractEventLoop) -> Generator[Any, None, None]:
-    """Suspends the awaiting task until the future is over; cancelling the task cancels the future."""
+def wait_until_complete(future: Future[Any], loop: asyncio.AbstractEventLoop) -> Generator[Any, None, None]:
+    """Suspend the awaiting task until the future is complete. Cancelling the task cancels the future."""
     waiter = loop.create_future()
 
     def wake() -> None:
-        with suppress(RuntimeError):  # the loop is closed, so nobody waits there any more
+        with suppress(RuntimeError):  # The loop is closed, so no task waits in it.
             loop.call_soon_threadsafe(_complete, waiter)
 
     future._add_waiter(wake)
     try:
-        # By its own `__await__` the waiter learns that it is awaited, which asyncio checks.
+        # asyncio requires that futures are awaited through their own `__await__`.
         yield next(waiter.__await__())
     except cancelled_error():
         future.cancel()
@@ -62,7 +65,7 @@ def until_over(future: Future[Any], loop: asyncio.AbstractEventLoop) -> Generato
 
 
 def cancelled_error() -> type[BaseException]:
-    """What asyncio raises in cancelled tasks; a function, because most programs never import asyncio."""
+    """Return asyncio's exception for cancelled tasks, importing asyncio only if needed."""
     import asyncio  # noqa: PLC0415
 
     return asyncio.CancelledError
@@ -74,7 +77,7 @@ def _current_task() -> asyncio.Task[Any] | None:
         return None
     try:
         task: asyncio.Task[Any] | None = module.current_task()
-    except RuntimeError:  # no loop runs in this thread
+    except RuntimeError:  # No loop is running in this thread.
         return None
     return task
 

@@ -1,14 +1,14 @@
-"""The kinds of clocks (apart from clock.py, which needs Time, which needs this)."""
+"""Clock types. They are separate from clock.py, because `Time` needs them and the clocks need `Time`."""
 
 from enum import IntEnum
 
 
 class ClockType(IntEnum):
-    """What a clock counts.
+    """Type of a clock.
 
-    - ROS_TIME: the simulator's time where `use_sim_time` is set, else the system's time.
-    - SYSTEM_TIME: time since 1970; may jump when somebody sets the clock.
-    - STEADY_TIME: time since some start; never jumps.
+    - ROS_TIME: simulated time if `use_sim_time` is set, otherwise system time.
+    - SYSTEM_TIME: time since the Unix epoch. It jumps when the system clock is set.
+    - STEADY_TIME: time since an arbitrary start. It never jumps.
     """
 
     UNINITIALIZED = 0

@@ -1,4 +1,4 @@
-"""What a node can ask about the others in the graph."""
+"""Graph queries of nodes."""
 
 from __future__ import annotations
 
@@ -8,87 +8,91 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 
 if TYPE_CHECKING:
-    from coframe.wire import Endpoint, GraphNode, Participant
+    from coframe.wire import EndpointInfo, GraphNode, Participant
     from coframe.wire import QoS as WireQoS
 
 
 class NodeGraph:
-    """The part of a node that looks at the graph.
+    """Base class of `Node` with the queries of the ROS graph.
 
     Attributes:
-        _wire: The DDS participant; also read by tf2_ros.
-        _graph_node: This node in it; also read by tf2_ros.
+        _participant: The DDS participant, which tf2_ros also uses.
+        _graph_node: The participant's graph entry of this node, which tf2_ros also uses.
     """
 
-    _wire: Participant
+    _participant: Participant
     _graph_node: GraphNode
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        """Returns the fully qualified name of a topic, remapped unless `only_expand`."""
+        """Return the fully qualified name of a topic, remapped unless `only_expand` is set."""
         raise TypeError(f"{type(self).__name__} cannot resolve {topic} (only_expand={only_expand})")
 
     def get_node_names(self) -> list[str]:
-        """Returns the names of all nodes."""
-        return [name for _, name in self._wire.nodes()]
+        """Return the names of all nodes."""
+        return [name for _, name in self._participant.nodes()]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
-        """Returns names and namespaces of all nodes."""
-        return [(name, namespace) for namespace, name in self._wire.nodes()]
+        """Return the names and namespaces of all nodes."""
+        return [(name, namespace) for namespace, name in self._participant.nodes()]
 
     def get_fully_qualified_node_names(self) -> list[str]:
-        """Returns names of all nodes with their namespaces."""
-        return [f"{namespace.rstrip('/')}/{name}" for namespace, name in self._wire.nodes()]
+        """Return the fully qualified names of all nodes."""
+        return [f"{namespace.rstrip('/')}/{name}" for namespace, name in self._participant.nodes()]
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> list[tuple[str, list[str]]]:
-        """Returns all topics with their types.
+        """Return all topics with their types.
 
         Args:
-            no_demangle: DDS's own names and types instead of ROS's, for example `rt/tf`.
+            no_demangle: Whether to return the DDS names and types, for example `rt/tf`.
         """
-        topics = sorted(self._wire.topics().items())
+        topics = sorted(self._participant.topics().items())
         if not no_demangle:
             return topics
         return [(f"rt{name}", [_mangle(ros_type) for ros_type in types]) for name, types in topics]
 
     def get_service_names_and_types(self) -> list[tuple[str, list[str]]]:
-        """Returns all services with their types."""
-        services = sorted(self._wire.services().items())
+        """Return all services with their types."""
+        services = sorted(self._participant.services().items())
         return [(name, sorted({_service_type(ros_type) for ros_type in types})) for name, types in services]
 
     def count_publishers(self, topic_name: str) -> int:
-        """Returns the number of publishers of a topic."""
-        return len(self._wire.publishers(self.resolve_topic_name(topic_name)))
+        """Return the number of publishers of a topic."""
+        return len(self._participant.publishers(self.resolve_topic_name(topic_name)))
 
     def count_subscribers(self, topic_name: str) -> int:
-        """Returns the number of subscriptions of a topic."""
-        return len(self._wire.subscribers(self.resolve_topic_name(topic_name)))
+        """Return the number of subscriptions of a topic."""
+        return len(self._participant.subscribers(self.resolve_topic_name(topic_name)))
 
     def get_publishers_info_by_topic(self, topic_name: str) -> list[TopicEndpointInfo]:
-        """Returns all publishers of a topic."""
-        endpoints = self._wire.publishers(self.resolve_topic_name(topic_name))
+        """Return information about all publishers of a topic."""
+        endpoints = self._participant.publishers(self.resolve_topic_name(topic_name))
         return [_info(endpoint, TopicEndpointTypeEnum.PUBLISHER) for endpoint in endpoints]
 
     def get_subscriptions_info_by_topic(self, topic_name: str) -> list[TopicEndpointInfo]:
-        """Returns all subscriptions of a topic."""
-        endpoints = self._wire.subscribers(self.resolve_topic_name(topic_name))
+        """Return information about all subscriptions of a topic."""
+        endpoints = self._participant.subscribers(self.resolve_topic_name(topic_name))
         return [_info(endpoint, TopicEndpointTypeEnum.SUBSCRIPTION) for endpoint in endpoints]
 
     def get_publisher_names_and_types_by_node(self, node_name: str, node_namespace: str) -> list[tuple[str, list[str]]]:
-        """Returns the topics a node publishes, with their types."""
+        """Return the topics that a node publishes, with their types."""
         return _types_by_node(
-            {topic: self._wire.publishers(topic) for topic in self._wire.topics()}, node_name, node_namespace
+            {topic: self._participant.publishers(topic) for topic in self._participant.topics()},
+            node_name,
+            node_namespace,
         )
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> list[tuple[str, list[str]]]:
-        """Returns the topics a node subscribes to, with their types."""
+        """Return the topics that a node subscribes to, with their types."""
         return _types_by_node(
-            {topic: self._wire.subscribers(topic) for topic in self._wire.topics()}, node_name, node_namespace
+            {topic: self._participant.subscribers(topic) for topic in self._participant.topics()},
+            node_name,
+            node_namespace,
         )
 
 
-def _types_by_node(endpoints: dict[str, list[Endpoint]], name: str, namespace: str) -> list[tuple[str, list[str]]]:
+def _types_by_node(endpoints: dict[str, list[EndpointInfo]], name: str, namespace: str) -> list[tuple[str, list[str]]]:
     found: list[tuple[str, list[str]]] = []
     for topic in sorted(endpoints):
         types = {end.ros_type for end in endpoints[topic] if (end.node, end.namespace) == (name, namespace)}
@@ -97,7 +101,7 @@ def _types_by_node(endpoints: dict[str, list[Endpoint]], name: str, namespace: s
     return found
 
 
-def _info(endpoint: Endpoint, kind: TopicEndpointTypeEnum) -> TopicEndpointInfo:
+def _info(endpoint: EndpointInfo, kind: TopicEndpointTypeEnum) -> TopicEndpointInfo:
     return TopicEndpointInfo(
         node_name=endpoint.node or "_NODE_NAME_UNKNOWN_",
         node_namespace=endpoint.namespace or "_NODE_NAMESPACE_UNKNOWN_",
@@ -118,7 +122,7 @@ def _profile(qos: WireQoS) -> QoSProfile:
 
 
 def _service_type(ros_type: str) -> str:
-    """The service of a request's or response's type."""
+    """Return the service type of a request or response type."""
     return ros_type.removesuffix("_Request").removesuffix("_Response")
 
 

@@ -1,4 +1,4 @@
-"""The parameters of a node."""
+"""Parameters of nodes."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ _DEFAULT_STEP_TOLERANCE: Final = 1e-9
 
 
 class NodeParameters:
-    """The part of a node that keeps its parameters.
+    """Base class of `Node` with its parameters.
 
     Args:
-        overrides: Values from the command line and the node's maker, which win over declared defaults.
-        allow_undeclared: Parameters need not be declared.
-        declare_overrides: Declare all overrides at once.
+        overrides: Values from the command line and the constructor, which override the declared defaults.
+        allow_undeclared: Whether undeclared parameters may be used.
+        declare_overrides: Whether to declare all overrides.
     """
 
     def __init__(
@@ -51,22 +51,22 @@ class NodeParameters:
         descriptor: ParameterDescriptor | None = None,
         ignore_override: bool = False,
     ) -> Parameter[Any]:
-        """Declares a parameter.
+        """Declare a parameter.
 
         Args:
-            name: Its name.
-            value: Its default, or a Parameter.Type where there is none; None: a parameter of changing type.
-            descriptor: Description, range, whether it is read-only, whether its type may change.
-            ignore_override: The default counts even if the command line says something else.
+            name: Name of the parameter.
+            value: Default value, or a Parameter.Type if there is no default. None: a dynamically typed parameter.
+            descriptor: Description, range, and whether the parameter is read-only or dynamically typed.
+            ignore_override: Whether to use the default even if there is an override.
 
         Returns:
-            The parameter with the value that it has now.
+            The parameter with its current value.
 
         Raises:
-            ParameterAlreadyDeclaredException: It was declared before.
+            ParameterAlreadyDeclaredException: The parameter was declared before.
             InvalidParameterException: The name is empty.
-            InvalidParameterTypeException: The command line's value has another type than the default.
-            InvalidParameterValueException: The value is out of range, or a callback refuses it.
+            InvalidParameterTypeException: The types of the override and the default differ.
+            InvalidParameterValueException: The value is out of range, or a callback rejected it.
         """
         validate_parameter_name(name)
         if descriptor is None:
@@ -95,32 +95,34 @@ class NodeParameters:
         parameters: Sequence[tuple[Any, ...]],
         ignore_override: bool = False,
     ) -> list[Parameter[Any]]:
-        """Declares several parameters.
+        """Declare several parameters.
 
         Args:
-            namespace: Prefix of the names, without the dot; may be empty.
+            namespace: Prefix of the names without the dot, which may be empty.
             parameters: Tuples (name), (name, value) or (name, value, descriptor).
-            ignore_override: The defaults count even if the command line says something else.
+            ignore_override: Whether to use the defaults even if there are overrides.
 
         Raises:
-            TypeError: A tuple has another shape.
-            Exception: As of `declare_parameter`.
+            TypeError: A tuple has another form.
+            Exception: Any exception of `declare_parameter`.
         """
         declared = []
         for item in parameters:
             if not 1 <= len(item) <= 3 or not isinstance(item[0], str):
-                raise TypeError(f"Invalid parameter tuple {item}: (name), (name, value) or (name, value, descriptor)")
+                raise TypeError(
+                    f"Invalid parameter tuple {item}. Expected (name), (name, value) or (name, value, descriptor)."
+                )
             name = f"{namespace}{PARAMETER_SEPARATOR_STRING}{item[0]}" if namespace else item[0]
             value, descriptor = (*item[1:], None, None)[:2]
             declared.append(self.declare_parameter(name, value, descriptor, ignore_override))
         return declared
 
     def undeclare_parameter(self, name: str) -> None:
-        """Forgets a parameter.
+        """Undeclare a parameter.
 
         Raises:
-            ParameterNotDeclaredException: There is none of this name.
-            ParameterImmutableException: It is read-only.
+            ParameterNotDeclaredException: The parameter is not declared.
+            ParameterImmutableException: The parameter is read-only.
         """
         with self.__lock:
             if not self.has_parameter(name):
@@ -131,15 +133,15 @@ class NodeParameters:
             del self.__descriptors[name]
 
     def has_parameter(self, name: str) -> bool:
-        """Whether a parameter was declared."""
+        """Return whether a parameter is declared."""
         return name in self.__parameters
 
     def get_parameter(self, name: str) -> Parameter[Any]:
-        """Returns a parameter.
+        """Return a parameter.
 
         Raises:
-            ParameterNotDeclaredException: There is none of this name, and the node does not allow that.
-            ParameterUninitializedException: It was declared by its type and never got a value.
+            ParameterNotDeclaredException: The parameter is not declared, and undeclared parameters are not allowed.
+            ParameterUninitializedException: The parameter was declared with only a type and has no value yet.
         """
         with self.__lock:
             parameter = self.__parameters.get(name)
@@ -152,21 +154,21 @@ class NodeParameters:
             return parameter
 
     def get_parameters(self, names: list[str]) -> list[Parameter[Any]]:
-        """Returns several parameters; see `get_parameter`."""
+        """Return several parameters; see `get_parameter`."""
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: Parameter[Any] | None = None) -> Parameter[Any]:
-        """Returns a parameter, or the alternative (None: an unset parameter) if it has no value."""
+        """Return a parameter, or the alternative if it has no value. None as the alternative: an unset parameter."""
         parameter = self.__parameters.get(name)
         if parameter is not None and parameter.type_ is not Parameter.Type.NOT_SET:
             return parameter
         return Parameter(name) if alternative_value is None else alternative_value
 
     def get_parameter_type(self, name: str) -> Parameter.Type:
-        """Returns the type of a parameter.
+        """Return the type of a parameter.
 
         Raises:
-            ParameterNotDeclaredException: There is none of this name, and the node does not allow that.
+            ParameterNotDeclaredException: The parameter is not declared, and undeclared parameters are not allowed.
         """
         parameter = self.__parameters.get(name)
         if parameter is None and not self.__allow_undeclared:
@@ -174,7 +176,7 @@ class NodeParameters:
         return Parameter.Type.NOT_SET if parameter is None else parameter.type_
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter[Any]]:
-        """Returns all parameters below a prefix, by the rest of their names."""
+        """Return all parameters with a prefix, by their names without the prefix."""
         if prefix and not prefix.endswith(PARAMETER_SEPARATOR_STRING):
             prefix += PARAMETER_SEPARATOR_STRING
         with self.__lock:
@@ -185,45 +187,45 @@ class NodeParameters:
             }
 
     def set_parameters(self, parameter_list: list[Parameter[Any]]) -> list[SetParametersResult]:
-        """Sets parameters one by one.
+        """Set parameters one after another.
 
         Returns:
-            For each whether it was set, and why not.
+            For each parameter whether it was set, and the reason if it was not.
 
         Raises:
-            ParameterNotDeclaredException: One is not declared, and the node does not allow that.
+            ParameterNotDeclaredException: A parameter is not declared, and undeclared parameters are not allowed.
         """
         with self.__lock:
             self.__check_declared(parameter_list)
             return [self.__apply([parameter]) for parameter in parameter_list]
 
     def set_parameters_atomically(self, parameter_list: list[Parameter[Any]]) -> SetParametersResult:
-        """Sets all parameters or none.
+        """Set all parameters, or no parameter if one is rejected.
 
         Raises:
-            ParameterNotDeclaredException: One is not declared, and the node does not allow that.
+            ParameterNotDeclaredException: A parameter is not declared, and undeclared parameters are not allowed.
         """
         with self.__lock:
             self.__check_declared(parameter_list)
             return self.__apply(parameter_list)
 
     def add_on_set_parameters_callback(self, callback: SetCallback) -> None:
-        """Calls `callback` with a list of parameters before they are set; its SetParametersResult decides."""
+        """Add a callback that receives a list of parameters before they are set and returns a SetParametersResult."""
         self.__callbacks.insert(0, callback)
 
     def remove_on_set_parameters_callback(self, callback: SetCallback) -> None:
-        """Ends the calls.
+        """Remove a callback.
 
         Raises:
-            ValueError: It was not added.
+            ValueError: The callback was not added.
         """
         self.__callbacks.remove(callback)
 
     def describe_parameter(self, name: str) -> ParameterDescriptor:
-        """Returns the descriptor of a parameter.
+        """Return the descriptor of a parameter.
 
         Raises:
-            ParameterNotDeclaredException: There is none of this name, and the node does not allow that.
+            ParameterNotDeclaredException: The parameter is not declared, and undeclared parameters are not allowed.
         """
         descriptor = self.__descriptors.get(name)
         if descriptor is None:
@@ -233,24 +235,24 @@ class NodeParameters:
         return descriptor
 
     def describe_parameters(self, names: list[str]) -> list[ParameterDescriptor]:
-        """Returns the descriptors of several parameters; see `describe_parameter`."""
+        """Return the descriptors of several parameters; see `describe_parameter`."""
         return [self.describe_parameter(name) for name in names]
 
     def set_descriptor(self, name: str, descriptor: ParameterDescriptor, alternative_value: Any = None) -> Any:
-        """Gives a parameter a new descriptor.
+        """Replace the descriptor of a parameter.
 
         Args:
             name: Name of the parameter.
-            descriptor: The descriptor; the parameter keeps its type.
-            alternative_value: A ParameterValue, set if the present value does not fit the descriptor.
+            descriptor: The new descriptor. The type of the parameter does not change.
+            alternative_value: A ParameterValue that is set if the current value is out of the new range.
 
         Returns:
-            The parameter's value as a ParameterValue.
+            The value of the parameter as a ParameterValue.
 
         Raises:
-            ParameterNotDeclaredException: There is none of this name.
-            ParameterImmutableException: It is read-only.
-            InvalidParameterValueException: Neither value fits.
+            ParameterNotDeclaredException: The parameter is not declared.
+            ParameterImmutableException: The parameter is read-only.
+            InvalidParameterValueException: Both values are out of range.
         """
         with self.__lock:
             if not self.has_parameter(name):
@@ -269,7 +271,7 @@ class NodeParameters:
             return parameter.get_parameter_value()
 
     def __initial(self, name: str, value: Any, *, ignore_override: bool) -> tuple[Parameter[Any], Parameter.Type]:
-        """The parameter with its first value, and the type that was declared."""
+        """Return the parameter with its initial value, and its declared type."""
         if isinstance(value, Parameter.Type):
             default, expected = Parameter[Any](name), value
         else:
@@ -319,11 +321,11 @@ class NodeParameters:
         self._on_parameter_set(parameter)
 
     def _on_parameter_set(self, parameter: Parameter[Any]) -> None:
-        """Called after a parameter got a value."""
+        """Handle a new value of a parameter. Subclasses override this."""
 
 
 def _change_fault(parameter: Parameter[Any], descriptor: ParameterDescriptor) -> str:
-    """Why a declared parameter cannot be changed to this; empty if it can."""
+    """Return why a declared parameter must not be changed to this value, or an empty string if it may."""
     if descriptor.read_only:
         return f"Trying to set a read-only parameter: {parameter.name}."
     if not descriptor.dynamic_typing and parameter.type_ != descriptor.type:
@@ -333,7 +335,7 @@ def _change_fault(parameter: Parameter[Any], descriptor: ParameterDescriptor) ->
 
 
 def _range_fault(parameter: Parameter[Any], descriptor: ParameterDescriptor) -> str:
-    """Why a value is out of the descriptor's range; empty if it is not."""
+    """Return why a value is out of the range of the descriptor, or an empty string if it is in range."""
     ranges: list[Any]
     if parameter.type_ is Parameter.Type.INTEGER:
         ranges, tolerance = list(descriptor.integer_range), 0.0

@@ -1,4 +1,4 @@
-"""Where upstream's users import the errors of its native module from."""
+"""Exceptions that rclpy's users import from its native module."""
 
 from rclpy.exceptions import InvalidHandle, RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 

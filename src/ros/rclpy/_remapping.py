@@ -1,4 +1,4 @@
-"""The remapping rules that apply to one node."""
+"""Application of remapping rules to the names of a node."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def remap_node(name: str, namespace: str, rules: list[Remap]) -> tuple[str, str]:
-    """Returns a node's name and namespace after `__node:=` and `__ns:=`; the first rule that fits wins."""
+    """Return a node's name and namespace after `__node:=` and `__ns:=`. The first matching rule applies."""
     new_name = _first(rules, "name", name) or name
     new_namespace = _first(rules, "namespace", new_name) or namespace
     return new_name, new_namespace
@@ -29,18 +29,18 @@ def _first(rules: list[Remap], kind: str, node_name: str) -> str | None:
 
 @dataclass(frozen=True)
 class NameResolver:
-    """Expands and remaps the topic and service names of one node."""
+    """Resolver that expands and remaps the topic and service names of one node."""
 
     node_name: str
     namespace: str
     rules: list[Remap]
 
     def resolve(self, name: str, *, is_service: bool = False, only_expand: bool = False) -> str:
-        """Returns the fully qualified name after the first rule that fits.
+        """Return the fully qualified name, remapped by the first matching rule.
 
         Raises:
-            InvalidTopicNameException: It breaks a rule of topic names.
-            InvalidServiceNameException: It breaks a rule and `is_service` is set.
+            InvalidTopicNameException: The topic name is not valid.
+            InvalidServiceNameException: The service name is not valid.
         """
         full = self._expand(name, is_service=is_service)
         if not only_expand:
@@ -59,7 +59,7 @@ class NameResolver:
     def _remap(self, full: str, *, is_service: bool) -> str:
         kinds = {"any", "service" if is_service else "topic"}
         for rule in self.rules:
-            is_ours = rule.kind in kinds and rule.node in {None, self.node_name}
-            if is_ours and self._expand(rule.match, is_service=is_service) == full:
+            applies = rule.kind in kinds and rule.node in {None, self.node_name}
+            if applies and self._expand(rule.match, is_service=is_service) == full:
                 return self._expand(rule.replacement, is_service=is_service)
         return full

@@ -1,4 +1,4 @@
-"""Who asked, and which question it was: 16 bytes before the payload of requests and replies."""
+"""Request header: 16 bytes before the payload of service requests and replies that identify the request."""
 
 from __future__ import annotations
 
@@ -7,25 +7,25 @@ from typing import Final, NamedTuple
 
 from coframe.messages.encapsulation import byte_order
 
-ENCAPSULATION_SIZE: Final = 4  # CDR's own header, which stays in front
+ENCAPSULATION_SIZE: Final = 4  # The CDR header remains in front of the request header.
 _LITTLE: Final = struct.Struct("<Qq")
 _BIG: Final = struct.Struct(">Qq")
 
 
 class RequestHeader(NamedTuple):
-    """The client's identity and its running number."""
+    """Identifier of the client and the sequence number of its request."""
 
     client: int
     sequence: int
 
 
 def join(header: RequestHeader, cdr: bytes) -> bytes:
-    """Puts the header into a serialised (little-endian) message."""
+    """Return a serialized little-endian message with the header inserted."""
     return cdr[:ENCAPSULATION_SIZE] + _LITTLE.pack(*header) + cdr[ENCAPSULATION_SIZE:]
 
 
 def split(data: bytes) -> tuple[RequestHeader, bytes] | None:
-    """Remove the header from a message; None if the message is too short or not plain CDR."""
+    """Return the header and the message without it, or None if the data are too short or not plain CDR."""
     if len(data) < ENCAPSULATION_SIZE + _LITTLE.size:
         return None
     order = byte_order(data)

@@ -1,6 +1,6 @@
-"""Log messages on the topic /rosout."""
+"""Publisher of log messages on the topic /rosout."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -18,29 +18,29 @@ if TYPE_CHECKING:
 
 
 class RosoutPublisher:
-    """Publishes what a node's logger and its children log.
+    """Publisher of the messages that a node's logger and its child loggers log.
 
     Args:
-        wire: The DDS participant.
-        graph_node: The node in it.
+        participant: The DDS participant.
+        graph_node: The participant's graph entry of the node.
         logger_name: Name of the node's logger.
     """
 
-    def __init__(self, wire: Participant, graph_node: GraphNode, logger_name: str) -> None:
-        self._publisher = wire.publisher(graph_node, "/rosout", Log, qos_profile_rosout_default._to_wire())
+    def __init__(self, participant: Participant, graph_node: GraphNode, logger_name: str) -> None:
+        self._publisher = participant.publisher(graph_node, "/rosout", Log, qos_profile_rosout_default._to_wire())
         self._logger_name = logger_name
-        # Bound once: it is compared by identity when it is taken back.
+        # The bound method is stored, because `close` compares it by identity.
         self._sink = self._publish
         console.sinks[logger_name] = self._sink
 
     def close(self) -> None:
-        """Ends the publishing; of two nodes of one name, the other's goes on."""
+        """Stop publishing. If another node has the same name, that node continues to publish."""
         if console.sinks.get(self._logger_name) is self._sink:
             del console.sinks[self._logger_name]
         self._publisher.close()
 
     def _publish(self, record: Record) -> None:
-        if self._publisher.closed:  # at the end of the process DDS is gone before the last log message
+        if self._publisher.closed:  # When the process exits, DDS is shut down before the last log message.
             return
         message = Log(
             stamp=Time(nanoseconds=record.stamp).to_msg(),

@@ -1,4 +1,4 @@
-"""Values on the command line and in parameter files, typed as ROS types them."""
+"""Parser of parameter values on the command line and in parameter files, with ROS's typing rules."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _ITEM: Final = re.compile(r"""\s*("(?:[^"\\]|\\.)*"|'(?:[^']|'')*'|[^,\]]*?)\s*(
 
 
 def parse_scalar(text: str) -> bool | int | float | str:
-    """Types one plain (unquoted) word."""
+    """Return the typed value of an unquoted word."""
     lower = text.lower()
     if lower in _TRUE | _FALSE:
         return lower in _TRUE
@@ -33,7 +33,7 @@ def parse_scalar(text: str) -> bool | int | float | str:
 
 
 def parse_value(text: str) -> Any:
-    """Types what stands after `name:=`: a word, a quoted text, or a list in square brackets."""
+    """Return the typed value of the text after `name:=`: a word, a quoted string, or a list in square brackets."""
     text = text.strip()
     if text.startswith("[") and text.endswith("]"):
         return list(_parse_items(text[1:-1]))
@@ -60,13 +60,13 @@ def _parse_word(text: str) -> bool | int | float | str:
 
 
 def load_parameters(path: str) -> Iterator[tuple[str, str, Any]]:
-    """Reads a parameter file.
+    """Read a parameter file.
 
     Yields:
-        Pattern of node names, name of the parameter, value.
+        Tuples (pattern of node names, name of the parameter, value).
 
     Raises:
-        RCLInvalidROSArgsError: There is no such file, it is no such YAML, or PyYAML is not installed.
+        RCLInvalidROSArgsError: The file does not exist or is not a parameter file, or PyYAML is not installed.
     """
     try:
         yaml = import_module("yaml")
@@ -80,7 +80,7 @@ def load_parameters(path: str) -> Iterator[tuple[str, str, Any]]:
 
 
 def _python_of(node: Any) -> Any:
-    """A YAML node as Python values; PyYAML's own typing is not ROS's (1e5, .5, ...)."""
+    """Return a YAML node as Python values. PyYAML's own typing differs from ROS's (1e5, .5, ...)."""
     if node is None:
         return {}
     if node.id == "mapping":

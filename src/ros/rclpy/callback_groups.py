@@ -1,4 +1,4 @@
-"""Which callbacks may run at the same time."""
+"""Callback groups, which control which callbacks may run in parallel."""
 
 from __future__ import annotations
 
@@ -8,42 +8,45 @@ from typing import Any
 
 
 class CallbackGroup:
-    """Base of the groups; made by users through its children."""
+    """Base class of the callback groups."""
 
     def __init__(self) -> None:
         self.entities: weakref.WeakSet[Any] = weakref.WeakSet()
 
     def add_entity(self, entity: Any) -> None:
-        """Puts a timer, subscription, ... into the group."""
+        """Add a timer, subscription or other entity to the group."""
         self.entities.add(entity)
 
     def has_entity(self, entity: Any) -> bool:
-        """Whether it is in the group."""
+        """Return whether the entity is in the group."""
         return entity in self.entities
 
     def can_execute(self, entity: Any) -> bool:
-        """Whether its callback may run now."""
-        raise TypeError(f"{type(self).__name__} does not say what may run; use one of its children for {entity}")
+        """Return whether the callback of the entity may run now."""
+        raise TypeError(
+            f"{type(self).__name__} does not implement can_execute(), called for {entity}. "
+            "Use ReentrantCallbackGroup or MutuallyExclusiveCallbackGroup."
+        )
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Claims the right to run its callback; False: not now."""
+        """Reserve the execution of the entity's callback. Return False if it must not run now."""
         return self.can_execute(entity)
 
     def ending_execution(self, entity: Any) -> None:
-        """Gives the right back."""
+        """Release the reservation of `beginning_execution`."""
 
 
 class ReentrantCallbackGroup(CallbackGroup):
-    """Callbacks run in parallel, also the same one with itself."""
+    """Group whose callbacks may run in parallel, including several calls of the same callback."""
 
     def can_execute(self, entity: Any) -> bool:
-        """Always."""
+        """Return True: callbacks may always run."""
         del entity
         return True
 
 
 class MutuallyExclusiveCallbackGroup(CallbackGroup):
-    """One callback of the group at a time."""
+    """Group that runs one callback at a time."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -51,12 +54,12 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
         self._lock = threading.Lock()
 
     def can_execute(self, entity: Any) -> bool:
-        """When no callback of the group is running."""
+        """Return whether no callback of the group is running."""
         assert self.has_entity(entity)
         return self._active_entity is None
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Claims the group; False: another callback has it."""
+        """Reserve the group for a callback. Return False if another callback is running."""
         with self._lock:
             if self._active_entity is not None:
                 return False
@@ -64,7 +67,7 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
             return True
 
     def ending_execution(self, entity: Any) -> None:
-        """Frees the group."""
+        """Release the group."""
         with self._lock:
             assert self._active_entity is entity
             self._active_entity = None

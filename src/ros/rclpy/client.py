@@ -1,6 +1,6 @@
-"""Clients: requests to services."""
+"""Service clients."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from coframe._core import Event
 from coframe.messages import codec
+from coframe.time import MILLISECOND
 from rclpy import _request_header
 from rclpy._request_header import RequestHeader
 from rclpy.constants import S_TO_NS
@@ -30,12 +31,12 @@ if TYPE_CHECKING:
     from rclpy.executors import Executor
     from rclpy.qos import QoSProfile
 
-# The graph tells of endpoints a moment before they match.
-_MATCH_SLICE_NS: Final = 20_000_000
+# Endpoints appear in the graph shortly before they match, so the condition is checked again after this time.
+_MATCH_CHECK_PERIOD_NS: Final = 20 * MILLISECOND
 
 
 class Client:
-    """Sends requests and brings the responses; made by `Node.create_client`."""
+    """Client that sends requests to a service. Create it with `Node.create_client`."""
 
     def __init__(
         self,
@@ -64,20 +65,19 @@ class Client:
         self._pending: dict[int, tuple[Future[Any], Callable[[Any], Any]]] = {}
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
-        """Sends a request and waits for the response.
+        """Send a request and wait for the response.
 
-        Nobody needs to spin the node meanwhile: this works in any callback, as long as another executor runs the
-        service.
+        The node does not need to be spinning. This works in any callback, as long as another executor runs the service.
 
         Args:
             request: The request.
-            timeout_sec: Longest wait in seconds; None: until the response or the context's shutdown.
+            timeout_sec: Maximum time to wait in seconds. None: until the response or the shutdown of the context.
 
         Returns:
-            The response; None when there was none in time.
+            The response, or None if it did not arrive in time.
 
         Raises:
-            TypeError: It is no request of the service's type.
+            TypeError: `request` is not a request of the service's type.
         """
         future = self.call_async(request)
         take_responses_until([self], future, timeout_sec)
@@ -87,24 +87,24 @@ class Client:
         return future.result()
 
     def call_async(self, request: Any) -> Future[Any]:
-        """Sends a request.
+        """Send a request without waiting for the response.
 
         Args:
             request: The request.
 
         Returns:
-            The future of the response.
+            A future of the response.
 
         Raises:
-            TypeError: It is no request of the service's type.
+            TypeError: `request` is not a request of the service's type.
         """
         if not isinstance(request, self.srv_type.Request):
             raise TypeError(f"Expected {self.srv_type.Request}, got {type(request)}")
         return self._send(request, _unchanged)
 
     def _send(self, request: Any, convert: Callable[[Any], Any]) -> Future[Any]:
-        """Sends a request; the future brings what `convert` makes of the response."""
-        self._alive()
+        """Send a request and return a future whose result is `convert(response)`."""
+        self._require_replies()
         future: Future[Any] = Future()
         with self._lock:
             self._sequence += 1
@@ -115,41 +115,41 @@ class Client:
         return future
 
     def remove_pending_request(self, future: Future[Any]) -> None:
-        """Forgets a request; its response will be dropped."""
+        """Remove a pending request. Its response will be dropped."""
         with self._lock:
             for sequence, (pending, _) in list(self._pending.items()):
                 if pending is future:
                     del self._pending[sequence]
 
     def _forget(self, sequence: int) -> None:
-        """A request that was given up is not kept for an answer that may never come."""
+        """Remove the request of a completed or cancelled future, whose response may never arrive."""
         with self._lock:
             self._pending.pop(sequence, None)
 
     def service_is_ready(self) -> bool:
-        """Whether somebody serves it."""
-        replies = self._alive()
+        """Return whether a server of this service is available."""
+        replies = self._require_replies()
         return self._requests.matched > 0 and replies.matched > 0
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
-        """Waits until somebody serves it.
+        """Wait until a server of this service is available.
 
         Args:
-            timeout_sec: Longest wait in seconds; None: as long as it takes.
+            timeout_sec: Maximum time to wait in seconds. None: no limit.
 
         Returns:
-            Whether somebody does; False also when the context was shut down.
+            Whether a server is available. False if the context was shut down.
         """
         return wait_until_ready(self.context, self._participant, self.service_is_ready, timeout_sec)
 
     def destroy(self) -> None:
-        """Ends it; better use `Node.destroy_client`."""
+        """Destroy the client. Prefer `Node.destroy_client`."""
         if self._replies is not None:
             self._replies.close()
             self._requests.close()
             self._replies = None
 
-    def _alive(self) -> WireSubscription:
+    def _require_replies(self) -> WireSubscription:
         if self._replies is None:
             raise InvalidHandle(f"cannot use Client of '{self.srv_name}' because destruction was requested")
         return self._replies
@@ -159,7 +159,7 @@ class Client:
         return 0 if replies is not None and replies.pending() else None
 
     def _take(self) -> Callable[[], Any] | None:
-        """Takes one reply; everybody's replies come by, most of them are other clients'."""
+        """Take one reply. A client receives the replies to all clients and skips those of other clients."""
         replies = self._replies
         for sample in [] if replies is None else replies.take(limit=1):
             parts = _request_header.split(sample.data)
@@ -187,12 +187,12 @@ class Client:
 
 
 def take_responses_until(clients: Sequence[Client], future: Future[Any], timeout_sec: float | None) -> None:
-    """Takes the responses to some clients in this thread, so that nobody needs to spin, until a future is over.
+    """Take the responses of clients in this thread until a future is complete, without an executor.
 
     Args:
-        clients: The clients, of one context.
-        future: What to wait for.
-        timeout_sec: Longest wait in seconds; None: until the context's shutdown.
+        clients: The clients, which belong to one context.
+        future: Future to wait for.
+        timeout_sec: Maximum time to wait in seconds. None: until the shutdown of the context.
     """
     context = clients[0].context
     deadline = _deadline(timeout_sec)
@@ -202,7 +202,7 @@ def take_responses_until(clients: Sequence[Client], future: Future[Any], timeout
         for client in clients:
             client._take_all()
         remaining = None if deadline is None else deadline - time.monotonic_ns()
-        if future._is_over() or (remaining is not None and remaining <= 0):
+        if future._is_complete() or (remaining is not None and remaining <= 0):
             return
         context._wakeup.wait(seen, remaining)
 
@@ -210,27 +210,27 @@ def take_responses_until(clients: Sequence[Client], future: Future[Any], timeout
 def wait_until_ready(
     context: Context, participant: Participant, is_ready: Callable[[], bool], timeout_sec: float | None
 ) -> bool:
-    """Waits until the other side of some endpoints is there.
+    """Wait until the remote side of some endpoints is available.
 
     Args:
         context: Its shutdown ends the wait.
         participant: Tells when the graph changes.
         is_ready: Whether the other side is there.
-        timeout_sec: Longest wait in seconds; None: as long as it takes.
+        timeout_sec: Maximum time to wait in seconds. None: no limit.
 
     Returns:
-        Whether it is; False also when the context was shut down.
+        Whether the remote side is available. False if the context was shut down.
     """
     deadline = _deadline(timeout_sec)
     event = Event()
     participant.watch_graph(event)
     try:
-        with context._setting_at_shutdown(event):
+        with context._set_on_shutdown(event):
             while context.ok() and not is_ready():
-                remaining = _MATCH_SLICE_NS if deadline is None else deadline - time.monotonic_ns()
+                remaining = _MATCH_CHECK_PERIOD_NS if deadline is None else deadline - time.monotonic_ns()
                 if remaining <= 0:
                     return False
-                event.wait(min(remaining, _MATCH_SLICE_NS))
+                event.wait(min(remaining, _MATCH_CHECK_PERIOD_NS))
     finally:
         participant.unwatch_graph(event)
     return context.ok()

@@ -1,6 +1,6 @@
-"""Clocks: the system's, the steady one, and ROS time, which a simulator may drive."""
+"""Clocks: system time, steady time, and ROS time, which a simulator can set."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ __all__ = ["Clock", "ClockChange", "ClockType", "JumpHandle", "JumpThreshold", "
 
 
 class ClockChange(IntEnum):
-    """What happened to the source of ROS time at a jump."""
+    """Change of the source of ROS time at a time jump."""
 
     ROS_TIME_NO_CHANGE = 1
     ROS_TIME_ACTIVATED = 2
@@ -38,15 +38,15 @@ class ClockChange(IntEnum):
 
 
 class JumpThreshold:
-    """Which jumps in time a callback wants to hear of.
+    """Threshold of the time jumps that a callback is called for.
 
     Args:
-        min_forward: Smallest jump ahead, positive; None: none.
-        min_backward: Smallest jump back, negative; None: none.
-        on_clock_change: Also when ROS time changes between the system's and the simulator's.
+        min_forward: Smallest forward jump, a positive duration. None disables forward jumps.
+        min_backward: Smallest backward jump, a negative duration. None disables backward jumps.
+        on_clock_change: Whether to call when ROS time switches between system time and simulated time.
 
     Raises:
-        ValueError: A sign is wrong, or no jump at all is asked for.
+        ValueError: A duration has the wrong sign, or all thresholds are disabled.
     """
 
     def __init__(
@@ -73,11 +73,11 @@ class JumpThreshold:
 
 
 class TimeJump:
-    """A jump in time: what changed, and by how much.
+    """A time jump.
 
     Args:
-        clock_change: Whether the source of time changed.
-        delta: New time minus old time.
+        clock_change: Change of the time source.
+        delta: The new time minus the old time.
     """
 
     def __init__(self, clock_change: ClockChange, delta: Duration) -> None:
@@ -86,17 +86,17 @@ class TimeJump:
 
     @property
     def clock_change(self) -> ClockChange:
-        """Whether the source of time changed."""
+        """Change of the time source."""
         return self._clock_change
 
     @property
     def delta(self) -> Duration:
-        """New time minus old time."""
+        """The new time minus the old time."""
         return self._delta
 
 
 class JumpHandle:
-    """Callbacks around jumps of a clock, until `unregister()`; also a context manager."""
+    """Registration of callbacks for the time jumps of a clock, until `unregister()`; also a context manager."""
 
     def __init__(
         self,
@@ -115,7 +115,7 @@ class JumpHandle:
         clock._jump_handles.append(self)
 
     def unregister(self) -> None:
-        """Ends the callbacks."""
+        """Unregister the callbacks."""
         if self._clock is not None:
             self._clock._jump_handles.remove(self)
             self._clock = None
@@ -128,17 +128,17 @@ class JumpHandle:
 
 
 class Clock:
-    """A clock of one kind.
+    """A clock of one type.
 
     Args:
-        clock_type: The kind; ROS_TIME gives a `ROSClock`.
+        clock_type: Type of the clock. ROS_TIME creates a `ROSClock`.
 
     Raises:
-        TypeError: `clock_type` is no ClockType.
+        TypeError: `clock_type` is not a ClockType.
     """
 
     def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> Self:
-        """Makes a ROSClock where ROS time is asked for."""
+        """Create a ROSClock if `clock_type` is ROS_TIME."""
         kind = ROSClock if clock_type is ClockType.ROS_TIME else cls
         return super().__new__(kind)  # type: ignore[return-value]
 
@@ -150,14 +150,14 @@ class Clock:
 
     @property
     def clock_type(self) -> ClockType:
-        """The kind of this clock."""
+        """The type of this clock."""
         return self._clock_type
 
     def __repr__(self) -> str:
         return f"Clock(clock_type={self.clock_type.name})"
 
     def now(self) -> Time:
-        """Returns the time of this clock."""
+        """Return the current time of this clock."""
         return Time(nanoseconds=self._now_ns(), clock_type=self.clock_type)
 
     def create_jump_callback(
@@ -167,12 +167,12 @@ class Clock:
         pre_callback: Callable[[], object] | None = None,
         post_callback: Callable[[TimeJump], object] | None = None,
     ) -> JumpHandle:
-        """Calls back before and after jumps in time.
+        """Register callbacks for time jumps.
 
         Args:
-            threshold: Which jumps.
-            pre_callback: Called without arguments before the jump.
-            post_callback: Called with a TimeJump after it.
+            threshold: The jumps to call back for.
+            pre_callback: Function called without arguments before the jump.
+            post_callback: Function called with a TimeJump after the jump.
 
         Raises:
             ValueError: Neither callback is callable.
@@ -180,18 +180,18 @@ class Clock:
         return JumpHandle(clock=self, threshold=threshold, pre_callback=pre_callback, post_callback=post_callback)
 
     def sleep_until(self, until: Time, context: Context | None = None) -> bool:
-        """Sleeps until a time of this clock.
+        """Sleep until this clock reaches a time.
 
         Args:
-            until: When to wake up.
-            context: Its shutdown ends the sleep; None: the default context.
+            until: Time at which the sleep ends.
+            context: Context whose shutdown interrupts the sleep. None: the default context.
 
         Returns:
-            True when the time has come; False when the context shut down or the source of time changed.
+            True if the time was reached; False if the context was shut down or the time source changed.
 
         Raises:
-            ValueError: `until` is a time of another kind of clock.
-            NotInitializedException: The context is not initialised.
+            ValueError: `until` is a time of another clock type.
+            NotInitializedException: The context is not initialized.
         """
         if until.clock_type != self.clock_type:
             raise ValueError("until's clock type does not match this clock's type")
@@ -201,7 +201,7 @@ class Clock:
         return self._sleep(until, context)
 
     def sleep_for(self, rel_time: Duration, context: Context | None = None) -> bool:
-        """Sleeps for a length of time on this clock; otherwise as `sleep_until`."""
+        """Sleep for a duration of this clock; otherwise like `sleep_until`."""
         return self.sleep_until(self.now() + rel_time, context)
 
     def _sleep(self, until: Time, context: Context) -> bool:
@@ -214,7 +214,7 @@ class Clock:
             event.set()
 
         any_progress = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)
-        with context._setting_at_shutdown(event), self.create_jump_callback(any_progress, post_callback=on_jump):
+        with context._set_on_shutdown(event), self.create_jump_callback(any_progress, post_callback=on_jump):
             while context.ok() and not source_changes:
                 remaining = until.nanoseconds - self._now_ns()
                 if remaining <= 0:
@@ -224,7 +224,7 @@ class Clock:
 
     @property
     def _is_simulated(self) -> bool:
-        """Whether time stands still between messages of a simulator."""
+        """Whether a simulator sets the time, so that it advances only with messages."""
         return False
 
     def _now_ns(self) -> int:
@@ -232,7 +232,7 @@ class Clock:
 
 
 class ROSClock(Clock):
-    """ROS time: the system's time until a simulator drives it."""
+    """Clock of ROS time: system time, unless a simulator sets the time."""
 
     def __init__(self, *, clock_type: ClockType = ClockType.ROS_TIME) -> None:
         super().__init__(clock_type=clock_type)
@@ -242,7 +242,7 @@ class ROSClock(Clock):
 
     @property
     def ros_time_is_active(self) -> bool:
-        """Whether a simulator drives this clock."""
+        """Whether a simulator sets the time of this clock."""
         return self._is_active
 
     def _set_ros_time_is_active(self, enabled: bool) -> None:
@@ -261,10 +261,10 @@ class ROSClock(Clock):
             self._jump(jump, activate)
 
     def set_ros_time_override(self, time: Time) -> None:
-        """Sets the simulated time; it counts while ROS time is active.
+        """Set the simulated time, which applies while ROS time is active.
 
         Raises:
-            TypeError: `time` is no Time.
+            TypeError: `time` is not a Time.
         """
         if not isinstance(time, Time):
             raise TypeError(f"Time must be specified as rclpy.time.Time. Received type: {type(time)}")
@@ -279,12 +279,12 @@ class ROSClock(Clock):
             delta = Duration(nanoseconds=time.nanoseconds - self._override_ns)
             self._jump(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta), override)
 
-    def _jump(self, jump: TimeJump, make_it: Callable[[], None]) -> None:
+    def _jump(self, jump: TimeJump, apply: Callable[[], None]) -> None:
         handles = [handle for handle in self._jump_handles if handle._threshold._is_met_by(jump)]
         for handle in handles:
             if handle._pre_callback is not None:
                 handle._pre_callback()
-        make_it()
+        apply()
         for handle in handles:
             if handle._post_callback is not None:
                 handle._post_callback(jump)

@@ -1,3 +1,5 @@
-"""Unit factors."""
+"""Unit conversion factors."""
 
-S_TO_NS = 1000 * 1000 * 1000
+from coframe.time import SECOND
+
+S_TO_NS = SECOND

@@ -1,6 +1,6 @@
-"""What a process shares between init and shutdown: arguments, the domain, and the end."""
+"""Contexts: the ROS arguments, the DDS domain and the shutdown state that nodes share."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ if TYPE_CHECKING:
     from coframe._core import Event
     from coframe.wire import Participant
 
-# Plain, so that a signal handler may walk through it at any moment.
+# A plain list, so that a signal handler can iterate over it at any time.
 _running: list[Context] = []
 
 
 class Context:
-    """The life between init and shutdown; also a context manager that does both."""
+    """State between init and shutdown. As a context manager, it initializes and shuts down."""
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
@@ -39,7 +39,7 @@ class Context:
         self._domain_id = 0
         self._is_initialized = False
         self._is_ok = False
-        self._was_ended_by_signal = False
+        self._was_shut_down_by_signal = False
         self._shutdown_callbacks: list[Callable[[], Callable[[], object] | None]] = []
         self._events: set[Event] = set()
         self._wakeup = Wakeup()
@@ -51,15 +51,15 @@ class Context:
         initialize_logging: bool = True,
         domain_id: int | None = None,
     ) -> None:
-        """Starts the context.
+        """Initialize the context.
 
         Args:
-            args: Command line with `--ros-args`; None: `sys.argv`.
-            initialize_logging: Whether `--log-level` and the like apply.
-            domain_id: DDS domain; None: ROS_DOMAIN_ID or 0.
+            args: Command line with `--ros-args`. None: `sys.argv`.
+            initialize_logging: Whether to apply logging options such as `--log-level`.
+            domain_id: DDS domain. None: ROS_DOMAIN_ID or 0.
 
         Raises:
-            RuntimeError: It was started before, or the domain is negative.
+            RuntimeError: The context was initialized before, or the domain is negative.
             RCLInvalidROSArgsError: The arguments are malformed.
         """
         with self._lock:
@@ -75,33 +75,33 @@ class Context:
             _running.append(self)
 
     def ok(self) -> bool:
-        """Whether it is started and not shut down."""
+        """Return whether the context is initialized and not shut down."""
         return self._is_ok
 
     def get_domain_id(self) -> int:
-        """Returns the DDS domain."""
+        """Return the DDS domain of the context."""
         return self._domain_id
 
     def shutdown(self) -> None:
-        """Ends the context: what spins or sleeps in it returns.
+        """Shut down the context. Calls that spin or sleep in it return.
 
         Raises:
-            RuntimeError: It was never started, or is shut down already (by anything but a signal).
+            RuntimeError: The context was never initialized, or was shut down before (except by a signal).
         """
         if not self._is_initialized:
             raise RuntimeError("Context must be initialized before it can be shutdown")
-        if not self._end() and not self._was_ended_by_signal:
+        if not self._shut_down() and not self._was_shut_down_by_signal:
             raise RuntimeError("failed to shutdown: shutdown was already called on the given context")
 
     def try_shutdown(self) -> None:
-        """Ends the context unless that happened before."""
-        self._end()
+        """Shut down the context unless it is shut down already."""
+        self._shut_down()
 
     def on_shutdown(self, callback: Callable[[], object]) -> None:
-        """Calls `callback` at the shutdown; of a method, only while its object lives.
+        """Register a callback for the shutdown. Of a method, only a weak reference is kept.
 
         Raises:
-            TypeError: It is not callable.
+            TypeError: `callback` is not callable.
         """
         if not callable(callback):
             raise TypeError(f"callback should be a callable, got {type(callback)}")
@@ -123,13 +123,16 @@ class Context:
     ) -> None:
         self.try_shutdown()
 
-    def _end(self, *, by_signal: bool = False) -> bool:
-        """Shuts down; takes no lock that the interrupted code could hold. False when it was done before."""
+    def _shut_down(self, *, by_signal: bool = False) -> bool:
+        """Shut down the context. Return False if it is shut down already.
+
+        A signal handler may call this, so it acquires no lock that the interrupted code could hold.
+        """
         with self._lock:
             if not self._is_ok:
                 return False
             self._is_ok = False
-            self._was_ended_by_signal = by_signal
+            self._was_shut_down_by_signal = by_signal
             _running.remove(self)
         self._wakeup.set()
         for event in tuple(self._events):
@@ -141,8 +144,8 @@ class Context:
         return True
 
     @contextmanager
-    def _setting_at_shutdown(self, event: Event) -> Iterator[None]:
-        """Within the block, a shutdown sets the event."""
+    def _set_on_shutdown(self, event: Event) -> Iterator[None]:
+        """Set the event if the context is shut down within the block."""
         self._events.add(event)
         if not self._is_ok:
             event.set()
@@ -151,35 +154,35 @@ class Context:
         finally:
             self._events.discard(event)
 
-    def _join_graph(self) -> Participant:
-        """Returns the DDS participant; the caller closes it."""
-        from coframe.wire import Participant  # noqa: PLC0415 - time, clocks and futures work without DDS
+    def _get_participant(self) -> Participant:
+        """Return the DDS participant. The caller closes it."""
+        from coframe.wire import Participant  # noqa: PLC0415 - Times, clocks and futures do not need DDS.
 
         participant = Participant.get(self._domain_id)
-        # Exit handlers run last in, first out: executors must have stopped before DDS ends.
-        atexit.unregister(_end_at_exit)
-        atexit.register(_end_at_exit)
+        # Exit handlers run in reverse order of registration, and executors must stop before DDS shuts down.
+        atexit.unregister(_shut_down_at_exit)
+        atexit.register(_shut_down_at_exit)
         return participant
 
 
 def _default_domain_id() -> int:
     text = os.environ.get("ROS_DOMAIN_ID", "").strip() or "0"
     if not text.isdecimal():
-        raise RuntimeError(f"ROS_DOMAIN_ID is {text!r}, which is no domain: set it to a number from 0 to 232")
+        raise RuntimeError(f"ROS_DOMAIN_ID is {text!r}, which is not a domain. Set it to a number from 0 to 232.")
     return int(text)
 
 
-def _end_by_signal() -> None:
+def _shut_down_by_signal() -> None:
     for context in tuple(_running):
-        context._end(by_signal=True)
+        context._shut_down(by_signal=True)
 
 
-def _end_at_exit() -> None:
+def _shut_down_at_exit() -> None:
     contexts = tuple(_running)
     for context in contexts:
-        context._end()
+        context._shut_down()
     for context in contexts:
         context._wakeup.wait_until_idle()
 
 
-atexit.register(_end_at_exit)
+atexit.register(_shut_down_at_exit)

@@ -1,4 +1,4 @@
-"""Lengths of time in nanoseconds."""
+"""Durations in nanoseconds."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ INT64_LIMIT: Final = 2**63
 
 
 class Duration:
-    """A length of time, negative ones included.
+    """A duration, which may be negative.
 
     Args:
-        seconds: Seconds; a float is cut to whole nanoseconds.
+        seconds: Seconds. A float is truncated to whole nanoseconds.
         nanoseconds: Nanoseconds, added to the seconds.
 
     Raises:
@@ -24,14 +24,14 @@ class Duration:
     __slots__ = ("_nanoseconds",)
 
     def __init__(self, *, seconds: float = 0, nanoseconds: float = 0) -> None:
-        total = int(number(seconds) * S_TO_NS) + int(number(nanoseconds))
+        total = int(require_number(seconds) * S_TO_NS) + int(require_number(nanoseconds))
         if not -INT64_LIMIT <= total < INT64_LIMIT:
             raise OverflowError("Total nanoseconds value is too large to store in C duration.")
         self._nanoseconds = total
 
     @property
     def nanoseconds(self) -> int:
-        """The whole length in nanoseconds."""
+        """The duration in nanoseconds."""
         return self._nanoseconds
 
     def __repr__(self) -> str:
@@ -40,7 +40,7 @@ class Duration:
     def __str__(self) -> str:
         return "Infinite" if self.nanoseconds == INT64_LIMIT - 1 else f"{self.nanoseconds} nanoseconds"
 
-    # Comparing with a number raises: `Duration(seconds=5) == 5` would silently be False.
+    # A comparison with a number raises an error, because `Duration(seconds=5) == 5` would silently be False.
     def __eq__(self, other: object) -> bool:
         if isinstance(other, Duration):
             return self.nanoseconds == other.nanoseconds
@@ -72,30 +72,30 @@ class Duration:
         return NotImplemented
 
     def to_msg(self) -> builtin_interfaces.msg.Duration:
-        """Returns a `builtin_interfaces/Duration`."""
+        """Return the duration as a `builtin_interfaces/Duration`."""
         seconds, nanoseconds = divmod(self.nanoseconds, S_TO_NS)
         return builtin_interfaces.msg.Duration(sec=seconds, nanosec=nanoseconds)
 
     @classmethod
     def from_msg(cls, msg: builtin_interfaces.msg.Duration) -> Duration:
-        """Makes a Duration of a message.
+        """Create a Duration from a message.
 
         Raises:
-            TypeError: `msg` is no `builtin_interfaces/Duration`.
+            TypeError: `msg` is not a `builtin_interfaces/Duration`.
         """
         if not isinstance(msg, builtin_interfaces.msg.Duration):
             raise TypeError("Must pass a builtin_interfaces.msg.Duration object")
         return cls(seconds=msg.sec, nanoseconds=msg.nanosec)
 
 
-def number(value: float) -> float:
-    """Returns a number as it is.
+def require_number(value: float) -> float:
+    """Return `value` unchanged if it is not a string.
 
     Raises:
-        TypeError: It is a text, of which `* S_TO_NS` would make a thousand million copies.
+        TypeError: `value` is a string. Multiplying it by `S_TO_NS` would repeat it a billion times.
     """
     if isinstance(value, str):
-        raise TypeError(f"expected a number, got the text {value!r}: float(...) reads one")
+        raise TypeError(f"Expected a number, got the string {value!r}. Convert it with float(...) first.")
     return value
 
 

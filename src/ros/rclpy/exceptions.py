@@ -1,13 +1,13 @@
-"""What rclpy raises.
+"""Exceptions raised by rclpy.
 
 Exception
-├── NotInitializedException            a context is used before rclpy.init() or after its shutdown
-├── NoTypeSupportImportedException     something that is no ROS message type was given as one
-├── RCLError                           the ROS client library could not do what was asked (a RuntimeError)
+├── NotInitializedException            a context was used before rclpy.init() or after its shutdown
+├── NoTypeSupportImportedException     a type is not a ROS message, service or action type
+├── RCLError                           an operation of the ROS client library failed (a RuntimeError)
 │   └── RCLInvalidROSArgsError         arguments after --ros-args are malformed
-│       └── UnknownROSArgsError        ... or not known
-├── InvalidHandle                      a destroyed node, publisher, ... is used
-├── NameValidationException            a name breaks the rules; shows where
+│       └── UnknownROSArgsError        arguments after --ros-args are unknown
+├── InvalidHandle                      a destroyed node, publisher or other entity was used
+├── NameValidationException            a name is not valid
 │   ├── InvalidNamespaceException
 │   ├── InvalidNodeNameException
 │   ├── InvalidTopicNameException
@@ -20,7 +20,7 @@ Exception
 │   │   └── InvalidParameterTypeException
 │   ├── ParameterImmutableException
 │   └── ParameterUninitializedException
-└── ROSInterruptException              a sleep was cut short by the shutdown
+└── ROSInterruptException              a shutdown interrupted a sleep
 """
 
 from __future__ import annotations
@@ -34,18 +34,18 @@ if TYPE_CHECKING:
 
 
 class NotInitializedException(Exception):
-    """A context is used before `rclpy.init()` or after its shutdown."""
+    """A context was used before `rclpy.init()` or after its shutdown."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("rclpy.init() has not been called", *args)
 
 
 class NoTypeSupportImportedException(Exception):
-    """Something that is no ROS message or service type was given as one."""
+    """A type is not a ROS message, service or action type."""
 
 
 class RCLError(RuntimeError):
-    """The ROS client library could not do what was asked."""
+    """An operation of the ROS client library failed."""
 
 
 class RCLInvalidROSArgsError(RCLError):
@@ -53,21 +53,21 @@ class RCLInvalidROSArgsError(RCLError):
 
 
 class UnknownROSArgsError(RCLInvalidROSArgsError):
-    """Arguments after `--ros-args` are not known."""
+    """Arguments after `--ros-args` are unknown."""
 
 
 class InvalidHandle(Exception):
-    """A destroyed node, publisher, subscription, ... is used."""
+    """A destroyed node, publisher, subscription or other entity was used."""
 
 
 class NameValidationException(Exception):
-    """A name breaks ROS's rules.
+    """A name is not valid.
 
     Args:
-        name_type: What the name is for, for example "topic name".
-        name: The name.
-        error_msg: The rule it breaks.
-        invalid_index: Position of the offending character.
+        name_type: Type of the name, for example "topic name".
+        name: The invalid name.
+        error_msg: The rule that the name violates.
+        invalid_index: Index of the offending character.
     """
 
     def __init__(self, name_type: str, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
@@ -83,39 +83,39 @@ class NameValidationException(Exception):
 
 
 class InvalidNamespaceException(NameValidationException):
-    """A namespace breaks ROS's rules."""
+    """A namespace is not valid."""
 
     def __init__(self, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
         super().__init__("namespace", name, error_msg, invalid_index, *args)
 
 
 class InvalidNodeNameException(NameValidationException):
-    """A node name breaks ROS's rules."""
+    """A node name is not valid."""
 
     def __init__(self, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
         super().__init__("node name", name, error_msg, invalid_index, *args)
 
 
 class InvalidTopicNameException(NameValidationException):
-    """A topic name breaks ROS's rules."""
+    """A topic name is not valid."""
 
     def __init__(self, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
         super().__init__("topic name", name, error_msg, invalid_index, *args)
 
 
 class InvalidServiceNameException(NameValidationException):
-    """A service name breaks ROS's rules."""
+    """A service name is not valid."""
 
     def __init__(self, name: str, error_msg: str, invalid_index: int, *args: object) -> None:
         super().__init__("service name", name, error_msg, invalid_index, *args)
 
 
 class ParameterException(Exception):
-    """Base of all that is wrong with a parameter.
+    """Base class of the errors about parameters.
 
     Args:
-        error_msg: The text.
-        parameters: Names of the parameters concerned.
+        error_msg: Text of the error.
+        parameters: Name or names of the parameters.
     """
 
     def __init__(self, error_msg: str, parameters: str | Iterable[str], *args: object) -> None:
@@ -125,33 +125,33 @@ class ParameterException(Exception):
 
 
 class ParameterNotDeclaredException(ParameterException):
-    """A parameter is used that nobody has declared."""
+    """An undeclared parameter was used."""
 
     def __init__(self, parameters: str | Iterable[str], *args: object) -> None:
         super().__init__("Invalid access to undeclared parameter(s)", parameters, *args)
 
 
 class ParameterAlreadyDeclaredException(ParameterException):
-    """A parameter is declared a second time."""
+    """A parameter was declared a second time."""
 
     def __init__(self, parameters: str | Iterable[str], *args: object) -> None:
         super().__init__("Parameter(s) already declared", parameters, *args)
 
 
 class InvalidParameterException(ParameterException):
-    """A parameter name breaks the rules."""
+    """A parameter name is not valid."""
 
     def __init__(self, parameter: str, *args: object) -> None:
         super().__init__("Invalid parameter name", parameter, *args)
 
 
 class InvalidParameterValueException(ParameterException):
-    """A value is refused by the parameter's range or by a callback.
+    """A value was rejected by the parameter's range or by a callback.
 
     Args:
         parameter: Name of the parameter.
-        value: The refused value.
-        reason: Why.
+        value: The rejected value.
+        reason: The reason for the rejection.
     """
 
     def __init__(self, parameter: str, value: object, reason: str = "", *args: object) -> None:
@@ -164,10 +164,10 @@ class InvalidParameterValueException(ParameterException):
 
 
 class InvalidParameterTypeException(InvalidParameterValueException):
-    """A value has another type than the parameter was declared with.
+    """The type of a value differs from the declared type of the parameter.
 
     Args:
-        desired_parameter: The parameter as somebody tries to set it.
+        desired_parameter: The parameter with the value that was to be set.
         expected_type: Name of the declared type.
     """
 
@@ -180,21 +180,21 @@ class InvalidParameterTypeException(InvalidParameterValueException):
 
 
 class ParameterImmutableException(ParameterException):
-    """A read-only parameter is to be changed."""
+    """A change of a read-only parameter was attempted."""
 
     def __init__(self, parameter: str, *args: object) -> None:
         super().__init__("Attempted to modify read-only parameter", parameter, *args)
 
 
 class ParameterUninitializedException(ParameterException):
-    """A parameter was declared by type only and has no value yet."""
+    """A parameter that was declared with only a type has no value yet."""
 
     def __init__(self, parameter: str, *args: object) -> None:
         super().__init__("The parameter is not initialized", parameter, *args)
 
 
 class ROSInterruptException(Exception):
-    """A sleep was cut short by the shutdown."""
+    """A shutdown interrupted a sleep."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("rclpy.shutdown() has been called", *args)

@@ -1,6 +1,6 @@
-"""Executors: they wait until timers, messages, ... are due and run their callbacks."""
+"""Executors, which wait until timers, subscriptions and other waitables are ready and run their callbacks."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from collections import deque
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
+from coframe.time import MILLISECOND
 from rclpy.constants import S_TO_NS
 from rclpy.exceptions import NotInitializedException, RCLError, ROSInterruptException
 from rclpy.task import Future, Task
@@ -30,14 +31,14 @@ if TYPE_CHECKING:
     from rclpy.context import Context
     from rclpy.node import Node
 
-# How often `spin_once` looks for what comes in silently: nothing wakes it for that.
-_SILENT_INPUT_PERIOD_NS: Final = 5_000_000
-# What a callback meets when the context is shut down under it.
-_ERRORS_OF_THE_END: Final = (NotInitializedException, RCLError, ROSInterruptException)
+# Period at which `spin_once` checks polled subscriptions, which do not set the wakeup.
+_POLL_PERIOD_NS: Final = 5 * MILLISECOND
+# Errors that a callback may raise when the context is shut down while it runs.
+_SHUTDOWN_ERRORS: Final = (NotInitializedException, RCLError, ROSInterruptException)
 
 
 class TimeoutException(Exception):
-    """Nothing became ready in time."""
+    """No callback became ready in time."""
 
 
 class ShutdownException(Exception):
@@ -45,47 +46,50 @@ class ShutdownException(Exception):
 
 
 class ExternalShutdownException(Exception):
-    """The context was shut down, by a signal or by `rclpy.shutdown()` elsewhere."""
+    """The context was shut down by a signal or by `rclpy.shutdown()`."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("Execution has been interrupted by shutdown" if not args else args[0], *args[1:])
 
 
 class ConditionReachedException(Exception):
-    """What a spin was waiting for has happened."""
+    """The condition that ends a wait is met."""
 
 
-class Executable(Protocol):
-    """A timer, subscription, ... as an executor sees it."""
+class Waitable(Protocol):
+    """Interface of the entities that an executor waits for: timers, subscriptions, guard conditions, ..."""
 
     callback_group: CallbackGroup
 
     def _remaining_ns(self) -> int | None:
-        """Nanoseconds until it is due, 0 or less when it is; None: not before the context's wakeup is set."""
+        """Return the nanoseconds until the entity is ready, 0 or less if it is ready now.
+
+        None means that it is not ready before the context's wakeup is set.
+        """
 
     def _take(self) -> Callable[[], Any] | None:
-        """Takes what is due away and returns the call to make; None if another thread was faster."""
+        """Take one ready item and return the call to make, or None if another thread took it first."""
 
 
-class SilentInput(Protocol):
-    """What comes in without a callback, such as transforms, which go into a buffer natively.
+class PolledSubscription(Protocol):
+    """Interface of subscriptions without Python callbacks, such as those that write transforms into a native buffer.
 
-    `spin()` lets it. `spin_once()` returns for each message, as it would for one with a callback: programs loop over
-    it and look at their buffer in between.
+    `spin()` ignores them. `spin_once()` returns once for each message, as for a subscription with a callback, because
+    programs call it in a loop and look up transforms in between.
     """
 
     def _take_one(self) -> bool:
-        """Whether a message has come in that no `spin_once` has returned for; the next call tells of the next one."""
+        """Return whether a message arrived that no `spin_once` has returned for yet, and count it as handled."""
 
 
-Work = tuple["Task[Any]", "Executable | None", "Node | None"]
+Work = tuple["Task[Any]", "Waitable | None", "Node | None"]
 
 
 class Executor(ABC):
-    """Waits for the nodes added to it; its children say in which thread callbacks run.
+    """Base class of the executors. Subclasses define in which threads callbacks run.
 
     Args:
-        context: Ends the spinning at its shutdown; None: the default context.
+        context: Context whose shutdown ends the spinning. None: the default context.
     """
 
     def __init__(self, *, context: Context | None = None) -> None:
@@ -93,9 +97,9 @@ class Executor(ABC):
         self._nodes: list[Node] = []
         self._lock = threading.RLock()
         self._tasks: deque[Task[Any]] = deque()
-        self._due: deque[tuple[Task[Any] | Executable, Node | None]] = deque()
-        self._turns: weakref.WeakKeyDictionary[Executable, int] = weakref.WeakKeyDictionary()
-        self._turn = 0
+        self._ready: deque[tuple[Task[Any] | Waitable, Node | None]] = deque()
+        self._run_order: weakref.WeakKeyDictionary[Waitable, int] = weakref.WeakKeyDictionary()
+        self._run_count = 0
         self._is_shutdown = False
         self._is_spinning = False
         self._running_in: list[int] = []
@@ -112,28 +116,28 @@ class Executor(ABC):
         *args: Any,
         **kwargs: Any,
     ) -> Task[Any]:
-        """Runs a function or coroutine in this executor.
+        """Schedule a function or coroutine in this executor.
 
         Args:
-            callback: The function, coroutine function or coroutine.
-            *args: Its positional arguments.
-            **kwargs: Its keyword arguments.
+            callback: Function, coroutine function or coroutine to run.
+            *args: Positional arguments of the function.
+            **kwargs: Keyword arguments of the function.
 
         Returns:
-            The future of its result.
+            The task, which is the future of the result.
         """
         task: Task[Any] = Task(callback, args, kwargs, executor=self)
         self._schedule(task)
         return task
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """Stops spinning and waits for callbacks that are running.
+        """Stop spinning and wait for the running callbacks.
 
         Args:
-            timeout_sec: Longest wait in seconds; None: as long as it takes.
+            timeout_sec: Maximum time to wait in seconds. None: no limit.
 
         Returns:
-            Whether all callbacks ended in time.
+            Whether all callbacks finished in time.
         """
         self._is_shutdown = True
         self.wake()
@@ -145,21 +149,21 @@ class Executor(ABC):
         return has_ended
 
     def add_node(self, node: Node) -> bool:
-        """Adds a node; its callbacks run while this executor spins.
+        """Add a node, whose callbacks run while this executor spins.
 
         Returns:
-            Whether it was not there before.
+            Whether the node was added, False if it was added before.
 
         Raises:
             RuntimeError: The node belongs to another context.
         """
         if node.context is not self._context:
             reason = (
-                "and the executor are of different contexts: make both with the same context="
+                "and the executor belong to different contexts. Create both with the same context."
                 if node.context.ok()
-                else "has ended with rclpy.shutdown(): make a new one after rclpy.init()"
+                else "belongs to a context that was shut down. Create a new node after rclpy.init()."
             )
-            raise RuntimeError(f"node '{node.get_name()}' {reason}")
+            raise RuntimeError(f"Node '{node.get_name()}' {reason}")
         with self._lock:
             if node in self._nodes:
                 return False
@@ -169,7 +173,7 @@ class Executor(ABC):
         return True
 
     def remove_node(self, node: Node) -> None:
-        """Removes a node; one that is not there is no error."""
+        """Remove a node. A node that was not added is ignored."""
         with self._lock:
             if node not in self._nodes:
                 return
@@ -179,16 +183,16 @@ class Executor(ABC):
         self.wake()
 
     def get_nodes(self) -> list[Node]:
-        """Returns the nodes added to it."""
+        """Return the nodes of this executor."""
         with self._lock:
             return list(self._nodes)
 
     def wake(self) -> None:
-        """Makes it look for work, or at its condition, again."""
+        """Wake the executor, so that it checks for work and its condition again."""
         self._context._wakeup.set()
 
     def spin(self) -> None:
-        """Runs callbacks until the context or the executor is shut down."""
+        """Run callbacks until the context or the executor is shut down."""
         self._is_spinning = True
         try:
             while self._context.ok() and not self._is_shutdown:
@@ -199,41 +203,41 @@ class Executor(ABC):
             self._is_spinning = False
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
-        """Waits for one callback and runs it.
+        """Wait for one callback and run it.
 
         Args:
-            timeout_sec: Longest wait in seconds; None or negative: as long as it takes.
+            timeout_sec: Maximum time to wait in seconds. None or negative: no limit.
 
         Raises:
             ExternalShutdownException: The context was shut down.
         """
-        self._spin_once_unless(lambda: False, timeout_sec, heeds_silence=not self._is_spinning)
+        self._spin_once_unless(lambda: False, timeout_sec, polls_subscriptions=not self._is_spinning)
 
     def spin_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
-        """Runs callbacks until the future is over.
+        """Run callbacks until the future is complete.
 
         Args:
-            future: What to wait for.
-            timeout_sec: Longest wait in seconds; None or negative: as long as it takes.
+            future: Future to wait for.
+            timeout_sec: Maximum time to wait in seconds. None or negative: no limit.
 
         Raises:
             ExternalShutdownException: The context was shut down.
         """
         future._add_waiter(self.wake)
         deadline = _deadline(timeout_sec)
-        while not future._is_over() and not self._is_shutdown:
+        while not future._is_complete() and not self._is_shutdown:
             remaining = None if deadline is None else (deadline - time.monotonic_ns()) / S_TO_NS
             if remaining is not None and remaining < 0:
                 return
-            self._spin_once_unless(future._is_over, remaining)
+            self._spin_once_unless(future._is_complete, remaining)
 
     def spin_once_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
-        """Waits for one callback or the future's end, and runs the callback; otherwise as `spin_once`."""
+        """Wait for one callback or for the future; otherwise like `spin_once`."""
         future._add_waiter(self.wake)
-        self._spin_once_unless(future._is_over, timeout_sec)
+        self._spin_once_unless(future._is_complete, timeout_sec)
 
-    def can_execute(self, entity: Executable) -> bool:
-        """Whether the callback group of a timer, subscription, ... lets its callback run now."""
+    def can_execute(self, entity: Waitable) -> bool:
+        """Return whether the callback group of an entity allows its callback to run now."""
         return entity.callback_group.can_execute(entity)
 
     def wait_for_ready_callbacks(
@@ -242,23 +246,23 @@ class Executor(ABC):
         nodes: Iterable[Node] | None = None,
         condition: Callable[[], bool] = lambda: False,
     ) -> Work:
-        """Waits for the next callback that is due, without running it.
+        """Wait for the next ready callback without running it.
 
         Args:
-            timeout_sec: Longest wait in seconds; None or negative: as long as it takes.
-            nodes: Look at these nodes only; None: at all that were added.
-            condition: Ends the wait when it holds.
+            timeout_sec: Maximum time to wait in seconds. None or negative: no limit.
+            nodes: Nodes to consider. None: all added nodes.
+            condition: Function that ends the wait when it returns True.
 
         Returns:
-            The task to call; its timer, subscription, ... and node, None for tasks of `create_task`.
+            The task to call, and its waitable and node, which are None for tasks of `create_task`.
 
         Raises:
             ExternalShutdownException: The context was shut down.
-            ShutdownException: The executor was.
-            TimeoutException: Nothing was due in time.
-            ConditionReachedException: The condition holds.
+            ShutdownException: The executor was shut down.
+            TimeoutException: No callback was ready in time.
+            ConditionReachedException: The condition is met.
         """
-        return self._wait_for_work(timeout_sec, nodes, condition, heeds_silence=False)
+        return self._wait_for_work(timeout_sec, nodes, condition, polls_subscriptions=False)
 
     def _wait_for_work(
         self,
@@ -266,7 +270,7 @@ class Executor(ABC):
         nodes: Iterable[Node] | None,
         condition: Callable[[], bool],
         *,
-        heeds_silence: bool,
+        polls_subscriptions: bool,
     ) -> Work:
         deadline = _deadline(timeout_sec)
         wakeup = self._context._wakeup
@@ -281,11 +285,11 @@ class Executor(ABC):
             work, next_ns = self._next_work(nodes)
             if work is not None:
                 return work
-            silent_inputs = self._silent_inputs() if heeds_silence else []
-            if any(entrance._take_one() for entrance in silent_inputs):
+            polled = self._polled_subscriptions() if polls_subscriptions else []
+            if any(subscription._take_one() for subscription in polled):
                 raise ConditionReachedException
-            if silent_inputs:
-                next_ns = _SILENT_INPUT_PERIOD_NS if next_ns is None else min(next_ns, _SILENT_INPUT_PERIOD_NS)
+            if polled:
+                next_ns = _POLL_PERIOD_NS if next_ns is None else min(next_ns, _POLL_PERIOD_NS)
             if deadline is not None:
                 remaining = deadline - time.monotonic_ns()
                 if remaining <= 0:
@@ -306,30 +310,30 @@ class Executor(ABC):
 
     @abstractmethod
     def _run(self, task: Task[Any]) -> None:
-        """Runs a task that is due and raises what callbacks raised."""
+        """Run a ready task and raise the exceptions of callbacks."""
 
-    def _has_room(self) -> bool:
-        """Whether one more callback can be run now."""
+    def _has_capacity(self) -> bool:
+        """Return whether another callback can run now."""
         return True
 
     def _schedule(self, task: Task[Any]) -> None:
         self._tasks.append(task)
         self.wake()
 
-    def _silent_inputs(self) -> list[SilentInput]:
-        return [entrance for node in self.get_nodes() for entrance in node._silent_inputs]
+    def _polled_subscriptions(self) -> list[PolledSubscription]:
+        return [subscription for node in self.get_nodes() for subscription in node._polled_subscriptions]
 
     def _spin_once_unless(
-        self, condition: Callable[[], bool], timeout_sec: float | None, *, heeds_silence: bool = False
+        self, condition: Callable[[], bool], timeout_sec: float | None, *, polls_subscriptions: bool = False
     ) -> None:
         try:
-            task, _, _ = self._wait_for_work(timeout_sec, None, condition, heeds_silence=heeds_silence)
+            task, _, _ = self._wait_for_work(timeout_sec, None, condition, polls_subscriptions=polls_subscriptions)
         except (ShutdownException, TimeoutException, ConditionReachedException):
             return
         self._run(task)
 
     def _call(self, task: Task[Any]) -> None:
-        """Runs a task in this thread, counted for `shutdown`."""
+        """Run a task in this thread, and register it so that `shutdown` waits for it."""
         me = threading.get_ident()
         self._running_in.append(me)
         try:
@@ -341,62 +345,62 @@ class Executor(ABC):
 
     def _raise_error_of(self, task: Task[Any]) -> None:
         error = task.exception()
-        is_end = isinstance(error, _ERRORS_OF_THE_END) and not self._context.ok()
-        if error is not None and not is_end:
+        is_shutdown = isinstance(error, _SHUTDOWN_ERRORS) and not self._context.ok()
+        if error is not None and not is_shutdown:
             raise error
 
     def _next_work(self, nodes: Iterable[Node] | None) -> tuple[Work | None, int | None]:
-        """What is due, if anything, else nanoseconds until the next timer is."""
-        if not self._has_room():
+        """Return the next ready work, or None and the nanoseconds until the next timer."""
+        if not self._has_capacity():
             return None, None
         with self._lock:
             allowed = self._nodes if nodes is None else [node for node in nodes if node in self._nodes]
             while True:
-                # Everything that was due gets its turn before anything does again.
-                while self._due:
-                    due, node = self._due.popleft()
-                    if (work := self._begin(due, node, allowed)) is not None:
+                # All entities that were ready run once before any of them runs again.
+                while self._ready:
+                    ready, node = self._ready.popleft()
+                    if (work := self._begin(ready, node, allowed)) is not None:
                         return work, None
-                next_ns = self._look_for_due(allowed)
-                if not self._due:
+                next_ns = self._collect_ready(allowed)
+                if not self._ready:
                     return None, next_ns
 
-    def _look_for_due(self, nodes: Iterable[Node]) -> int | None:
+    def _collect_ready(self, nodes: Iterable[Node]) -> int | None:
         while self._tasks:
-            self._due.append((self._tasks.popleft(), None))
+            self._ready.append((self._tasks.popleft(), None))
         next_ns: int | None = None
-        due: list[tuple[Executable, Node]] = []
+        ready: list[tuple[Waitable, Node]] = []
         for node in nodes:
-            for entity in node._executables():
+            for entity in node._waitables():
                 remaining = entity._remaining_ns()
                 if remaining is None:
                     continue
                 if remaining > 0:
                     next_ns = remaining if next_ns is None else min(next_ns, remaining)
                 elif self.can_execute(entity):
-                    due.append((entity, node))
-        if len(due) > 1:
-            # Who is always due must not keep the others of its callback group from ever running.
-            due.sort(key=lambda work: self._turns.get(work[0], 0))
-        self._due.extend(due)
+                    ready.append((entity, node))
+        if len(ready) > 1:
+            # An entity that is always ready must not starve the others of its callback group.
+            ready.sort(key=lambda work: self._run_order.get(work[0], 0))
+        self._ready.extend(ready)
         return next_ns
 
-    def _begin(self, due: Task[Any] | Executable, node: Node | None, allowed: list[Node]) -> Work | None:
-        if isinstance(due, Task):
-            return due, None, None
-        if node not in allowed or not due.callback_group.beginning_execution(due):
+    def _begin(self, ready: Task[Any] | Waitable, node: Node | None, allowed: list[Node]) -> Work | None:
+        if isinstance(ready, Task):
+            return ready, None, None
+        if node not in allowed or not ready.callback_group.beginning_execution(ready):
             return None
-        self._turn += 1
-        self._turns[due] = self._turn
+        self._run_count += 1
+        self._run_order[ready] = self._run_count
         call = None
         try:
-            call = due._take()
+            call = ready._take()
         finally:
             if call is None:
-                due.callback_group.ending_execution(due)
-        return None if call is None else (Task(self._execute, (due, call), executor=self), due, node)
+                ready.callback_group.ending_execution(ready)
+        return None if call is None else (Task(self._execute, (ready, call), executor=self), ready, node)
 
-    async def _execute(self, entity: Executable, call: Callable[[], Any]) -> None:
+    async def _execute(self, entity: Waitable, call: Callable[[], Any]) -> None:
         try:
             result = call()
             if inspect.iscoroutine(result):
@@ -407,7 +411,7 @@ class Executor(ABC):
 
 
 class SingleThreadedExecutor(Executor):
-    """Runs callbacks in the thread that spins."""
+    """Executor that runs callbacks in the spinning thread."""
 
     def _run(self, task: Task[Any]) -> None:
         self._call(task)
@@ -415,11 +419,11 @@ class SingleThreadedExecutor(Executor):
 
 
 class MultiThreadedExecutor(Executor):
-    """Runs callbacks in a pool of threads; callback groups say which may run at the same time.
+    """Executor that runs callbacks in a thread pool. Callback groups define which may run in parallel.
 
     Args:
-        num_threads: Size of the pool; None: the number of processors, at least 2.
-        context: Ends the spinning at its shutdown; None: the default context.
+        num_threads: Size of the pool. None: the number of processors, at least 2.
+        context: Context whose shutdown ends the spinning. None: the default context.
     """
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
@@ -430,7 +434,7 @@ class MultiThreadedExecutor(Executor):
         self._failed: deque[Task[Any]] = deque()
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """Stops spinning and waits for callbacks that are running; see `Executor.shutdown`."""
+        """Stop spinning and wait for the running callbacks; see `Executor.shutdown`."""
         has_ended = super().shutdown(timeout_sec)
         self._pool.shutdown(wait=False)
         return has_ended
@@ -441,21 +445,24 @@ class MultiThreadedExecutor(Executor):
         nodes: Iterable[Node] | None,
         condition: Callable[[], bool],
         *,
-        heeds_silence: bool,
+        polls_subscriptions: bool,
     ) -> Work:
-        """Also ends when a callback that ran in the pool has failed."""
-        ends = lambda: bool(self._failed) or condition()  # noqa: E731 - too short for a name of its own
-        return super()._wait_for_work(timeout_sec, nodes, ends, heeds_silence=heeds_silence)
+        """Wait for work, or for the failure of a callback in the pool."""
+
+        def failed_or_condition() -> bool:
+            return bool(self._failed) or condition()
+
+        return super()._wait_for_work(timeout_sec, nodes, failed_or_condition, polls_subscriptions=polls_subscriptions)
 
     def _spin_once_unless(
-        self, condition: Callable[[], bool], timeout_sec: float | None, *, heeds_silence: bool = False
+        self, condition: Callable[[], bool], timeout_sec: float | None, *, polls_subscriptions: bool = False
     ) -> None:
-        super()._spin_once_unless(condition, timeout_sec, heeds_silence=heeds_silence)
+        super()._spin_once_unless(condition, timeout_sec, polls_subscriptions=polls_subscriptions)
         if self._failed:
             self._raise_error_of(self._failed.popleft())
 
-    def _has_room(self) -> bool:
-        # Taking more than there are threads for would empty the queues of DDS into one without bounds here.
+    def _has_capacity(self) -> bool:
+        # Taking more messages than there are threads would move them from the bounded DDS queues to an unbounded one.
         return self._free > 0
 
     def _run(self, task: Task[Any]) -> None:
@@ -463,7 +470,7 @@ class MultiThreadedExecutor(Executor):
             self._free -= 1
         try:
             self._pool.submit(self._run_in_pool, task)
-        except RuntimeError as error:  # the interpreter is about to end
+        except RuntimeError as error:  # The interpreter is shutting down.
             task.cancel()
             raise ExternalShutdownException from error
 

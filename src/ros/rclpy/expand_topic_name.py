@@ -1,4 +1,4 @@
-"""From a name as users write it to the fully qualified one."""
+"""Expansion of topic and service names to fully qualified names."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from rclpy.validate_topic_name import validate_topic_name
 
 
 def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> str:
-    """Expands `~`, relative names and `{node}`, `{ns}`, `{namespace}`.
+    """Expand `~`, relative names and the substitutions `{node}`, `{ns}` and `{namespace}`.
 
     Args:
         topic_name: The name, for example `~/state`.
         node_name: Name of the node, for example `arm`.
-        node_namespace: Its namespace, for example `/robot1`.
+        node_namespace: Namespace of the node, for example `/robot1`.
 
     Returns:
-        The name with everything filled in, for example `/robot1/arm/state`.
+        The fully qualified name, for example `/robot1/arm/state`.
 
     Raises:
-        InvalidTopicNameException: The name breaks a rule or has an unknown substitution.
+        InvalidTopicNameException: The name is not valid or contains an unknown substitution.
     """
     validate_topic_name(topic_name)
     validate_node_name(node_name)

@@ -1,6 +1,6 @@
-"""Waking an executor by hand."""
+"""Guard conditions, which wake an executor from any thread."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class GuardCondition:
-    """Its callback runs once after it was triggered; made by `Node.create_guard_condition`."""
+    """Condition whose callback runs once after a trigger. Create it with `Node.create_guard_condition`."""
 
     def __init__(
         self,
@@ -31,12 +31,12 @@ class GuardCondition:
         self._is_triggered = False
 
     def trigger(self) -> None:
-        """Makes the callback due; from any thread."""
+        """Schedule the callback. This may be called from any thread."""
         self._is_triggered = True
         self._context._wakeup.set()
 
     def destroy(self) -> None:
-        """Ends it; better use `Node.destroy_guard_condition`."""
+        """Destroy the guard condition. Prefer `Node.destroy_guard_condition`."""
         self._is_triggered = False
 
     def _remaining_ns(self) -> int | None:

@@ -1,4 +1,4 @@
-"""Where upstream's users import InvalidHandle from."""
+"""Module from which rclpy's users import InvalidHandle."""
 
 from rclpy.exceptions import InvalidHandle
 

@@ -1,4 +1,4 @@
-"""Loggers and their levels."""
+"""Loggers and log levels."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _loggers: dict[str, RcutilsLogger] = {}
 
 
 def get_logger(name: str) -> RcutilsLogger:
-    """Returns the logger of a name, the same one each time.
+    """Return the logger with this name. Each name has one logger.
 
     Raises:
         ValueError: The name is empty.
@@ -33,45 +33,45 @@ def get_logger(name: str) -> RcutilsLogger:
 
 
 def set_logger_level(name: str, level: int, detailed_error: bool = False) -> None:
-    """Sets the least severity that a logger logs.
+    """Set the lowest severity that a logger logs.
 
     Args:
         name: Name of the logger.
         level: A LoggingSeverity.
-        detailed_error: Accepted for upstream's sake; errors are always detailed.
+        detailed_error: Ignored, accepted for compatibility. Errors are always detailed.
     """
     del detailed_error
     console.levels[name] = LoggingSeverity(level)
 
 
 def get_logger_effective_level(name: str) -> LoggingSeverity:
-    """Returns the least severity that a logger logs, inherited or its own."""
+    """Return the lowest severity that a logger logs, which may be inherited."""
     return console.effective_level(name)
 
 
 def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
-    """Returns the severity of a name such as "WARN".
+    """Return the severity with a name such as "WARN".
 
     Raises:
-        RuntimeError: There is none of this name.
+        RuntimeError: No severity has this name.
     """
     try:
         return LoggingSeverity[log_severity.upper()]
     except KeyError:
         names = ", ".join(LoggingSeverity.__members__)
-        raise RuntimeError(f"no logging severity {log_severity!r}; there are {names}") from None
+        raise RuntimeError(f"Unknown logging severity {log_severity!r}. Known severities: {names}.") from None
 
 
 def initialize() -> None:
-    """Makes logging ready; it always is."""
+    """Initialize logging. This does nothing, because logging is always available."""
 
 
 def shutdown() -> None:
-    """Ends logging; there is nothing to end."""
+    """Shut down logging. This does nothing, because there is nothing to release."""
 
 
 def clear_config() -> None:
-    """Forgets all levels."""
+    """Reset all levels to the defaults."""
     _configure(LoggingArguments())
 
 

@@ -1,6 +1,6 @@
 """Nodes."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from rclpy.impl.rcutils_logger import RcutilsLogger
 from rclpy.parameter import Parameter
 from rclpy.parameter_service import ParameterService
 from rclpy.publisher import Publisher
-from rclpy.qos import QoSProfile, qos_from, qos_profile_services_default
-from rclpy.qos_overriding_options import QoSOverridingOptions, overridden
+from rclpy.qos import QoSProfile, as_qos_profile, qos_profile_services_default
+from rclpy.qos_overriding_options import QoSOverridingOptions, apply_qos_overrides
 from rclpy.service import Service
 from rclpy.subscription import Subscription
 from rclpy.time_source import USE_SIM_TIME_NAME, TimeSource
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
     from rclpy.context import Context
-    from rclpy.executors import Executable, Executor, SilentInput
+    from rclpy.executors import Executor, PolledSubscription, Waitable
 
 EntityT = TypeVar("EntityT")
 
@@ -51,21 +51,21 @@ class Node(NodeParameters, NodeGraph):
     """A node of the ROS graph.
 
     Args:
-        node_name: Its name; `--ros-args -r __node:=` wins over it.
-        context: What it lives in; None: the default context.
-        cli_args: A command line with `--ros-args` for this node, heard before the process's.
-        namespace: Its namespace; `--ros-args -r __ns:=` wins over it.
-        use_global_arguments: Whether the process's command line applies to it.
-        enable_rosout: Whether its log messages also go to /rosout.
-        start_parameter_services: Whether others may see and set its parameters (`ros2 param`).
-        parameter_overrides: Values that win over the declared defaults and over the command line.
-        allow_undeclared_parameters: Parameters need not be declared.
-        automatically_declare_parameters_from_overrides: Declare all parameters of the command line at once.
+        node_name: Name of the node. `--ros-args -r __node:=` overrides it.
+        context: Context of the node. None: the default context.
+        cli_args: Command line with `--ros-args` for this node, which takes precedence over that of the process.
+        namespace: Namespace of the node. `--ros-args -r __ns:=` overrides it.
+        use_global_arguments: Whether the command line of the process applies to the node.
+        enable_rosout: Whether to publish log messages on /rosout.
+        start_parameter_services: Whether other nodes can get and set the parameters (`ros2 param`).
+        parameter_overrides: Values that override the declared defaults and the command line.
+        allow_undeclared_parameters: Whether undeclared parameters may be used.
+        automatically_declare_parameters_from_overrides: Whether to declare all parameter overrides.
 
     Raises:
-        NotInitializedException: There was no `rclpy.init()`, or the context is shut down.
-        InvalidNodeNameException: The name breaks the rules.
-        InvalidNamespaceException: The namespace does.
+        NotInitializedException: The context is not initialized or was shut down.
+        InvalidNodeNameException: The name is not valid.
+        InvalidNamespaceException: The namespace is not valid.
     """
 
     def __init__(
@@ -93,7 +93,7 @@ class Node(NodeParameters, NodeGraph):
         self.__entities: dict[type[Any], list[Any]] = {
             kind: [] for kind in (Timer, Subscription, GuardCondition, Client, Service, Publisher, Rate)
         }
-        self.__executables: tuple[Executable, ...] = ()
+        self.__waitables: tuple[Waitable, ...] = ()
         self.__default_callback_group = MutuallyExclusiveCallbackGroup()
         self.__logger = RcutilsLogger(self.get_fully_qualified_name().lstrip("/").replace("/", "."))
         self.__clock = ROSClock()
@@ -101,16 +101,16 @@ class Node(NodeParameters, NodeGraph):
         overrides = {
             override.name: Parameter(override.name, value=override.value)
             for override in arguments.parameters
-            if override.fits(self.get_fully_qualified_name())
+            if override.matches(self.get_fully_qualified_name())
         }
         overrides.update((parameter.name, parameter) for parameter in parameter_overrides or [])
 
-        self._wire = self.__context._join_graph()
-        self._graph_node = self._wire.add_node(self.__names.namespace, self.__names.node_name)
-        self._silent_inputs: list[SilentInput] = []
+        self._participant = self.__context._get_participant()
+        self._graph_node = self._participant.add_node(self.__names.namespace, self.__names.node_name)
+        self._polled_subscriptions: list[PolledSubscription] = []
         self.__rosout: RosoutPublisher | None = None
         if enable_rosout and arguments.logging.rosout:
-            self.__rosout = RosoutPublisher(self._wire, self._graph_node, self.__logger.name)
+            self.__rosout = RosoutPublisher(self._participant, self._graph_node, self.__logger.name)
         self.__time_source = TimeSource(node=self)
         self.__time_source.attach_clock(self.__clock)
         try:
@@ -125,55 +125,56 @@ class Node(NodeParameters, NodeGraph):
             if start_parameter_services:
                 ParameterService(self)
         except BaseException:
-            self.destroy_node()  # nobody else could
+            self.destroy_node()  # The caller has no reference to the node.
             raise
 
-    if not TYPE_CHECKING:  # a type checker would take every misspelt attribute for one of these
+    if not TYPE_CHECKING:  # With `__getattr__`, type checkers would accept every misspelled attribute.
 
         def __getattr__(self, name: str) -> Any:
             if name.startswith(("_Node__", "_NodeParameters__")):
                 raise AttributeError(
-                    f"{type(self).__name__} is no node yet: its __init__ must call super().__init__('its_name') first"
+                    f"The node {type(self).__name__} is not initialized. "
+                    "Call super().__init__('node_name') first in its __init__."
                 )
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     # Names
 
     def get_name(self) -> str:
-        """Returns the name without the namespace."""
+        """Return the name without the namespace."""
         return self.__names.node_name
 
     def get_namespace(self) -> str:
-        """Returns the namespace, for example "/" or "/robot1"."""
+        """Return the namespace, for example "/" or "/robot1"."""
         return self.__names.namespace
 
     def get_fully_qualified_name(self) -> str:
-        """Returns the name with the namespace, for example "/robot1/arm"."""
+        """Return the name with the namespace, for example "/robot1/arm"."""
         return f"{self.get_namespace().rstrip('/')}/{self.get_name()}"
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
-        """Returns the fully qualified name of a topic, remapped unless `only_expand`."""
+        """Return the fully qualified name of a topic, remapped unless `only_expand` is set."""
         return self.__names.resolve(topic, only_expand=only_expand)
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
-        """Returns the fully qualified name of a service, remapped unless `only_expand`."""
+        """Return the fully qualified name of a service, remapped unless `only_expand` is set."""
         return self.__names.resolve(service, is_service=True, only_expand=only_expand)
 
-    # What it has
+    # Properties
 
     @property
     def context(self) -> Context:
-        """What it lives in."""
+        """The context of the node."""
         return self.__context
 
     @property
     def default_callback_group(self) -> CallbackGroup:
-        """The group of everything that was given none: one callback at a time."""
+        """The callback group of entities created without a group. It is mutually exclusive."""
         return self.__default_callback_group
 
     @property
     def executor(self) -> Executor | None:
-        """The executor it was added to; setting one adds it there."""
+        """The executor of the node. Setting it adds the node to the executor."""
         return self.__executor()
 
     @executor.setter
@@ -189,43 +190,43 @@ class Node(NodeParameters, NodeGraph):
 
     @property
     def publishers(self) -> Iterator[Publisher]:
-        """Its publishers."""
+        """The publishers of the node."""
         yield from self.__entities[Publisher]
 
     @property
     def subscriptions(self) -> Iterator[Subscription]:
-        """Its subscriptions."""
+        """The subscriptions of the node."""
         yield from self.__entities[Subscription]
 
     @property
     def clients(self) -> Iterator[Client]:
-        """Its clients."""
+        """The service clients of the node."""
         yield from self.__entities[Client]
 
     @property
     def services(self) -> Iterator[Service]:
-        """Its services."""
+        """The services of the node."""
         yield from self.__entities[Service]
 
     @property
     def timers(self) -> Iterator[Timer]:
-        """Its timers."""
+        """The timers of the node."""
         yield from self.__entities[Timer]
 
     @property
     def guards(self) -> Iterator[GuardCondition]:
-        """Its guard conditions."""
+        """The guard conditions of the node."""
         yield from self.__entities[GuardCondition]
 
     def get_clock(self) -> Clock:
-        """Returns its clock: ROS time, which follows /clock where `use_sim_time` is set."""
+        """Return the clock of the node, which is set from /clock if `use_sim_time` is true."""
         return self.__clock
 
     def get_logger(self) -> RcutilsLogger:
-        """Returns its logger."""
+        """Return the logger of the node."""
         return self.__logger
 
-    # Making and ending what it has
+    # Creation and destruction of entities
 
     def create_publisher(
         self,
@@ -236,28 +237,28 @@ class Node(NodeParameters, NodeGraph):
         callback_group: CallbackGroup | None = None,
         qos_overriding_options: QoSOverridingOptions | None = None,
     ) -> Publisher:
-        """Makes a publisher.
+        """Create a publisher.
 
         Args:
             msg_type: Class of the messages.
-            topic: Name of the topic; expanded and remapped.
-            qos_profile: A profile, or how many messages are kept for slow subscriptions.
-            callback_group: Accepted for upstream's sake; publishers have no callbacks.
-            qos_overriding_options: Which policies parameters may override; None: none.
+            topic: Name of the topic, which is expanded and remapped.
+            qos_profile: QoS profile, or its depth.
+            callback_group: Ignored, accepted for compatibility. Publishers have no callbacks.
+            qos_overriding_options: QoS policies that parameters may override. None: no policies.
 
         Raises:
-            InvalidQosOverridesError: A parameter is no value of its policy.
-            InvalidTopicNameException: The name breaks a rule.
-            NoTypeSupportImportedException: `msg_type` is no message class.
+            InvalidQosOverridesError: A parameter value is not valid for its policy.
+            InvalidTopicNameException: The topic name is not valid.
+            NoTypeSupportImportedException: `msg_type` is not a message class.
         """
         del callback_group
         check_is_valid_msg_type(msg_type)
-        qos = qos_from(qos_profile)
-        self.__check_alive()
+        qos = as_qos_profile(qos_profile)
+        self.__check_not_destroyed()
         name = self.resolve_topic_name(topic)
         if qos_overriding_options is not None:
-            qos = overridden(self, "publisher", name, qos, qos_overriding_options)
-        wire = self._wire.publisher(self._graph_node, name, msg_type, qos._to_wire())
+            qos = apply_qos_overrides(self, "publisher", name, qos, qos_overriding_options)
+        wire = self._participant.publisher(self._graph_node, name, msg_type, qos._to_wire())
         return self.__add(Publisher(wire, msg_type, name, qos, self.context))
 
     def create_subscription(
@@ -271,32 +272,32 @@ class Node(NodeParameters, NodeGraph):
         qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
     ) -> Subscription:
-        """Makes a subscription.
+        """Create a subscription.
 
         Args:
             msg_type: Class of the messages.
-            topic: Name of the topic; expanded and remapped.
-            callback: Called with each message, and with a dict of its time stamps if it takes two arguments; may be a
-                coroutine function.
-            qos_profile: A profile, or how many messages wait until an executor takes them.
-            callback_group: None: the node's default group.
-            qos_overriding_options: Which policies parameters may override; None: none.
-            raw: The callback gets the messages' bytes.
+            topic: Name of the topic, which is expanded and remapped.
+            callback: Function or coroutine function that is called with each message, and with a dict of its timestamps
+                (nanoseconds) if it accepts two arguments.
+            qos_profile: QoS profile, or the number of messages that are queued for the executor.
+            callback_group: Group of the callback. None: the default group of the node.
+            qos_overriding_options: QoS policies that parameters may override. None: no policies.
+            raw: Whether to pass serialized messages to the callback.
 
         Raises:
-            InvalidQosOverridesError: A parameter is no value of its policy.
-            InvalidTopicNameException: The name breaks a rule.
-            NoTypeSupportImportedException: `msg_type` is no message class.
+            InvalidQosOverridesError: A parameter value is not valid for its policy.
+            InvalidTopicNameException: The topic name is not valid.
+            NoTypeSupportImportedException: `msg_type` is not a message class.
         """
         check_is_valid_msg_type(msg_type)
         _check_callback(callback)
-        qos = qos_from(qos_profile)
-        self.__check_alive()
+        qos = as_qos_profile(qos_profile)
+        self.__check_not_destroyed()
         name = self.resolve_topic_name(topic)
         if qos_overriding_options is not None:
-            qos = overridden(self, "subscription", name, qos, qos_overriding_options)
+            qos = apply_qos_overrides(self, "subscription", name, qos, qos_overriding_options)
         wakeup = self.context._wakeup.event
-        wire = self._wire.subscription(self._graph_node, name, msg_type, qos._to_wire(), on_data=wakeup)
+        wire = self._participant.subscription(self._graph_node, name, msg_type, qos._to_wire(), on_data=wakeup)
         group = self.__group(callback_group)
         return self.__add(Subscription(wire, msg_type, name, callback, group, qos, raw))
 
@@ -308,27 +309,37 @@ class Node(NodeParameters, NodeGraph):
         qos_profile: QoSProfile = qos_profile_services_default,
         callback_group: CallbackGroup | None = None,
     ) -> Client:
-        """Makes a client of a service.
+        """Create a service client.
 
         Args:
             srv_type: Class of the service.
-            srv_name: Its name; expanded and remapped.
-            qos_profile: Of requests and responses.
-            callback_group: None: the node's default group.
+            srv_name: Name of the service, which is expanded and remapped.
+            qos_profile: QoS profile of requests and responses.
+            callback_group: Group of the client. None: the default group of the node.
 
         Raises:
-            InvalidServiceNameException: The name breaks a rule.
-            NoTypeSupportImportedException: `srv_type` is no service class.
+            InvalidServiceNameException: The service name is not valid.
+            NoTypeSupportImportedException: `srv_type` is not a service class.
         """
         check_is_valid_srv_type(srv_type)
-        self.__check_alive()
+        self.__check_not_destroyed()
         name, qos, graph_node = self.resolve_service_name(srv_name), qos_profile._to_wire(), self._graph_node
         wakeup = self.context._wakeup.event
-        replies = self._wire.subscription(graph_node, name, srv_type.Response, qos, on_data=wakeup, kind="reply")
-        requests = self._wire.publisher(graph_node, name, srv_type.Request, qos, kind="request")
+        replies = self._participant.subscription(graph_node, name, srv_type.Response, qos, on_data=wakeup, kind="reply")
+        requests = self._participant.publisher(graph_node, name, srv_type.Request, qos, kind="request")
         group = self.__group(callback_group)
         return self.__add(
-            Client(self.context, self._wire, requests, replies, self.__get_executor, srv_type, name, qos_profile, group)
+            Client(
+                self.context,
+                self._participant,
+                requests,
+                replies,
+                self.__get_executor,
+                srv_type,
+                name,
+                qos_profile,
+                group,
+            )
         )
 
     def create_service(
@@ -340,18 +351,19 @@ class Node(NodeParameters, NodeGraph):
         qos_profile: QoSProfile = qos_profile_services_default,
         callback_group: CallbackGroup | None = None,
     ) -> Service:
-        """Makes a service.
+        """Create a service.
 
         Args:
-            srv_type: Its class.
-            srv_name: Its name; expanded and remapped.
-            callback: Called with the request and an empty response, returns the response; may be a coroutine function.
-            qos_profile: Of requests and responses.
-            callback_group: None: the node's default group.
+            srv_type: Class of the service.
+            srv_name: Name of the service, which is expanded and remapped.
+            callback: Function or coroutine function that is called with the request and an empty response, and returns
+                the response.
+            qos_profile: QoS profile of requests and responses.
+            callback_group: Group of the callback. None: the default group of the node.
 
         Raises:
-            InvalidServiceNameException: The name breaks a rule.
-            NoTypeSupportImportedException: `srv_type` is no service class.
+            InvalidServiceNameException: The service name is not valid.
+            NoTypeSupportImportedException: `srv_type` is not a service class.
         """
         return self._create_service(Service, srv_type, srv_name, callback, qos_profile, callback_group)
 
@@ -366,12 +378,14 @@ class Node(NodeParameters, NodeGraph):
     ) -> Service:
         check_is_valid_srv_type(srv_type)
         _check_callback(callback)
-        self.__check_alive()
+        self.__check_not_destroyed()
         name, qos, graph_node = self.resolve_service_name(srv_name), qos_profile._to_wire(), self._graph_node
         wakeup = self.context._wakeup.event
-        # The replies first: clients that see where requests go must be able to get an answer.
-        replies = self._wire.publisher(graph_node, name, srv_type.Response, qos, kind="reply")
-        requests = self._wire.subscription(graph_node, name, srv_type.Request, qos, on_data=wakeup, kind="request")
+        # The reply publisher comes first, so that clients that discover the request reader can receive replies.
+        replies = self._participant.publisher(graph_node, name, srv_type.Response, qos, kind="reply")
+        requests = self._participant.subscription(
+            graph_node, name, srv_type.Request, qos, on_data=wakeup, kind="request"
+        )
         group = self.__group(callback_group)
         return self.__add(kind(requests, replies, srv_type, name, callback, group, qos_profile))
 
@@ -382,16 +396,16 @@ class Node(NodeParameters, NodeGraph):
         callback_group: CallbackGroup | None = None,
         clock: Clock | None = None,
     ) -> Timer:
-        """Makes a timer.
+        """Create a timer.
 
         Args:
-            timer_period_sec: Its period in seconds.
-            callback: Called without arguments; may be a coroutine function.
-            callback_group: None: the node's default group.
-            clock: Of its period; None: the node's clock.
+            timer_period_sec: Period in seconds.
+            callback: Function or coroutine function that is called without arguments.
+            callback_group: Group of the callback. None: the default group of the node.
+            clock: Clock that measures the period. None: the clock of the node.
         """
         _check_callback(callback)
-        self.__check_alive()
+        self.__check_not_destroyed()
         period_ns = int(float(timer_period_sec) * S_TO_NS)
         group = self.__group(callback_group)
         return self.__add(Timer(callback, group, period_ns, clock or self.__clock, context=self.context))
@@ -399,62 +413,62 @@ class Node(NodeParameters, NodeGraph):
     def create_guard_condition(
         self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
     ) -> GuardCondition:
-        """Makes a guard condition.
+        """Create a guard condition.
 
         Args:
-            callback: Called after it was triggered; may be a coroutine function.
-            callback_group: None: the node's default group.
+            callback: Function or coroutine function that is called after a trigger.
+            callback_group: Group of the callback. None: the default group of the node.
         """
-        self.__check_alive()
+        self.__check_not_destroyed()
         return self.__add(GuardCondition(callback, self.__group(callback_group), context=self.context))
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
-        """Makes a rate, whose `sleep()` keeps a loop at a frequency.
+        """Create a rate, whose `sleep()` limits a loop to a frequency.
 
         Args:
-            frequency: In hertz.
-            clock: None: the node's clock.
+            frequency: Frequency in Hz.
+            clock: Clock that measures the period. None: the clock of the node.
 
         Raises:
             ValueError: The frequency is not positive.
         """
         if frequency <= 0:
             raise ValueError("frequency must be > 0")
-        self.__check_alive()
+        self.__check_not_destroyed()
         group, period_ns = self.__default_callback_group, int(S_TO_NS / frequency)
         timer = Timer(None, group, period_ns, clock or self.__clock, context=self.context)
         return self.__add(Rate(timer, context=self.context))
 
     def destroy_publisher(self, publisher: Publisher) -> bool:
-        """Ends a publisher; False: it is not this node's."""
+        """Destroy a publisher. Return False if it does not belong to this node."""
         return self.__remove(publisher)
 
     def destroy_subscription(self, subscription: Subscription) -> bool:
-        """Ends a subscription; False: it is not this node's."""
+        """Destroy a subscription. Return False if it does not belong to this node."""
         return self.__remove(subscription)
 
     def destroy_client(self, client: Client) -> bool:
-        """Ends a client; False: it is not this node's."""
+        """Destroy a service client. Return False if it does not belong to this node."""
         return self.__remove(client)
 
     def destroy_service(self, service: Service) -> bool:
-        """Ends a service; False: it is not this node's."""
+        """Destroy a service. Return False if it does not belong to this node."""
         return self.__remove(service)
 
     def destroy_timer(self, timer: Timer) -> bool:
-        """Ends a timer; False: it is not this node's."""
+        """Destroy a timer. Return False if it does not belong to this node."""
         return self.__remove(timer)
 
     def destroy_guard_condition(self, guard: GuardCondition) -> bool:
-        """Ends a guard condition; False: it is not this node's."""
+        """Destroy a guard condition. Return False if it does not belong to this node."""
         return self.__remove(guard)
 
     def destroy_rate(self, rate: Rate) -> bool:
-        """Ends a rate; False: it is not this node's."""
+        """Destroy a rate. Return False if it does not belong to this node."""
         return self.__remove(rate)
 
     def destroy_node(self) -> None:
-        """Ends everything the node has and takes it out of the graph; doing so twice is no error."""
+        """Destroy all entities of the node and remove it from the graph. Repeated calls have no effect."""
         with self.__lock:
             if self.__is_destroyed:
                 return
@@ -464,11 +478,11 @@ class Node(NodeParameters, NodeGraph):
         for entities in self.__entities.values():
             while entities:
                 entities.pop().destroy()
-        self.__executables = ()
+        self.__waitables = ()
         if self.__rosout is not None:
             self.__rosout.close()
         self._graph_node.close()
-        self._wire.close()
+        self._participant.close()
 
     def __enter__(self) -> Self:
         return self
@@ -479,13 +493,13 @@ class Node(NodeParameters, NodeGraph):
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.get_fully_qualified_name()}>"
 
-    def _adopt(self, entity: EntityT) -> EntityT:
-        """Makes a publisher or subscription that tf2_ros made one of the node's: listed, and ended with it."""
+    def _add_entity(self, entity: EntityT) -> EntityT:
+        """Add a publisher or subscription that tf2_ros created, so that the node lists and destroys it."""
         return self.__add(entity)
 
-    def _executables(self) -> tuple[Executable, ...]:
-        """What an executor has to look at."""
-        return self.__executables
+    def _waitables(self) -> tuple[Waitable, ...]:
+        """Return the entities that an executor waits for."""
+        return self.__waitables
 
     def _on_parameter_set(self, parameter: Parameter[Any]) -> None:
         if parameter.name == USE_SIM_TIME_NAME:
@@ -494,7 +508,7 @@ class Node(NodeParameters, NodeGraph):
     def __get_executor(self) -> Executor | None:
         return self.executor
 
-    def __check_alive(self) -> None:
+    def __check_not_destroyed(self) -> None:
         if self.__is_destroyed:
             raise InvalidHandle("cannot use Node because destruction was requested")
 
@@ -504,7 +518,7 @@ class Node(NodeParameters, NodeGraph):
     def __add(self, entity: EntityT) -> EntityT:
         with self.__lock:
             self.__entities_like(entity).append(entity)
-            self.__collect_executables()
+            self.__collect_waitables()
         group = getattr(entity, "callback_group", None)
         if group is not None:
             group.add_entity(entity)
@@ -517,16 +531,16 @@ class Node(NodeParameters, NodeGraph):
             if entity not in entities:
                 return False
             entities.remove(entity)
-            self.__collect_executables()
+            self.__collect_waitables()
         entity.destroy()
         return True
 
     def __entities_like(self, entity: Any) -> list[Any]:
         return next((entities for kind, entities in self.__entities.items() if isinstance(entity, kind)), [])
 
-    def __collect_executables(self) -> None:
-        """Executors read the tuple without a lock."""
-        self.__executables = tuple(
+    def __collect_waitables(self) -> None:
+        """Update the waitables. Executors read the tuple without a lock."""
+        self.__waitables = tuple(
             entity
             for kind in (Timer, Subscription, GuardCondition, Client, Service)
             for entity in self.__entities[kind]
@@ -535,7 +549,7 @@ class Node(NodeParameters, NodeGraph):
 
 def _check_callback(callback: object) -> None:
     if not callable(callback):
-        raise TypeError(f"the callback must be a function, not {callback!r}: give it without () behind its name")
+        raise TypeError(f"The callback must be a function, not {callback!r}. Pass the function without calling it.")
 
 
 def _no_executor() -> None:
@@ -543,12 +557,12 @@ def _no_executor() -> None:
 
 
 def _arguments_for(context: Context, cli_args: list[str] | None, *, use_global_arguments: bool) -> Arguments:
-    """The node's own command line, and behind it the process's."""
+    """Return the arguments of the node, combined with those of the process, which have lower precedence."""
     shared = context._arguments if use_global_arguments else Arguments()
     own = _arguments.parse(cli_args) if cli_args else Arguments()
     return Arguments(
         remaps=own.remaps + shared.remaps,
-        # Of parameters the last one counts.
+        # The last value of a parameter applies.
         parameters=shared.parameters + own.parameters,
         logging=shared.logging,
     )

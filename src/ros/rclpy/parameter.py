@@ -1,4 +1,4 @@
-"""Parameters: a name and a value of one of nine types."""
+"""Parameters, which have a name and a value of one of nine types."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ _INT64: Final = range(-(2**63), 2**63)
 
 
 class Parameter(Generic[T]):
-    """A parameter.
+    """A parameter with a typed value.
 
     Args:
-        name: Its name.
-        type_: Its type; None: found from the value.
-        value: Its value.
+        name: Name of the parameter.
+        type_: Type of the parameter. None: the type of the value.
+        value: Value of the parameter.
 
     Raises:
-        TypeError: `type_` is no Parameter.Type, or no parameter can have such a value.
+        TypeError: `type_` is not a Parameter.Type, or the value is not of a parameter type.
         ValueError: The value is not of the type.
     """
 
     class Type(IntEnum):
-        """Types of parameters."""
+        """Type of a parameter."""
 
         NOT_SET = ParameterType.PARAMETER_NOT_SET
         BOOL = ParameterType.PARAMETER_BOOL
@@ -45,10 +45,10 @@ class Parameter(Generic[T]):
 
         @classmethod
         def from_parameter_value(cls, parameter_value: Any) -> Parameter.Type:
-            """Returns the type of a Python value; an empty list counts as one of bytes, as upstream has it.
+            """Return the parameter type of a Python value. An empty list is a byte array, as in upstream rclpy.
 
             Raises:
-                TypeError: No parameter can have such a value.
+                TypeError: The value is not of a parameter type.
             """
             for kind in cls:
                 if kind.check(parameter_value):
@@ -59,7 +59,7 @@ class Parameter(Generic[T]):
             )
 
         def check(self, parameter_value: Any) -> bool:
-            """Whether a Python value is of this type."""
+            """Return whether a Python value has this parameter type."""
             value = parameter_value
             if self is Parameter.Type.NOT_SET:
                 return value is None
@@ -82,33 +82,33 @@ class Parameter(Generic[T]):
 
     @classmethod
     def from_parameter_msg(cls, param_msg: ParameterMsg) -> Parameter[Any]:
-        """Makes a parameter of an `rcl_interfaces/Parameter`."""
+        """Create a parameter from an `rcl_interfaces/Parameter`."""
         return cls(param_msg.name, Parameter.Type(param_msg.value.type), parameter_value_to_python(param_msg.value))
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name of the parameter."""
         return self._name
 
     @property
     def type_(self) -> Parameter.Type:
-        """Its type."""
+        """The type of the parameter."""
         return self._type_
 
     @property
     def value(self) -> Any:
-        """Its value, None for NOT_SET."""
+        """The value of the parameter, None for NOT_SET."""
         return self._value
 
     def get_parameter_value(self) -> ParameterValue:
-        """Returns the value as an `rcl_interfaces/ParameterValue`."""
+        """Return the value as an `rcl_interfaces/ParameterValue`."""
         message = ParameterValue(type=int(self.type_))
         if (field := _VALUE_FIELDS.get(self.type_)) is not None:
             setattr(message, field, self.value)
         return message
 
     def to_parameter_msg(self) -> ParameterMsg:
-        """Returns it as an `rcl_interfaces/Parameter`."""
+        """Return the parameter as an `rcl_interfaces/Parameter`."""
         return ParameterMsg(name=self.name, value=self.get_parameter_value())
 
     def __eq__(self, other: object) -> bool:
@@ -148,7 +148,7 @@ def _is_sequence_of(kind: type, value: Any) -> bool:
 
 
 def get_parameter_value(string_value: str) -> ParameterValue:
-    """Returns the typed value of a text, as on the command line."""
+    """Return the typed value of a string, parsed as on the command line."""
     value = _yaml.parse_value(string_value)
     try:
         return Parameter("", value=value).get_parameter_value()
@@ -157,15 +157,15 @@ def get_parameter_value(string_value: str) -> ParameterValue:
 
 
 def parameter_value_to_python(parameter_value: ParameterValue) -> Any:
-    """Returns the Python value of an `rcl_interfaces/ParameterValue`.
+    """Return the Python value of an `rcl_interfaces/ParameterValue`.
 
     Raises:
-        RuntimeError: Its type is none there is.
+        RuntimeError: The message has an unknown parameter type.
     """
     try:
         kind = Parameter.Type(parameter_value.type)
     except ValueError:
-        raise RuntimeError(f"unexpected parameter type {parameter_value.type}") from None
+        raise RuntimeError(f"Unexpected parameter type {parameter_value.type}.") from None
     if kind is Parameter.Type.NOT_SET:
         return None
     value = getattr(parameter_value, _VALUE_FIELDS[kind])

@@ -1,4 +1,4 @@
-"""The services by which others see and set a node's parameters (`ros2 param`)."""
+"""Parameter services, through which other nodes get and set the parameters of a node (`ros2 param`)."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
 
 class ParameterService:
-    """Serves the parameters of a node below its name.
+    """Parameter services of a node.
 
     Args:
-        node: The node.
+        node: Node whose parameters are served.
     """
 
     def __init__(self, node: Node) -> None:
@@ -44,7 +44,7 @@ class ParameterService:
         try:
             response.descriptors = self._node.describe_parameters(list(request.names))
         except ParameterNotDeclaredException:
-            response.descriptors = []  # as upstream answers
+            response.descriptors = []  # Upstream rclpy also returns an empty list.
         return response
 
     def _get(self, request: Any, response: Any) -> Any:
@@ -89,7 +89,7 @@ class ParameterService:
 
 
 def _is_listed(name: str, request: Any) -> bool:
-    """Whether a name lies below one of the prefixes, at most `depth` dots deeper (0: any)."""
+    """Return whether a name has one of the prefixes and is at most `depth` levels below it (0: any level)."""
     for prefix in request.prefixes or [""]:
         rest = name if not prefix else name.removeprefix(prefix + PARAMETER_SEPARATOR_STRING)
         if prefix and rest == name and name != prefix:

@@ -1,6 +1,6 @@
 """Publishers."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -12,23 +12,23 @@ from rclpy.exceptions import InvalidHandle, RCLError
 
 if TYPE_CHECKING:
     from coframe.wire import Publisher as WirePublisher
-    from coframe.wire import StaticWriter
+    from coframe.wire import StaticBroadcaster
     from rclpy.context import Context
     from rclpy.qos import QoSProfile
 
 
 class Publisher:
-    """Sends messages to a topic; made by `Node.create_publisher`."""
+    """Publisher of a topic. Create it with `Node.create_publisher`."""
 
     def __init__(
         self,
-        wire: WirePublisher | StaticWriter,
+        wire: WirePublisher | StaticBroadcaster,
         msg_type: type[Any],
         topic: str,
         qos_profile: QoSProfile,
         context: Context,
     ) -> None:
-        self._wire: WirePublisher | StaticWriter | None = wire
+        self._wire: WirePublisher | StaticBroadcaster | None = wire
         self._context = context
         self.msg_type = msg_type
         self.topic = topic
@@ -40,13 +40,13 @@ class Publisher:
         return self.topic
 
     def publish(self, msg: Any) -> None:
-        """Sends a message.
+        """Publish a message.
 
         Args:
-            msg: A message of the publisher's type, or its serialised bytes.
+            msg: Message of the publisher's type, or its serialized bytes.
 
         Raises:
-            TypeError: It is another type's.
+            TypeError: The message has another type.
             RCLError: The context was shut down.
             InvalidHandle: The publisher was destroyed.
         """
@@ -56,26 +56,26 @@ class Publisher:
             data = msg
         else:
             raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
-        # After a signal a program may still say its last words: stop the robot, ...
-        if not self._context.ok() and not self._context._was_ended_by_signal:
+        # After a signal, a program may still publish final messages, for example to stop the robot.
+        if not self._context.ok() and not self._context._was_shut_down_by_signal:
             raise RCLError("Failed to publish: publisher's context is invalid")
-        self._alive().write(data)
+        self._require_wire().write(data)
 
     def get_subscription_count(self) -> int:
-        """Returns the number of subscriptions that receive what is published."""
-        return self._alive().matched
+        """Return the number of matched subscriptions."""
+        return self._require_wire().matched
 
     def assert_liveliness(self) -> None:
-        """Shows that the publisher is alive, which DDS does by itself here."""
-        self._alive()
+        """Assert that the publisher is alive. DDS does this automatically here."""
+        self._require_wire()
 
     def destroy(self) -> None:
-        """Ends it; better use `Node.destroy_publisher`."""
+        """Destroy the publisher. Prefer `Node.destroy_publisher`."""
         if self._wire is not None:
             self._wire.close()
             self._wire = None
 
-    def _alive(self) -> WirePublisher | StaticWriter:
+    def _require_wire(self) -> WirePublisher | StaticBroadcaster:
         if self._wire is None:
             raise InvalidHandle(f"cannot use Publisher of '{self.topic}' because destruction was requested")
         return self._wire

@@ -1,4 +1,4 @@
-"""Quality of service: how a publisher and a subscription want their messages delivered."""
+"""Quality of service (QoS) profiles and policies."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ if TYPE_CHECKING:
 
 
 class InvalidQoSProfileException(Exception):
-    """A profile is incomplete or contradicts itself."""
+    """A QoS profile is incomplete or inconsistent."""
 
     def __init__(self, *args: object) -> None:
         super().__init__("Invalid QoSProfile", *args)
 
 
 class QoSPolicyKind(IntEnum):
-    """Names of the policies."""
+    """Kinds of QoS policies."""
 
     INVALID = 1 << 0
     DURABILITY = 1 << 1
@@ -36,30 +36,30 @@ class QoSPolicyKind(IntEnum):
 
 
 class QoSPolicyEnum(IntEnum):
-    """Base of the policies: values have short names such as `keep_last`."""
+    """Base class of the policies, whose values have short names such as `keep_last`."""
 
     @classmethod
     def short_keys(cls) -> list[str]:
-        """Returns the short names of all values."""
+        """Return the short names of all values."""
         return [key.lower() for key in cls.__members__ if not key.startswith("RMW")]
 
     @classmethod
     def get_from_short_key(cls, name: str) -> int:
-        """Returns the value of a short name, in any case.
+        """Return the value with a short name, case-insensitively.
 
         Raises:
-            KeyError: There is none of this name.
+            KeyError: No value has this name.
         """
         return cls[name.upper()].value
 
     @property
     def short_key(self) -> str:
-        """The short name."""
+        """The short name of the value."""
         return self.name.lower()
 
 
 class HistoryPolicy(QoSPolicyEnum):
-    """How many messages wait to be sent or taken."""
+    """Policy for the number of queued messages."""
 
     SYSTEM_DEFAULT = 0
     KEEP_LAST = 1
@@ -72,7 +72,7 @@ class HistoryPolicy(QoSPolicyEnum):
 
 
 class ReliabilityPolicy(QoSPolicyEnum):
-    """Whether lost messages are sent again."""
+    """Policy for the retransmission of lost messages."""
 
     SYSTEM_DEFAULT = 0
     RELIABLE = 1
@@ -86,7 +86,7 @@ class ReliabilityPolicy(QoSPolicyEnum):
 
 
 class DurabilityPolicy(QoSPolicyEnum):
-    """Whether late subscriptions get what was published before."""
+    """Policy for the delivery of earlier messages to late-joining subscriptions."""
 
     SYSTEM_DEFAULT = 0
     TRANSIENT_LOCAL = 1
@@ -100,7 +100,7 @@ class DurabilityPolicy(QoSPolicyEnum):
 
 
 class LivelinessPolicy(QoSPolicyEnum):
-    """How a publisher shows that it is alive."""
+    """Policy for how a publisher asserts that it is alive."""
 
     SYSTEM_DEFAULT = 0
     AUTOMATIC = 1
@@ -132,18 +132,18 @@ _POLICIES: Final[dict[str, Any]] = {
 
 
 class QoSProfile:
-    """All policies together; profiles with equal policies are equal.
+    """A complete set of QoS policies. Profiles with equal policies are equal.
 
-    History, depth, reliability and durability shape the delivery. Deadline, lifespan and liveliness are kept and
-    shown, but nothing is monitored by them.
+    History, depth, reliability and durability control the delivery. Deadline, lifespan and liveliness are stored and
+    reported, but not enforced.
 
     Args:
-        **kwargs: `history` and/or `depth` (a queue size; needed with KEEP_LAST), `reliability`, `durability`,
+        **kwargs: `history` and/or `depth` (a queue size, required with KEEP_LAST), `reliability`, `durability`,
             `lifespan`, `deadline`, `liveliness`, `liveliness_lease_duration` (Durations),
             `avoid_ros_namespace_conventions`.
 
     Raises:
-        InvalidQoSProfileException: Neither history nor depth is given, or KEEP_LAST without depth.
+        InvalidQoSProfileException: Neither history nor depth is given, or KEEP_LAST is given without depth.
     """
 
     history: HistoryPolicy
@@ -191,11 +191,11 @@ class QoSProfile:
         return f"{type(self).__name__}({', '.join(f'{name}={getattr(self, name)!s}' for name in _POLICIES)})"
 
     def get_c_qos_profile(self) -> Self:
-        """Returns the profile itself; there is no C below."""
+        """Return the profile itself, since there is no C implementation."""
         return self
 
     def _to_wire(self) -> WireQoS:
-        from coframe.wire import QoS  # noqa: PLC0415 - profiles work without DDS
+        from coframe.wire import QoS  # noqa: PLC0415 - Profiles do not need DDS.
 
         return QoS(
             depth=max(self.depth, 1),
@@ -211,22 +211,22 @@ def _checked_property(policy: str, kind: type[Any]) -> property:
 
     def set_(self: QoSProfile, value: Any) -> None:
         accepted = int if issubclass(kind, IntEnum) else kind
-        assert isinstance(value, accepted), f"{policy} must be of type {kind.__name__}, not {type(value).__name__}"
-        assert policy != "depth" or value >= 0, f"depth must not be negative, got {value}"
+        assert isinstance(value, accepted), f"{policy} must be a {kind.__name__}, not a {type(value).__name__}."
+        assert policy != "depth" or value >= 0, f"depth must not be negative, got {value}."
         object.__setattr__(self, f"_{policy}", kind(value) if issubclass(kind, IntEnum) else value)
 
-    return property(get, set_, doc=f"The policy `{policy}`.")
+    return property(get, set_, doc=f"The QoS policy `{policy}`.")
 
 
 for _policy, _kind in _POLICIES.items():
     setattr(QoSProfile, _policy, _checked_property(_policy, _kind))
 
 
-def qos_from(qos: QoSProfile | int) -> QoSProfile:
-    """Returns the profile, or KEEP_LAST with the given depth.
+def as_qos_profile(qos: QoSProfile | int) -> QoSProfile:
+    """Return the profile, or a KEEP_LAST profile with the given depth.
 
     Raises:
-        TypeError: It is neither a profile nor a number.
+        TypeError: `qos` is neither a profile nor an int.
         ValueError: The depth is negative.
     """
     if isinstance(qos, QoSProfile):
@@ -267,7 +267,7 @@ qos_profile_best_available: Final = QoSProfile(
 
 
 class QoSPresetProfiles(Enum):
-    """The profiles with a name of their own."""
+    """Predefined profiles."""
 
     UNKNOWN = qos_profile_unknown
     SYSTEM_DEFAULT = qos_profile_system_default
@@ -280,21 +280,21 @@ class QoSPresetProfiles(Enum):
 
     @classmethod
     def short_keys(cls) -> list[str]:
-        """Returns the short names of all profiles."""
+        """Return the short names of all profiles."""
         return [key.lower() for key in cls.__members__]
 
     @classmethod
     def get_from_short_key(cls, name: str) -> QoSProfile:
-        """Returns the profile of a short name, in any case.
+        """Return the profile with a short name, case-insensitively.
 
         Raises:
-            KeyError: There is none of this name.
+            KeyError: No value has this name.
         """
         return cls[name.upper()].value
 
 
 class QoSCompatibility(IntEnum):
-    """Whether a publisher and a subscription will meet."""
+    """Compatibility of the profiles of a publisher and a subscription."""
 
     OK = 0
     WARNING = 1
@@ -302,11 +302,11 @@ class QoSCompatibility(IntEnum):
 
 
 def qos_check_compatible(publisher_qos: QoSProfile, subscription_qos: QoSProfile) -> tuple[QoSCompatibility, str]:
-    """Returns whether messages can flow, and if not, why.
+    """Return whether the profiles are compatible, and the reasons if they are not.
 
     Args:
-        publisher_qos: What the publisher offers.
-        subscription_qos: What the subscription requests.
+        publisher_qos: Profile offered by the publisher.
+        subscription_qos: Profile requested by the subscription.
     """
     reasons = []
     if (

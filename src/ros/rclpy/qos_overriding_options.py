@@ -1,4 +1,4 @@
-"""Parameters by which a user chooses the quality of service of a publisher or a subscription when a node is started."""
+"""QoS override parameters, which set the QoS of publishers and subscriptions when a node starts."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ QosCallbackType = Callable[[QoSProfile], QosCallbackResult]
 
 
 class InvalidQosOverridesError(ParameterException):
-    """A parameter is no value of its policy, or the node's callback refuses the profile."""
+    """A parameter value is not valid for its policy, or the node's callback rejected the profile."""
 
 
 class QoSOverridingOptions:
-    """Which policies may be overridden.
+    """Options that declare which QoS policies parameters may override.
 
     Args:
-        policy_kinds: Those policies.
-        callback: Is given the profile with what was overridden, and may refuse it.
-        entity_id: Tells several publishers, or subscriptions, of one topic apart.
+        policy_kinds: The policies that may be overridden.
+        callback: Function that is called with the resulting profile and may reject it.
+        entity_id: Identifier that distinguishes several publishers or subscriptions of one topic.
     """
 
     def __init__(
@@ -48,55 +48,57 @@ class QoSOverridingOptions:
 
     @classmethod
     def with_default_policies(cls, *, callback: QosCallbackType | None = None, entity_id: str | None = None) -> Self:
-        """Those of history, depth and reliability."""
+        """Create options that allow overriding history, depth and reliability."""
         kinds = (QoSPolicyKind.HISTORY, QoSPolicyKind.DEPTH, QoSPolicyKind.RELIABILITY)
         return cls(kinds, callback=callback, entity_id=entity_id)
 
 
-def overridden(node: Node, entity: str, topic: str, qos: QoSProfile, options: QoSOverridingOptions) -> QoSProfile:
-    """Returns the profile with what the node's parameters say, which are declared, and read-only.
+def apply_qos_overrides(
+    node: Node, entity: str, topic: str, qos: QoSProfile, options: QoSOverridingOptions
+) -> QoSProfile:
+    """Declare the read-only override parameters of an endpoint and return the resulting profile.
 
     Args:
-        node: Whose parameters.
+        node: Node whose parameters are declared.
         entity: `publisher` or `subscription`.
-        topic: Its whole name: the parameters are called `qos_overrides.<topic>.<entity>.<policy>`.
-        qos: What holds without them.
-        options: Which policies they are.
+        topic: Fully qualified name of the topic. The parameters are named `qos_overrides.<topic>.<entity>.<policy>`.
+        qos: Profile without overrides.
+        options: Policies that may be overridden.
 
     Raises:
-        InvalidQosOverridesError: One of them makes no sense, or the options' callback refuses the profile.
+        InvalidQosOverridesError: A value is not valid, or the options' callback rejected the profile.
     """
     suffix = f"_{options.entity_id}" if options.entity_id else ""
     chosen = copy.copy(qos)
     for kind in options.policy_kinds:
         policy = QoSPolicyKind(kind).name.lower()
         name = f"qos_overrides.{topic}.{entity}{suffix}.{policy}"
-        usual = getattr(qos, policy)
+        default = getattr(qos, policy)
         try:
-            value = node.declare_parameter(name, _as_parameter(usual), ParameterDescriptor(read_only=True)).value
+            value = node.declare_parameter(name, _as_parameter(default), ParameterDescriptor(read_only=True)).value
         except ParameterAlreadyDeclaredException:
             value = node.get_parameter(name).value
         try:
-            setattr(chosen, policy, _as_policy(value, usual))
+            setattr(chosen, policy, _as_policy(value, default))
         except (AssertionError, KeyError):
-            raise InvalidQosOverridesError(f"{value!r} is no {policy}{_values(usual)}", name) from None
+            raise InvalidQosOverridesError(f"Invalid {policy} {value!r}{_values(default)}", name) from None
     if options.callback is not None and not (result := options.callback(chosen)).successful:
-        reason = result.reason or "the node refuses this quality of service"
+        reason = result.reason or "The node's callback rejected the QoS profile"
         raise InvalidQosOverridesError(reason, f"qos_overrides.{topic}.{entity}{suffix}")
     return chosen
 
 
-def _as_parameter(usual: Any) -> Any:
-    if isinstance(usual, QoSPolicyEnum):
-        return usual.short_key
-    return usual.nanoseconds if isinstance(usual, Duration) else usual
+def _as_parameter(default: Any) -> Any:
+    if isinstance(default, QoSPolicyEnum):
+        return default.short_key
+    return default.nanoseconds if isinstance(default, Duration) else default
 
 
-def _as_policy(value: Any, usual: Any) -> Any:
-    if isinstance(usual, QoSPolicyEnum):
-        return type(usual).get_from_short_key(value)
-    return Duration(nanoseconds=value) if isinstance(usual, Duration) else value
+def _as_policy(value: Any, default: Any) -> Any:
+    if isinstance(default, QoSPolicyEnum):
+        return type(default).get_from_short_key(value)
+    return Duration(nanoseconds=value) if isinstance(default, Duration) else value
 
 
-def _values(usual: Any) -> str:
-    return f", which are {', '.join(type(usual).short_keys())}" if isinstance(usual, QoSPolicyEnum) else ""
+def _values(default: Any) -> str:
+    return f" (valid values: {', '.join(type(default).short_keys())})" if isinstance(default, QoSPolicyEnum) else ""

@@ -1,4 +1,4 @@
-"""Messages as bytes (CDR), as they go over the wire."""
+"""Serialization of messages to CDR, the format on the wire."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from coframe.messages import codec
 
 
 def serialize_message(message: Any) -> bytes:
-    """Returns the bytes of a message, with CDR's four-byte header."""
+    """Return a message serialized to CDR, including the four-byte encapsulation header."""
     return bytes(codec.serialize(message))
 
 
 def deserialize_message(serialized_message: bytes, message_type: type[Any]) -> Any:
-    """Returns the message of the bytes.
+    """Return the message that the CDR bytes contain.
 
     Raises:
-        DecodeError: They are no bytes of such a message.
+        DecodeError: The bytes are not a message of this type.
     """
     return codec.deserialize(serialized_message, message_type)

@@ -1,4 +1,4 @@
-"""Services: answers to requests."""
+"""Service servers."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ if TYPE_CHECKING:
     from rclpy.callback_groups import CallbackGroup
     from rclpy.qos import QoSProfile
 
-# A client may know us before we know it: what is sent before DDS has matched both ways is lost.
+# A client may match the server before the server matches the client. A reply sent before that is lost.
 _MATCH_TIMEOUT_S: Final = 0.1
 
 
 class Service:
-    """Calls back with each request and sends the response; made by `Node.create_service`."""
+    """Server of a service. Create it with `Node.create_service`."""
 
     def __init__(
         self,
@@ -45,14 +45,14 @@ class Service:
         self.qos_profile = qos_profile
 
     def send_response(self, response: Any, header: RequestHeader) -> None:
-        """Answers a request.
+        """Send the response to a request.
 
         Args:
             response: The response.
-            header: The header of the request.
+            header: Header of the request.
 
         Raises:
-            TypeError: It is no response of the service's type.
+            TypeError: `response` is not a response of the service's type.
         """
         if not isinstance(response, self.srv_type.Response):
             raise TypeError(f"Expected {self.srv_type.Response}, got {type(response)}")
@@ -64,7 +64,7 @@ class Service:
         self._replies.write(_request_header.join(header, codec.serialize(response)))
 
     def destroy(self) -> None:
-        """Ends it; better use `Node.destroy_service`."""
+        """Destroy the service. Prefer `Node.destroy_service`."""
         if self._requests is not None:
             self._requests.close()
             self._replies.close()
@@ -89,10 +89,11 @@ class Service:
         self.send_response(response, header)
 
 
-class DeferredService(Service):
-    """A service of rclpy's own whose callback answers when it likes.
+class DeferredResponseService(Service):
+    """Internal service whose responses may be sent later than the end of the callback.
 
-    It is called with the request and its header, and answers by `send_response`; several may wait meanwhile.
+    The callback is called with the request and its header, and responds with `send_response`. Several requests may be
+    pending at the same time.
     """
 
     def _answer(self, header: RequestHeader, cdr: bytes) -> Any:

@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM: all contexts shut down, and a program that ends by them ends without a traceback."""
+"""Handlers of SIGINT and SIGTERM, which shut down all contexts and suppress the traceback of the exit."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import threading
 from enum import IntFlag
 from typing import TYPE_CHECKING, Any
 
-from rclpy.context import _end_by_signal
+from rclpy.context import _shut_down_by_signal
 from rclpy.exceptions import ROSInterruptException
 from rclpy.executors import ExternalShutdownException
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class SignalHandlerOptions(IntFlag):
-    """Which signals shut the contexts down."""
+    """Signals that shut down the contexts."""
 
     NO = 0
     SIGINT = 1
@@ -35,11 +35,11 @@ _previous_hooks: tuple[Callable[..., Any], Callable[..., Any]] | None = None
 
 
 def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions.ALL) -> None:
-    """Shuts all contexts down at the given signals; the handlers before go on being called.
+    """Install handlers that shut down all contexts. The previous handlers are still called.
 
-    Python lets only the main thread do this; elsewhere nothing happens.
+    Python allows this only in the main thread. In other threads, this function does nothing.
     """
-    global _options  # noqa: PLW0603 - handlers are the process's
+    global _options  # noqa: PLW0603 - Signal handlers belong to the process.
     if threading.current_thread() is not threading.main_thread() or _options:
         return
     _options = options
@@ -54,7 +54,7 @@ def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions
 
 
 def uninstall_signal_handlers() -> None:
-    """Takes the handlers back; the silence about exceptions that a signal has caused stays."""
+    """Restore the previous handlers. Tracebacks of exceptions caused by a signal remain suppressed."""
     global _options  # noqa: PLW0603
     if threading.current_thread() is not threading.main_thread():
         return
@@ -68,14 +68,14 @@ def uninstall_signal_handlers() -> None:
 
 
 def get_current_signal_handlers_options() -> SignalHandlerOptions:
-    """Returns which signals shut the contexts down."""
+    """Return the signals that shut down the contexts."""
     return _options
 
 
 def _handle(number: int, frame: FrameType | None) -> None:
     global _was_signalled  # noqa: PLW0603
     _was_signalled = True
-    _end_by_signal()
+    _shut_down_by_signal()
     previous = _previous_handlers.get(number)
     if callable(previous):
         previous(number, frame)

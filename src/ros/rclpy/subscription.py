@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 
 class Subscription:
-    """Receives the messages of a topic; made by `Node.create_subscription`.
+    """Subscription to a topic. Create it with `Node.create_subscription`.
 
-    Messages wait in DDS, as many as the QoS keeps, until an executor takes them.
+    DDS queues messages, up to the depth of the QoS profile, until an executor takes them.
     """
 
     def __init__(
@@ -35,7 +35,7 @@ class Subscription:
         raw: bool,
     ) -> None:
         self._wire: WireSubscription | TfReader | None = wire
-        self._wants_info = _takes_info(callback)
+        self._accepts_info = _accepts_message_info(callback)
         self.msg_type = msg_type
         self.topic = topic
         self.callback = callback
@@ -49,11 +49,11 @@ class Subscription:
         return self.topic
 
     def get_publisher_count(self) -> int:
-        """Returns the number of publishers it receives from."""
+        """Return the number of matched publishers."""
         return 0 if self._wire is None else self._wire.matched
 
     def destroy(self) -> None:
-        """Ends it; better use `Node.destroy_subscription`."""
+        """Destroy the subscription. Prefer `Node.destroy_subscription`."""
         if self._wire is not None:
             self._wire.close()
             self._wire = None
@@ -69,16 +69,16 @@ class Subscription:
 
     def _deliver(self, sample: Sample, received: int) -> Any:
         message = sample.data if self.raw else codec.deserialize(sample.data, self.msg_type)
-        if not self._wants_info:
+        if not self._accepts_info:
             return self.callback(message)
         return self.callback(message, {"source_timestamp": sample.source_timestamp, "received_timestamp": received})
 
 
-def _takes_info(callback: Callable[..., Any]) -> bool:
-    """Whether a callback takes (message, info) rather than (message)."""
+def _accepts_message_info(callback: Callable[..., Any]) -> bool:
+    """Return whether a callback accepts (message, info) rather than (message)."""
     try:
         signature = inspect.signature(callback)
-    except ValueError:  # some built-in functions have none
+    except ValueError:  # Some built-in functions have no signature.
         return False
     for count in (1, 2):
         try:

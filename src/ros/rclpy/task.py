@@ -1,6 +1,6 @@
-"""Results to come, and the work that brings them."""
+"""Futures and tasks."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ T = TypeVar("T")
 
 
 class Future(Generic[T]):
-    """A result to come; can be awaited in coroutines that an executor or asyncio runs.
+    """A future result, which coroutines of an executor or of asyncio can await.
 
-    An asyncio task that awaits it sleeps until the result is there, from whatever thread. Cancelling the task cancels
-    the future, and a future that was cancelled raises `asyncio.CancelledError` there, as asyncio's own futures do; an
-    executor's coroutine gets None instead.
+    An asyncio task that awaits the future is suspended until any thread sets the result. Cancelling the task cancels
+    the future. A cancelled future raises `asyncio.CancelledError` in the task, as asyncio's own futures do; in a
+    coroutine of an executor it returns None.
 
     Args:
-        executor: Runs the done callbacks; None: they run at once, in the thread that sets the result.
+        executor: Executor that runs the done callbacks. None: they run immediately in the thread that sets the result.
     """
 
     def __init__(self, *, executor: Executor | None = None) -> None:
@@ -51,9 +51,9 @@ class Future(Generic[T]):
             sys.stderr.write(f"The following exception was never retrieved: {self._exception}\n")
 
     def __await__(self) -> Generator[Any, None, T | None]:
-        while not self._is_over():
+        while not self._is_complete():
             if (loop := _asyncio.awaiting_loop()) is not None:
-                yield from _asyncio.until_over(self, loop)
+                yield from _asyncio.wait_until_complete(self, loop)
             else:
                 yield self
         if self._cancelled and _asyncio.awaiting_loop() is not None:
@@ -61,54 +61,54 @@ class Future(Generic[T]):
         return self.result()
 
     def cancel(self) -> None:
-        """Gives up a result that is not there yet."""
+        """Cancel the future unless it is done."""
         with self._lock:
             if self._done:
                 return
             self._cancelled = True
-        self._announce()
+        self._notify_complete()
 
     def cancelled(self) -> bool:
-        """Whether it was given up."""
+        """Return whether the future was cancelled."""
         return self._cancelled
 
     def done(self) -> bool:
-        """Whether there is a result or an exception."""
+        """Return whether there is a result or an exception."""
         return self._done
 
     def result(self) -> T | None:
-        """Returns the result, None while there is none, or raises the exception that came instead."""
+        """Return the result, or None if there is none yet. Raise the exception if one was set."""
         if self._exception is not None:
             self._exception_fetched = True
             raise self._exception
         return self._result
 
     def exception(self) -> BaseException | None:
-        """Returns the exception that came instead of a result, if one did."""
+        """Return the exception if one was set, otherwise None."""
         self._exception_fetched = True
         return self._exception
 
     def set_result(self, result: T) -> None:
-        """Brings the result."""
+        """Set the result and complete the future."""
         with self._lock:
             self._result = result
             self._done = True
             self._cancelled = False
-        self._announce()
+        self._notify_complete()
 
     def set_exception(self, exception: BaseException) -> None:
-        """Brings an exception instead of a result."""
+        """Set an exception and complete the future."""
         with self._lock:
             self._exception = exception
             self._exception_fetched = False
             self._done = True
             self._cancelled = False
-        self._announce()
+        self._notify_complete()
 
     def add_done_callback(self, callback: Callable[[Future[T]], object]) -> None:
-        """Calls `callback` with this future once it is over; at once if it is."""
+        """Call `callback` with this future when it is complete, or immediately if it is complete already."""
         with self._lock:
-            if not self._is_over():
+            if not self._is_complete():
                 self._callbacks.append(callback)
                 return
         executor = self._executor()
@@ -117,26 +117,26 @@ class Future(Generic[T]):
         else:
             callback(self)
 
-    def _is_over(self) -> bool:
+    def _is_complete(self) -> bool:
         return self._done or self._cancelled
 
     def _set_executor(self, executor: Executor | None) -> None:
         self._executor = _no_executor if executor is None else weakref.ref(executor)
 
     def _add_waiter(self, wake: Callable[[], object]) -> None:
-        """Calls `wake` once it is over, always at once and in the thread that brings the end."""
+        """Call `wake` when the future is complete, always immediately and in the completing thread."""
         with self._lock:
-            if not self._is_over():
+            if not self._is_complete():
                 self._waiters.append(wake)
                 return
         wake()
 
     def _remove_waiter(self, wake: Callable[[], object]) -> None:
-        """Forgets a waiter; one that has been called is no error."""
+        """Remove a waiter. A waiter that was called already is ignored."""
         with self._lock, suppress(ValueError):
             self._waiters.remove(wake)
 
-    def _announce(self) -> None:
+    def _notify_complete(self) -> None:
         with self._lock:
             callbacks, self._callbacks = self._callbacks, []
             waiters, self._waiters = self._waiters, []
@@ -151,13 +151,13 @@ class Future(Generic[T]):
 
 
 class Task(Future[T]):
-    """A function or coroutine that an executor runs; itself the future of its result.
+    """A function or coroutine that an executor runs, and the future of its result.
 
     Args:
-        handler: The function, coroutine function or coroutine.
-        args: Its positional arguments.
-        kwargs: Its keyword arguments.
-        executor: Is told when an awaited future lets a coroutine go on.
+        handler: Function, coroutine function or coroutine to run.
+        args: Positional arguments of the function.
+        kwargs: Keyword arguments of the function.
+        executor: Executor that continues a coroutine when an awaited future is complete.
     """
 
     def __init__(
@@ -177,34 +177,34 @@ class Task(Future[T]):
         self._handler: Any = handler
 
     def __call__(self) -> None:
-        """Runs it to its end, or to the next future it has to await."""
-        if self._is_over() or not self._execution_lock.acquire(blocking=False):
+        """Run the task to its end, or to the next future that it must await."""
+        if self._is_complete() or not self._execution_lock.acquire(blocking=False):
             return
         self._executing = True
         try:
-            awaited = None if self._is_over() else self._step()
+            awaited = None if self._is_complete() else self._step()
         finally:
             self._executing = False
             self._execution_lock.release()
         if self._cancelled:
             self._close()
-        if awaited is not None and not self._is_over():
+        if awaited is not None and not self._is_complete():
             awaited._add_waiter(self._continue)
-        elif not self._is_over():
+        elif not self._is_complete():
             self._continue()
 
     def executing(self) -> bool:
-        """Whether it is running right now."""
+        """Return whether the task is currently running."""
         return self._executing
 
     def cancel(self) -> None:
-        """Gives it up; a coroutine is closed."""
+        """Cancel the task. A coroutine is closed."""
         super().cancel()
         if self._cancelled:
             self._close()
 
     def _close(self) -> None:
-        """Closes the coroutine; one that is running is closed after its step, by the thread that runs it."""
+        """Close the coroutine. A running coroutine is closed after its current step by the thread that runs it."""
         if inspect.iscoroutine(self._handler) and self._execution_lock.acquire(blocking=False):
             try:
                 self._handler.close()
@@ -212,7 +212,7 @@ class Task(Future[T]):
                 self._execution_lock.release()
 
     def _step(self) -> Future[Any] | None:
-        """Runs once; returns the future that a coroutine awaits."""
+        """Run one step and return the future that a coroutine awaits, if any."""
         try:
             if not inspect.iscoroutine(self._handler):
                 result = self._handler(*self._args, **self._kwargs)
@@ -225,7 +225,7 @@ class Task(Future[T]):
                 return awaited if isinstance(awaited, Future) else None
         except StopIteration as stop:
             self.set_result(stop.value)
-        except Exception as error:  # noqa: BLE001 - whoever awaits the task gets it
+        except Exception as error:  # noqa: BLE001 - The awaiting code receives the exception.
             self.set_exception(error)
         return None
 
@@ -240,7 +240,7 @@ def _no_executor() -> None:
 
 
 def _call_safely(callback: Callable[[Future[T]], object], future: Future[T]) -> None:
-    """There may be more callbacks: one that fails is reported only."""
+    """Call a callback and print its exception, so that the remaining callbacks still run."""
     try:
         callback(future)
     except Exception:  # noqa: BLE001

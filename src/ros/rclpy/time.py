@@ -1,4 +1,4 @@
-"""Points in time, each on one kind of clock."""
+"""Points in time, each of which belongs to one type of clock."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, overload
 import builtin_interfaces.msg
 from rclpy._clock_type import ClockType
 from rclpy.constants import S_TO_NS
-from rclpy.duration import INT64_LIMIT, Duration, number
+from rclpy.duration import INT64_LIMIT, Duration, require_number
 
 if TYPE_CHECKING:
     from typing_extensions import Self
@@ -16,15 +16,15 @@ __all__ = ["Time"]
 
 
 class Time:
-    """A point in time; times of different clocks are neither compared nor subtracted.
+    """A point in time. Times of different clock types can be neither compared nor subtracted.
 
     Args:
-        seconds: Seconds since the clock's epoch; a float is cut to whole nanoseconds.
+        seconds: Seconds since the clock's epoch. A float is truncated to whole nanoseconds.
         nanoseconds: Nanoseconds, added to the seconds.
-        clock_type: The clock that this time was read from.
+        clock_type: The type of the clock that this time belongs to.
 
     Raises:
-        TypeError: `clock_type` is no ClockType.
+        TypeError: `clock_type` is not a ClockType.
         ValueError: Seconds or nanoseconds are negative.
         OverflowError: The sum does not fit into 64 bits.
     """
@@ -36,9 +36,9 @@ class Time:
     ) -> None:
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")
-        if number(seconds) < 0:
+        if require_number(seconds) < 0:
             raise ValueError("Seconds value must not be negative")
-        if number(nanoseconds) < 0:
+        if require_number(nanoseconds) < 0:
             raise ValueError("Nanoseconds value must not be negative")
         total = int(seconds * S_TO_NS) + int(nanoseconds)
         if total >= INT64_LIMIT:
@@ -52,12 +52,12 @@ class Time:
         return self._nanoseconds
 
     def seconds_nanoseconds(self) -> tuple[int, int]:
-        """Returns whole seconds and the nanoseconds beyond them."""
+        """Return the whole seconds and the remaining nanoseconds."""
         return divmod(self.nanoseconds, S_TO_NS)
 
     @property
     def clock_type(self) -> ClockType:
-        """The clock that this time was read from."""
+        """The type of the clock that this time belongs to."""
         return self._clock_type
 
     def __repr__(self) -> str:
@@ -89,7 +89,7 @@ class Time:
                 raise ValueError("Subtraction leads to negative time") from error
         return NotImplemented
 
-    # Comparing with a number raises: `Time(nanoseconds=5) == 5` would silently be False.
+    # A comparison with a number raises an error, because `Time(nanoseconds=5) == 5` would silently be False.
     def __eq__(self, other: object) -> bool:
         if isinstance(other, Time):
             self._check_same_clock(other, "compare")
@@ -130,16 +130,16 @@ class Time:
             raise TypeError(f"Can't {verb} times with different clock types")
 
     def to_msg(self) -> builtin_interfaces.msg.Time:
-        """Returns a `builtin_interfaces/Time`."""
+        """Return the time as a `builtin_interfaces/Time`."""
         seconds, nanoseconds = self.seconds_nanoseconds()
         return builtin_interfaces.msg.Time(sec=seconds, nanosec=nanoseconds)
 
     @classmethod
     def from_msg(cls, msg: builtin_interfaces.msg.Time, clock_type: ClockType = ClockType.ROS_TIME) -> Self:
-        """Makes a Time of a message.
+        """Create a Time from a message.
 
         Raises:
-            TypeError: `msg` is no `builtin_interfaces/Time`.
+            TypeError: `msg` is not a `builtin_interfaces/Time`.
         """
         if not isinstance(msg, builtin_interfaces.msg.Time):
             raise TypeError("Must pass a builtin_interfaces.msg.Time object")

@@ -1,6 +1,6 @@
-"""Simulated time: from the topic /clock to the clocks of a node."""
+"""Source of simulated time, which sets the clocks of a node from the topic /clock."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ USE_SIM_TIME_NAME = "use_sim_time"
 
 
 class TimeSource:
-    """Drives ROS clocks by /clock while it is switched on.
+    """Source of simulated time. While active, it sets the attached ROS clocks from /clock.
 
     Args:
-        node: The node that subscribes.
+        node: Node that subscribes to /clock.
     """
 
     def __init__(self, *, node: Node) -> None:
@@ -33,12 +33,12 @@ class TimeSource:
         self._clocks: list[ROSClock] = []
         self._subscription: Subscription | None = None
         self._last_time = Time()
-        # A busy callback of the node's must not stop the time for its other threads.
+        # A separate group, so that a busy callback of the node does not stop the clock for other threads.
         self._group = MutuallyExclusiveCallbackGroup()
 
     @property
     def ros_time_is_active(self) -> bool:
-        """Whether the clocks follow /clock."""
+        """Whether the clocks use the time of /clock."""
         return self._subscription is not None
 
     @ros_time_is_active.setter
@@ -58,10 +58,10 @@ class TimeSource:
         self._node.context._wakeup.set()
 
     def attach_clock(self, clock: Any) -> None:
-        """Drives this clock, too.
+        """Add a clock that this time source sets.
 
         Raises:
-            ValueError: It is no ROS clock.
+            ValueError: The clock is not a ROS clock.
         """
         if not isinstance(clock, ROSClock):
             raise ValueError("Only clocks with type ROS_TIME can be attached.")  # noqa: TRY004 - as upstream
@@ -70,7 +70,7 @@ class TimeSource:
         self._clocks.append(clock)
 
     def clock_callback(self, msg: rosgraph_msgs.msg.Clock) -> None:
-        """Sets the clocks."""
+        """Set the attached clocks to the time of a message."""
         self._last_time = Time.from_msg(msg.clock)
         for clock in self._clocks:
             clock.set_ros_time_override(self._last_time)

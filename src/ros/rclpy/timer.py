@@ -1,6 +1,6 @@
 """Timers and rates."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 
 class Timer:
-    """Calls back periodically; made by `Node.create_timer`.
+    """Timer with a periodic callback. Create it with `Node.create_timer`.
 
-    While a simulator drives its clock, the period counts in simulated time, else in steady time: setting the
-    computer's clock does not disturb a timer.
+    The period is measured in simulated time while a simulator sets the clock, otherwise in steady time. Setting the
+    system clock therefore does not disturb timers.
     """
 
     def __init__(
@@ -49,12 +49,12 @@ class Timer:
 
     @property
     def clock(self) -> Clock:
-        """The clock of the period."""
+        """The clock that measures the period."""
         return self._clock
 
     @property
     def timer_period_ns(self) -> int:
-        """The period in nanoseconds; a new one counts from the next call on."""
+        """The period in nanoseconds. A change takes effect after the next call."""
         return self._period_ns
 
     @timer_period_ns.setter
@@ -63,38 +63,38 @@ class Timer:
         self._context._wakeup.set()
 
     def destroy(self) -> None:
-        """Ends it; better use `Node.destroy_timer`."""
+        """Destroy the timer. Prefer `Node.destroy_timer`."""
         self._is_destroyed = True
 
     def cancel(self) -> None:
-        """Stops calling back until `reset()`."""
+        """Stop the callbacks until `reset()`."""
         self._is_canceled = True
 
     def is_canceled(self) -> bool:
-        """Whether it was stopped."""
+        """Return whether the timer was cancelled."""
         return self._is_canceled
 
     def reset(self) -> None:
-        """Starts a full period from now, also of a cancelled timer."""
+        """Restart the period from now. This also restarts a cancelled timer."""
         self._start()
         self._is_canceled = False
         self._context._wakeup.set()
 
     def is_ready(self) -> bool:
-        """Whether a call is due."""
+        """Return whether a call is due."""
         return not self._is_stopped and self.time_until_next_call_ns() <= 0
 
     def time_since_last_call(self) -> int:
-        """Returns nanoseconds since the last call, or since the start."""
+        """Return the nanoseconds since the last call, or since the start."""
         self._follow_clock()
         return self._now_ns() - self._last_ns
 
     def time_until_next_call(self) -> int | None:
-        """Returns nanoseconds until the next call is due, negative when it is late; None when cancelled."""
+        """Return the nanoseconds until the next call, negative if it is late, or None if the timer is cancelled."""
         return None if self._is_canceled else self.time_until_next_call_ns()
 
     def time_until_next_call_ns(self) -> int:
-        """Returns nanoseconds until the next call is due, whether or not it was cancelled."""
+        """Return the nanoseconds until the next call, even if the timer is cancelled."""
         self._follow_clock()
         return self._next_ns - self._now_ns()
 
@@ -111,7 +111,7 @@ class Timer:
         return self._clock._now_ns() if self._is_simulated else time.monotonic_ns()
 
     def _follow_clock(self) -> None:
-        """Starts anew when the source of time changed, or a simulation was started over."""
+        """Restart the period if the time source changed or simulated time jumped back."""
         if self._is_simulated != self._clock._is_simulated or self._now_ns() < self._last_ns:
             self._start()
 
@@ -119,7 +119,7 @@ class Timer:
         if self._is_stopped:
             return None
         remaining = self.time_until_next_call_ns()
-        # A simulated clock moves when a message comes, which sets the wakeup.
+        # A simulated clock advances when a message arrives, which also sets the wakeup.
         return None if self._is_simulated and remaining > 0 else remaining
 
     def _take(self) -> Callable[[], Any] | None:
@@ -129,7 +129,7 @@ class Timer:
         return self.callback
 
     def _advance(self) -> None:
-        """Counts one call; periods that were missed altogether are left out."""
+        """Schedule the next call. Missed periods are skipped."""
         now = self._now_ns()
         self._last_ns = now
         self._next_ns += self._period_ns
@@ -141,9 +141,9 @@ class Timer:
 
 
 class Rate:
-    """Sleeps to keep a loop at a frequency; made by `Node.create_rate`.
+    """Rate that sleeps to run a loop at a frequency. Create it with `Node.create_rate`.
 
-    Needs nobody to spin, unless a simulator drives the clock.
+    The node needs to be spinning only if a simulator sets the clock.
     """
 
     def __init__(self, timer: Timer, *, context: Context) -> None:
@@ -151,7 +151,7 @@ class Rate:
         self._context = context
 
     def sleep(self) -> None:
-        """Sleeps until the current period is over.
+        """Sleep until the end of the current period.
 
         Raises:
             ROSInterruptException: The context was shut down.
@@ -160,10 +160,10 @@ class Rate:
             if not self._context.ok():
                 raise ROSInterruptException
             clock = self._timer.clock
-            # Clocks refuse times before their epoch only: now + remaining is always one.
+            # A Time must not be negative, and now + remaining never is.
             clock._sleep(Time(nanoseconds=clock._now_ns() + remaining, clock_type=clock.clock_type), self._context)
         self._timer._advance()
 
     def destroy(self) -> None:
-        """Ends it."""
+        """Destroy the rate."""
         self._timer.destroy()

@@ -1,4 +1,4 @@
-"""What the graph knows of a publisher or subscription."""
+"""Information about publishers and subscriptions in the graph."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class TopicEndpointTypeEnum(IntEnum):
-    """Publisher or subscription."""
+    """Type of a topic endpoint."""
 
     INVALID = 0
     PUBLISHER = 1
@@ -20,7 +20,7 @@ class TopicEndpointTypeEnum(IntEnum):
 
 @dataclass(frozen=True)
 class TopicEndpointInfo:
-    """A publisher or subscription somewhere in the graph."""
+    """A publisher or subscription in the graph."""
 
     node_name: str
     node_namespace: str

@@ -1,4 +1,4 @@
-"""The default context and the command line."""
+"""Default context and command line."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ _default_context: Context | None = None
 
 
 def get_default_context(*, shutting_down: bool = False) -> Context:
-    """Returns the context that is used where none is given.
+    """Return the default context, which is used if no context is given.
 
     Args:
-        shutting_down: Forget it, so that the next call makes a new one.
+        shutting_down: Reset the default context, so that the next call creates a new one.
     """
-    global _default_context  # noqa: PLW0603 - one per process, as its users expect
+    global _default_context  # noqa: PLW0603 - There is one default context per process.
     with _lock:
         context = _default_context or Context()
         _default_context = None if shutting_down else context
@@ -26,40 +26,40 @@ def get_default_context(*, shutting_down: bool = False) -> Context:
 
 
 def ok(*, context: Context | None = None) -> bool:
-    """Returns whether the context is started and not shut down."""
+    """Return whether the context is initialized and not shut down."""
     return (context or get_default_context()).ok()
 
 
 def shutdown(*, context: Context | None = None) -> None:
-    """Shuts the context down.
+    """Shut down the context.
 
     Raises:
-        RuntimeError: It was never started, or is shut down already.
+        RuntimeError: The context was never initialized, or was shut down before.
     """
     (context or get_default_context(shutting_down=True)).shutdown()
 
 
 def try_shutdown(*, context: Context | None = None) -> None:
-    """Shuts the context down unless that happened before."""
+    """Shut down the context unless it is shut down already."""
     if context is None:
         context = get_default_context(shutting_down=True)
     context.try_shutdown()
 
 
 def remove_ros_args(args: list[str] | None = None) -> list[str]:
-    """Returns the arguments without `--ros-args ... --`.
+    """Return the arguments without `--ros-args ... --`.
 
     Args:
-        args: The command line; None: `sys.argv`.
+        args: Command line. None: `sys.argv`.
     """
     return _arguments.remove(sys.argv if args is None else args)
 
 
 def get_rmw_implementation_identifier() -> str:
-    """Returns the name of the ROS middleware whose conventions are spoken on the wire."""
+    """Return the name of the RMW implementation whose conventions are used on the wire."""
     return "rmw_cyclonedds_cpp"
 
 
 def get_available_rmw_implementations() -> set[str]:
-    """Returns the names of all middlewares there are to choose from."""
+    """Return the names of the available RMW implementations."""
     return {get_rmw_implementation_identifier()}

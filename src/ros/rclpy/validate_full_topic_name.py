@@ -1,4 +1,4 @@
-"""Rules for expanded topic and service names."""
+"""Validation of fully qualified topic and service names."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from rclpy.validate_topic_name import validate_topic_name
 
 
 def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
-    """Returns True for a valid fully qualified topic (or service) name.
+    """Return True if `name` is a valid fully qualified topic or service name; otherwise raise an error.
 
     Raises:
-        InvalidTopicNameException: It breaks a rule.
-        InvalidServiceNameException: It breaks a rule and `is_service` is set.
+        InvalidTopicNameException: The topic name is not valid.
+        InvalidServiceNameException: The service name is not valid.
     """
     kind: type[InvalidServiceNameException | InvalidTopicNameException]
     kind = InvalidServiceNameException if is_service else InvalidTopicNameException

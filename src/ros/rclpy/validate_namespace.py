@@ -1,4 +1,4 @@
-"""Rules for namespaces."""
+"""Validation of namespaces."""
 
 import re
 
@@ -6,10 +6,10 @@ from rclpy.exceptions import InvalidNamespaceException
 
 
 def validate_namespace(namespace: str) -> bool:
-    """Returns True for a valid, fully qualified namespace.
+    """Return True if `namespace` is valid and fully qualified; otherwise raise an error.
 
     Raises:
-        InvalidNamespaceException: It breaks a rule.
+        InvalidNamespaceException: The namespace is not valid.
     """
     if not namespace.startswith("/"):
         raise InvalidNamespaceException(namespace, "namespace must be absolute, it must lead with a '/'", 0)

@@ -1,4 +1,4 @@
-"""Rules for node names."""
+"""Validation of node names."""
 
 import re
 
@@ -6,10 +6,10 @@ from rclpy.exceptions import InvalidNodeNameException
 
 
 def validate_node_name(node_name: str) -> bool:
-    """Returns True for a valid node name.
+    """Return True if `node_name` is valid; otherwise raise an error.
 
     Raises:
-        InvalidNodeNameException: It breaks a rule.
+        InvalidNodeNameException: The node name is not valid.
     """
     if not node_name:
         raise InvalidNodeNameException(node_name, "node name must not be empty", 0)

@@ -1,13 +1,13 @@
-"""Rules for parameter names."""
+"""Validation of parameter names."""
 
 from rclpy.exceptions import InvalidParameterException
 
 
 def validate_parameter_name(name: str) -> bool:
-    """Returns True for a valid parameter name.
+    """Return True if `name` is valid; otherwise raise an error.
 
     Raises:
-        InvalidParameterException: It is empty.
+        InvalidParameterException: The name is empty.
     """
     if not name:
         raise InvalidParameterException(name)

@@ -1,4 +1,4 @@
-"""Rules for topic and service names as users write them: relative, with `~` and `{node}`."""
+"""Validation of topic and service names before expansion, which may be relative and contain `~` and `{node}`."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ TOPIC_SEPARATOR_STRING = "/"
 
 
 def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
-    """Returns True for a valid topic (or service) name.
+    """Return True if `name` is a valid topic or service name; otherwise raise an error.
 
     Raises:
-        InvalidTopicNameException: It breaks a rule.
-        InvalidServiceNameException: It breaks a rule and `is_service` is set.
+        InvalidTopicNameException: The topic name is not valid.
+        InvalidServiceNameException: The service name is not valid.
     """
     if fault := _fault(name):
         text, index = fault

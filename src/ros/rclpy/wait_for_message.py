@@ -1,6 +1,6 @@
-"""Waiting for one message."""
+"""Function that waits for a single message."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from coframe._core import Event
 from coframe.messages import codec
 from rclpy.constants import S_TO_NS
-from rclpy.qos import QoSProfile, qos_from
+from rclpy.qos import QoSProfile, as_qos_profile
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -25,24 +25,24 @@ def wait_for_message(
     qos_profile: QoSProfile | int = 1,
     time_to_wait: float = -1,
 ) -> tuple[bool, Any]:
-    """Waits for the next message of a topic.
+    """Wait for the next message on a topic.
 
     Args:
         msg_type: Class of the message.
-        node: Subscribes for this time; need not be spinning.
+        node: Node that subscribes during the call. It does not need to be spinning.
         topic: Name of the topic.
-        qos_profile: Of the subscription.
-        time_to_wait: Longest wait in seconds; negative: as long as it takes.
+        qos_profile: QoS profile of the subscription, or its depth.
+        time_to_wait: Maximum time to wait in seconds. Negative: no limit.
 
     Returns:
-        Whether there was one in time, and the message or None; also (False, None) when the context shut down.
+        (True, message), or (False, None) after a timeout or the shutdown of the context.
     """
     deadline = None if time_to_wait < 0 else time.monotonic_ns() + int(time_to_wait * S_TO_NS)
     event = Event()
-    name, qos = node.resolve_topic_name(topic), qos_from(qos_profile)._to_wire()
-    subscription = node._wire.subscription(node._graph_node, name, msg_type, qos, on_data=event)
+    name, qos = node.resolve_topic_name(topic), as_qos_profile(qos_profile)._to_wire()
+    subscription = node._participant.subscription(node._graph_node, name, msg_type, qos, on_data=event)
     try:
-        with node.context._setting_at_shutdown(event):
+        with node.context._set_on_shutdown(event):
             while node.context.ok():
                 if samples := subscription.take(limit=1):
                     return True, codec.deserialize(samples[0].data, msg_type)

@@ -123,7 +123,7 @@ class RobotStatePublisher(Node):
             self.get_logger().warning(f"The frame_prefix is put in front as it is: {advice}")
 
     def _set_parameters(self, parameters: Sequence[Parameter[Any]]) -> SetParametersResult:
-        """Takes changes over, or refuses all of them."""
+        """Take changes over, or refuses all of them."""
         given = {parameter.name: parameter.value for parameter in parameters}
         try:
             robot = self._new_robot(given["robot_description"]) if "robot_description" in given else None
@@ -148,7 +148,7 @@ class RobotStatePublisher(Node):
 
 
 def run(args: list[str], file: str | None = None, *, domain_id: int | None = None, **options: Any) -> None:
-    """Runs the node until it is ended from outside.
+    """Run the node until it is ended from outside.
 
     Args:
         args: A command line; what follows `--ros-args` is the node's.

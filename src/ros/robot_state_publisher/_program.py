@@ -13,7 +13,7 @@ __all__ = ["program", "spin_until_ended"]
 
 
 def spin_until_ended(make_node: Callable[[], Node], args: list[str], domain_id: int | None) -> None:
-    """Runs a node until it is ended from outside.
+    """Run a node until it is ended from outside.
 
     Args:
         make_node: Makes it.

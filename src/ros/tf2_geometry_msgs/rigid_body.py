@@ -139,7 +139,7 @@ def _turn_twist(given: Twist, told: Twist, transform: TransformStamped, *, at_ta
 
 
 def _turn(given: Any, told: Any, transform: TransformStamped, vectors: tuple[str, str]) -> None:
-    """Rotates two vectors of a message into another message."""
+    """Rotate two vectors of a message into another message."""
     rotation = _rotation(transform.transform)
     for vector in vectors:
         _set(getattr(told, vector), (rotation @ _xyz(getattr(given, vector))).tolist())

@@ -28,12 +28,12 @@ EXCEPTIONS: Final[dict[int, type[TransformException]]] = {
 
 
 def error_message(error: TransformException) -> TF2Error:
-    """Puts what a look-up raised into a message."""
+    """Put what a look-up raised into a message."""
     code = next(code for code, kind in EXCEPTIONS.items() if isinstance(error, kind))
     return TF2Error(error=code, error_string=str(error))
 
 
 def raise_error(error: TF2Error) -> None:
-    """Raises what a message tells of; nothing if it tells of no error."""
+    """Raise what a message tells of; nothing if it tells of no error."""
     if error.error != TF2Error.NO_ERROR:
         raise EXCEPTIONS.get(error.error, TransformException)(error.error_string)

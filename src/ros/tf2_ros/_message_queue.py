@@ -145,7 +145,7 @@ class MessageQueue:
             return outcome
 
     def has_outcomes(self) -> bool:
-        """Whether there is an outcome for the callbacks."""
+        """Return whether there is an outcome for the callbacks."""
         return bool(self._outcomes)
 
     def clear(self) -> None:

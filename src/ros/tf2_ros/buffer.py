@@ -22,7 +22,7 @@ from rclpy.time import Time
 from tf2_msgs.srv import FrameGraph
 from tf2_py import _convert
 from tf2_py._message import transform_stamped
-from tf2_ros import _waits
+from tf2_ros import _transform_futures
 from tf2_ros.buffer_interface import BufferInterface
 
 FrameGraphSrvRequest = TypeVar("FrameGraphSrvRequest")
@@ -75,7 +75,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             transform: The transform.
             authority: Who says so.
         """
-        with self._coframe_buffer.dispatcher.inserting():
+        with self._coframe_buffer._dispatcher.inserting():
             super().set_transform(transform, authority)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
@@ -85,7 +85,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             transform: The transform.
             authority: Who says so.
         """
-        with self._coframe_buffer.dispatcher.inserting():
+        with self._coframe_buffer._dispatcher.inserting():
             super().set_transform_static(transform, authority)
 
     def lookup_transform(
@@ -166,7 +166,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         timeout: Duration = _NO_WAIT,
         return_debug_tuple: bool = False,
     ) -> int | tuple[int, str]:
-        """Whether `lookup_transform` would answer: 1 or 0, on request together with the reason why not."""
+        """Return whether `lookup_transform` would answer: 1 or 0, on request together with the reason why not."""
         stamp, wait = _convert.nanoseconds(time, "time"), _wait(timeout)
         if wait is not None:
             target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
@@ -184,7 +184,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         timeout: Duration = _NO_WAIT,
         return_debug_tuple: bool = False,
     ) -> int | tuple[int, str]:
-        """Whether `lookup_transform_full` would answer: 1 or 0, on request together with the reason why not."""
+        """Return whether `lookup_transform_full` would answer: 1 or 0, on request together with the reason why not."""
         query = (target_frame, target_time, source_frame, source_time, fixed_frame)
         wait = _wait(timeout)
         if wait is not None:
@@ -203,8 +203,8 @@ class Buffer(tf2.BufferCore, BufferInterface):
         """A future of the transform; with a timeout it raises what the look-up raises when the time is over."""
         target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
         stamp = _convert.nanoseconds(time, "time")
-        return _waits.wait(
-            self._coframe_buffer.dispatcher,
+        return _transform_futures.wait(
+            self._coframe_buffer._dispatcher,
             lambda mailbox, token: _core.wait(self._coframe_buffer, mailbox, token, target, source, stamp),
             lambda found: transform_stamped(target, source, found.stamp or 0, found.values),
             lambda: self._coframe_lookup(target, source, stamp),
@@ -223,8 +223,8 @@ class Buffer(tf2.BufferCore, BufferInterface):
     ) -> Future[TransformStamped]:
         """The same between two times."""
         query = _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
-        return _waits.wait(
-            self._coframe_buffer.dispatcher,
+        return _transform_futures.wait(
+            self._coframe_buffer._dispatcher,
             lambda mailbox, token: _core.wait_full(self._coframe_buffer, mailbox, token, *query),
             lambda found: transform_stamped(query[0], query[2], found.stamp or 0, found.values),
             lambda: self._coframe_lookup_full(query),

@@ -137,7 +137,7 @@ class BufferClient(BufferInterface):
     def can_transform(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage, timeout: Duration = _NO_WAIT
     ) -> bool:
-        """Whether `lookup_transform` would answer."""
+        """Return whether `lookup_transform` would answer."""
         try:
             self.lookup_transform(target_frame, source_frame, time, timeout)
         except TransformException:
@@ -153,7 +153,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Duration = _NO_WAIT,
     ) -> bool:
-        """Whether `lookup_transform_full` would answer."""
+        """Return whether `lookup_transform_full` would answer."""
         try:
             self.lookup_transform_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
         except TransformException:
@@ -237,7 +237,7 @@ def _duration_message(timeout: Any) -> DurationMessage:
 
 
 def _give_up(future: Future[Any]) -> None:
-    """Ends a future that is not over, by an exception."""
+    """End a future that is not over, by an exception."""
     if not future.done():
         text = "The LookupTransform goal sent to the BufferServer did not come back in the specified time."
         future.set_exception(TimeoutException(f"{text} {_SUSPICION}"))

@@ -105,7 +105,7 @@ class BufferInterface:
     def can_transform(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage, timeout: Duration = _NO_WAIT
     ) -> Any:
-        """Whether `lookup_transform` would answer; for a child class to answer."""
+        """Return whether `lookup_transform` would answer; for a child class to answer."""
         del target_frame, source_frame, time, timeout
         _not_implemented()
 
@@ -118,7 +118,7 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Duration = _NO_WAIT,
     ) -> Any:
-        """Whether `lookup_transform_full` would answer; for a child class to answer."""
+        """Return whether `lookup_transform_full` would answer; for a child class to answer."""
         del target_frame, target_time, source_frame, source_time, fixed_frame, timeout
         _not_implemented()
 

@@ -344,7 +344,7 @@ class MessageFilter:
                 self._delivering.release()
 
     def _call_back(self, outcome: Outcome) -> Iterable[Any]:
-        """Calls the callbacks, one for each step of the iteration."""
+        """Call the callbacks, one for each step of the iteration."""
         if outcome.reason is None:
             return (callback(outcome.message) for callback in self._callbacks)
         reason = outcome.reason

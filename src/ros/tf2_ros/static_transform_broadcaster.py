@@ -10,9 +10,9 @@ from coframe.frame_names import renaming
 from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node
 from rclpy.publisher import Publisher
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, qos_from
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, as_qos_profile
 from tf2_msgs.msg import TFMessage
-from tf2_ros._prefix import renamed
+from tf2_ros._renaming import renamed
 from tf2_ros.transform_broadcaster import as_list
 
 DEFAULT_STATIC_TF_TOPIC = "/tf_static"
@@ -68,9 +68,9 @@ class StaticTransformBroadcaster:
 def _shared_publisher(node: Node, topic: str) -> Publisher:
     qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL, history=HistoryPolicy.KEEP_LAST)
     name = node.resolve_topic_name(topic)
-    writer = node._wire.static_broadcaster(node._graph_node, name)
-    return node._adopt(Publisher(writer, TFMessage, name, qos, node.context))
+    writer = node._participant.static_broadcaster(node._graph_node, name)
+    return node._add_entity(Publisher(writer, TFMessage, name, qos, node.context))
 
 
 def _own(node: Node, topic: str, qos: QoSProfile | int) -> Publisher:
-    return node.create_publisher(TFMessage, topic, qos_from(qos))
+    return node.create_publisher(TFMessage, topic, as_qos_profile(qos))

@@ -8,7 +8,7 @@ from geometry_msgs.msg import TransformStamped
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from tf2_msgs.msg import TFMessage
-from tf2_ros._prefix import renamed
+from tf2_ros._renaming import renamed
 
 DEFAULT_TF_TOPIC = "/tf"
 

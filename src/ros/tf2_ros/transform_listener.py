@@ -12,10 +12,10 @@ from coframe.frame_names import renaming
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, qos_from
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, as_qos_profile
 from rclpy.subscription import Subscription
 from tf2_msgs.msg import TFMessage
-from tf2_ros._prefix import renamed
+from tf2_ros._renaming import renamed
 from tf2_ros.buffer import Buffer, clear_on_time_jump
 from tf2_ros.static_transform_broadcaster import DEFAULT_STATIC_TF_TOPIC
 from tf2_ros.transform_broadcaster import DEFAULT_TF_TOPIC
@@ -74,8 +74,8 @@ class TransformListener:
         self.__buffer = buffer
         self.__topics = {True: tf_static_topic} if static_only else {False: tf_topic, True: tf_static_topic}
         self.__qos = {
-            False: qos_from(100 if qos is None else qos),
-            True: qos_from(_STATIC_QOS if static_qos is None else static_qos),
+            False: as_qos_profile(100 if qos is None else qos),
+            True: as_qos_profile(_STATIC_QOS if static_qos is None else static_qos),
         }
         self.__arrivals: _Arrivals | None = None
         self.__subscribe()
@@ -140,7 +140,7 @@ class TransformListener:
     def __listen_natively(self, *, static: bool) -> Subscription:
         """A subscription whose messages go into the buffer without passing through Python."""
         topic, qos = self.node.resolve_topic_name(self.__topics[static]), self.__qos[static]
-        reader = self.node._wire.tf_reader(
+        reader = self.node._participant.tf_reader(
             self.node._graph_node,
             topic,
             self.__buffer._coframe_buffer,
@@ -150,7 +150,7 @@ class TransformListener:
             renaming=self.__renaming,
         )
         callback = self.static_callback if static else self.callback
-        return self.node._adopt(Subscription(reader, TFMessage, topic, callback, self.group, qos, raw=False))
+        return self.node._add_entity(Subscription(reader, TFMessage, topic, callback, self.group, qos, raw=False))
 
     def __end(self, subscriptions: tuple[Subscription | None, ...]) -> None:
         for subscription in subscriptions:
@@ -159,13 +159,13 @@ class TransformListener:
 
     def __count_arrivals(self, arrivals: "_Arrivals | None") -> None:
         if self.__arrivals is not None:
-            self.node._silent_inputs.remove(self.__arrivals)
+            self.node._polled_subscriptions.remove(self.__arrivals)
         if arrivals is not None:
-            self.node._silent_inputs.append(arrivals)
+            self.node._polled_subscriptions.append(arrivals)
         self.__arrivals = arrivals
 
     def __is_plain(self) -> bool:
-        """Whether nobody wants to see the transforms on their way into the buffer."""
+        """Return whether nobody wants to see the transforms on their way into the buffer."""
         ours: type[Any] = type(self)
         theirs: type[Any] = type(self.__buffer)
         return (

@@ -45,7 +45,7 @@ def concatenate_matrices(*matrices: ArrayLike) -> Array:
 
 
 def is_same_transform(matrix0: ArrayLike, matrix1: ArrayLike) -> bool:
-    """Whether two matrices do the same, up to a common factor."""
+    """Return whether two matrices do the same, up to a common factor."""
     first, second = (np.asarray(m, dtype=np.float64) for m in (matrix0, matrix1))
     return bool(np.allclose(first / first[3, 3], second / second[3, 3]))
 

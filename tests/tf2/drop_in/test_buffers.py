@@ -175,7 +175,7 @@ def test_a_subclass_with_attributes_of_its_own(stamped):
     class Mine(tf2_ros.Buffer):
         def __init__(self):
             super().__init__()
-            self._buffer = self._core = self._lookup = self._lookup_full = self._insert = self._waits = None
+            self._buffer = self._core = self._lookup = self._lookup_full = self._insert = self._transform_futures = None
 
     buffer = Mine()
     future = buffer.wait_for_transform_async("foo", "bar", Time(seconds=1))

@@ -1,4 +1,4 @@
-"""Actions: long-running jobs that one node does for others, with feedback, cancelling and a result."""
+"""Actions: long-running goals with feedback, cancellation and a result."""
 
 from rclpy.action.client import ActionClient, ClientGoalHandle
 from rclpy.action.graph import (

@@ -1,4 +1,4 @@
-"""The services and topics that an action consists of."""
+"""Names of the services and topics of an action."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ FEEDBACK_QOS: Final = QoSProfile(depth=10)
 
 
 def resolve_action_name(node: Node, action_name: str, user: str) -> str:
-    """Returns the fully qualified name of an action, remapped; rules for single services and topics come on top.
+    """Return the fully qualified name of an action, remapped. Rules for its services and topics apply in addition.
 
     Args:
-        node: The node that uses it.
-        action_name: The name as users write it.
-        user: What is made for it, for the error's text.
+        node: Node that uses the action.
+        action_name: Name of the action, which may be relative.
+        user: Kind of entity that is created, for the error message.
 
     Raises:
-        ValueError: The name breaks a rule.
+        ValueError: The name is not valid.
     """
     try:
         return node.resolve_service_name(action_name)

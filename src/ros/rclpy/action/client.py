@@ -1,6 +1,6 @@
-"""Action clients: goals for others, and what becomes of them."""
+"""Action clients, which send goals to action servers."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _ENDED: Final = {GoalStatus.STATUS_SUCCEEDED, GoalStatus.STATUS_CANCELED, GoalSt
 
 
 class ClientGoalHandle:
-    """A goal that was sent, and the server's answer to it; made by `ActionClient.send_goal_async`."""
+    """Handle of a goal that was sent. Obtain it from `ActionClient.send_goal_async`."""
 
     def __init__(self, action_client: ActionClient, goal_id: UUID, goal_response: Any) -> None:
         self._action_client = action_client
@@ -48,63 +48,63 @@ class ClientGoalHandle:
 
     @property
     def goal_id(self) -> UUID:
-        """The goal's identifier."""
+        """The identifier of the goal."""
         return self._goal_id
 
     @property
     def stamp(self) -> Any:
-        """When the server accepted the goal, a `builtin_interfaces/Time`."""
+        """The time at which the server accepted the goal, a `builtin_interfaces/Time`."""
         return self._goal_response.stamp
 
     @property
     def accepted(self) -> bool:
-        """Whether the server has accepted the goal."""
+        """Whether the server accepted the goal."""
         return bool(self._goal_response.accepted)
 
     @property
     def status(self) -> int:
-        """How far the goal has got, as far as it is known here: one of the numbers of `action_msgs/GoalStatus`."""
+        """The last known status of the goal, a constant of `action_msgs/GoalStatus`."""
         if self._status not in _ENDED:
             self._status = self._action_client._statuses().get(_key(self._goal_id), self._status)
         return self._status
 
     def cancel_goal(self) -> Any:
-        """Asks the server to cancel the goal, and waits for the answer, a `CancelGoal.Response`."""
+        """Request the cancellation of the goal, and return the `CancelGoal.Response` when it arrives."""
         return self._action_client._cancel_goal(self)
 
     def cancel_goal_async(self) -> Future[Any]:
-        """Asks the server to cancel the goal; returns the future of a `CancelGoal.Response`."""
+        """Request the cancellation of the goal, and return a future of the `CancelGoal.Response`."""
         return self._action_client._cancel_goal_async(self)
 
     def get_result(self) -> Any:
-        """Waits for the end of the goal; returns a response with `status` and `result`."""
+        """Wait until the goal is finished and return a response with `status` and `result`."""
         return self._action_client._get_result(self)
 
     def get_result_async(self) -> Future[Any]:
-        """Returns the future of a response with `status` and `result`."""
+        """Return a future of a response with `status` and `result`."""
         return self._action_client._get_result_async(self)
 
 
 class ActionClient:
-    """Sends goals to an action server.
+    """Client of an action.
 
-    Waiting methods work in any callback, as long as another executor runs the server; nobody needs to spin the node
-    meanwhile.
+    The blocking methods do not need a spinning node. They work in any callback, as long as another executor runs the
+    server.
 
     Args:
-        node: Its node.
+        node: Node of the client.
         action_type: Class of the action.
-        action_name: Its name; expanded and remapped.
-        callback_group: Of the feedback callbacks; None: the node's default group.
-        goal_service_qos_profile: Of the service that takes goals.
-        result_service_qos_profile: Of the service that gives results.
-        cancel_service_qos_profile: Of the service that cancels goals.
-        feedback_sub_qos_profile: Of the subscription to feedback.
-        status_sub_qos_profile: Of the subscription to the goals' status.
+        action_name: Name of the action, which is expanded and remapped.
+        callback_group: Group of the feedback callbacks. None: the default group of the node.
+        goal_service_qos_profile: QoS profile of the goal service.
+        result_service_qos_profile: QoS profile of the result service.
+        cancel_service_qos_profile: QoS profile of the cancel service.
+        feedback_sub_qos_profile: QoS profile of the feedback subscription.
+        status_sub_qos_profile: QoS profile of the status subscription.
 
     Raises:
-        ValueError: The name breaks a rule.
-        NoTypeSupportImportedException: `action_type` is no action class.
+        ValueError: The name is not valid.
+        NoTypeSupportImportedException: `action_type` is not an action class.
     """
 
     def __init__(
@@ -130,9 +130,9 @@ class ActionClient:
         self._known_statuses: dict[bytes, int] = {}
 
         name, parts = resolve_action_name(node, action_name, "action client"), action_type.Impl
-        # What comes in for the client itself runs no code of users: it need not wait for the group's other callbacks.
-        own_group = ReentrantCallbackGroup()
-        # The server must know the subscriptions when it gets the first goal.
+        # Internal callbacks run no user code, so they do not need to wait for callbacks of the user's group.
+        internal_group = ReentrantCallbackGroup()
+        # The subscriptions come first, so that the server has discovered them when it receives the first goal.
         self._feedback_subscription = node.create_subscription(
             parts.FeedbackMessage,
             name + FEEDBACK,
@@ -145,11 +145,11 @@ class ActionClient:
             name + STATUS,
             self._on_status,
             status_sub_qos_profile,
-            callback_group=own_group,
+            callback_group=internal_group,
             raw=True,
         )
         self._goal_client, self._cancel_client, self._result_client = self._clients = tuple(
-            node.create_client(srv_type, name + suffix, qos_profile=qos, callback_group=own_group)
+            node.create_client(srv_type, name + suffix, qos_profile=qos, callback_group=internal_group)
             for srv_type, suffix, qos in (
                 (parts.SendGoalService, SEND_GOAL, goal_service_qos_profile),
                 (parts.CancelGoalService, CANCEL_GOAL, cancel_service_qos_profile),
@@ -158,17 +158,17 @@ class ActionClient:
         )
 
     def send_goal(self, goal: Any, **kwargs: Any) -> Any:
-        """Sends a goal and waits for its result.
+        """Send a goal and wait for its result.
 
         Args:
-            goal: The goal.
-            **kwargs: Those of `send_goal_async`.
+            goal: Goal to send.
+            **kwargs: Keyword arguments of `send_goal_async`.
 
         Returns:
-            A response with `status` and `result`; None when the context was shut down meanwhile.
+            A response with `status` and `result`, or None if the context was shut down.
 
         Raises:
-            TypeError: It is no goal of the action's type.
+            TypeError: `goal` is not a goal of the action's type.
         """
         goal_handle = self._wait_for(self.send_goal_async(goal, **kwargs))
         return None if goal_handle is None else self._get_result(goal_handle)
@@ -176,19 +176,19 @@ class ActionClient:
     def send_goal_async(
         self, goal: Any, feedback_callback: Callable[[Any], Any] | None = None, goal_uuid: UUID | None = None
     ) -> Future[Any]:
-        """Sends a goal.
+        """Send a goal without waiting.
 
         Args:
-            goal: The goal.
-            feedback_callback: Called with each message of feedback on this goal, which has a `goal_id` and the
-                `feedback`; may be a coroutine function.
-            goal_uuid: The goal's identifier; None: a random one.
+            goal: Goal to send.
+            feedback_callback: Function or coroutine function that is called with each feedback message of this goal,
+                which has the attributes `goal_id` and `feedback`.
+            goal_uuid: Identifier of the goal. None: a random identifier.
 
         Returns:
-            The future of a `ClientGoalHandle`, which says whether the goal was accepted.
+            A future of a `ClientGoalHandle`, whose attribute `accepted` is the response of the server.
 
         Raises:
-            TypeError: It is no goal of the action's type.
+            TypeError: `goal` is not a goal of the action's type.
         """
         if not isinstance(goal, self._action_type.Goal):
             raise TypeError(f"Expected {self._action_type.Goal}, got {type(goal)}")
@@ -199,7 +199,7 @@ class ActionClient:
         return self._goal_client._send(request, partial(self._on_goal_response, goal_id))
 
     def server_is_ready(self) -> bool:
-        """Whether somebody serves the action."""
+        """Return whether a server of the action is available."""
         return (
             all(client.service_is_ready() for client in self._clients)
             and self._feedback_subscription.get_publisher_count() > 0
@@ -207,18 +207,18 @@ class ActionClient:
         )
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
-        """Waits until somebody serves the action.
+        """Wait until a server of the action is available.
 
         Args:
-            timeout_sec: Longest wait in seconds; None: as long as it takes.
+            timeout_sec: Maximum time to wait in seconds. None: no limit.
 
         Returns:
-            Whether somebody does; False also when the context was shut down.
+            Whether a server is available. False if the context was shut down.
         """
-        return wait_until_ready(self._node.context, self._node._wire, self.server_is_ready, timeout_sec)
+        return wait_until_ready(self._node.context, self._node._participant, self.server_is_ready, timeout_sec)
 
     def destroy(self) -> None:
-        """Ends it; doing so twice is no error. Futures of goals and results will not be over any more."""
+        """Destroy the client. Repeated calls have no effect. Pending futures are never completed."""
         for client in self._clients:
             self._node.destroy_client(client)
         self._node.destroy_subscription(self._feedback_subscription)
@@ -243,7 +243,7 @@ class ActionClient:
         return self._result_client._send(request, partial(self._on_result, goal_handle))
 
     def _wait_for(self, future: Future[Any], timeout_sec: float | None = None) -> Any:
-        """The result of one of the client's futures; None if there is none in time."""
+        """Wait for a future of this client and return its result, or None after a timeout."""
         take_responses_until(self._clients, future, timeout_sec)
         return future.result()
 
@@ -266,7 +266,7 @@ class ActionClient:
         return None if callback is None else callback(message)
 
     def _forget_ended(self) -> None:
-        """Drops the feedback callbacks of goals with a result, once no feedback waits to be taken."""
+        """Remove the feedback callbacks of finished goals once no feedback message is queued."""
         if self._feedback_subscription._remaining_ns() is None:
             ended, self._ended = self._ended, []
             for key in ended:
@@ -276,7 +276,10 @@ class ActionClient:
         self._status_cdr = cdr
 
     def _statuses(self) -> dict[bytes, int]:
-        """The goals' status by their identifiers; decoded when somebody asks, as it comes often and tells of all."""
+        """Return the status of all goals by identifier.
+
+        The last message is decoded only on demand, because messages are frequent and contain all goals.
+        """
         cdr, self._status_cdr = self._status_cdr, None
         if cdr is not None:
             statuses = codec.deserialize(cdr, GoalStatusArray).status_list

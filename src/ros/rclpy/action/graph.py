@@ -1,4 +1,4 @@
-"""Which actions there are, and whose."""
+"""Graph queries about actions."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ NamesAndTypes = list[tuple[str, list[str]]]
 
 
 def get_action_names_and_types(node: Node) -> NamesAndTypes:
-    """Returns all actions with their types, such as ("/fibonacci", ["example_interfaces/action/Fibonacci"]).
+    """Return all actions with their types, for example ("/fibonacci", ["example_interfaces/action/Fibonacci"]).
 
     Args:
-        node: The node that looks.
+        node: Node that queries the graph.
     """
     return _actions(node.get_topic_names_and_types())
 
@@ -24,12 +24,12 @@ def get_action_names_and_types(node: Node) -> NamesAndTypes:
 def get_action_client_names_and_types_by_node(
     node: Node, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
-    """Returns the actions of which a node has clients.
+    """Return the actions for which a node has clients.
 
     Args:
-        node: The node that looks.
-        remote_node_name: Name of the node that is looked at.
-        remote_node_namespace: Its namespace.
+        node: Node that queries the graph.
+        remote_node_name: Name of the queried node.
+        remote_node_namespace: Namespace of the queried node.
     """
     return _actions(node.get_subscriber_names_and_types_by_node(remote_node_name, remote_node_namespace))
 
@@ -37,18 +37,18 @@ def get_action_client_names_and_types_by_node(
 def get_action_server_names_and_types_by_node(
     node: Node, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
-    """Returns the actions that a node serves.
+    """Return the actions that a node serves.
 
     Args:
-        node: The node that looks.
-        remote_node_name: Name of the node that is looked at.
-        remote_node_namespace: Its namespace.
+        node: Node that queries the graph.
+        remote_node_name: Name of the queried node.
+        remote_node_namespace: Namespace of the queried node.
     """
     return _actions(node.get_publisher_names_and_types_by_node(remote_node_name, remote_node_namespace))
 
 
 def _actions(topics: NamesAndTypes) -> NamesAndTypes:
-    """The actions behind topics: each has exactly one topic of feedback."""
+    """Return the actions that topics belong to. Each action has exactly one feedback topic."""
     return [
         (topic.removesuffix(FEEDBACK), [ros_type.removesuffix("_FeedbackMessage") for ros_type in types])
         for topic, types in topics

@@ -1,6 +1,6 @@
-"""Action servers: they take goals, work on them, and tell how far they have got."""
+"""Action servers, which execute the goals of action clients."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -11,10 +11,11 @@ import time
 import traceback
 from collections import deque
 from enum import Enum
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalInfo, GoalStatus
 from action_msgs.srv import CancelGoal
+from rclpy.action._goal_handle import GoalEvent, ServerGoalHandle, can_be_cancelled
 from rclpy.action._names import (
     CANCEL_GOAL,
     FEEDBACK,
@@ -24,13 +25,12 @@ from rclpy.action._names import (
     STATUS,
     resolve_action_name,
 )
-from rclpy.action._status import encode_entry, encode_statuses
+from rclpy.action._status import encode_statuses
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.constants import S_TO_NS
 from rclpy.exceptions import RCLError
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
-from rclpy.service import DeferredService
-from rclpy.task import Future
+from rclpy.service import DeferredResponseService
 from rclpy.type_support import check_is_valid_action_type
 
 if TYPE_CHECKING:
@@ -41,210 +41,78 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from unique_identifier_msgs.msg import UUID
 
+__all__ = [
+    "ActionServer",
+    "CancelResponse",
+    "GoalEvent",
+    "GoalResponse",
+    "ServerGoalHandle",
+    "default_cancel_callback",
+    "default_goal_callback",
+    "default_handle_accepted_callback",
+]
+
 
 class GoalResponse(Enum):
-    """What becomes of a goal that somebody sends."""
+    """Response to a goal request."""
 
     REJECT = 1
     ACCEPT = 2
 
 
 class CancelResponse(Enum):
-    """What becomes of somebody's wish to cancel a goal."""
+    """Response to a cancel request."""
 
     REJECT = 1
     ACCEPT = 2
 
 
-class GoalEvent(Enum):
-    """What happens to a goal."""
-
-    EXECUTE = 1
-    CANCEL_GOAL = 2
-    SUCCEED = 3
-    ABORT = 4
-    CANCELED = 5
-
-
-_STATUS_NAMES: Final = {
-    value: name.removeprefix("STATUS_") for name, value in vars(GoalStatus).items() if name.startswith("STATUS_")
-}
-_TRANSITIONS: Final = {
-    (GoalStatus.STATUS_ACCEPTED, GoalEvent.EXECUTE): GoalStatus.STATUS_EXECUTING,
-    (GoalStatus.STATUS_ACCEPTED, GoalEvent.CANCEL_GOAL): GoalStatus.STATUS_CANCELING,
-    (GoalStatus.STATUS_EXECUTING, GoalEvent.CANCEL_GOAL): GoalStatus.STATUS_CANCELING,
-    (GoalStatus.STATUS_EXECUTING, GoalEvent.SUCCEED): GoalStatus.STATUS_SUCCEEDED,
-    (GoalStatus.STATUS_EXECUTING, GoalEvent.ABORT): GoalStatus.STATUS_ABORTED,
-    (GoalStatus.STATUS_CANCELING, GoalEvent.SUCCEED): GoalStatus.STATUS_SUCCEEDED,
-    (GoalStatus.STATUS_CANCELING, GoalEvent.ABORT): GoalStatus.STATUS_ABORTED,
-    (GoalStatus.STATUS_CANCELING, GoalEvent.CANCELED): GoalStatus.STATUS_CANCELED,
-}
-_ACTIVE: Final = {status for status, _ in _TRANSITIONS}
-
-
-class ServerGoalHandle:
-    """A goal that an action server has accepted; made by the server."""
-
-    def __init__(self, action_server: ActionServer, goal_info: GoalInfo, goal_request: Any) -> None:
-        self._action_server = action_server
-        self._goal_info = goal_info
-        self._goal_request = goal_request
-        self._status: int = GoalStatus.STATUS_ACCEPTED
-        self._status_entry = encode_entry(goal_info, self._status)
-        self._was_given_to_execute = False
-        self._cancel_request: Future[None] = Future()
-        self._result_response: Any = None
-        self._result_requests: list[RequestHeader] = []
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, ServerGoalHandle) and self.goal_id == other.goal_id
-
-    __hash__ = None  # type: ignore[assignment]
-
-    @property
-    def request(self) -> Any:
-        """The goal, as the client has sent it."""
-        return self._goal_request
-
-    @property
-    def goal_id(self) -> UUID:
-        """The goal's identifier."""
-        return self._goal_info.goal_id
-
-    @property
-    def is_active(self) -> bool:
-        """Whether it has not ended yet."""
-        return self._status in _ACTIVE
-
-    @property
-    def is_cancel_requested(self) -> bool:
-        """Whether somebody wants it cancelled, and the server's cancel callback has agreed."""
-        return self._status == GoalStatus.STATUS_CANCELING
-
-    @property
-    def status(self) -> int:
-        """How far it has got: one of the numbers of `action_msgs/GoalStatus`; UNKNOWN when it was destroyed."""
-        return self._status
-
-    def execute(self, execute_callback: Callable[[ServerGoalHandle], Any] | None = None) -> None:
-        """Has the goal worked on, by an executor that spins the server's node.
-
-        Args:
-            execute_callback: Called with this handle, returns the result; may be a coroutine function. None: the
-                server's execute callback.
-
-        Raises:
-            RCLError: It was executed before, or has ended.
-        """
-        # One that is to be cancelled already is for the callback to end.
-        if not self.is_cancel_requested:
-            self._update_state(GoalEvent.EXECUTE)
-        self._was_given_to_execute = True
-        self._action_server.notify_execute(self, execute_callback)
-
-    def publish_feedback(self, feedback: Any) -> None:
-        """Tells the client how far the work has got.
-
-        Args:
-            feedback: The feedback.
-
-        Raises:
-            TypeError: It is no feedback of the action's type.
-        """
-        self._action_server._publish_feedback(self, feedback)
-
-    def succeed(self, response: Any = None) -> None:
-        """Ends the goal as reached.
-
-        Args:
-            response: The result; None: what the execute callback returns.
-
-        Raises:
-            RCLError: It was not being executed.
-            TypeError: The response is no result of the action's type.
-        """
-        self._end(GoalEvent.SUCCEED, response)
-
-    def abort(self, response: Any = None) -> None:
-        """Ends the goal as given up by the server; the argument and the errors are those of `succeed`."""
-        self._end(GoalEvent.ABORT, response)
-
-    def canceled(self, response: Any = None) -> None:
-        """Ends the goal as cancelled, which must have been asked for; the argument is that of `succeed`.
-
-        Raises:
-            RCLError: Nobody has asked, or the server did not agree.
-            TypeError: The response is no result of the action's type.
-        """
-        self._end(GoalEvent.CANCELED, response)
-
-    def destroy(self) -> None:
-        """Forgets the goal: what happens to it from now on tells nobody."""
-        self._status = GoalStatus.STATUS_UNKNOWN
-
-    def _update_state(self, event: GoalEvent) -> None:
-        with self._action_server._lock:
-            if self._status == GoalStatus.STATUS_UNKNOWN:
-                return
-            self._status = _status_after(self._status, event)
-            self._status_entry = encode_entry(self._goal_info, self._status)
-            self._action_server._publish_status()
-        if event is GoalEvent.CANCEL_GOAL:
-            self._cancel_request.set_result(None)
-
-    def _end(self, event: GoalEvent, response: Any) -> None:
-        result_type = self._action_server.action_type.Result
-        if not (response is None or isinstance(response, result_type)):
-            raise TypeError(f"Expected {result_type}, got {type(response)}")
-        self._update_state(event)
-        if response is not None or not self._was_given_to_execute:
-            self._action_server._set_result(self, response or result_type())
-
-
 def default_handle_accepted_callback(goal_handle: ServerGoalHandle) -> None:
-    """Executes the goal."""
+    """Execute an accepted goal immediately."""
     goal_handle.execute()
 
 
 def default_goal_callback(goal_request: Any) -> GoalResponse:
-    """Accepts all goals."""
+    """Accept every goal."""
     del goal_request
     return GoalResponse.ACCEPT
 
 
 def default_cancel_callback(cancel_request: ServerGoalHandle) -> CancelResponse:
-    """Cancels no goal."""
+    """Reject every cancel request."""
     del cancel_request
     return CancelResponse.REJECT
 
 
 class ActionServer:
-    """Takes goals from action clients and has them worked on.
+    """Server of an action.
 
-    All callbacks may be coroutine functions. Execute callbacks run beside everything else: where an executor has
-    several threads, no callback group holds them up.
+    All callbacks may be coroutine functions. Execute callbacks are in a reentrant group of their own, so they run in
+    parallel to all other callbacks if the executor has several threads.
 
     Args:
-        node: Its node.
+        node: Node of the server.
         action_type: Class of the action.
-        action_name: Its name; expanded and remapped.
-        execute_callback: Works on a goal: called with a `ServerGoalHandle`, calls its `succeed()`, `abort()` or
-            `canceled()`, and returns the result.
-        callback_group: Of the other callbacks; None: the node's default group.
-        goal_callback: Called with a goal, returns a `GoalResponse`.
-        handle_accepted_callback: Called with the `ServerGoalHandle` of each accepted goal; executes it, now or later.
-        cancel_callback: Called with the `ServerGoalHandle` that somebody wants cancelled, returns a `CancelResponse`.
-        goal_service_qos_profile: Of the service that takes goals.
-        result_service_qos_profile: Of the service that gives results.
-        cancel_service_qos_profile: Of the service that cancels goals.
-        feedback_pub_qos_profile: Of the publisher of feedback.
-        status_pub_qos_profile: Of the publisher of the goals' status.
-        result_timeout: Seconds for which results are kept; negative: for ever.
+        action_name: Name of the action, which is expanded and remapped.
+        execute_callback: Function that executes a goal: it is called with a `ServerGoalHandle`, calls its `succeed()`,
+            `abort()` or `canceled()`, and returns the result.
+        callback_group: Group of the other callbacks. None: the default group of the node.
+        goal_callback: Function that is called with a goal and returns a `GoalResponse`.
+        handle_accepted_callback: Function that is called with the `ServerGoalHandle` of each accepted goal and executes
+            the goal immediately or later.
+        cancel_callback: Function that is called with the `ServerGoalHandle` of a cancel request and returns a
+            `CancelResponse`.
+        goal_service_qos_profile: QoS profile of the goal service.
+        result_service_qos_profile: QoS profile of the result service.
+        cancel_service_qos_profile: QoS profile of the cancel service.
+        feedback_pub_qos_profile: QoS profile of the feedback publisher.
+        status_pub_qos_profile: QoS profile of the status publisher.
+        result_timeout: Time in seconds for which results are kept. Negative: no limit.
 
     Raises:
         TypeError: The execute callback is not callable.
-        ValueError: The name breaks a rule.
-        NoTypeSupportImportedException: `action_type` is no action class.
+        ValueError: The name is not valid.
+        NoTypeSupportImportedException: `action_type` is not an action class.
     """
 
     def __init__(
@@ -280,17 +148,23 @@ class ActionServer:
         self._to_execute: deque[tuple[Callable[[ServerGoalHandle], Any], ServerGoalHandle]] = deque()
 
         name, parts = resolve_action_name(node, action_name, "action server"), action_type.Impl
-        own_group = ReentrantCallbackGroup()
-        self._execution = node.create_guard_condition(self._execute_next, own_group)
-        # The service that takes goals comes last: who sees it finds everything else.
+        internal_group = ReentrantCallbackGroup()
+        self._execution = node.create_guard_condition(self._execute_next, internal_group)
+        # The goal service comes last, so that clients that discover it also find the other endpoints.
         self._feedback_publisher = node.create_publisher(
             parts.FeedbackMessage, name + FEEDBACK, feedback_pub_qos_profile
         )
         self._status_publisher = node.create_publisher(parts.GoalStatusMessage, name + STATUS, status_pub_qos_profile)
         self._result_service, self._cancel_service, self._goal_service = self._services = tuple(
-            node._create_service(DeferredService, srv_type, name + suffix, callback, qos, group)
+            node._create_service(DeferredResponseService, srv_type, name + suffix, callback, qos, group)
             for srv_type, suffix, callback, qos, group in (
-                (parts.GetResultService, GET_RESULT, self._on_result_request, result_service_qos_profile, own_group),
+                (
+                    parts.GetResultService,
+                    GET_RESULT,
+                    self._on_result_request,
+                    result_service_qos_profile,
+                    internal_group,
+                ),
                 (
                     parts.CancelGoalService,
                     CANCEL_GOAL,
@@ -310,22 +184,22 @@ class ActionServer:
     def register_handle_accepted_callback(
         self, handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None
     ) -> None:
-        """Sets what is called with each accepted goal; None: it is executed."""
+        """Set the callback for accepted goals. None: goals are executed immediately."""
         self._handle_accepted_callback = handle_accepted_callback or default_handle_accepted_callback
 
     def register_goal_callback(self, goal_callback: Callable[[Any], Any] | None) -> None:
-        """Sets who decides about goals; None: all are accepted."""
+        """Set the callback for goal requests. None: all goals are accepted."""
         self._goal_callback = goal_callback or default_goal_callback
 
     def register_cancel_callback(self, cancel_callback: Callable[[ServerGoalHandle], Any] | None) -> None:
-        """Sets who decides about cancelling; None: no goal is cancelled."""
+        """Set the callback for cancel requests. None: all cancel requests are rejected."""
         self._cancel_callback = cancel_callback or default_cancel_callback
 
     def register_execute_callback(self, execute_callback: Callable[[ServerGoalHandle], Any]) -> None:
-        """Sets who works on goals.
+        """Set the callback that executes goals.
 
         Raises:
-            TypeError: It is not callable.
+            TypeError: `execute_callback` is not callable.
         """
         if not callable(execute_callback):
             raise TypeError("Failed to register goal execution callback: not callable")
@@ -334,12 +208,12 @@ class ActionServer:
     def notify_execute(
         self, goal_handle: ServerGoalHandle, execute_callback: Callable[[ServerGoalHandle], Any] | None
     ) -> None:
-        """Has an executor call the execute callback; better use `ServerGoalHandle.execute`."""
+        """Schedule the execute callback of a goal. Prefer `ServerGoalHandle.execute`."""
         self._to_execute.append((execute_callback or self._execute_callback, goal_handle))
         self._execution.trigger()
 
     def destroy(self) -> None:
-        """Ends it and forgets its goals; doing so twice is no error."""
+        """Destroy the server and its goal handles. Repeated calls have no effect."""
         with self._lock:
             self._is_destroyed = True
             for goal_handle in self._goals.values():
@@ -356,7 +230,7 @@ class ActionServer:
     async def _on_goal_request(self, request: Any, header: RequestHeader) -> None:
         self._forget_expired()
         goal_handle = None
-        if _key(request.goal_id) not in self._goals and await self._accepts(request.goal):
+        if _key(request.goal_id) not in self._goals and await self._is_accepted(request.goal):
             goal_handle = self._add(request)
         response = self._action_type.Impl.SendGoalService.Response(accepted=goal_handle is not None)
         if goal_handle is not None:
@@ -367,14 +241,17 @@ class ActionServer:
         if goal_handle is not None:
             await _call(self._handle_accepted_callback, goal_handle)
 
-    async def _accepts(self, goal: Any) -> bool:
+    async def _is_accepted(self, goal: Any) -> bool:
         response = await _call(self._goal_callback, goal)
         if not isinstance(response, GoalResponse):
             self._node.get_logger().warning("Goal request callback did not return a GoalResponse type. Rejecting goal.")
         return response is GoalResponse.ACCEPT
 
     def _add(self, request: Any) -> ServerGoalHandle | None:
-        """The new goal; None if another thread was faster with one of the same identifier, or with `destroy()`."""
+        """Add a goal and return its handle.
+
+        Return None if another thread added a goal with the same identifier first, or destroyed the server.
+        """
         info = GoalInfo(goal_id=request.goal_id, stamp=self._node.get_clock().now().to_msg())
         goal_handle = ServerGoalHandle(self, info, request.goal)
         with self._lock:
@@ -386,7 +263,7 @@ class ActionServer:
     def _execute_next(self) -> Coroutine[Any, Any, None] | None:
         try:
             execute_callback, goal_handle = self._to_execute.popleft()
-        except IndexError:  # another thread was faster
+        except IndexError:  # Another thread took the last goal.
             return None
         if self._to_execute:
             self._execution.trigger()
@@ -400,7 +277,7 @@ class ActionServer:
             result = await _call(execute_callback, goal_handle)
         except Exception as error:
             if not self._node.context.ok():
-                raise  # the shutdown's doing
+                raise  # The shutdown caused the error.
             self._node.get_logger().error(f"Error raised in execute callback: {error}")
             traceback.print_exc()
             result = result_type()
@@ -412,47 +289,51 @@ class ActionServer:
         if not isinstance(result, result_type):
             if goal_handle._result_response is None:
                 self._node.get_logger().error(
-                    f"The execute callback returned {type(result).__name__}, not {result_type.__name__}: "
-                    "the client gets an empty result"
+                    f"The execute callback returned {type(result).__name__} instead of {result_type.__name__}. "
+                    "The client receives an empty result."
                 )
             result = result_type()
         self._set_result(goal_handle, result)
 
-    # Cancelling
+    # Cancel requests
 
     async def _on_cancel_request(self, request: Any, header: RequestHeader) -> None:
         response = CancelGoal.Response()
         response.return_code, goal_handles = self._find_goals_to_cancel(request.goal_info)
-        canceling = [goal_handle for goal_handle in goal_handles if await self._cancels(goal_handle)]
+        canceling = [goal_handle for goal_handle in goal_handles if await self._cancel(goal_handle)]
         response.goals_canceling = [goal_handle._goal_info for goal_handle in canceling]
         if goal_handles and not canceling:
             response.return_code = CancelGoal.Response.ERROR_REJECTED
         self._cancel_service.send_response(response, header)
 
     def _find_goals_to_cancel(self, goal_info: GoalInfo) -> tuple[int, list[ServerGoalHandle]]:
-        """By ROS's rules: one goal; all up to a time of acceptance; both; or with neither an id nor a time, all."""
+        """Return the goals that a cancel request selects, by the rules of `action_msgs/CancelGoal`.
+
+        An identifier selects one goal, a stamp selects all goals accepted up to this time, both together select the
+        union, and a request without either selects all goals.
+        """
         key, latest_ns = _key(goal_info.goal_id), _nanoseconds(goal_info)
         with self._lock:
             goals = dict(self._goals)
         if any(key) and latest_ns == 0:
             if key not in goals:
                 return CancelGoal.Response.ERROR_UNKNOWN_GOAL_ID, []
-            if not _can_be_cancelled(goals[key]):
+            if not can_be_cancelled(goals[key]):
                 return CancelGoal.Response.ERROR_GOAL_TERMINATED, []
             return CancelGoal.Response.ERROR_NONE, [goals[key]]
         return CancelGoal.Response.ERROR_NONE, [
             goal_handle
             for other_key, goal_handle in goals.items()
-            if _can_be_cancelled(goal_handle)
+            if can_be_cancelled(goal_handle)
             and (latest_ns == 0 or other_key == key or _nanoseconds(goal_handle._goal_info) <= latest_ns)
         ]
 
-    async def _cancels(self, goal_handle: ServerGoalHandle) -> bool:
+    async def _cancel(self, goal_handle: ServerGoalHandle) -> bool:
         if await _call(self._cancel_callback, goal_handle) is not CancelResponse.ACCEPT:
             return False
         try:
             goal_handle._update_state(GoalEvent.CANCEL_GOAL)
-        except RCLError as error:  # it has ended meanwhile
+        except RCLError as error:  # The goal finished in the meantime.
             self._node.get_logger().debug(f"Failed to cancel goal: {error}")
             return False
         return True
@@ -466,13 +347,13 @@ class ActionServer:
             if goal_handle is not None and goal_handle._result_response is None:
                 goal_handle._result_requests.append(header)
                 return
-        # Of an unknown goal, the response says so by its status.
+        # The default status of a response is UNKNOWN, which is the response for an unknown goal.
         unknown = self._action_type.Impl.GetResultService.Response()
         response = unknown if goal_handle is None else goal_handle._result_response
         self._result_service.send_response(response, header)
 
     def _set_result(self, goal_handle: ServerGoalHandle, result: Any) -> None:
-        """Sends the result to all who have asked, and keeps it for those who will; the first one counts."""
+        """Send the result to the waiting clients and keep it for later requests. Only the first result applies."""
         response = self._action_type.Impl.GetResultService.Response(status=goal_handle.status, result=result)
         with self._lock:
             if goal_handle._result_response is not None:
@@ -488,7 +369,7 @@ class ActionServer:
             while self._expiries and self._expiries[0][0] <= time.monotonic():
                 self._goals.pop(self._expiries.popleft()[1], None)
 
-    # What everybody hears
+    # Topics
 
     def _publish_status(self) -> None:
         self._status_publisher.publish(encode_statuses(goal._status_entry for goal in self._goals.values()))
@@ -505,20 +386,6 @@ class ActionServer:
 async def _call(callback: Callable[..., Any], *args: Any) -> Any:
     result = callback(*args)
     return await result if inspect.iscoroutine(result) else result
-
-
-def _status_after(status: int, event: GoalEvent) -> int:
-    try:
-        return _TRANSITIONS[status, event]
-    except KeyError:
-        raise RCLError(
-            "Failed to update goal state: goal_handle attempted invalid transition "
-            f"from state {_STATUS_NAMES[status]} with event {event.name}"
-        ) from None
-
-
-def _can_be_cancelled(goal_handle: ServerGoalHandle) -> bool:
-    return (goal_handle.status, GoalEvent.CANCEL_GOAL) in _TRANSITIONS
 
 
 def _nanoseconds(goal_info: GoalInfo) -> int:

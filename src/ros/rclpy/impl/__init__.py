@@ -1,1 +1,1 @@
-"""The parts of rclpy that are imported by name only for type hints."""
+"""Implementation modules of rclpy. Users import them only for type annotations."""

@@ -1,4 +1,4 @@
-"""From a log record to a line on the terminal: levels by logger name, ROS's format, colours."""
+"""Console output of log records: levels by logger name, ROS's line format and colors."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import time
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, TextIO
 
+from coframe.time import MILLISECOND, SECOND
 from rclpy.impl.logging_severity import LoggingSeverity
 
 if TYPE_CHECKING:
@@ -26,7 +27,16 @@ _COLORS: Final = {
 
 @dataclass(frozen=True)
 class Record:
-    """One log message: when (ns since 1970), how serious, from whom, and from which line of code."""
+    """A log message.
+
+    Attributes:
+        stamp: Time of the message in nanoseconds since the Unix epoch.
+        severity: Severity of the message.
+        name: Name of the logger.
+        message: Text of the message.
+        code: Code object that logged the message.
+        line: Line number of the call.
+    """
 
     stamp: int
     severity: LoggingSeverity
@@ -37,17 +47,17 @@ class Record:
 
 
 class Console:
-    """Where all loggers of the process write."""
+    """Output and level configuration shared by all loggers of the process."""
 
     def __init__(self) -> None:
         self.default_level = LoggingSeverity.INFO
         self.levels: dict[str, LoggingSeverity] = {}
         self.writes_to_terminal = True
-        # By logger name: who else wants the records of this logger and its children (/rosout).
+        # Additional sinks (/rosout) by logger name. Each receives the records of this logger and of its children.
         self.sinks: dict[str, Callable[[Record], None]] = {}
 
     def effective_level(self, name: str) -> LoggingSeverity:
-        """The level set for the logger, else for its nearest ancestor, else the default."""
+        """Return the level of the logger, of its nearest ancestor that has one, or the default level."""
         for ancestor in _with_ancestors(name):
             level = self.levels.get(ancestor, LoggingSeverity.UNSET)
             if level is not LoggingSeverity.UNSET:
@@ -55,7 +65,7 @@ class Console:
         return self.default_level
 
     def emit(self, record: Record) -> None:
-        """Writes the record to the terminal and hands it to the sink of its logger."""
+        """Write the record to the terminal and pass it to the sink of its logger."""
         if self.writes_to_terminal:
             _write(record)
         for ancestor in _with_ancestors(record.name):
@@ -72,7 +82,7 @@ def _with_ancestors(name: str) -> Iterator[str]:
 
 def _write(record: Record) -> None:
     stream = sys.stdout if os.environ.get("RCUTILS_LOGGING_USE_STDOUT") == "1" else sys.stderr
-    if stream is None:  # pythonw, daemons
+    if stream is None:  # There is no stderr under pythonw and in some daemons.
         return
     text = format_record(record, os.environ.get("RCUTILS_CONSOLE_OUTPUT_FORMAT", _DEFAULT_FORMAT))
     if _is_colored(stream):
@@ -87,20 +97,20 @@ def _is_colored(stream: TextIO) -> bool:
 
 
 def format_record(record: Record, template: str) -> str:
-    """Fills in the tokens of rcutils; unknown ones stay as they are."""
-    seconds, nanoseconds = divmod(record.stamp, 10**9)
+    """Replace the tokens of an rcutils format string. Unknown tokens are kept."""
+    seconds, nanoseconds = divmod(record.stamp, SECOND)
     date = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(seconds))
     tokens = {
         "{severity}": record.severity.name,
         "{name}": record.name,
         "{time}": f"{seconds}.{nanoseconds:09d}",
         "{time_as_nanoseconds}": str(record.stamp),
-        "{date_time_with_ms}": f"{date}.{nanoseconds // 10**6:03d}",
+        "{date_time_with_ms}": f"{date}.{nanoseconds // MILLISECOND:03d}",
         "{function_name}": record.code.co_name,
         "{file_name}": record.code.co_filename,
         "{line_number}": str(record.line),
     }
-    # The message comes last: tokens inside it are the user's own text.
+    # The message is inserted last, so that text in it that looks like a token is not replaced.
     head, separator, tail = template.partition("{message}")
     for token, value in tokens.items():
         head, tail = head.replace(token, value), tail.replace(token, value)

@@ -1,4 +1,4 @@
-"""The levels of log messages."""
+"""Severity levels of log messages."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from enum import IntEnum
 
 
 class LoggingSeverity(IntEnum):
-    """How serious a log message is."""
+    """Severity of a log message."""
 
     UNSET = 0
     DEBUG = 10

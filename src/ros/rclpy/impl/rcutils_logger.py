@@ -1,6 +1,6 @@
-"""Loggers, with the filters `once`, `throttle_duration_sec` and `skip_first` for each place in the code."""
+"""Loggers with the filters `once`, `throttle_duration_sec` and `skip_first`, applied per call site."""
 
-# The modules of rclpy share what its users do not see.
+# The modules of rclpy use each other's private members.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ import time
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final
 
+from rclpy.constants import S_TO_NS
 from rclpy.impl.console import Record, console
 from rclpy.impl.logging_severity import LoggingSeverity
 
@@ -23,7 +24,7 @@ _OPTIONS: Final = ("once", "throttle_duration_sec", "throttle_time_source_type",
 
 @dataclass
 class _CallSite:
-    """What the filters remember about one place in the code."""
+    """State of the logging filters of one call site."""
 
     severity: LoggingSeverity
     name: str
@@ -31,8 +32,8 @@ class _CallSite:
     last_ns: int | None = None
     calls: int = field(default=0)
 
-    def lets_pass(self) -> bool:
-        """Whether this call is to be logged."""
+    def should_log(self) -> bool:
+        """Update the filters and return whether this call should be logged."""
         self.calls += 1
         if self.options.get("skip_first") and self.calls == 1:
             return False
@@ -40,8 +41,8 @@ class _CallSite:
             return False
         clock: Clock | None = self.options.get("throttle_time_source_type")
         now = time.time_ns() if clock is None else clock.now().nanoseconds
-        period = int(self.options.get("throttle_duration_sec", 0) * 1e9)
-        # A clock that went back starts a new period.
+        period = int(self.options.get("throttle_duration_sec", 0) * S_TO_NS)
+        # A clock that jumped back starts a new period.
         if self.last_ns is not None and self.last_ns <= now < self.last_ns + period:
             return False
         self.last_ns = now
@@ -49,20 +50,20 @@ class _CallSite:
 
 
 class RcutilsLogger:
-    """Logs under a name; levels are inherited along the dots of names.
+    """A named logger. Levels are inherited along the dots of the name.
 
     Args:
-        name: Dotted name; empty: the root of all.
+        name: Dotted name. An empty name is the root logger.
     """
 
     def __init__(self, name: str = "") -> None:
         self.name = name
-        # Of this logger alone: two nodes of one class log from the same lines.
+        # Each logger has its own state, because two nodes of the same class log from the same lines.
         self._call_sites: dict[tuple[str, int, int], _CallSite] = {}
         self._children: dict[str, RcutilsLogger] = {}
 
     def get_child(self, name: str) -> RcutilsLogger:
-        """Returns the logger `name` below this one.
+        """Return the child logger `name` of this logger.
 
         Raises:
             ValueError: The name is empty.
@@ -72,66 +73,66 @@ class RcutilsLogger:
         return self._children.setdefault(name, RcutilsLogger(f"{self.name}.{name}" if self.name else name))
 
     def set_level(self, level: int) -> None:
-        """Sets the least severity that is logged; UNSET inherits it again."""
+        """Set the lowest severity that is logged. UNSET inherits it from the parent again."""
         console.levels[self.name] = LoggingSeverity(level)
 
     def get_effective_level(self) -> LoggingSeverity:
-        """Returns the least severity that is logged."""
+        """Return the lowest severity that is logged, which may be inherited."""
         return console.effective_level(self.name)
 
     def is_enabled_for(self, severity: int) -> bool:
-        """Whether messages of this severity are logged."""
+        """Return whether messages of this severity are logged."""
         return self.get_effective_level() <= severity
 
     def log(self, message: object, severity: int, name: str | None = None, **kwargs: Any) -> bool:
-        """Logs a message.
+        """Log a message.
 
         Args:
             message: The text.
             severity: A LoggingSeverity.
-            name: Logged under this name instead of the logger's own.
-            **kwargs: `once=True`; `throttle_duration_sec=` with, if wished, `throttle_time_source_type=` (a Clock);
-                `skip_first=True`. They hold for the place in the code where they stand.
+            name: Name to log under instead of the logger's own name.
+            **kwargs: Filters of this call site: `once=True`, `skip_first=True`, or `throttle_duration_sec=` (seconds),
+                optionally with `throttle_time_source_type=` (a Clock).
 
         Returns:
-            Whether it was logged.
+            Whether the message was logged.
 
         Raises:
             TypeError: An option is unknown or incomplete.
-            ValueError: The same place in the code now uses another severity, name or other filters.
+            ValueError: The call site changed its severity, name or filters.
         """
         severity = LoggingSeverity(severity)
         name = name or self.name
         if console.effective_level(name) > severity:
             return False
         frame = _caller()
-        if kwargs and not self._call_site(frame, severity, name, kwargs).lets_pass():
+        if kwargs and not self._call_site(frame, severity, name, kwargs).should_log():
             return False
         console.emit(Record(time.time_ns(), severity, name, str(message), frame.f_code, frame.f_lineno))
         return True
 
     def debug(self, message: object, **kwargs: Any) -> bool:
-        """Logs with severity DEBUG; see `log`."""
+        """Log a message with severity DEBUG; see `log`."""
         return self.log(message, LoggingSeverity.DEBUG, **kwargs)
 
     def info(self, message: object, **kwargs: Any) -> bool:
-        """Logs with severity INFO; see `log`."""
+        """Log a message with severity INFO; see `log`."""
         return self.log(message, LoggingSeverity.INFO, **kwargs)
 
     def warning(self, message: object, **kwargs: Any) -> bool:
-        """Logs with severity WARN; see `log`."""
+        """Log a message with severity WARN; see `log`."""
         return self.log(message, LoggingSeverity.WARN, **kwargs)
 
     def warn(self, message: object, **kwargs: Any) -> bool:
-        """Logs with severity WARN; the older name of `warning`."""
+        """Log a message with severity WARN. This is the older name of `warning`."""
         return self.log(message, LoggingSeverity.WARN, **kwargs)
 
     def error(self, message: object, **kwargs: Any) -> bool:
-        """Logs with severity ERROR; see `log`."""
+        """Log a message with severity ERROR; see `log`."""
         return self.log(message, LoggingSeverity.ERROR, **kwargs)
 
     def fatal(self, message: object, **kwargs: Any) -> bool:
-        """Logs with severity FATAL; see `log`."""
+        """Log a message with severity FATAL; see `log`."""
         return self.log(message, LoggingSeverity.FATAL, **kwargs)
 
     def _call_site(self, frame: FrameType, severity: LoggingSeverity, name: str, options: dict[str, Any]) -> _CallSite:

@@ -22,9 +22,9 @@ CHILD = """
 
 @pytest.fixture
 def warnings(participant):
-    heard: list[str] = []
-    participant.on_warning(heard.append)
-    return heard
+    received: list[str] = []
+    participant.on_warning(received.append)
+    return received
 
 
 def other(child, node="talker", what="publisher", ros_type="std_msgs/msg/String", qos="QoS()"):
@@ -37,8 +37,8 @@ def test_a_best_effort_publisher_for_a_reliable_subscription(participant, node, 
     eventually(lambda: warnings)
     assert warnings == [
         (
-            "node /talker on /scan offers best-effort, but this subscription asks for reliable: nothing will arrive. "
-            "Ask for best-effort (qos_profile_sensor_data) or make the publisher reliable."
+            "Node /talker offers best-effort on /scan, but this subscription requests reliable: no messages will "
+            "arrive. Request best-effort (qos_profile_sensor_data), or make the publisher reliable."
         )
     ]
 
@@ -49,8 +49,8 @@ def test_a_reliable_subscriber_for_a_best_effort_publisher(participant, node, ch
     eventually(lambda: warnings)
     assert warnings == [
         (
-            "node /listener on /scan asks for reliable, but this publisher offers best-effort: nothing will arrive. "
-            "Ask for best-effort (qos_profile_sensor_data) or make the publisher reliable."
+            "Node /listener requests reliable on /scan, but this publisher offers best-effort: no messages will "
+            "arrive. Request best-effort (qos_profile_sensor_data), or make the publisher reliable."
         )
     ]
 
@@ -59,73 +59,73 @@ def test_a_volatile_publisher_for_a_transient_local_subscription(participant, no
     participant.subscription(node, "/scan", STRING, QoS(transient_local=True), on_data=None)
     other(child)
     eventually(lambda: warnings)
-    assert "/talker on /scan offers volatile, but this subscription asks for transient-local" in warnings[0]
+    assert "/talker offers volatile on /scan, but this subscription requests transient-local" in warnings[0]
 
 
-def test_another_type_on_the_topic(participant, node, child, warnings, eventually):
+def test_a_different_type_on_the_topic(participant, node, child, warnings, eventually):
     participant.subscription(node, "/scan", STRING, QoS(), on_data=None)
     other(child, ros_type="std_msgs/msg/Int32")
     eventually(lambda: warnings)
     assert warnings == [
         (
-            "node /talker on /scan publishes std_msgs/msg/Int32, but this subscription expects std_msgs/msg/String: "
-            "nothing will arrive. Use one message type, or another topic name."
+            "Node /talker publishes std_msgs/msg/Int32 on /scan, but this subscription expects std_msgs/msg/String: "
+            "no messages will arrive. Use the same message type, or another topic name."
         )
     ]
 
 
-def test_two_endpoints_of_this_process_are_told_of_once(participant, node, warnings, eventually):
+def test_a_mismatch_within_this_process_is_reported_once(participant, node, warnings, eventually):
     participant.publisher(node, "/scan", STRING, SENSOR)
     participant.subscription(node, "/scan", STRING, QoS(), on_data=None)
     participant.subscription(node, "/done", STRING, QoS(), on_data=None)
     participant.publisher(node, "/done", INT32, QoS())
     eventually(lambda: len(warnings) == 2)
-    assert warnings[0].startswith("node /tester on /scan offers best-effort")
-    assert warnings[1].startswith("node /tester on /done publishes std_msgs/msg/Int32")
+    assert warnings[0].startswith("Node /tester offers best-effort on /scan")
+    assert warnings[1].startswith("Node /tester publishes std_msgs/msg/Int32 on /done")
 
 
-def test_a_peer_without_a_name(beside_rosless):
+def test_a_mismatch_with_an_endpoint_that_has_no_node(beside_rosless):
     beside_rosless("""
         warnings = []
         participant.on_warning(warnings.append)
         participant.subscription(node, "/scan", STRING, QoS())
         publisher = peer.advertise("/scan", "std_msgs/msg/String", reliability="best_effort")
         eventually(lambda: warnings)
-        assert warnings[0].startswith("an unnamed node on /scan offers best-effort"), warnings
+        assert warnings[0].startswith("An unnamed node offers best-effort on /scan"), warnings
     """)
 
 
-def test_without_a_callback_the_log_has_it(participant, node, caplog, eventually):
+def test_warnings_are_logged_if_there_is_no_callback(participant, node, caplog, eventually):
     with caplog.at_level(logging.WARNING, logger="coframe.wire"):
         participant.publisher(node, "/scan", STRING, SENSOR)
         participant.subscription(node, "/scan", STRING, QoS(), on_data=None)
         eventually(lambda: "offers best-effort" in caplog.text)
 
 
-def test_another_definition_of_the_same_type(participant, node, child, warnings, eventually):
+def test_a_different_definition_of_the_same_type(participant, node, child, warnings, eventually):
     participant.subscription(node, "/scan", STRING, QoS(), on_data=None)
     child("""
         import coframe
         from coframe.messages import find
         int32 = find("std_msgs/msg/Int32")
-        class Liar:
+        class OtherString:
             ROS_TYPE = "std_msgs/msg/String"
             SLOT_TYPES = int32.SLOT_TYPES
             get_fields_and_field_types = int32.get_fields_and_field_types
-        with coframe.connect("liar") as ros:
-            publisher = ros.publisher("/scan", Liar)
+        with coframe.connect("other") as ros:
+            publisher = ros.publisher("/scan", OtherString)
             input()
     """)
     eventually(lambda: warnings)
     assert warnings == [
         (
-            "node /liar on /scan has another definition of std_msgs/msg/String than this subscription: nothing will "
-            "arrive. Use the same message definitions and the same quality of service on both sides."
+            "Node /other on /scan has a different definition of std_msgs/msg/String from this subscription: "
+            "no messages will arrive. Use the same message definitions and the same quality of service on both sides."
         )
     ]
 
 
-def test_what_fits_is_not_told_of(participant, node, child, warnings, eventually):
+def test_matching_endpoints_cause_no_warning(participant, node, child, warnings, eventually):
     subscription = participant.subscription(node, "/scan", STRING, SENSOR, on_data=None)
     other(child)
     eventually(lambda: subscription.matched)

@@ -85,7 +85,7 @@ def test_a_new_writer_begins_with_nothing(participant, node):
     first = participant.static_broadcaster(node)
     first.send([stamped("base_link", "lidar")])
     first.close()
-    with pytest.raises(WireError, match=r"static transforms .* closed"):
+    with pytest.raises(WireError, match=r"static transform broadcaster .* closed"):
         first.send([stamped("base_link", "lidar")])
     second = participant.static_broadcaster(node)
     second.send([stamped("base_link", "camera")])

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/question.hpp"
+#include "core/query.hpp"
 #include "core/tree.hpp"
 
 namespace coframe {
@@ -39,39 +39,39 @@ class Mailbox {
 };
 
 // Where a wait sits: which insertion may help it.
-struct Seat {
+struct WaitCondition {
   std::vector<FrameId> frames;  // one on the edge to the parent of one of these,
   std::string name;             // or one that makes this frame known,
   Stamp needed = 0;             // if the edge's newest stamp is then at least this
-  bool operator==(const Seat&) const = default;
+  bool operator==(const WaitCondition&) const = default;
 };
 
-// A question that waits for its answer. It owns its names.
+// A query that waits for its answer. It owns its names.
 class Wait {
  public:
-  explicit Wait(const Question& question, std::shared_ptr<Mailbox> mailbox = nullptr, Token token = 0);
+  explicit Wait(const LookupQuery& query, std::shared_ptr<Mailbox> mailbox = nullptr, Token token = 0);
   Wait(const Wait&) = delete;
   Wait& operator=(const Wait&) = delete;
 
-  const Question& question() const { return question_; }
+  const LookupQuery& query() const { return query_; }
   // Waits for the answer; false when `timeout_ns` passed without.
   bool wait_for(std::int64_t timeout_ns);
-  bool answered() const { return answered_.load(std::memory_order_acquire); }
-  const Answer& answer() const { return answer_; }  // once answered
+  bool done() const { return done_.load(std::memory_order_acquire); }
+  const LookupResult& result() const { return result_; }  // once answered
 
  private:
-  friend class WaitingRoom;
-  void bring(const Answer& answer);
+  friend class WaitQueue;
+  void complete(const LookupResult& result);
 
   std::string target_, source_, fixed_;
-  Question question_;
+  LookupQuery query_;
   std::shared_ptr<Mailbox> mailbox_;
   Token token_;
-  Answer answer_;
-  std::atomic<bool> answered_{false};
+  LookupResult result_;
+  std::atomic<bool> done_{false};
   std::mutex mutex_;
   std::condition_variable ready_;
-  Seat seat_;  // guarded by the room
+  WaitCondition condition_;  // guarded by the room
 };
 
 // Somebody wants to hear of changes of an edge, or of all. Several changes before the note is read are one.
@@ -85,7 +85,7 @@ class Watch {
   std::vector<FrameId> take();
 
  private:
-  friend class WaitingRoom;
+  friend class WaitQueue;
   void note(FrameId child);
 
   std::string child_;
@@ -96,12 +96,12 @@ class Watch {
   std::unordered_set<FrameId> changed_;
 };
 
-class WaitingRoom {
+class WaitQueue {
  public:
   // Tries to answer; false: the failure says what is missing.
-  using Ask = std::function<bool(Question&, Answer&, Failure&)>;
+  using Ask = std::function<bool(LookupQuery&, LookupResult&, Failure&)>;
 
-  WaitingRoom(Tree& tree, Ask ask) : tree_(tree), ask_(std::move(ask)) {}
+  WaitQueue(Tree& tree, Ask ask) : tree_(tree), ask_(std::move(ask)) {}
 
   // From now on the answer is brought as soon as there is one; that may be at once.
   void add(const std::shared_ptr<Wait>& wait);
@@ -110,53 +110,53 @@ class WaitingRoom {
   void remove(const std::shared_ptr<Watch>& watch);
 
   // Whether nobody waits or watches.
-  bool empty() const { return guests_.load() == 0; }
+  bool empty() const { return entries_.load() == 0; }
   // What the writer tells, after the data are visible and with no lock held. Needless in an empty room.
-  void tell(const Inserted& inserted);
+  void notify(const Inserted& inserted);
 
  private:
-  struct Guests {
+  struct Waiters {
     std::vector<std::shared_ptr<Wait>> waits;
     std::vector<std::shared_ptr<Watch>> watches;
   };
 
   using Waits = std::vector<std::shared_ptr<Wait>>;
 
-  void answer_or_seat(const std::shared_ptr<Wait>& wait, bool seated);
-  Seat seat_for(const Question& question, const Failure& failure) const;
-  void add_lagging(FrameId frame, Stamp common, std::vector<FrameId>& frames) const;
-  template <class Guest>
-  void take_from_name(const std::string& name, std::vector<std::shared_ptr<Guest>> Guests::*guests,
-                      const std::shared_ptr<Guest>& guest);
-  void sit_down(const std::shared_ptr<Wait>& wait, Seat seat);
-  void stand_up(const std::shared_ptr<Wait>& wait);
+  void complete_or_enqueue(const std::shared_ptr<Wait>& wait, bool queued);
+  WaitCondition condition_for(const LookupQuery& query, const Failure& failure) const;
+  void add_behind(FrameId frame, Stamp common, std::vector<FrameId>& frames) const;
+  template <class Waiter>
+  void remove_from_name(const std::string& name, std::vector<std::shared_ptr<Waiter>> Waiters::*waiters,
+                      const std::shared_ptr<Waiter>& waiter);
+  void enqueue(const std::shared_ptr<Wait>& wait, WaitCondition condition);
+  void dequeue(const std::shared_ptr<Wait>& wait);
   void forget(const std::shared_ptr<Wait>& wait);
-  void try_again(const Waits& waits);
-  void move_in(const std::shared_ptr<Watch>& watch);
+  void retry(const Waits& waits);
+  void attach_to_frame(const std::shared_ptr<Watch>& watch);
   void on_insertion(FrameId child);
   void on_new_names();
 
   Tree& tree_;
   Ask ask_;
   std::mutex mutex_;
-  std::unordered_map<FrameId, Guests> by_frame_;
-  std::unordered_map<std::string, Guests> by_name_;  // of frames that are not there yet
+  std::unordered_map<FrameId, Waiters> by_frame_;
+  std::unordered_map<std::string, Waiters> by_name_;  // of frames that are not there yet
   std::unordered_map<const Wait*, std::shared_ptr<Wait>> waits_;
   std::vector<std::shared_ptr<Watch>> watches_of_all_;
   // What the writer looks at before it takes the mutex.
-  std::atomic<std::size_t> guests_{0}, waiting_{0}, names_{0}, watching_all_{0};
+  std::atomic<std::size_t> entries_{0}, waiting_{0}, names_{0}, watching_all_{0};
 };
 
 // Sits in the room for a scope.
-class SeatedWait {
+class ScopedWait {
  public:
-  SeatedWait(WaitingRoom& room, std::shared_ptr<Wait> wait) : room_(room), wait_(std::move(wait)) { room_.add(wait_); }
-  SeatedWait(const SeatedWait&) = delete;
-  SeatedWait& operator=(const SeatedWait&) = delete;
-  ~SeatedWait() { room_.remove(wait_); }
+  ScopedWait(WaitQueue& room, std::shared_ptr<Wait> wait) : room_(room), wait_(std::move(wait)) { room_.add(wait_); }
+  ScopedWait(const ScopedWait&) = delete;
+  ScopedWait& operator=(const ScopedWait&) = delete;
+  ~ScopedWait() { room_.remove(wait_); }
 
  private:
-  WaitingRoom& room_;
+  WaitQueue& room_;
   std::shared_ptr<Wait> wait_;
 };
 

@@ -5,17 +5,17 @@
 
 namespace coframe {
 
-class Slab {
+class Arena {
  public:
   static constexpr std::size_t kAlignment = 64;               // a cache line
   static constexpr std::size_t kLarge = std::size_t{2} << 20;  // a large page
 
   // Not initialised. For kLarge the system is asked to use a large page: filling that is many times faster than page by
   // page.
-  explicit Slab(std::size_t size);
-  Slab(const Slab&) = delete;
-  Slab& operator=(const Slab&) = delete;
-  ~Slab();
+  explicit Arena(std::size_t size);
+  Arena(const Arena&) = delete;
+  Arena& operator=(const Arena&) = delete;
+  ~Arena();
 
   std::byte* data() const { return data_; }
 

@@ -1,4 +1,4 @@
-#include "core/slab.hpp"
+#include "core/arena.hpp"
 
 #include <array>
 #include <cstdint>
@@ -13,11 +13,11 @@ namespace coframe {
 
 namespace {
 
-// Large slabs that were freed last, for the next who want one: the system takes longer to clear them than we to fill
+// Large arenas that were freed last, for the next who want one: the system takes longer to clear them than we to fill
 // them.
 struct Spare {
   std::mutex mutex;
-  std::array<std::byte*, 4> slabs;
+  std::array<std::byte*, 4> arenas;
   std::size_t count = 0;
 };
 
@@ -34,34 +34,34 @@ std::byte* allocate(std::size_t size, std::size_t alignment) {
 // memory, and that can be half as much again.
 #if __has_include(<sys/mman.h>)
 std::byte* map_large() {
-  void* mapped = mmap(nullptr, 2 * Slab::kLarge, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  void* mapped = mmap(nullptr, 2 * Arena::kLarge, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (mapped == MAP_FAILED) throw std::bad_alloc();
   auto* start = static_cast<std::byte*>(mapped);
-  const std::size_t before = -reinterpret_cast<std::uintptr_t>(start) % Slab::kLarge;
+  const std::size_t before = -reinterpret_cast<std::uintptr_t>(start) % Arena::kLarge;
   if (before > 0) munmap(start, before);
-  munmap(start + before + Slab::kLarge, Slab::kLarge - before);
+  munmap(start + before + Arena::kLarge, Arena::kLarge - before);
 #if defined(MADV_HUGEPAGE)
-  madvise(start + before, Slab::kLarge, MADV_HUGEPAGE);  // where that fails, it is only slower
+  madvise(start + before, Arena::kLarge, MADV_HUGEPAGE);  // where that fails, it is only slower
 #endif
   return start + before;
 }
-void unmap_large(std::byte* data) { munmap(data, Slab::kLarge); }
+void unmap_large(std::byte* data) { munmap(data, Arena::kLarge); }
 #else
-std::byte* map_large() { return allocate(Slab::kLarge, Slab::kLarge); }
-void unmap_large(std::byte* data) { ::operator delete(data, std::align_val_t{Slab::kLarge}); }
+std::byte* map_large() { return allocate(Arena::kLarge, Arena::kLarge); }
+void unmap_large(std::byte* data) { ::operator delete(data, std::align_val_t{Arena::kLarge}); }
 #endif
 
 std::byte* allocate_large() {
   Spare& kept = spare();
   const std::lock_guard lock(kept.mutex);
-  return kept.count > 0 ? kept.slabs[--kept.count] : map_large();
+  return kept.count > 0 ? kept.arenas[--kept.count] : map_large();
 }
 
 void free_large(std::byte* data) {
   Spare& kept = spare();
   const std::lock_guard lock(kept.mutex);
-  if (kept.count < kept.slabs.size()) {
-    kept.slabs[kept.count++] = data;
+  if (kept.count < kept.arenas.size()) {
+    kept.arenas[kept.count++] = data;
   } else {
     unmap_large(data);
   }
@@ -69,10 +69,10 @@ void free_large(std::byte* data) {
 
 }  // namespace
 
-Slab::Slab(std::size_t size)
+Arena::Arena(std::size_t size)
     : is_large_(size == kLarge), data_(is_large_ ? allocate_large() : allocate(size, kAlignment)) {}
 
-Slab::~Slab() {
+Arena::~Arena() {
   if (is_large_) {
     free_large(data_);
   } else {

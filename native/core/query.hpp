@@ -1,4 +1,4 @@
-// One question to a buffer: where is a frame, seen from another, and when.
+// One query to a buffer: where is a frame, seen from another, and when.
 #pragma once
 
 #include <cstddef>
@@ -8,23 +8,23 @@
 
 namespace coframe {
 
-struct Question {
+struct LookupQuery {
   std::string_view target, source;
-  Stamp stamp = 0;  // of the target where the question travels in time
+  Stamp stamp = 0;  // of the target where the query travels in time
   // Time travel: the source at its own stamp, over a frame that stands still meanwhile.
-  bool travels = false;
+  bool time_travel = false;
   std::string_view fixed;
   Stamp source_stamp = 0;
   // Numbers of the frames, where they are known already.
   FrameId target_id = 0, source_id = 0, fixed_id = 0;
 };
 
-struct Answer {
+struct LookupResult {
   Pose pose;
   Stamp stamp = 0;
 };
 
-// The same question at many times; arrays of the caller.
+// The same query at many times; arrays of the caller.
 struct Batch {
   enum class Missing {
     stop,  // at the first row without answer

@@ -7,15 +7,15 @@
 namespace coframe {
 
 template <class T>
-class Relaxed {
+class RelaxedAtomic {
  public:
-  Relaxed() = default;
-  explicit Relaxed(T value) : value_(value) {}
+  RelaxedAtomic() = default;
+  explicit RelaxedAtomic(T value) : value_(value) {}
 
   T get() const { return value_.load(std::memory_order_relaxed); }
   operator T() const { return get(); }
   void set(T value) { value_.store(value, std::memory_order_relaxed); }
-  Relaxed& operator=(T value) {
+  RelaxedAtomic& operator=(T value) {
     set(value);
     return *this;
   }

@@ -9,7 +9,7 @@
 
 namespace coframe {
 
-class Lag {
+class StampDelay {
  public:
   static constexpr std::size_t kSamples = 15;
 

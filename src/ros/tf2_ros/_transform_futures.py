@@ -1,6 +1,6 @@
 """Futures that complete when a buffer learns the transform they wait for, whoever tells it."""
 
-# The modules of rclpy and tf2_ros share what their users do not see.
+# rclpy and tf2_ros use each other's private members.
 # ruff: noqa: SLF001
 
 from collections.abc import Callable

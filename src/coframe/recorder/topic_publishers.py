@@ -1,0 +1,195 @@
+"""The publishers of a replay: one for each recorded topic; static transforms are merged into one message."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from coframe.bags import from_yaml
+from coframe.bags.cdr_conversion import cdr_converter, decode_transforms
+from coframe.bags.message_frames import FrameNames
+from coframe.bags.transforms import is_static
+from coframe.errors import WireError
+from coframe.frame_names import absolute
+from coframe.messages import deserialize, find
+from coframe.wire import QoS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from coframe import _core
+    from coframe.bags import Recording
+    from coframe.bags.storage import Channel
+    from coframe.wire import GraphNode, Participant, Publisher, StaticBroadcaster
+
+__all__ = ["TopicPublishers"]
+
+_TF = "tf2_msgs/msg/TFMessage"
+_DEPTH = 100  # messages that a publisher keeps until they are delivered
+_KEEP_ALL_DEPTH = 1000  # replaces "keep all", so that one hanging subscription does not block the replay
+
+
+class _ChannelPublisher(NamedTuple):
+    """The publisher of a recorded channel, with the conversion of its messages to CDR."""
+
+    write: Callable[[bytes], None]
+    convert: Callable[[bytes], bytes]
+    latched: bool
+
+
+class TopicPublishers:
+    """The publishers for the topics of a recording.
+
+    Args:
+        participant: The DDS participant.
+        node: The node that owns the publishers.
+        recording: The recording.
+        topics: The topics to replay.
+        remap: A mapping from recorded topic names to published topic names.
+        names: The renaming of frames in the messages. If None, frames keep their names.
+
+    Attributes:
+        topics: The topics to replay.
+        problems: A text for each topic or message that cannot be replayed.
+    """
+
+    def __init__(
+        self,
+        participant: Participant,
+        node: GraphNode,
+        recording: Recording,
+        topics: set[str],
+        remap: Mapping[str, str],
+        names: _core.Renaming | None,
+    ) -> None:
+        self.topics = topics
+        self.problems: list[str] = []
+        self._participant = participant
+        self._node = node
+        self._recording = recording
+        self._remap = remap
+        self._names = names
+        self._statics: dict[str, StaticBroadcaster] = {}
+        self._publishers: dict[tuple[str, str], Publisher] = {}
+        self._channels: dict[tuple[str, str], _ChannelPublisher | None] = {}
+        self._open()
+
+    def publish(self, channel: Channel, data: bytes) -> bool:
+        """Publish a recorded message. If that fails, add to `problems` and return False."""
+        publisher = self._channels[channel.topic, channel.type]
+        if publisher is None:
+            return False
+        try:
+            publisher.write(publisher.convert(data))
+        except WireError as error:  # for example, a subscription does not keep up
+            self._add_problem(str(error))
+            return False
+        except Exception:  # noqa: BLE001 - DDS and the conversion can raise many exceptions
+            self._add_problem(f"{channel.topic}: damaged messages are skipped")
+            return False
+        return True
+
+    def _add_problem(self, text: str) -> None:
+        if text not in self.problems:
+            self.problems.append(text)
+
+    def publish_latched(self, start: int) -> None:
+        """Publish all static transforms, and the last message before the start on other latched topics.
+
+        Args:
+            start: The start of the replay, in nanoseconds of the time of receipt.
+        """
+        for topic, transforms in self._static_transforms(start).items():
+            self._statics[topic].send(transforms)
+        latched = {
+            topic for (topic, _), publisher in self._channels.items() if publisher is not None and publisher.latched
+        }
+        last = {
+            (channel.topic, channel.type): (channel, data)
+            for channel, _, data in self._recording.in_order(latched - self._statics.keys(), None, start)
+        }
+        for channel, data in last.values():
+            self.publish(channel, data)
+
+    def _static_transforms(self, start: int) -> dict[str, list[Any]]:
+        """Return all static transforms of the recording by topic, with their values at the start of the replay."""
+        found: dict[str, dict[str, Any]] = {topic: {} for topic in self._statics}
+        for channel, received, data in self._recording.in_order(self._statics):
+            publisher = self._channels[channel.topic, channel.type]
+            if publisher is None:
+                continue
+            known = found[channel.topic]
+            for transform in decode_transforms(publisher.convert, data):
+                if received < start or transform.child_frame_id not in known:
+                    known[transform.child_frame_id] = transform
+        return {topic: list(known.values()) for topic, known in found.items() if known}
+
+    def _open(self) -> None:
+        offers: dict[tuple[str, str], list[QoS]] = {}
+        channels: dict[tuple[str, str], Channel] = {}
+        for channel in self._recording.channels():
+            if channel.topic in self.topics:
+                key = (channel.topic, channel.type)
+                channels.setdefault(key, channel)
+                offers.setdefault(key, []).extend(QoS(*profile) for profile in from_yaml(channel.offered_qos))
+        for key, channel in channels.items():
+            try:
+                self._channels[key] = self._channel_publisher(channel, offers[key])
+            except (WireError, ValueError) as error:  # recordings can contain topic names that DDS does not allow
+                self._channels[key] = None
+                self.problems.append(f"{channel.topic} is not replayed: {error}")
+
+    def _channel_publisher(self, channel: Channel, offered: list[QoS]) -> _ChannelPublisher | None:
+        converted = cdr_converter(channel)
+        if converted is None:
+            self.problems.append(
+                f"{channel.topic} is not replayed: messages of type {channel.type} with the encoding "
+                f"{channel.encoding} cannot be converted to ROS 2"
+            )
+            return None
+        ros_type, convert = converted[0], self._renamed(channel, *converted)
+        topic = self._remap.get(absolute(channel.topic), channel.topic)
+        if is_static(channel.topic) and ros_type == _TF:
+            writer = self._participant.static_broadcaster(self._node, topic)
+            self._statics[channel.topic] = writer
+            return _ChannelPublisher(_send_function(writer), convert, latched=True)
+        qos = _combined_qos(offered)
+        return _ChannelPublisher(self.publisher(topic, ros_type, qos).write, convert, qos.transient_local)
+
+    def _renamed(self, channel: Channel, ros_type: str, convert: Callable[[bytes], bytes]) -> Callable[[bytes], bytes]:
+        """Return the function that converts a message of the channel and renames its frames."""
+        if self._names is None:
+            return convert
+        frames = FrameNames.of(channel, ros_type)
+        if frames is None:
+            self.problems.append(
+                f"{channel.topic}: frames are not renamed, because the definition of {ros_type} is not known"
+            )
+            return convert
+        rename = self._names
+        return (lambda data: frames.renamed(convert(data), rename)[0]) if frames.are_there else convert
+
+    def publisher(self, topic: str, ros_type: str, qos: QoS) -> Publisher:
+        """Return the publisher on a topic, which is shared by all channels with that topic and type."""
+        key = (topic, ros_type)
+        if key not in self._publishers:
+            self._publishers[key] = self._participant.raw_publisher(self._node, topic, ros_type, qos)
+        return self._publishers[key]
+
+
+def _send_function(writer: StaticBroadcaster) -> Callable[[bytes], None]:
+    kind = find(_TF)
+    return lambda data: writer.send(deserialize(data, kind).transforms)
+
+
+def _combined_qos(offered: list[QoS]) -> QoS:
+    """Return a QoS that meets every request that one of the offered QoS profiles meets."""
+    if not offered:
+        return QoS(depth=_DEPTH)
+    latched = any(qos.transient_local for qos in offered)
+    depth = max(_KEEP_ALL_DEPTH if qos.keep_all else qos.depth for qos in offered)
+    return QoS(
+        # On a latched topic, the depth is the number of messages that late-joining subscriptions receive.
+        depth=depth if latched else max(depth, _DEPTH),
+        reliable=any(qos.reliable for qos in offered),
+        transient_local=latched,
+    )

@@ -1,0 +1,398 @@
+"""The thread of a relay, which reads transforms and writes them to other topics, and the function `relay`."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe import _core
+from coframe.errors import WireError
+from coframe.frame_names import kept, renaming
+from coframe.tf_publishers import TfPublisher, publisher_state, tf_publisher
+from coframe.tf_relay.robots import Robot, choose_robots, qualified, topic_of_kind
+from coframe.tf_relay.status import RelayedEdge, RelayedRobot
+from coframe.time import MILLISECOND, SECOND
+from coframe.wire.participant import Participant
+from coframe.wire.qos import TF_STATIC_WRITER, QoS
+from coframe.wire.tf_reader import WriterStatistics
+from coframe.wire.warn_once import WarnOnce
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+    from types import TracebackType
+
+    from typing_extensions import Self
+
+    from coframe.wire.endpoints import Publisher, Subscription
+
+__all__ = ["Relay", "relay"]
+
+_logger = logging.getLogger("coframe.wire")
+
+_CHECK_PERIOD = 500 * MILLISECOND
+_BATCH = 100  # messages
+_TF_TYPE = "tf2_msgs/msg/TFMessage"
+# The first message is forwarded at once. Messages that arrive within this time after it are collected and written
+# together, which reduces the number of wake-ups and writes with many robots.
+_COLLECTION_TIME = 0.005  # seconds
+_FORGET_AFTER = 60 * SECOND
+# The DDS user data by which relays recognise each other's writers, in the format of ROS type hashes.
+_USER_DATA = "coframe=relay;"
+# The depth is enough to lose no message while the machine is busy for one second.
+_READER_QOS, _WRITER_QOS = QoS(depth=1000), QoS(depth=1000)
+_STATIC_READER_QOS = QoS(depth=1000, transient_local=True)
+
+
+class _Output(NamedTuple):
+    """A topic that is written."""
+
+    topic: str
+    native: _core.Relay
+    publisher: Publisher
+    robots: list[Robot]  # by the source number of `native`
+
+
+class _Route(NamedTuple):
+    """An output of an input, with the number of the source in the output."""
+
+    output: _Output
+    source: int
+
+
+class _Input(NamedTuple):
+    """A topic that is read, and the outputs that its messages are forwarded to."""
+
+    topic: str
+    static: bool
+    subscription: Subscription
+    routes: list[_Route]
+
+
+class Relay:
+    """A running relay, which forwards the transforms of robots until it is closed. Created by :func:`relay`."""
+
+    def __init__(
+        self,
+        robots: list[Robot],
+        *,
+        common: tuple[str, str],
+        keep: Iterable[str],
+        rate: float | None,
+        split: bool,
+        domain: int | None,
+        node_name: str,
+        warn: Callable[[str], None] | None,
+    ) -> None:
+        self._robots = robots
+        self._keep = kept(keep)
+        self._split = split
+        self._period = 0 if rate is None else round(SECOND / rate)
+        self._warn = warn or _logger.warning
+        self._warn_once = WarnOnce(self._warn)
+        self._event = _core.Event()
+        self._lock = threading.Lock()  # protects the native relays
+        self._relay_writers: dict[int, bool] = {}  # writer handle: whether it belongs to a relay
+        self._states = {robot.name: "waiting" for robot in robots}
+        self._closed = False
+        self._closing = threading.Lock()
+        self.participant = Participant.get(domain)
+        try:
+            self.node = self.participant.add_node("/", node_name)
+            self._inputs = [
+                input_
+                for static, topic in zip((False, True), common, strict=True)
+                for input_ in self._connect(topic, static)
+            ]
+        except BaseException:
+            self.participant.close()
+            raise
+        # Each output once, with one of its inputs.
+        pairs = [(input_, route.output) for input_ in self._inputs for route in input_.routes]
+        self._outputs = list({output.topic: (input_, output) for input_, output in pairs}.values())
+        self._thread = threading.Thread(target=self._run, name="coframe-relay", daemon=True)
+        self._thread.start()
+
+    @property
+    def routes(self) -> list[str]:
+        """A text for each route: the topic that is read, the topic that is written, and the prefix."""
+        lines = []
+        for input_ in self._inputs:
+            for output, source in input_.routes:
+                prefix = output.robots[source].prefix
+                change = f"{'removing' if self._split else 'adding'} prefix {prefix}" if prefix else "frames unchanged"
+                lines.append(f"{input_.topic} -> {output.topic}, {change}")
+        return lines
+
+    @property
+    def robots(self) -> list[RelayedRobot]:
+        """The state of each robot."""
+        publishers: dict[str, list[TfPublisher]] = {robot.name: [] for robot in self._robots}
+        for input_ in self._inputs:
+            for route in input_.routes:
+                publishers[route.output.robots[route.source].name] += self._publishers(input_, route)
+        return [RelayedRobot(name, publisher_state(found), found) for name, found in publishers.items()]
+
+    def edges(self) -> list[RelayedEdge]:
+        """Return every edge that is published, with its origin and its counters."""
+        now = time.monotonic_ns()
+        edges = []
+        for input_, output in self._outputs:
+            with self._lock:
+                rows = output.native.edges()
+            for parent, child, source, writer, rival, conflicts, forwarded, skipped, newest, received_at in rows:
+                robot = output.robots[source]
+                edges.append(
+                    RelayedEdge(
+                        parent=parent,
+                        child=child,
+                        static=input_.static,
+                        robot=robot.name,
+                        source=input_.topic if self._split else topic_of_kind(robot.topic, static=input_.static),
+                        node=self.participant.writer_node(writer) or "an unnamed node",
+                        target=output.topic,
+                        forwarded=forwarded,
+                        skipped=skipped,
+                        conflicting_robot="" if rival is None else output.robots[rival].name,
+                        conflicts=conflicts,
+                        newest=newest,
+                        age=(now - received_at) / SECOND,
+                    )
+                )
+        return edges
+
+    def close(self) -> None:
+        """Stop the relay. Transforms that were already published stay valid. A second call has no effect."""
+        with self._closing:
+            if self._closed:
+                return
+            self._closed = True
+        self._event.set()
+        if self._thread is not threading.current_thread():
+            self._thread.join()
+        self.node.close()
+        self.participant.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _connect(self, common: str, static: bool) -> list[_Input]:
+        """Create the inputs of static or dynamic transforms, and their outputs."""
+        if self._split:
+            input_ = self._input(common, static)
+            for robot in self._robots:
+                output = self._output(topic_of_kind(robot.topic, static=static), static)
+                input_.routes.append(self._route(output, robot))
+            return [input_]
+        output = self._output(common, static)
+        inputs = []
+        for robot in self._robots:
+            inputs.append(self._input(topic_of_kind(robot.topic, static=static), static))
+            inputs[-1].routes.append(self._route(output, robot))
+        return inputs
+
+    def _input(self, topic: str, static: bool) -> _Input:
+        qos = _STATIC_READER_QOS if static else _READER_QOS
+        reader = self.participant.raw_subscription(self.node, topic, _TF_TYPE, qos, on_data=self._event)
+        return _Input(topic, static, reader, [])
+
+    def _output(self, topic: str, static: bool) -> _Output:
+        from coframe.messages.registry import find  # noqa: PLC0415 - `import coframe` must be cheap
+
+        qos = TF_STATIC_WRITER if static else _WRITER_QOS
+        message_type = find(_TF_TYPE)
+        publisher = self.participant.publisher(self.node, topic, message_type, qos, user_data=_USER_DATA)
+        return _Output(topic, _core.Relay(static, 0 if static else self._period), publisher, [])
+
+    def _route(self, output: _Output, robot: Robot) -> _Route:
+        names = renaming(robot.prefix, self._keep) or _core.Renaming("", self._keep)
+        output.robots.append(robot)
+        return _Route(output, output.native.add_source(names, self._split))
+
+    def _run(self) -> None:
+        checked = 0
+        pause = threading.Event()
+        while not self._closed:
+            self._event.wait(_CHECK_PERIOD)
+            try:
+                for input_ in self._inputs:
+                    self._read(input_)
+                for _, output in self._outputs:
+                    self._write(output)
+                if time.monotonic_ns() - checked >= _CHECK_PERIOD:
+                    checked = time.monotonic_ns()
+                    self._check()
+            except Exception:
+                # A warning callback raised, or DDS was closed in the meantime.
+                if not self._closed:
+                    _logger.exception("Relaying transforms failed. The relay continues.")
+            pause.wait(_COLLECTION_TIME)
+
+    def _read(self, input_: _Input) -> None:
+        while input_.subscription.pending():
+            for data, _, writer in input_.subscription.take(_BATCH):
+                if self._is_relay(input_.topic, writer):
+                    continue
+                for output, source in input_.routes:
+                    with self._lock:
+                        output.native.add(source, writer, data)
+
+    def _write(self, output: _Output) -> None:
+        with self._lock:
+            message = output.native.take()
+        if message is None:
+            return
+        try:
+            output.publisher.write(message)
+        except WireError as error:
+            if not self._closed:
+                self._warn_once(output.topic, f"{error} {error.hint}")
+
+    def _is_relay(self, topic: str, writer: int) -> bool:
+        """Return whether a writer belongs to a relay, whose transforms must not be relayed again."""
+        if writer not in self._relay_writers:
+            description = self.participant.writers(topic).get(writer)
+            if description is None:  # the writer has left and DDS has removed it
+                return False
+            self._relay_writers[writer] = _USER_DATA.encode() in description.user_data
+            if self._relay_writers[writer]:
+                node = self.participant.writer_node(writer) or "another program"
+                self._warn_once(
+                    f"relay {topic} {node}",
+                    f"{node} on {topic} is a relay. Its transforms are not relayed again, to avoid an endless loop. "
+                    "Read the robots' own topics instead",
+                )
+        return self._relay_writers[writer]
+
+    def _publishers(self, input_: _Input, route: _Route) -> list[TfPublisher]:
+        """Return the publishers of one robot on one topic."""
+        writers = self.participant.writers(input_.topic)
+        with self._lock:
+            statistics = [WriterStatistics(*facts) for facts, _, _ in route.output.native.writers(route.source)]
+        return [
+            tf_publisher(
+                each,
+                self.participant.writer_node(each.writer),
+                input_.topic,
+                static=input_.static,
+                present=each.writer in writers,
+            )
+            for each in statistics
+        ]
+
+    def _check(self) -> None:
+        """Warn about problems, once each, and about changes of the state of robots."""
+        self._forget_departed_writers()
+        edges = self.edges()
+        for robot in self.robots:
+            for publisher in robot.publishers:
+                children = [edge.child for edge in edges if edge.robot == robot.name and edge.node == publisher.node]
+                if problem := publisher.clock_problem(children):
+                    self._warn_once(f"clock {publisher.node} {publisher.topic}", f"{robot.name}: {problem}")
+                for problem in publisher.naming_problems:
+                    self._warn_once(problem, problem)
+            self._report_state(robot)
+        for edge in edges:
+            if edge.conflicting_robot:
+                self._warn_once(
+                    f"conflict {edge.child} {edge.conflicting_robot}",
+                    f"{edge.robot} and {edge.conflicting_robot} both publish a transform to {edge.child!r}. The one of "
+                    f"{edge.robot} was first and is used ({edge.node} on {edge.source}). Give each robot its own "
+                    "prefix, or stop one of the publishers",
+                )
+
+    def _report_state(self, robot: RelayedRobot) -> None:
+        before, self._states[robot.name] = self._states[robot.name], robot.state
+        if robot.state == before:
+            return
+        if robot.state == "gone":
+            self._warn(f"{robot.name} has gone: no node publishes its transforms any more. Its frames are stale")
+        elif robot.state == "stale":
+            self._warn(f"{robot.name} is stale: its publishers are there, but no dynamic transforms arrive")
+        elif before != "waiting":
+            self._warn(f"{robot.name} is live again")
+
+    def _forget_departed_writers(self) -> None:
+        for input_ in self._inputs:
+            present = self.participant.writers(input_.topic)
+            for output, source in input_.routes:
+                with self._lock:
+                    for (writer, _, received_at, *_), _, _ in output.native.writers(source):
+                        if writer not in present and time.monotonic_ns() - received_at > _FORGET_AFTER:
+                            output.native.forget_writer(source, writer)
+                            self._relay_writers.pop(writer, None)
+
+
+def relay(
+    robots: Iterable[str] | str = (),
+    *,
+    sources: Iterable[str] | Mapping[str, str] = (),
+    common: str = "/tf",
+    common_static: str | None = None,
+    prefix: str = "",
+    prefix_each: bool = False,
+    keep: Iterable[str] = (),
+    rate: float | None = None,
+    split: bool = False,
+    domain: int | None = None,
+    node_name: str = "coframe_relay",
+    warn: Callable[[str], None] | None = None,
+) -> Relay:
+    """Merge the transforms of several robots, each on its own topics, into one topic, or split one topic by robot.
+
+    The static transforms of a topic are read from and written to the topic with the suffix ``_static``. Every static
+    message contains all static transforms received so far, so that late-joining subscribers receive all of them.
+    Transforms that were published by a relay are never relayed again. If several robots publish the same child frame,
+    the first one is used until it becomes stale.
+
+    Args:
+        robots: The names of the robots: ``robot1`` stands for the topic ``/robot1/tf``. A text can contain several
+            names, separated by commas.
+        sources: The topics of further robots, such as ``/robot1/tf``, or a mapping from topics to the prefixes of
+            their frames. A prefix is used as given, including its slash.
+        common: The topic of all robots. It is written, or read if `split` is set.
+        common_static: The topic of the static transforms of all robots. If None, it is `common` with the suffix
+            ``_static``.
+        prefix: A prefix for all frames on the common topic, in front of each robot's own prefix.
+        prefix_each: Whether to add each robot's name and a slash to its frames: ``robot1/``.
+        keep: The frames that are shared by the robots and get no prefix, such as ``["map", "world"]``.
+        rate: The maximum rate of each edge in Hz. If None, every transform is forwarded. Static transforms are always
+            forwarded.
+        split: Whether to read the common topic and write to the robots' topics. Each robot receives the frames that
+            begin with its prefix, without the prefix, and the shared frames.
+        domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
+        node_name: The name of the relay's node.
+        warn: Called with the text of each warning, on the thread of the relay: clocks that differ, robots that are
+            gone, frames that two robots publish, invalid frame names. If None, warnings go to the logger
+            "coframe.wire".
+
+    Raises:
+        ValueError: There is no robot, a prefix is invalid, a topic would be read and written, or the rate is not
+            positive.
+        WireError: The graph cannot be joined, see :func:`coframe.connect`.
+
+    Example:
+        >>> with relay("robot1,robot2", prefix_each=True, keep=["map"]) as running:    # doctest: +SKIP
+        ...     [(edge.child, edge.robot, edge.node) for edge in running.edges()]
+    """
+    if rate is not None and not 0 < rate < SECOND:
+        raise ValueError(f"the rate must be above 0 Hz, not {rate!r}")
+    common = qualified(common)
+    topics = common, qualified(common_static or f"{common}_static")
+    members = choose_robots(robots, sources, common=topics, prefix=prefix, prefix_each=prefix_each or split, keep=keep)
+    return Relay(
+        members,
+        common=topics,
+        keep=keep,
+        rate=rate,
+        split=split,
+        domain=domain,
+        node_name=node_name,
+        warn=warn,
+    )

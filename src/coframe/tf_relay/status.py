@@ -1,0 +1,68 @@
+"""The state of the edges and robots of a relay."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from coframe.tf_publishers import TfPublisher
+
+__all__ = ["RelayedEdge", "RelayedRobot"]
+
+
+class RelayedEdge(NamedTuple):
+    """An edge that a relay publishes.
+
+    Attributes:
+        parent: The parent frame, with its published name.
+        child: The child frame, with its published name.
+        static: Whether the edge is static.
+        robot: The robot that the edge belongs to.
+        source: The topic that the edge is read from.
+        node: The node that last published the edge; "an unnamed node" if it is unknown.
+        target: The topic that the edge is written to.
+        forwarded: The number of transforms that were forwarded.
+        skipped: The number of transforms that were skipped because of the rate limit.
+        conflicting_robot: Another robot that publishes the same child frame and is ignored; "" if there is none.
+        conflicts: The number of transforms of other robots that were ignored.
+        newest: The newest stamp, in nanoseconds.
+        age: The time since the last transform arrived, in seconds.
+    """
+
+    parent: str
+    child: str
+    static: bool
+    robot: str
+    source: str
+    node: str
+    target: str
+    forwarded: int
+    skipped: int
+    conflicting_robot: str
+    conflicts: int
+    newest: int
+    age: float
+
+    @property
+    def rival(self) -> str:
+        """The former name of `conflicting_robot`."""
+        warnings.warn(
+            "RelayedEdge.rival is deprecated: use RelayedEdge.conflicting_robot", DeprecationWarning, stacklevel=2
+        )
+        return self.conflicting_robot
+
+
+class RelayedRobot(NamedTuple):
+    """A robot of a relay.
+
+    Attributes:
+        name: The robot's name, such as "robot1".
+        state: "waiting" (no message has arrived), "live", "stale" (no dynamic transform has arrived recently) or
+            "gone" (all publishers have left).
+        publishers: The publishers of the robot's transforms, including those that left recently.
+    """
+
+    name: str
+    state: str
+    publishers: list[TfPublisher]

@@ -1,0 +1,129 @@
+"""Warnings about publishers and subscriptions on one topic that cannot communicate."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING
+
+from coframe.wire import names
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from coframe.wire.endpoints import LocalEndpoint
+    from coframe.wire.graph import DiscoveredEndpoint, Graph
+
+# For each QoS policy: what the publisher offers, what the subscription requests, and how to correct it.
+_QOS = {
+    "reliability": (
+        "best-effort",
+        "reliable",
+        "Request best-effort (qos_profile_sensor_data), or make the publisher reliable.",
+    ),
+    "durability": ("volatile", "transient-local", "Request volatile, or make the publisher transient-local."),
+}
+
+# The other policies that DDS compares, by their numbers in DDS.
+_OTHER_POLICIES = {
+    3: "presentation",
+    4: "deadline",
+    5: "latency budget",
+    6: "ownership",
+    8: "liveliness",
+    10: "partition",
+    12: "destination order",
+    25: "data representation",
+}
+
+
+def mismatch_reasons(writer: DiscoveredEndpoint, reader: DiscoveredEndpoint) -> list[str]:
+    """Return why the two do not match: "type", or "reliability" and "durability"; empty if it is not known."""
+    if writer.type != reader.type:
+        return ["type"]
+    found = []
+    if reader.qos.reliable and not writer.qos.reliable:
+        found.append("reliability")
+    if reader.qos.transient_local and not writer.qos.transient_local:
+        found.append("durability")
+    return found
+
+
+def mismatch_text(own: LocalEndpoint, peer: DiscoveredEndpoint, node: str | None, reason: str) -> str:
+    """Return the warning for an endpoint of this process and one of `node` that do not match."""
+    who = f"Node {node}" if node else "An unnamed node"
+    ours = "publisher" if own.is_writer else "subscription"
+    topic = names.any_ros_name(own.topic)
+    own_type = names.ros_type(own.description.type)
+    if reason == "type":
+        their_verb, our_verb = ("expects", "publishes") if own.is_writer else ("publishes", "expects")
+        return (
+            f"{who} {their_verb} {names.ros_type(peer.type)} on {topic}, but this {ours} {our_verb} {own_type}: "
+            "no messages will arrive. Use the same message type, or another topic name."
+        )
+    if reason == "other":
+        what = _OTHER_POLICIES.get(own.refused_policy, f"definition of {own_type}")
+        return (
+            f"{who} on {topic} has a different {what} from this {ours}: no messages will arrive. "
+            "Use the same message definitions and the same quality of service on both sides."
+        )
+    offered, requested, advice = _QOS[reason]
+    if own.is_writer:
+        problem = f"requests {requested} on {topic}, but this publisher offers {offered}"
+    else:
+        problem = f"offers {offered} on {topic}, but this subscription requests {requested}"
+    return f"{who} {problem}: no messages will arrive. {advice}"
+
+
+class MismatchMonitor:
+    """Warns once about every pair of endpoints that cannot communicate.
+
+    Args:
+        graph: The graph, which contains the endpoints of other processes.
+        warn: Called with the text of each warning.
+    """
+
+    # DDS discovers an endpoint before the name of its node is known and before the match is decided.
+    _GRACE_PERIOD = 2.0  # seconds
+
+    def __init__(self, graph: Graph, warn: Callable[[str], None]) -> None:
+        self._graph = graph
+        self._warn = warn
+        self._suspects: dict[tuple[bytes, bytes, str], float] = {}  # (own, peer, reason): time of discovery
+        self._warned: set[tuple[str, str | bytes, str]] = set()
+
+    @property
+    def waiting(self) -> bool:
+        """Whether `check` must be called again even if the graph does not change."""
+        return bool(self._suspects)
+
+    def check(self, endpoints: list[LocalEndpoint]) -> None:
+        """Compare `endpoints` of this process with the endpoints of the graph, and warn about mismatches."""
+        suspects, self._suspects = self._suspects, {}
+        now = time.monotonic()
+        for own, peer, reason in self._pairs(endpoints):
+            node = self._graph.owner(peer.guid)
+            key = (names.any_ros_name(own.topic), node or peer.guid, reason)
+            if key in self._warned:
+                continue
+            suspect = (own.guid, peer.guid, reason)
+            since = suspects.get(suspect, now)
+            if now - since < self._GRACE_PERIOD and (node is None or reason == "other"):
+                self._suspects[suspect] = since
+                continue
+            self._warned.add(key)
+            self._warn(mismatch_text(own, peer, node, reason))
+
+    def _pairs(self, endpoints: list[LocalEndpoint]) -> Iterator[tuple[LocalEndpoint, DiscoveredEndpoint, str]]:
+        own_guids = {endpoint.guid for endpoint in endpoints}
+        writers, readers = self._graph.by_topic(writers=True), self._graph.by_topic(writers=False)
+        for own in endpoints:
+            peers = (readers if own.is_writer else writers).get(own.topic, {})
+            matched = own.matched_handles()
+            for handle, peer in peers.items():
+                # A pair within this process is reported once, from the side of the subscription.
+                if handle in matched or (own.is_writer and peer.guid in own_guids):
+                    continue
+                pair = (own.description, peer) if own.is_writer else (peer, own.description)
+                for reason in mismatch_reasons(*pair) or ["other"]:
+                    if reason not in _QOS or not own.adapts:
+                        yield own, peer, reason

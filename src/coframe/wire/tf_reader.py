@@ -1,0 +1,100 @@
+"""A subscription that stores the transforms of a topic in a buffer."""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe.wire.endpoints import LocalEndpoint
+
+if TYPE_CHECKING:
+    from coframe import _core
+    from coframe.wire.endpoints import GraphNode, Sample
+    from coframe.wire.graph import Graph
+    from coframe.wire.qos import QoS
+
+# tf2's text for a transform without a publisher.
+NO_AUTHORITY = "<no authority available>"
+
+_DEPARTED_WRITERS = 100  # writers whose node names are kept after they have left
+
+
+class WriterStatistics(NamedTuple):
+    """The messages that were received from one DDS writer of transforms.
+
+    Attributes:
+        writer: The writer's handle.
+        messages: The number of messages.
+        received_at: The time at which the last one arrived, in nanoseconds of `time.monotonic_ns`.
+        lag: The delay of the stamps relative to the system clock on arrival, in nanoseconds: the lower quartile of
+            the last messages. None if there are too few messages.
+        slashed: A frame name that begins with a slash; "" if there is none.
+        prefixed: A frame name that already has the prefix of the reader; "" if there is none.
+        plain: A frame name without that prefix; "" if there is none.
+    """
+
+    writer: int
+    messages: int
+    received_at: int
+    lag: int | None
+    slashed: str
+    prefixed: str
+    plain: str
+
+
+class TfReader(LocalEndpoint):
+    """A subscription that stores the transforms of a topic in a buffer as they arrive, on the DDS thread."""
+
+    def __init__(
+        self,
+        native: _core.TfReader,
+        node: GraphNode,
+        topic: str,
+        dds_type: str,
+        qos: QoS,
+        *,
+        static: bool,
+        name_writers: bool,
+    ) -> None:
+        self.static = static
+        self._reader = native
+        self._node_names: dict[int, str] | None = {} if name_writers else None
+        self._departed: deque[int] = deque()
+        self._naming = threading.Lock()
+        super().__init__(native, node, topic, dds_type, qos)
+
+    @property
+    def stored_at(self) -> int:
+        """The time at which the last transforms were stored, in nanoseconds of `time.monotonic_ns`; 0 if never."""
+        return self._reader.stored_at
+
+    def pending(self) -> bool:
+        """Return False: unlike a `Subscription`, this reader never queues messages."""
+        return False
+
+    def take(self, limit: int = 100) -> list[Sample]:
+        """Return no messages: unlike a `Subscription`, this reader never queues them."""
+        del limit
+        return []
+
+    def writer_statistics(self) -> list[WriterStatistics]:
+        """Return what was received from each writer, including writers that have left; nothing after `close`."""
+        return [] if self._closed else [WriterStatistics(*facts) for facts in self._reader.writers()]
+
+    def name_writers(self, graph: Graph) -> None:
+        """Set the names of the publishing nodes in the buffer, as far as they are known from the graph."""
+        if self._node_names is None or self._closed:
+            return
+        with self._naming:
+            writers = graph.writers(self.topic)
+            for handle in self._node_names.keys() - writers.keys():
+                self._departed.append(handle)
+                del self._node_names[handle]
+            while len(self._departed) > _DEPARTED_WRITERS:
+                self._reader.forget_writer(self._departed.popleft())
+            for handle, writer in writers.items():
+                node = graph.owner(writer.guid)
+                if node is not None and self._node_names.get(handle) != node:
+                    self._reader.name_writer(handle, node)
+                    self._node_names[handle] = node
