@@ -226,7 +226,9 @@ def _read(field: BinaryField) -> str:
     if field.length is None:
         return READERS[field.letter]
     return (
-        f"reader.floats({field.length})" if _is_array(field) else f"[{', '.join([READERS[field.letter]] * field.length)}]"
+        f"reader.floats({field.length})"
+        if _is_array(field)
+        else f"[{', '.join([READERS[field.letter]] * field.length)}]"
     )
 
 

@@ -201,7 +201,7 @@ class ViewerServer:
         if file is not None:
             return file_response(file, self._access.content_security, known_tag)
         if path == "/":
-            text = "The viewer's page is missing from this installation. Build it in viewer/ with `npm ci && npm run build`."
+            text = "The viewer's page is missing. Build it in viewer/ with `npm ci && npm run build`."
             return text_response(HTTPStatus.SERVICE_UNAVAILABLE, text, self._access.content_security)
         return text_response(HTTPStatus.NOT_FOUND, "File not found.", self._access.content_security)
 
