@@ -53,7 +53,7 @@ const scans: ReplayDisplayBlock = {
   color_by: "axis",
   every: 2,
   statuses: [
-    [0, "waiting", "no message so early"],
+    [0, "waiting", "no message before this time"],
     [1, "ok", ""],
   ],
   drawings: { "4": base64(cloud()) },
@@ -157,7 +157,7 @@ describe("a replay", () => {
     source.send({ type: "subscribe", id: 2, topic: "/other", options: {} });
     source.send({ type: "time", mode: "at", at: 1e9, playing: false, speed: 1, loop: null });
     expect(told("display").map((message) => message.type === "display" && [message.id, message.text, message.note])).toEqual([
-      [1, "no message so early", "1 of 2 pictures"],
+      [1, "no message before this time", "1 of 2 pictures"],
       [2, "This replay holds nothing of /other.", undefined],
       [1, "This replay holds no other colours than those that it was saved with.", "1 of 2 pictures"],
     ]);

@@ -205,7 +205,7 @@ def _read_config(file: Path) -> RvizConfig:
     try:
         text = file.read_text(encoding="utf-8")
     except OSError as error:
-        hint = "Check the path and the permissions of the file."
+        hint = "Check the path and the permission to read it."
         raise ViewerError(f"{file} cannot be read: {error.strerror or error}", hint=hint) from None
     except UnicodeDecodeError:
         raise ViewerError(f"{file} is not a text file", hint="Is it an .rviz file?") from None
