@@ -252,7 +252,7 @@ def test_bag_info_tells_which_sensors_could_be_transformed(shared):
     code, out, _ = run("bag", "info", shared / "recordings" / "tilt_laser.bag", "--json")
     assert code == 0
     sensors = {sensor["topic"]: sensor for sensor in json.loads(out)["sensors"]}
-    assert sensors["/imu_data"]["why_not"] == "no transform tells of 'base_imu'"
+    assert sensors["/imu_data"]["why_not"] == "No frame named 'base_imu': no transform contains it."
     assert sensors["/scan"]["root"] == "tilt_base"
     assert 170 < sensors["/scan"]["possible"] <= 178
 

@@ -93,7 +93,7 @@ def test_a_closed_recording_has_its_transforms_only(tmp_path, plugin):
         next(messages)
     recordings.assert_same(recording.buffer)
     for late in (messages, recording.messages("/tf")):
-        with pytest.raises(coframe.RecordingError, match="is closed: only its transforms are left"):
+        with pytest.raises(coframe.RecordingError, match="is closed: its messages can no longer be read"):
             next(late)
 
 

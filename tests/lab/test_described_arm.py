@@ -1,4 +1,4 @@
-"""The lab's robot from its description: the very same transforms as the hand-written nodes send."""
+"""The robot of the lab from its description, which gives the same transforms as the hand-written nodes."""
 
 import subprocess
 import sys
@@ -36,23 +36,23 @@ def values(transform):
 
 
 def broadcast(start, commands):
-    """What a lab sends in simulated time: dynamic transforms by frames and stamp, static ones by frames."""
+    """Return the transforms of a lab in simulated time: dynamic ones by frames and stamp, static ones by frames."""
     parameters = [word for command in commands for word in command.arguments if word != "-p"]
     observer = start("use_sim_time:=true", *parameters)
     nodes = [observer.add(CLASSES[command.name]()) for command in commands if command.name in CLASSES]
     if any(command.name == "robot_state_publisher" for command in commands):
         nodes.append(observer.add(arm_publisher()))
-    heard, heard_static = observer.hear_tf()
+    received, received_static = observer.hear_tf()
     clock = observer.node.create_publisher(Clock, "/clock", 10)
     observer.until(lambda: clock.get_subscription_count() == len(nodes) + 1)
     dynamic = {}
 
     def stamps_of(child):
-        for message in heard:
+        for message in received:
             for t in message.transforms:
                 stamp = t.header.stamp.sec * NS + t.header.stamp.nanosec
                 dynamic[t.header.frame_id, t.child_frame_id, stamp] = values(t)
-        heard.clear()
+        received.clear()
         return {stamp for _, name, stamp in dynamic if name == child}
 
     for tick in range(TICKS):
@@ -61,7 +61,7 @@ def broadcast(start, commands):
         message.clock.sec, message.clock.nanosec = divmod(now, NS)
         clock.publish(message)
         observer.until(lambda now=now: now in stamps_of("base_link") & stamps_of("end_effector"))
-    static = {(t.header.frame_id, t.child_frame_id): values(t) for m in heard_static for t in m.transforms}
+    static = {(t.header.frame_id, t.child_frame_id): values(t) for m in received_static for t in m.transforms}
     observer.close()
     rclpy.try_shutdown()
     return dynamic, static
@@ -80,7 +80,7 @@ def test_the_description_gives_the_same_transforms_as_the_hand_written_nodes(sta
         np.testing.assert_allclose(from_description_static[key], expected, rtol=0, atol=1e-12, err_msg=str(key))
 
 
-def test_the_arm_of_the_labs_last_step():
+def test_the_dimensions_of_the_last_step_of_the_lab():
     frames = arm(first_length="0.4", second_length="0.3", base_height="0.2").frames({"joint1": 0.3, "joint2": -0.5})
     expected = [0.4 * np.cos(0.3) + 0.3 * np.cos(-0.2), 0.4 * np.sin(0.3) + 0.3 * np.sin(-0.2), 0.2]
     np.testing.assert_allclose(frames["end_effector"].translation, expected, atol=1e-15)
@@ -88,7 +88,7 @@ def test_the_arm_of_the_labs_last_step():
     assert arm().warnings == ()
 
 
-def test_without_xacro_one_sentence_says_what_to_install():
+def test_without_xacro_the_error_says_what_to_install():
     code = "import sys; sys.modules['xacro'] = None; from coframe.lab.robot_state_publisher import main; main([])"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert result.returncode == 1

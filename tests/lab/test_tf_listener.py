@@ -1,4 +1,4 @@
-"""tf_listener: the end effector's pose."""
+"""tf_listener: the pose of the end effector."""
 
 import math
 import signal
@@ -19,7 +19,7 @@ def angle(rotation):
     return 2 * math.atan2(rotation.z, rotation.w)
 
 
-def test_the_pose_is_that_of_the_arm_at_its_stamp(start, run):
+def test_the_pose_belongs_to_its_stamp(start, run):
     observer = start()
     run("tf_listener")
     run("dynamic_tf_broadcaster")
@@ -36,7 +36,7 @@ def test_the_pose_is_that_of_the_arm_at_its_stamp(start, run):
     for pose in poses:
         assert pose.header.frame_id == "base_link"
         if nanoseconds(pose.header.stamp) not in joints:
-            continue  # from before this test heard the arm
+            continue  # older than the first received transform of the arm
         q1, q2 = joints[nanoseconds(pose.header.stamp)]
         position = pose.pose.position
         assert position.x == pytest.approx(0.5 * math.cos(q1) + 0.4 * math.cos(q1 + q2), abs=1e-12)
@@ -47,7 +47,7 @@ def test_the_pose_is_that_of_the_arm_at_its_stamp(start, run):
     assert compared >= 15
 
 
-def test_a_late_broadcaster_is_waited_for_with_few_words(start, capfd):
+def test_waiting_for_a_late_broadcaster_logs_few_warnings(start, capfd):
     observer = start()
     observer.add(TransformListenerNode())
     poses = observer.hear(PoseStamped, "/end_effector_pose")

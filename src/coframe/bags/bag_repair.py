@@ -230,7 +230,7 @@ class _Repair:
             definition_format=channel.definition_format if described else "ros2msg",
         )
         names = FrameNames.of(channel, ros_type)
-        return _Route(topic, convert, names if names and names.are_there else None, rename, ros_type == _TF)
+        return _Route(topic, convert, names if names and names.exist else None, rename, ros_type == _TF)
 
     def _repaired(self, channel: Channel, route: _Route, data: bytes) -> bytes | None:
         """Return the repaired message; None if it is damaged."""
@@ -248,7 +248,7 @@ class _Repair:
         if route.transforms:
             message = self._without_rejected(channel, message)
         if route.names is not None and (route.rename.has_prefix or b"/" in message):
-            message, changed = route.names.renamed(message, route.rename)
+            message, changed = route.names.rename(message, route.rename)
             if changed:
                 self._count(channel, f"frame names {route.rename.change}", changed)
         return message

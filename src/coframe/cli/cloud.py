@@ -135,7 +135,7 @@ def _print_notes(clouds: Clouds) -> None:
     """Print how the times of points were read, and which messages and points are omitted and why."""
     for how, number in clouds.times_read.items():
         warn(f"deskewed the points of {count(number, 'message')} by their own times: {how}")
-    for reason, number in clouds.left_out.items():
+    for reason, number in clouds.skipped.items():
         warn(f"omitted {count(number, 'message')} of {clouds.topic}: {reason}")
-    for reason, number in clouds.points_left_out.items():
+    for reason, number in clouds.points_skipped.items():
         warn(f"omitted {count(number, 'point')} of {clouds.topic}: they {reason}")

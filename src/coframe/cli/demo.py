@@ -13,6 +13,7 @@ from rich.live import Live
 from rich.text import Text
 
 import coframe
+from coframe.analysis.liveness import LivenessTracker
 from coframe.cli.fleet import show_robots
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.live import tree_table
@@ -113,6 +114,7 @@ def demo(
         optional_viewer(ros, port, browser=not no_browser),
     ):
         clouds = CloudCounter()
+        liveness = LivenessTracker(ros.buffer)
         ros.subscribe("/scan_base_frame", PointCloud2, clouds.add)
         start = time.monotonic()
 
@@ -120,7 +122,7 @@ def demo(
             running = time.monotonic() - start
             state = f"{running:.0f} s, Ctrl-C to stop: {', '.join(nodes.names)}"
             return Group(
-                tree_table(ros.buffer, name("base_link"), wide=console.width >= 100),
+                tree_table(ros.buffer, name("base_link"), liveness, wide=console.width >= 100),
                 Text(str(clouds)),
                 *(Text(warning, style="red") for warning in _duplicate_nodes(ros, nodes)),
                 Text(state, style="dim", no_wrap=True),

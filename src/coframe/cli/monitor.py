@@ -122,8 +122,9 @@ def _tables(seen: Observation, pair: Pair) -> Group:
     edges = _table("edge", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms", "count")
     for row in edge_figures(seen):
         figures = (row.jitter, row.delay, row.delay_p99, row.age)
-        shown = ("static", "", "", "", "") if row.static else (_hertz(row.rate), *map(_ms, figures))
-        edges.add_row(*_texts(f"{row.parent} -> {row.child}", row.publisher or "unknown", *shown, str(row.transforms)))
+        rate = "static" if row.static else "stale" if row.stale else _hertz(row.rate)
+        cells = (f"{row.parent} -> {row.child}", row.publisher or "unknown", rate, *map(_ms, figures))
+        edges.add_row(*_texts(*cells, str(row.transforms)), style="red" if row.stale else "")
     publishers = _table("publisher", "messages/s", "delay ms", "p99 ms")
     for node in publisher_figures(seen):
         delays = (_ms(node.delay), _ms(node.delay_p99))

@@ -33,7 +33,7 @@ def open_recording(
     topics = recorded_tf_topics(tf_topic, tf_static_topic)
     with reading_progress() as progress:
         chosen: dict[str, Any] = {"namespace": namespace, "tf_topics": topics, "prefix": prefix, "keep": keep}
-        recording = open_bag(path, **chosen, progress=progress, heard=heard)
+        recording = open_bag(path, **chosen, progress=progress, on_transforms=heard)
     with recording:
         printed = recording.problems
         for problem in printed:

@@ -51,7 +51,7 @@ if TYPE_CHECKING:
     from coframe.bags import Recording
     from coframe.doctor import Finding, Report
     from coframe.doctor.collector import Collector
-    from coframe.explanation import Explanation, Link
+    from coframe.explanation import ChainEdge, Explanation
 
 __all__ = ["why"]
 
@@ -225,7 +225,7 @@ def _lookup_time(at: str | None, clock: int | None, window: int) -> int | None:
 
 def _relevant_reports(found: Explanation, seen: Iterable[Observation]) -> list[Report]:
     """Return the findings about the edges of the chain; if the chain is incomplete, also those about its frames."""
-    edges = {(edge.parent, edge.child) for edge in found.links}
+    edges = {(edge.parent, edge.child) for edge in found.edges}
     frames = {found.target, found.source, *found.frames}
     incomplete = found.roots is not None or bool(found.unknown)
 
@@ -298,7 +298,7 @@ def _data(answer: _Answer) -> dict[str, Any]:
         "text": found.text or None,
         "hint": with_doctor_command(_with_fix(found, found.hint)) or None,
         "frames": list(found.frames),
-        "edges": [_edge_data(found, edge) for edge in found.links],
+        "edges": [_edge_data(found, edge) for edge in found.edges],
         "unknown": list(found.unknown),
         "roots": found.roots,
         "missing": found.missing and found.missing[:2],
@@ -310,7 +310,7 @@ def _data(answer: _Answer) -> dict[str, Any]:
     }
 
 
-def _edge_data(found: Explanation, edge: Link) -> dict[str, Any]:
-    times = {"by", "oldest", "newest", "age", "gap"}
+def _edge_data(found: Explanation, edge: ChainEdge) -> dict[str, Any]:
+    times = {"by", "oldest", "newest", "age", "gap", "period"}
     named = {f"{name}_ns" if name in times else name: value for name, value in edge._asdict().items()}
     return {**named, "remark": remark(found, edge)}

@@ -42,7 +42,7 @@ class FrameRenamer:
         if frames is None:
             return data
         try:
-            return frames.renamed(data, self._names)[0]
+            return frames.rename(data, self._names)[0]
         except Exception:  # noqa: BLE001 - decoding damaged bytes can raise many exceptions
             return data
 
@@ -52,4 +52,4 @@ class FrameRenamer:
         frames = FrameNames.of(Channel(source.topic, source.type, "cdr"), source.type)
         if frames is None:
             self.not_renamed[source.topic] = None
-        return frames if frames and frames.are_there else None
+        return frames if frames and frames.exist else None

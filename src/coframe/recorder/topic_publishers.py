@@ -166,7 +166,7 @@ class TopicPublishers:
             )
             return convert
         rename = self._names
-        return (lambda data: frames.renamed(convert(data), rename)[0]) if frames.are_there else convert
+        return (lambda data: frames.rename(convert(data), rename)[0]) if frames.exist else convert
 
     def publisher(self, topic: str, ros_type: str, qos: QoS) -> Publisher:
         """Return the publisher on a topic, which is shared by all channels with that topic and type."""

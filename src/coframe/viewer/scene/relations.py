@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import shlex
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.analysis.static_command import static_command
+from coframe.analysis.tree import FrameTrees
 from coframe.errors import TransformException
 from coframe.viewer.protocol.messages import Relation
 
 if TYPE_CHECKING:
-    from coframe import Buffer, Transform
+    from coframe import Buffer
 
 __all__ = ["relate"]
 
@@ -57,17 +58,9 @@ def relate(buffer: Buffer, target: str, source: str, stamp: int, origin: int, nu
     relation["quaternion"] = found.quaternion.tolist()
     relation["rpy_deg"] = np.degrees(found.rpy).tolist()
     relation["matrix"] = found.matrix.ravel().tolist()
-    relation["static_command"] = static_command(found)
+    relation["static_command"] = static_command(target, source, found.values)
     relation["chain"] = _chain(buffer, target, source, found_stamp)
     return relation
-
-
-def static_command(transform: Transform) -> str:
-    """Return the shell command that publishes a transform."""
-    names = ("x", "y", "z", "qx", "qy", "qz", "qw")
-    numbers = " ".join(f"--{name}={value:.9g}" for name, value in zip(names, transform.values, strict=True))
-    parent, child = shlex.quote(f"--frame-id={transform.target}"), shlex.quote(f"--child-frame-id={transform.source}")
-    return f"coframe static {numbers} {parent} {child}"
 
 
 def _chain(buffer: Buffer, target: str, source: str, stamp: int) -> list[str]:
@@ -78,22 +71,11 @@ def _chain(buffer: Buffer, target: str, source: str, stamp: int) -> list[str]:
 
 
 def _broken_chain(buffer: Buffer, target: str, source: str, error: TransformException) -> tuple[list[str], str | None]:
-    """Return the known frames from the source to the target, and the frame where the chain is broken."""
-    parents = {info.name: info.parent for info in buffer.frames()}
-    up, down = _ancestors(source, parents), _ancestors(target, parents)
-    meeting = next((frame for frame in up if frame in down), None)
-    if meeting is None:
-        broken_at = source if source not in parents else target if target not in parents else up[-1]
-        return up + down[::-1], broken_at
-    chain = [*up[: up.index(meeting) + 1], *reversed(down[: down.index(meeting)])]
-    return chain, error.edge[1] if error.edge else None
-
-
-def _ancestors(frame: str, parents: dict[str, str]) -> list[str]:
-    """Return a frame and its ancestors; the list ends before a frame repeats."""
-    chain = [frame]
-    seen = {frame}
-    while (parent := parents.get(chain[-1])) and parent not in seen:
-        chain.append(parent)
-        seen.add(parent)
-    return chain
+    """Return the frames from the source to the target as far as they are connected, and where the chain breaks."""
+    trees = FrameTrees.from_parents({info.name: info.parent for info in buffer.frames()})
+    chain = trees.chain(source, target)
+    if chain is not None:
+        return chain, error.edge[1] if error.edge else None
+    up = trees.path(source)
+    unknown = next((frame for frame in (source, target) if frame not in trees.index), None)
+    return [*up, *reversed(trees.path(target))], unknown or up[-1]

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.analysis.liveness import usual_gap, usual_period
 from coframe.errors import TransformException
-from coframe.time import MILLISECOND, SECOND
+from coframe.time import SECOND
 from coframe.viewer.protocol.messages import TimelineEdge
 
 if TYPE_CHECKING:
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
 
 __all__ = ["edge_rows", "next_stamp"]
 
-# A gap is at least this many times as long as the median interval, and at least this long in nanoseconds.
-GAP_INTERVALS, SHORTEST_GAP = 5.0, 200 * MILLISECOND
 _MAX_GAPS = 200
 
 
@@ -111,7 +110,5 @@ def _stamps(buffer: Buffer, info: FrameInfo, first: int, last: int) -> NDArray[n
 def _gaps(stamps: NDArray[np.int64], origin: int) -> list[Span]:
     if len(stamps) < 3:
         return []
-    intervals = np.diff(stamps)
-    longest_normal = max(float(np.median(intervals)) * GAP_INTERVALS, SHORTEST_GAP)
-    before = np.flatnonzero(intervals > longest_normal)[:_MAX_GAPS]
+    before = np.flatnonzero(np.diff(stamps) > usual_gap(usual_period(stamps)))[:_MAX_GAPS]
     return [(int(stamps[i]) - origin, int(stamps[i + 1]) - origin) for i in before]
