@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What Python callers give: names, stamps, durations, questions.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Recordings: many messages in one call.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
@@ -127,12 +128,14 @@ nb::tuple transform_columns(nb::handle data, nb::handle starts, nb::handle ends,
 
 void define_bags(nb::module_& module) {
   using nb::arg;
-  module.def("mcap_records", &mcap_records, arg("data"),
-             "Where the messages lie among records of MCAP: channels (uint16), times, records, starts and ends (uint64) "
-             "as bytes, definitions as (opcode, start, end), and how many bytes are whole records.");
-  module.def("ingest_slices", &ingest_slices, arg("buffer"), arg("data"), arg("starts"), arg("ends"), arg("static"),
-             arg("authority"), arg("encoding") = "cdr", arg("renaming") = nb::none(),
-             "Buffer.ingest() of many parts of `data`, which uint64 arrays tell: how many are damaged, and why the first.");
+  module.def(
+      "mcap_records", &mcap_records, arg("data"),
+      "Where the messages lie among records of MCAP: channels (uint16), times, records, starts and ends (uint64) "
+      "as bytes, definitions as (opcode, start, end), and how many bytes are whole records.");
+  module.def(
+      "ingest_slices", &ingest_slices, arg("buffer"), arg("data"), arg("starts"), arg("ends"), arg("static"),
+      arg("authority"), arg("encoding") = "cdr", arg("renaming") = nb::none(),
+      "Buffer.ingest() of many parts of `data`, which uint64 arrays tell: how many are damaged, and why the first.");
   module.def("transform_columns", &transform_columns, arg("data"), arg("starts"), arg("ends"), arg("encoding") = "cdr",
              "The transforms of many TFMessages as they were sent, as columns.");
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the binding files share: one `define_*` a topic, and waiting that leaves room for Ctrl-C.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bindings/buffer.hpp"
 
 #include <nanobind/stl/optional.h>
@@ -20,7 +21,8 @@ namespace coframe::bindings {
 namespace {
 
 // Tries now, and then waits without the GIL for the insertion that brings the answer.
-bool lookup_by_name_waiting(BufferObject& self, LookupQuery& query, std::int64_t timeout_ns, LookupResult& result, Failure& failure) {
+bool lookup_by_name_waiting(BufferObject& self, LookupQuery& query, std::int64_t timeout_ns, LookupResult& result,
+                            Failure& failure) {
   if (self.core->lookup_by_name(query, result, failure)) return true;
   if (timeout_ns <= 0) return false;
   const auto wait = std::make_shared<Wait>(query);
@@ -101,7 +103,8 @@ bool check_cached_path(BufferObject& self, const PlainQuery& query) {
 // The shortest way to ask: the arguments are (target, source[, stamp]), and the names were asked for before. nullptr
 // without an exception for all else, and where `ask` has no answer.
 template <class Ask>
-PyObject* call_with_cached_ids(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords, Ask&& ask) {
+PyObject* call_with_cached_ids(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords,
+                               Ask&& ask) {
   if (keywords || count < 2 || count > 3 || !nb::inst_ready(object)) return nullptr;
   return guarded([&]() -> PyObject* {
     BufferObject& self = *nb::inst_ptr<BufferObject>(object);
@@ -294,7 +297,7 @@ nb::object py_latest_common_time(BufferObject& self, nb::handle target, nb::hand
 }
 
 nb::object py_chain(BufferObject& self, nb::handle target, nb::handle target_stamp, nb::handle source,
-                                  nb::handle source_stamp, nb::handle fixed) {
+                    nb::handle source_stamp, nb::handle fixed) {
   const Stamp target_time = to_stamp(target_stamp), source_time = to_stamp(source_stamp);
   const Buffer& buffer = *self.core;
   const FrameId target_id = buffer.find(text(target)), source_id = buffer.find(text(source)),
@@ -347,7 +350,8 @@ nb::list edge_tuples(const BufferObject& self, const std::optional<std::vector<s
 
 PyObject* py_set_values(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<12> signature(
-      "_set_values", {"parent", "child", "stamp", "x", "y", "z", "qx", "qy", "qz", "qw", "static", "authority"}, 12, 12);
+      "_set_values", {"parent", "child", "stamp", "x", "y", "z", "qx", "qy", "qz", "qw", "static", "authority"}, 12,
+      12);
   PyObject* values[12];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&]() -> PyObject* {
@@ -393,8 +397,7 @@ PyObject* py_set_plain(PyObject* object, PyObject* const* arguments, Py_ssize_t 
 nb::list py_insert_texts(unsigned refusals, std::string_view parent, std::string_view child, Stamp stamp, double x,
                          double y, double z, double qx, double qy, double qz, double qw, std::string_view authority) {
   nb::list lines;
-  for (const LogLine& line :
-       refusal_texts(refusals, parent, child, stamp, {{x, y, z}, {qx, qy, qz, qw}}, authority)) {
+  for (const LogLine& line : refusal_texts(refusals, parent, child, stamp, {{x, y, z}, {qx, qy, qz, qw}}, authority)) {
     lines.append(nb::make_tuple(line.is_error ? "error" : "warning", line.text));
   }
   return lines;
@@ -500,11 +503,10 @@ void define_buffer(nb::module_& module) {
   const auto any = [](const char* name) { return nb::arg(name).none(); };
   nb::class_<BufferObject> cls(module, "Buffer", "The native buffer; coframe.Buffer is the public class on top of it.",
                                nb::is_weak_referenceable());
-  cls
-      .def(nb::init<Stamp>(), arg("cache_ns"))
+  cls.def(nb::init<Stamp>(), arg("cache_ns"))
       .def_prop_ro("cache_ns", [](const BufferObject& self) { return self.core->cache_length(); })
-      .def("_lookup_full", &py_lookup_full, any("target"), any("target_stamp"), any("source"),
-           any("source_stamp"), any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
+      .def("_lookup_full", &py_lookup_full, any("target"), any("target_stamp"), any("source"), any("source_stamp"),
+           any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
       .def("_lookup_rows", &lookup_rows, any("target"), any("source"), arg("stamps"), arg("poses"), any("twists"),
            any("beyond"), arg("on_error"), arg("threads"), arg("extrapolate") = nb::none(), arg("hold") = false)
       .def("_stamps_between", &stamps_between, any("target"), any("source"), arg("first"), arg("last"))
@@ -513,28 +515,30 @@ void define_buffer(nb::module_& module) {
       .def("_can_transform_full", &py_can_transform_full, any("target"), any("target_stamp"), any("source"),
            any("source_stamp"), any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
       .def("_why_not", &why_not, any("target"), any("source"), arg("stamp") = nb::none())
-      .def("_why_not_full", &why_not_full, any("target"), any("target_stamp"), any("source"),
-           any("source_stamp"), any("fixed"))
-      .def("latest_common_time", &py_latest_common_time, any("target"), any("source"))
-      .def("chain", &py_chain, any("target"), any("target_stamp"), any("source"), any("source_stamp"),
+      .def("_why_not_full", &why_not_full, any("target"), any("target_stamp"), any("source"), any("source_stamp"),
            any("fixed"))
+      .def("latest_common_time", &py_latest_common_time, any("target"), any("source"))
+      .def("chain", &py_chain, any("target"), any("target_stamp"), any("source"), any("source_stamp"), any("fixed"))
       .def("encode", &encode, nb::kw_only(), arg("static"))
       .def("clear", [](BufferObject& self) { self.core->clear(); })
-      .def("remove_frame", [](BufferObject& self, std::string_view name) { return self.core->remove_frame(name); },
-           arg("name"))
+      .def(
+          "remove_frame", [](BufferObject& self, std::string_view name) { return self.core->remove_frame(name); },
+          arg("name"))
       .def("freeze", [](BufferObject& self) { self.core->freeze(); })
       .def_prop_ro("frozen", [](const BufferObject& self) { return self.core->frozen(); })
-      .def("_become_snapshot", [](BufferObject& self, const BufferObject& other) { self.core = other.core->snapshot(); },
-           arg("other"))
+      .def(
+          "_become_snapshot", [](BufferObject& self, const BufferObject& other) { self.core = other.core->snapshot(); },
+          arg("other"))
       .def("_frame_tuples", &frame_tuples)
       .def("_edge_at", &edge_at, arg("child"), arg("stamp"))
       .def("_edge_tuples", &edge_tuples, arg("children") = nb::none())
       .def("frame_names", [](const BufferObject& self) { return self.core->frame_names(); })
-      .def("frame_exists",
-           [](const BufferObject& self, std::string_view name) {
-             return name == "NO_PARENT" || self.core->find(name) != 0;
-           },
-           arg("name"))
+      .def(
+          "frame_exists",
+          [](const BufferObject& self, std::string_view name) {
+            return name == "NO_PARENT" || self.core->find(name) != 0;
+          },
+          arg("name"))
       .def("all_frames_as_string", [](const BufferObject& self) { return self.core->read(frames_as_string); })
       .def("all_frames_as_yaml", [](const BufferObject& self) { return self.core->read(frames_as_yaml); })
       .def(
@@ -546,9 +550,10 @@ void define_buffer(nb::module_& module) {
       .def_prop_ro("statistics", &statistics)
       .def_prop_ro("_changes", [](const BufferObject& self) { return self.core->changes(); });
   add_frequent_methods(cls);
-  module.def("register_buffer_class", [](nb::type_object_t<BufferObject> cls) { add_frequent_methods(cls); }, arg("cls"),
-             "Gives a class on top of Buffer the most frequent methods as its own: CPython has a shorter way to call "
-             "those of an object's very class.");
+  module.def(
+      "register_buffer_class", [](nb::type_object_t<BufferObject> cls) { add_frequent_methods(cls); }, arg("cls"),
+      "Gives a class on top of Buffer the most frequent methods as its own: CPython has a shorter way to call "
+      "those of an object's very class.");
   module.def("insert_texts", &py_insert_texts, arg("refusals"), arg("parent"), arg("child"), arg("stamp"), arg("x"),
              arg("y"), arg("z"), arg("qx"), arg("qy"), arg("qz"), arg("qw"), arg("authority"),
              "tf2's log lines for a transform that _set_values refused: (level, text).");

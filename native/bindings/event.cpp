@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "wire/event.hpp"
 
 #include <nanobind/stl/optional.h>
@@ -10,7 +11,8 @@
 namespace coframe::bindings {
 
 void define_event(nb::module_& module) {
-  nb::class_<Event>(module, "Event", "A flag that DDS threads and Python set, and one thread waits for without the GIL.")
+  nb::class_<Event>(module, "Event",
+                    "A flag that DDS threads and Python set, and one thread waits for without the GIL.")
       .def(nb::init<>())
       .def("set", &Event::set, "Sets the flag and wakes the waiting thread.")
       .def("clear", &Event::clear, "Takes the flag back.")

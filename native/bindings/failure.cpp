@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bindings/failure.hpp"
 
 #include <array>
@@ -125,25 +126,25 @@ void deallocate_failure(PyObject* object) {
 }
 
 PyGetSetDef failure_properties[] = {{"code", &get<&code>, nullptr, nullptr, nullptr},
-                            {"target", &get<&target>, nullptr, nullptr, nullptr},
-                            {"source", &get<&source>, nullptr, nullptr, nullptr},
-                            {"requested", &get<&requested>, nullptr, nullptr, nullptr},
-                            {"earliest", &get<&earliest>, nullptr, nullptr, nullptr},
-                            {"latest", &get<&latest>, nullptr, nullptr, nullptr},
-                            {"edge", &get<&edge>, nullptr, nullptr, nullptr},
-                            {"roots", &get<&roots>, nullptr, nullptr, nullptr},
-                            {"name", &get<&name>, nullptr, nullptr, nullptr},
-                            {"parents", &get<&parents>, nullptr, nullptr, nullptr},
-                            {nullptr, nullptr, nullptr, nullptr, nullptr}};
+                                    {"target", &get<&target>, nullptr, nullptr, nullptr},
+                                    {"source", &get<&source>, nullptr, nullptr, nullptr},
+                                    {"requested", &get<&requested>, nullptr, nullptr, nullptr},
+                                    {"earliest", &get<&earliest>, nullptr, nullptr, nullptr},
+                                    {"latest", &get<&latest>, nullptr, nullptr, nullptr},
+                                    {"edge", &get<&edge>, nullptr, nullptr, nullptr},
+                                    {"roots", &get<&roots>, nullptr, nullptr, nullptr},
+                                    {"name", &get<&name>, nullptr, nullptr, nullptr},
+                                    {"parents", &get<&parents>, nullptr, nullptr, nullptr},
+                                    {nullptr, nullptr, nullptr, nullptr, nullptr}};
 
 PyType_Slot failure_slots[] = {{Py_tp_doc, const_cast<char*>("The facts of a failed look-up; str() gives tf2's text.")},
-                       {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate_failure)},
-                       {Py_tp_str, reinterpret_cast<void*>(&describe)},
-                       {Py_tp_getset, failure_properties},
-                       {0, nullptr}};
+                               {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate_failure)},
+                               {Py_tp_str, reinterpret_cast<void*>(&describe)},
+                               {Py_tp_getset, failure_properties},
+                               {0, nullptr}};
 
 PyType_Spec failure_spec = {"coframe._core.Failure", sizeof(Object), 0,
-                    Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, failure_slots};
+                            Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, failure_slots};
 
 nb::object make_failure(FailureObject&& failure) {
   nb::object object = nb::steal(failure_class->tp_alloc(failure_class, 0));
@@ -153,7 +154,7 @@ nb::object make_failure(FailureObject&& failure) {
 }
 
 void register_errors(const nb::module_& errors) {
-  constexpr std::array kNames{"TransformException", "LookupException", "ConnectivityException",
+  constexpr std::array kNames{"TransformException",     "LookupException",          "ConnectivityException",
                               "ExtrapolationException", "InvalidArgumentException", "DecodeError"};
   for (std::size_t i = 0; i < kNames.size(); ++i) exceptions[i] = nb::object(errors.attr(kNames[i])).release().ptr();
 }
@@ -178,8 +179,7 @@ nb::object raise_failure(FailureObject&& failure) {
 }
 
 void raise_decode_error(const DecodeFailure& failure) {
-  const std::string text =
-      "tf2_msgs/msg/TFMessage at byte " + std::to_string(failure.offset) + ": " + failure.reason;
+  const std::string text = "tf2_msgs/msg/TFMessage at byte " + std::to_string(failure.offset) + ": " + failure.reason;
   PyErr_SetString(exceptions[kDecode], text.c_str());
   throw nb::python_error();
 }
@@ -189,8 +189,8 @@ void define_failure(nb::module_& module) {
   if (!type.is_valid()) throw nb::python_error();
   module.attr("Failure") = type;
   failure_class = reinterpret_cast<PyTypeObject*>(type.inc_ref().ptr());
-  module.def(
-      "register_errors", &register_errors, nb::arg("errors"), "Failures are raised as the exceptions of this module.");
+  module.def("register_errors", &register_errors, nb::arg("errors"),
+             "Failures are raised as the exceptions of this module.");
 }
 
 }  // namespace coframe::bindings

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A failed look-up as Python sees it: facts, and tf2's text when somebody asks for it.
 #pragma once
 

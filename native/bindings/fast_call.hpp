@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Functions that Python calls without a layer in between: for the few that are called millions of times. CPython's own
 // calling convention (METH_FASTCALL | METH_KEYWORDS) with named and optional arguments.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Buffers as files, and the samples of a buffer as arrays.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Leaving and entering Python such that the interpreter may end meanwhile. CPython ends the other threads as they take
 // the GIL, by unwinding their stack; unwound through C++ frames, the process aborts. So a thread that comes back too
 // late waits in native code for the end of the process.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The drop-in's messages, read and made slot by slot: geometry_msgs' classes are Python's, with __slots__, and going
 // through their attributes costs more than the look-up. What is not exactly of these classes Python deals with.
 #include <nanobind/nanobind.h>

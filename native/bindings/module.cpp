@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The private module coframe._core; the public face is the Python package around it.
 #include "bindings/bindings.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Many frames at one time, seen from one of them: what a viewer draws, 30 times a second.
 #include <nanobind/nanobind.h>
 
@@ -96,8 +97,8 @@ class PoseTable {
 
 std::size_t poses_near(nb::handle poses, nb::handle states, nb::handle origin, Py_ssize_t fixed, double limit,
                        nb::handle near) {
-  const Memory rows(poses, PyBUF_C_CONTIGUOUS), states_memory(states, PyBUF_C_CONTIGUOUS), local(origin, PyBUF_C_CONTIGUOUS),
-      out(near, PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS);
+  const Memory rows(poses, PyBUF_C_CONTIGUOUS), states_memory(states, PyBUF_C_CONTIGUOUS),
+      local(origin, PyBUF_C_CONTIGUOUS), out(near, PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS);
   const std::size_t count = states_memory.size();
   if (rows.size() != count * 7 * sizeof(double) || out.size() != count * 7 * sizeof(float) ||
       local.size() != 3 * sizeof(double)) {

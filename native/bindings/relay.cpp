@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames under other names, and relays of their messages.
 #include "core/relay.hpp"
 
@@ -44,8 +45,8 @@ nb::list edges(const Relay& self) {
     if (edge.passed == 0 && claim.rival == Relay::kNobody) continue;
     const bool contested = claim.rival != Relay::kNobody;
     list.append(nb::make_tuple(to_str(edge.parent), to_str(claim.child), claim.source, edge.writer,
-                               contested ? nb::int_(claim.rival) : nb::object(nb::none()), claim.contested,
-                               edge.passed, edge.thinned, edge.newest, edge.received_at));
+                               contested ? nb::int_(claim.rival) : nb::object(nb::none()), claim.contested, edge.passed,
+                               edge.thinned, edge.newest, edge.received_at));
   }
   return list;
 }
@@ -54,8 +55,9 @@ nb::list relay_writers(const Relay& self, Relay::SourceId source) {
   if (source >= self.sources()) throw nb::index_error("there is no such source");
   nb::list list;
   for (const auto& [handle, writer] : self.writers(source)) {
-    list.append(nb::make_tuple(writer_tuple(handle, writer.messages, writer.received_at, writer.period, writer.delay, writer.name_problems),
-                               writer.malformed, writer.refused));
+    list.append(nb::make_tuple(
+        writer_tuple(handle, writer.messages, writer.received_at, writer.period, writer.delay, writer.name_problems),
+        writer.malformed, writer.refused));
   }
   return list;
 }
@@ -63,11 +65,10 @@ nb::list relay_writers(const Relay& self, Relay::SourceId source) {
 }  // namespace
 
 nb::tuple writer_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t received_at,
-                       const ArrivalPeriod& period, const StampDelay& delay,
-                      const NameProblems& name_problems) {
+                       const ArrivalPeriod& period, const StampDelay& delay, const NameProblems& name_problems) {
   const nb::object behind = delay.known() ? nb::object(nb::int_(delay.typical())) : nb::object(nb::none());
-  return nb::make_tuple(writer, messages, received_at, period.median(), behind, to_str(name_problems.slashed), to_str(name_problems.prefixed),
-                        to_str(name_problems.plain));
+  return nb::make_tuple(writer, messages, received_at, period.median(), behind, to_str(name_problems.slashed),
+                        to_str(name_problems.prefixed), to_str(name_problems.plain));
 }
 
 void define_relay(nb::module_& module) {
@@ -75,10 +76,10 @@ void define_relay(nb::module_& module) {
       .def(nb::init<std::string, std::vector<std::string>>(), nb::arg("prefix"), nb::arg("keep"))
       .def("__call__", [](const Renaming& self, const std::string& name) { return self(name); }, nb::arg("name"));
 
-  nb::class_<Relay>(module, "Relay", "TFMessages of several sources into those of one tree. Not for several threads at once.")
+  nb::class_<Relay>(module, "Relay",
+                    "TFMessages of several sources into those of one tree. Not for several threads at once.")
       .def(
-          "__init__",
-          [](Relay* self, bool is_static, std::int64_t period) { new (self) Relay(is_static, period); },
+          "__init__", [](Relay* self, bool is_static, std::int64_t period) { new (self) Relay(is_static, period); },
           nb::arg("static"), nb::arg("period"))
       .def(
           "add_source",

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Trees of joints with their names: forward kinematics from Python's positions to transforms.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string_view.h>
@@ -85,8 +86,7 @@ class JointTreeObject {
 
   // Poses of many configurations to `out`, joint after joint. Positions as (joint, float64 array of one axis, or of two
   // for a joint of several numbers). The name of the first joint with a position that is none, or None.
-  nb::object poses_into(nb::list positions, std::size_t count, bool in_root, nb::handle out,
-                        unsigned threads) const {
+  nb::object poses_into(nb::list positions, std::size_t count, bool in_root, nb::handle out, unsigned threads) const {
     const Memory rows(out, PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS);
     if (rows.size() / sizeof(double) / 7 != tree_.size() * count || rows.size() % (7 * sizeof(double)) != 0) {
       throw nb::value_error("out must have 7 float64 for each joint in each configuration");
@@ -181,7 +181,7 @@ void define_robots(nb::module_& module) {
       .def("transforms", &JointTreeObject::transforms, arg("positions"), arg("in_root"),
            "Of one configuration; None where a position is none.")
       .def("poses_into", &JointTreeObject::poses_into, arg("positions"), arg("count"), arg("in_root"), arg("out"),
-           arg("threads"),           "Of many configurations; the first joint with a position that is none.");
+           arg("threads"), "Of many configurations; the first joint with a position that is none.");
 }
 
 }  // namespace coframe::bindings

@@ -1,4 +1,6 @@
-// Points in arrays of numpy, which come as their fields: x, y and z each as an array of one or two axes, of any strides.
+// SPDX-License-Identifier: Apache-2.0
+// Points in arrays of numpy, which come as their fields: x, y and z each as an array of one or two axes, of any
+// strides.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/vector.h>
 
@@ -115,8 +117,12 @@ nb::tuple py_deskew(BufferObject& buffer, nb::handle target, nb::handle source, 
   const Memory stamps(times, PyBUF_C_CONTIGUOUS);
   const std::size_t count = fields.grid().count();
   if (stamps.size() != count * sizeof(Stamp)) throw nb::value_error("there must be as many times as points");
-  const Deskewing how{buffer.frame(target.ptr()), buffer.frame(source.ptr()), pose_of(onward),
-                      stamps.data<const Stamp>(), nan_for_none, threads};
+  const Deskewing how{buffer.frame(target.ptr()),
+                      buffer.frame(source.ptr()),
+                      pose_of(onward),
+                      stamps.data<const Stamp>(),
+                      nan_for_none,
+                      threads};
   const std::shared_ptr<Buffer> core = buffer.core;
   Missing missing;
   without_gil_if(threads > 1 || count > kManyTimes,
@@ -138,9 +144,10 @@ void define_sensors(nb::module_& module) {
   module.attr("CPU_LEVELS") = level_names();
   module.def("transform_fields", &py_transform, arg("pose"), arg("fields"), arg("threads"),
              "Moves points by a pose, in place.");
-  module.def("deskew_fields", &py_deskew, arg("buffer"), arg("target"), arg("source"), arg("times"), arg("onward"),
-             arg("fields"), arg("nan_for_none"), arg("threads"),
-             "Moves points to where they were, each at its own time, in place: (points without a transform, the first).");
+  module.def(
+      "deskew_fields", &py_deskew, arg("buffer"), arg("target"), arg("source"), arg("times"), arg("onward"),
+      arg("fields"), arg("nan_for_none"), arg("threads"),
+      "Moves points to where they were, each at its own time, in place: (points without a transform, the first).");
 }
 
 }  // namespace coframe::bindings

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bindings/transform.hpp"
 
 #include <new>
@@ -85,15 +86,16 @@ PyGetSetDef transform_properties[] = {
     {"_batch", get_batch, nullptr, "None, or (translations, quaternions, stamps, extrapolated) as arrays.", nullptr},
     {nullptr, nullptr, nullptr, nullptr, nullptr}};
 
-PyType_Slot transform_slots[] = {{Py_tp_doc, const_cast<char*>("One pose with its frames and stamp, or a batch of them.")},
-                       {Py_tp_init, reinterpret_cast<void*>(&initialise)},
-                       {Py_tp_new, reinterpret_cast<void*>(&PyType_GenericNew)},
-                       {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate_transform)},
-                       {Py_tp_getset, transform_properties},
-                       {0, nullptr}};
+PyType_Slot transform_slots[] = {
+    {Py_tp_doc, const_cast<char*>("One pose with its frames and stamp, or a batch of them.")},
+    {Py_tp_init, reinterpret_cast<void*>(&initialise)},
+    {Py_tp_new, reinterpret_cast<void*>(&PyType_GenericNew)},
+    {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate_transform)},
+    {Py_tp_getset, transform_properties},
+    {0, nullptr}};
 
-PyType_Spec transform_spec = {"coframe._core.Transform", sizeof(TransformObject), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE,
-                    transform_slots};
+PyType_Spec transform_spec = {"coframe._core.Transform", sizeof(TransformObject), 0,
+                              Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE, transform_slots};
 
 }  // namespace
 
@@ -128,8 +130,8 @@ bool read_transform(PyObject* object, GivenTransform& given) {
 
 namespace {
 
-// CPython gives every class of Python's the garbage collector's bookkeeping, and a destructor that looks for what such a
-// class may add. This one adds nothing (__slots__ = ()), and a transform holds nothing that could hold it: both are
+// CPython gives every class of Python's the garbage collector's bookkeeping, and a destructor that looks for what such
+// a class may add. This one adds nothing (__slots__ = ()), and a transform holds nothing that could hold it: both are
 // taken back, before there is an instance, for half of what a look-up costs.
 void make_light(PyTypeObject* type) {
   type->tp_flags &= ~Py_TPFLAGS_HAVE_GC;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The light object that a look-up returns; coframe.Transform is a Python class on top of it. A class of CPython's own
 // making, without the garbage collector's bookkeeping: making one is most of what a look-up costs.
 #pragma once

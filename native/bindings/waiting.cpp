@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/wait_queue.hpp"
 
 #include <nanobind/stl/shared_ptr.h>
@@ -82,7 +83,8 @@ void define_waiting(nb::module_& module) {
           [](Mailbox& self, std::int64_t timeout_ns) {
             return wait_with_signals(timeout_ns, [&](std::int64_t slice) { return self.wait_for(slice); });
           },
-          arg("timeout_ns"), "Waits, without the GIL, until there are some (True) or the time (negative: for ever) is over.");
+          arg("timeout_ns"),
+          "Waits, without the GIL, until there are some (True) or the time (negative: for ever) is over.");
   nb::class_<WaitObject>(module, "Wait", "A look-up that waits for its answer.")
       .def("transform", &WaitObject::transform, "The transform, or None while there is none.")
       .def("cancel", &WaitObject::cancel, "Waits no more.");
@@ -93,8 +95,8 @@ void define_waiting(nb::module_& module) {
       "wait",
       [](BufferObject& buffer, std::shared_ptr<Mailbox> mailbox, Token token, nb::handle target, nb::handle source,
          nb::handle stamp) {
-        return std::make_unique<WaitObject>(buffer, query_of(buffer, target, source, stamp), std::move(mailbox),
-                                            token, target, source);
+        return std::make_unique<WaitObject>(buffer, query_of(buffer, target, source, stamp), std::move(mailbox), token,
+                                            target, source);
       },
       arg("buffer"), arg("mailbox"), arg("token"), any("target"), any("source"), any("stamp"),
       "A look-up whose token is put into the mailbox once it has its answer.");
@@ -102,9 +104,9 @@ void define_waiting(nb::module_& module) {
       "wait_full",
       [](BufferObject& buffer, std::shared_ptr<Mailbox> mailbox, Token token, nb::handle target,
          nb::handle target_stamp, nb::handle source, nb::handle source_stamp, nb::handle fixed) {
-        return std::make_unique<WaitObject>(
-            buffer, full_query_of(buffer, target, target_stamp, source, source_stamp, fixed), std::move(mailbox),
-            token, target, source);
+        return std::make_unique<WaitObject>(buffer,
+                                            full_query_of(buffer, target, target_stamp, source, source_stamp, fixed),
+                                            std::move(mailbox), token, target, source);
       },
       arg("buffer"), arg("mailbox"), arg("token"), any("target"), any("target_stamp"), any("source"),
       any("source_stamp"), any("fixed"), "The same for _lookup_full.");

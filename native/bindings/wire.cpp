@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // DDS without the GIL: what coframe.wire stands on.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
@@ -85,8 +86,7 @@ nb::list take_messages(PyReader& reader, std::uint32_t limit) {
   }
   nb::list messages;
   for (const dds::Sample& sample : samples) {
-    messages.append(
-        nb::make_tuple(to_bytes(sample), sample.info().source_timestamp, sample.info().publication_handle));
+    messages.append(nb::make_tuple(to_bytes(sample), sample.info().source_timestamp, sample.info().publication_handle));
   }
   return messages;
 }
@@ -181,7 +181,8 @@ void define_readers(nb::module_& wire) {
       .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, std::shared_ptr<Event>>(),
            nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("on_data").none(),
            ReleaseGil())
-      .def("take", &take_messages, nb::arg("limit"), "Up to `limit` tuples (bytes, source timestamp in ns, writer's handle).")
+      .def("take", &take_messages, nb::arg("limit"),
+           "Up to `limit` tuples (bytes, source timestamp in ns, writer's handle).")
       .def_prop_ro("pending", &PyReader::pending, "Whether messages may be waiting.");
   define_reader_properties<PyReader>(reader);
 
@@ -189,8 +190,10 @@ void define_readers(nb::module_& wire) {
   tap.def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, std::size_t, std::size_t>(),
           nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("head"),
           nb::arg("capacity"), ReleaseGil())
-      .def("take", &take_tapped, "The messages since the last call: their bytes, and as bytes where each ends (uint64), arrived, sent (int64) "
-           "and writer's handle (uint64).")
+      .def(
+          "take", &take_tapped,
+          "The messages since the last call: their bytes, and as bytes where each ends (uint64), arrived, sent (int64) "
+          "and writer's handle (uint64).")
       .def_prop_ro("missed", &PyTap::missed, "How many messages came while it was full.");
   define_reader_properties<PyTap>(tap);
 
@@ -211,8 +214,9 @@ void define_readers(nb::module_& wire) {
       .def("forget_writer", &PyTfReader::forget_writer, nb::arg("writer"), ReleaseGil(),
            "The writer with this handle has left.")
       .def("writers", &writers_of, "What each writer has sent.")
-      .def_prop_ro("stored_at", &PyTfReader::stored_at,
-                   "When the newest message's transforms were in the buffer, in nanoseconds of the steady clock; 0: never.");
+      .def_prop_ro(
+          "stored_at", &PyTfReader::stored_at,
+          "When the newest message's transforms were in the buffer, in nanoseconds of the steady clock; 0: never.");
   define_reader_properties<PyTfReader>(tf_reader);
 
   nb::class_<PyEndpointReader>(wire, "EndpointReader", "What DDS discovery tells about writers or readers.")
@@ -232,8 +236,7 @@ void define_wire(nb::module_& wire) {
   nb::exception<dds::Error>(wire, "DdsError", PyExc_RuntimeError);
   wire.def("load_dds", &dds::load, nb::arg("path"), "Loads the DDS library; RuntimeError where it does not fit.");
   wire.def("create_unchecked_topic", &dds::create_unchecked_topic, nb::arg("participant"), nb::arg("name"),
-           nb::arg("type_name"), ReleaseGil(),
-           "A topic for who checks the bytes himself: its number.");
+           nb::arg("type_name"), ReleaseGil(), "A topic for who checks the bytes himself: its number.");
   nb::class_<QosProfile>(wire, "QosProfile", "The four policies ROS programs set.")
       .def(
           "__init__",

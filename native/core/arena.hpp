@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A piece of memory for many things of one kind, freed as a whole.
 #pragma once
 
@@ -7,7 +8,7 @@ namespace coframe {
 
 class Arena {
  public:
-  static constexpr std::size_t kAlignment = 64;               // a cache line
+  static constexpr std::size_t kAlignment = 64;                // a cache line
   static constexpr std::size_t kLarge = std::size_t{2} << 20;  // a large page
 
   // Not initialised. For kLarge the system is asked to use a large page: filling that is many times faster than page by

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The usual period of a source of messages: the median interval between the arrivals of the last ones.
 #pragma once
 

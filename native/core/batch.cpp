@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/batch.hpp"
 
 #include <algorithm>
@@ -232,8 +233,8 @@ void follow_block(const PathCache::Path& path, RowBlock& rows) {
   }
 }
 
-// By counting, twice: first by the lower and then by the upper half of where a stamp lies between the first and the last
-// one. That is near enough, and much cheaper than comparing.
+// By counting, twice: first by the lower and then by the upper half of where a stamp lies between the first and the
+// last one. That is near enough, and much cheaper than comparing.
 std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count) {
   constexpr unsigned kBits = 11;
   constexpr std::uint32_t kBuckets = 1u << kBits;
@@ -247,7 +248,8 @@ std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count)
   const auto half = std::make_unique_for_overwrite<Place[]>(count);
   std::array<std::uint32_t, kBuckets + 1> lower{}, upper{};
   for (std::size_t row = 0; row < count; ++row) {
-    const auto place = static_cast<std::uint32_t>(static_cast<std::int64_t>(static_cast<double>(distance(start, stamps[row])) * scale));
+    const auto place = static_cast<std::uint32_t>(
+        static_cast<std::int64_t>(static_cast<double>(distance(start, stamps[row])) * scale));
     places[row] = place;
     ++lower[place % kBuckets + 1];
     ++upper[place / kBuckets + 1];

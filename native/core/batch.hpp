@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One query at many times: path and samples are found block by block, so that memory is fetched while numbers are
 // worked on.
 #pragma once

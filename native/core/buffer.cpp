@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/buffer.hpp"
 
 #include <algorithm>
@@ -30,7 +31,9 @@ void measure_intervals(const History::View& samples, EdgeSummary& edge) {
   edge.mean_interval = edge.interval_deviation = edge.longest_interval = 0.0;
   if (samples.is_static() || samples.size() < 2) return;
   const double count = static_cast<double>(samples.size() - 1);
-  const auto interval = [&](std::size_t i) { return static_cast<double>(elapsed(samples.time(i - 1), samples.time(i))); };
+  const auto interval = [&](std::size_t i) {
+    return static_cast<double>(elapsed(samples.time(i - 1), samples.time(i)));
+  };
   edge.mean_interval = static_cast<double>(elapsed(samples.oldest(), samples.newest())) / count;
   double squares = 0.0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -45,9 +48,7 @@ constexpr std::size_t kInsertBlock = 1024;
 // Fewer look-ups are not brought into order.
 constexpr std::size_t kWorthSorting = 4 * kRowBlock;
 
-TransformValues values_of(const double* row) {
-  return {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}};
-}
+TransformValues values_of(const double* row) { return {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}}; }
 
 // Why the first row that is refused is; 0, and `row` is behind the last one, where none is.
 unsigned track_refusals(const Track& track, unsigned refused_names, std::size_t& row) {
@@ -76,9 +77,14 @@ FrameSummary summary_of(const Tree& tree, FrameId id) {
   const Frame& frame = tree.frame(id);
   const History::View history = tree.history(id);
   if (history.empty()) return {frame.name, "", "", false, 0, 0, 0, 0.0};
-  return {frame.name,       tree.name(history.parent()), tree.authority_name(frame.authority),
-          history.is_static(), history.size(),              history.oldest(),
-          history.newest(), history.is_static() ? 0.0 : average_rate(history)};
+  return {frame.name,
+          tree.name(history.parent()),
+          tree.authority_name(frame.authority),
+          history.is_static(),
+          history.size(),
+          history.oldest(),
+          history.newest(),
+          history.is_static() ? 0.0 : average_rate(history)};
 }
 
 }  // namespace
@@ -102,16 +108,14 @@ unsigned Buffer::insert_and_announce(Insert&& insert) {
 
 unsigned Buffer::insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
                         bool is_static, AuthorityId authority) {
-  return insert_and_announce([&](Inserted& inserted) {
-    inserted = tree_.insert(parent, child, stamp, values, is_static, authority);
-  });
+  return insert_and_announce(
+      [&](Inserted& inserted) { inserted = tree_.insert(parent, child, stamp, values, is_static, authority); });
 }
 
 unsigned Buffer::insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
                         AuthorityId authority) {
-  return insert_and_announce([&](Inserted& inserted) {
-    tree_.insert(parent, child, stamp, values, is_static, authority, inserted);
-  });
+  return insert_and_announce(
+      [&](Inserted& inserted) { tree_.insert(parent, child, stamp, values, is_static, authority, inserted); });
 }
 
 unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId authority, std::size_t& stored,
@@ -158,8 +162,8 @@ std::size_t Buffer::insert_block(const Track& block, bool is_static, AuthorityId
     i += run;
     if (run > 0) inserted.push_back({0, tree_.find(without_slash(block.child)), false, false});
     if (i == block.count) break;
-    inserted.push_back(tree_.insert(block.parent, block.child, block.stamps[i], values_of(block.poses + 7 * i),
-                                    is_static, authority));
+    inserted.push_back(
+        tree_.insert(block.parent, block.child, block.stamps[i], values_of(block.poses + 7 * i), is_static, authority));
     stored += count(inserted.back().refusals);
     ++i;
   }
@@ -188,15 +192,14 @@ void Buffer::rename(TransformStream& stream, std::string_view authority) {
   for (const ExpectedNames& names : stream.expected) tree_.change_authority(names.child, before, stream.authority);
 }
 
-DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size,
-                             std::size_t& stored) {
+DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored) {
   const DecodeFailure failure = ingest_without_notify(stream, data, size, stored);
   notify_ingested(stream);
   return failure;
 }
 
 DecodeFailure Buffer::ingest_without_notify(TransformStream& stream, const std::uint8_t* data, std::size_t size,
-                              std::size_t& stored) {
+                                            std::size_t& stored) {
   stored = 0;
   const auto decode = stream.encoding == TransformStream::Encoding::cdr ? decode_tf_message : decode_ros1_tf_message;
   const DecodeFailure failure = decode(data, size, stream.decoded, stream.expected);
@@ -328,7 +331,8 @@ bool Buffer::lookup_by_walking(FrameId target, FrameId source, Stamp& stamp, Pos
   return lookup_by_id(nullptr, target, source, stamp, pose, failure);
 }
 
-bool Buffer::lookup_by_id(PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const {
+bool Buffer::lookup_by_id(PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
+                          Failure& failure) const {
   const Stamp asked = stamp;
   return retry_until_stable(asked == 0, failure, [&] {
     stamp = asked;
@@ -339,13 +343,14 @@ bool Buffer::lookup_by_id(PathCache* paths, FrameId target, FrameId source, Stam
 bool Buffer::lookup_cached_path(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const {
   const std::uint64_t revision = tree_.revision().start_reading();
   Stamp when = stamp;
-  if (!lookup_path_in_tree(tree_, paths, target, source, when, pose) || !tree_.revision().unchanged(revision)) return false;
+  if (!lookup_path_in_tree(tree_, paths, target, source, when, pose) || !tree_.revision().unchanged(revision))
+    return false;
   stamp = when;
   return true;
 }
 
 bool Buffer::lookup_full_by_id(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed,
-                         Pose& pose, Failure& failure) const {
+                               Pose& pose, Failure& failure) const {
   const Stamp target_asked = target_stamp;
   const PathLease paths(paths_);
   return retry_until_stable(target_asked == 0 || source_stamp == 0, failure, [&] {
@@ -361,7 +366,7 @@ bool Buffer::lookup_full_by_id(FrameId target, Stamp& target_stamp, FrameId sour
 }
 
 bool Buffer::extrapolate_by_id(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
-                         Failure& failure) const {
+                               Failure& failure) const {
   const Stamp asked = stamp;
   return consistent([&] {
     stamp = asked;
@@ -382,7 +387,8 @@ bool Buffer::resolve_both(LookupQuery& query, Failure& failure) const {
          resolve(query.source, Argument::source_frame, query.source_id, failure);
 }
 
-bool Buffer::lookup_by_name(LookupQuery& query, LookupResult& result, Failure& failure, Extrapolation* extrapolation) const {
+bool Buffer::lookup_by_name(LookupQuery& query, LookupResult& result, Failure& failure,
+                            Extrapolation* extrapolation) const {
   result.stamp = query.stamp;
   if (!query.time_travel && query.target == query.source) {  // also for a frame that nobody knows
     result.pose = Pose{};
@@ -433,8 +439,8 @@ std::size_t Buffer::lookup_rows(LookupQuery query, const Extrapolation* extrapol
   const bool by_path = has_path && !extrapolation;
   const bool is_sorted = std::is_sorted(batch.stamps + first, batch.stamps + last);
   const std::size_t rows_count = last - first;
-  const bool reorder = by_path && !is_sorted && rows_count >= kWorthSorting &&
-                       rows_count <= std::numeric_limits<std::uint32_t>::max();
+  const bool reorder =
+      by_path && !is_sorted && rows_count >= kWorthSorting && rows_count <= std::numeric_limits<std::uint32_t>::max();
   const std::vector<std::uint32_t> order =
       reorder ? order_by_time(batch.stamps + first, rows_count) : std::vector<std::uint32_t>{};
   std::array<std::size_t, kRowBlock> at;
@@ -554,8 +560,7 @@ bool Buffer::latest_common_time(LookupQuery& query, Stamp& stamp, Failure& failu
          });
 }
 
-bool Buffer::chain(FrameId target, FrameId source, Stamp stamp, std::vector<FrameId>& frames,
-                   Failure& failure) const {
+bool Buffer::chain(FrameId target, FrameId source, Stamp stamp, std::vector<FrameId>& frames, Failure& failure) const {
   return consistent([&] { return coframe::chain(tree_, target, source, stamp, frames, failure); });
 }
 
@@ -580,7 +585,7 @@ std::vector<EdgeSummary> Buffer::edges() const {
 std::optional<EdgeSummary> Buffer::edge(FrameId child) const {
   EdgeSummary edge = consistent([&] {
     const Frame::Counts& counts = tree_.frame(child).counts;
-    EdgeSummary one{summary_of(tree_, child), 0.0,          0.0,         0.0,        counts.stored, counts.late,
+    EdgeSummary one{summary_of(tree_, child), 0.0,        0.0,         0.0,        counts.stored,    counts.late,
                     counts.repeated,          counts.old, counts.self, counts.nan, counts.quaternion};
     measure_intervals(tree_.history(child), one);
     return one;
@@ -606,7 +611,9 @@ std::string Buffer::encode(bool is_static) const {
       if (history.empty() || history.is_static() != is_static) continue;
       const Sample sample = history.sample(history.size() - 1);
       const Pose& pose = sample.pose;
-      views.push_back({tree_.name(sample.parent), tree_.name(id), history.newest(),
+      views.push_back({tree_.name(sample.parent),
+                       tree_.name(id),
+                       history.newest(),
                        {{pose.p[0], pose.p[1], pose.p[2]}, {pose.q[0], pose.q[1], pose.q[2], pose.q[3]}}});
     }
     return encode_tf_message(views);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transform tree for many threads: one thread writes at a time, readers take no lock.
 //
 // The layers of a lookup, outermost first. Each layer answers by calling one of the layers below it.
@@ -20,8 +21,8 @@
 //     check_path_in_tree         ids                          cached, no pose        no     no
 //
 // "ids" are the numbers of two existing frames. "Cached" is a path of a PathCache, which may belong to the caller; it
-// answers only if every edge on it has had one parent so far. "Walked" follows the parents sample by sample, as tf2 does.
-// lookup_full_by_id and lookup_many are built on lookup_by_id and lookup_by_name.
+// answers only if every edge on it has had one parent so far. "Walked" follows the parents sample by sample, as tf2
+// does. lookup_full_by_id and lookup_many are built on lookup_by_id and lookup_by_name.
 #pragma once
 
 #include <atomic>
@@ -60,7 +61,7 @@ struct TransformStream {
   AuthorityId authority = 0;
   std::shared_ptr<const Renaming> renaming;  // may be null: names are taken as they are
   NameProblems name_problems;
-  Stamp newest = 0;  // of the last message; 0: it had none
+  Stamp newest = 0;                     // of the last message; 0: it had none
   std::vector<ExpectedNames> expected;  // by the names as they come, with the numbers of the frames that they became
   std::vector<TransformView> decoded;
   std::vector<Inserted> inserted;
@@ -95,8 +96,8 @@ class Buffer {
   // For who knows the numbers of two different frames.
   unsigned insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
                   AuthorityId authority);
-  // As one insert() after the other, in the order of the stamps. Where a row's values are refused nothing is stored, and
-  // `bad_row` is the first of them; what is older than the cache is left out.
+  // As one insert() after the other, in the order of the stamps. Where a row's values are refused nothing is stored,
+  // and `bad_row` is the first of them; what is older than the cache is left out.
   unsigned insert_many(const Track& track, bool is_static, AuthorityId authority, std::size_t& stored,
                        std::size_t& bad_row);
   AuthorityId authority(std::string_view name);
@@ -106,7 +107,8 @@ class Buffer {
   void rename(TransformStream& stream, std::string_view authority);
   DecodeFailure ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
   // The same in two steps: first the transforms are there, then those who wait for them are woken.
-  DecodeFailure ingest_without_notify(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
+  DecodeFailure ingest_without_notify(TransformStream& stream, const std::uint8_t* data, std::size_t size,
+                                      std::size_t& stored);
   void notify_ingested(TransformStream& stream);
   void clear();
   // Forgets a frame with its link to its parent and those of its children to it; false if nobody knows it.
@@ -129,8 +131,8 @@ class Buffer {
 
   bool lookup_by_id(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
   // The two legs are answered together: `stamp` is the target leg's, in and out.
-  bool lookup_full_by_id(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed, Pose& pose,
-                   Failure& failure) const;
+  bool lookup_full_by_id(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed,
+                         Pose& pose, Failure& failure) const;
   // The same for two frames that a lookup_cached_path() has not helped.
   bool lookup_by_walking(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
   // The same without a word of what is missing, for two different frames and with paths that only the caller uses;
@@ -143,7 +145,8 @@ class Buffer {
   }
   // By name; notes the numbers of the frames in the query. With `extrapolation` also beyond the data, as far as it
   // allows; it learns how far that was.
-  bool lookup_by_name(LookupQuery& query, LookupResult& result, Failure& failure, Extrapolation* extrapolation = nullptr) const;
+  bool lookup_by_name(LookupQuery& query, LookupResult& result, Failure& failure,
+                      Extrapolation* extrapolation = nullptr) const;
   // Returns the first row that has no answer, and `failure` says why; batch.count if there is none.
   std::size_t lookup_many(const LookupQuery& query, const Extrapolation* extrapolation, const Batch& batch,
                           unsigned threads, Failure& failure) const;
@@ -192,16 +195,15 @@ class Buffer {
   template <class Lookup>
   bool retry_until_stable(bool for_latest, const Failure& failure, Lookup&& lookup) const;
   bool extrapolate_by_id(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
-                   Failure& failure) const;
-  std::size_t lookup_rows(LookupQuery query, const Extrapolation* extrapolation, const Batch& batch,
-                          std::size_t first, std::size_t last, Failure& failure) const;
+                         Failure& failure) const;
+  std::size_t lookup_rows(LookupQuery query, const Extrapolation* extrapolation, const Batch& batch, std::size_t first,
+                          std::size_t last, Failure& failure) const;
   void clip(const PathCache::Path& path, std::size_t count, Stamp* stamps) const;
   bool lookup_row(LookupQuery& query, const Extrapolation* extrapolation, const Batch& batch, std::size_t row,
                   Failure& failure) const;
   bool resolve_both(LookupQuery& query, Failure& failure) const;
   bool resolve(std::string_view name, Argument argument, FrameId& frame, Failure& failure) const;
-  std::size_t insert_block(const Track& block, bool is_static, AuthorityId authority,
-                           std::vector<Inserted>& inserted);
+  std::size_t insert_block(const Track& block, bool is_static, AuthorityId authority, std::vector<Inserted>& inserted);
   template <class Insert>
   unsigned insert_and_announce(Insert&& insert);
   void store(TransformStream& stream, std::size_t index, const TransformView& view, Inserted& inserted);
@@ -219,8 +221,8 @@ class Buffer {
   Counts counts_;  // guarded by writing_
   std::atomic<bool> frozen_{false};
   WaitQueue wait_queue_{tree_, [this](LookupQuery& query, LookupResult& result, Failure& failure) {
-                              return this->lookup_by_name(query, result, failure);
-                            }};
+                          return this->lookup_by_name(query, result, failure);
+                        }};
   std::atomic<std::uint64_t> changes_{0};  // written under writing_
 };
 

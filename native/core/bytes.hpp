@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers and texts in a row, little endian and without padding, read within bounds.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/cdr.hpp"
 
 #include <algorithm>
@@ -173,7 +174,8 @@ DecodeFailure decode_tf_message(const std::uint8_t* data, std::size_t size, std:
 DecodeFailure check_tf_message(const std::uint8_t* data, std::size_t size) {
   std::uint32_t count;
   TransformView view;
-  return read_message(data, size, count, [&](CdrReader& reader, std::uint32_t) { return read_transform(reader, view); });
+  return read_message(data, size, count,
+                      [&](CdrReader& reader, std::uint32_t) { return read_transform(reader, view); });
 }
 
 std::string encode_tf_message(const std::vector<TransformView>& transforms) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tf2_msgs/TFMessage as CDR (XCDR1, with its 4-byte encapsulation header): bytes in, bytes out.
 #pragma once
 
@@ -17,7 +18,8 @@ struct TransformView {
   std::string_view parent, child;
   Stamp stamp;
   TransformValues values;
-  // Both names with their lengths and paddings, as they lie between the stamp and the numbers of a little-endian message.
+  // Both names with their lengths and paddings, as they lie between the stamp and the numbers of a little-endian
+  // message.
   std::string_view name_bytes{};
   bool as_expected = false;  // they are those that were expected: no name is set
 };

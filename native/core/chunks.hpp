@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where samples lie: blocks of a fixed size, never given back to the system while their pool lives, so that a reader
 // who comes too late reads old or wrong numbers, which its revision tells it, and never foreign memory.
 #pragma once
@@ -13,9 +14,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/arena.hpp"
 #include "core/pose.hpp"
 #include "core/relaxed_atomic.hpp"
-#include "core/arena.hpp"
 
 namespace coframe {
 
@@ -86,7 +87,8 @@ struct PooledChunk : Chunk {
 
 class ChunkPool {
  public:
-  // Held once. The caller must tell readers (Revision::Change): they may still be reading it as part of another history.
+  // Held once. The caller must tell readers (Revision::Change): they may still be reading it as part of another
+  // history.
   PooledChunk* take() {
     const std::lock_guard lock(mutex_);
     PooledChunk* chunk = free_.empty() ? fresh() : free_.back();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The tree as text, in the forms that tf2's users and tools read.
 #pragma once
 

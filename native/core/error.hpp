@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Why a look-up failed: a code and its facts. The text, tf2's to the letter, is made only when somebody reads it.
 #pragma once
 
@@ -29,10 +30,10 @@ enum class Argument : std::uint8_t { target_frame, source_frame, fixed_frame };
 struct Failure {
   ErrorCode code = ErrorCode::none;
   Argument argument = Argument::target_frame;
-  FrameId target = 0, source = 0;          // of the leg that failed
+  FrameId target = 0, source = 0;  // of the leg that failed
   // Where the walks up from both ended, at a root or for want of a sample; 0 where one was not begun or did not end.
   FrameId target_end = 0, source_end = 0;
-  FrameId edge = 0;                        // the child frame of the link without a sample at `requested`
+  FrameId edge = 0;  // the child frame of the link without a sample at `requested`
   Stamp requested = 0;
   Stamp earliest = 0, latest = 0;  // what that link has
   std::string name;                // the invalid or unknown name

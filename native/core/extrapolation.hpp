@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a frame was shortly before or after its samples: tf2 never says; who asks for it gets a bounded guess.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/frozen.hpp"
 
 #include <algorithm>
@@ -12,15 +13,13 @@ namespace coframe {
 
 namespace {
 
-constexpr std::array kCounts = {&Frame::Counts::stored, &Frame::Counts::late, &Frame::Counts::repeated,
-                                &Frame::Counts::old,    &Frame::Counts::self, &Frame::Counts::nan,
+constexpr std::array kCounts = {&Frame::Counts::stored,    &Frame::Counts::late, &Frame::Counts::repeated,
+                                &Frame::Counts::old,       &Frame::Counts::self, &Frame::Counts::nan,
                                 &Frame::Counts::quaternion};
 
 std::uint64_t chunks_for(std::uint64_t samples) { return samples / Chunk::kSize + (samples % Chunk::kSize != 0); }
 
-std::uint64_t chunks_of(const History::View& samples) {
-  return samples.is_static() ? 0 : chunks_for(samples.size());
-}
+std::uint64_t chunks_of(const History::View& samples) { return samples.is_static() ? 0 : chunks_for(samples.size()); }
 
 class TableWriter {
  public:
@@ -67,7 +66,7 @@ bool read_span(ByteReader& reader, History::Span& span) {
 
 void write_frame(TableWriter& writer, const Frame& frame) {
   const History::View samples = frame.history.view();
-  const HistoryKind kind = !samples.exists()      ? HistoryKind::none
+  const HistoryKind kind = !samples.exists()     ? HistoryKind::none
                            : samples.is_static() ? HistoryKind::fixed
                                                  : HistoryKind::dynamic;
   writer.text(frame.name);

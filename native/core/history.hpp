@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The samples of one frame in time order, searched and not walked. tf2's TimeCache and StaticCache. One thread writes,
 // any number read without a lock: what they get is good if the tree's revision did not change meanwhile.
 #pragma once
@@ -120,11 +121,10 @@ class History {
         prefetch(&chunk_of(number).samples[number % Chunk::kSize]);
       }
     }
-    // The two samples between which the pose at `stamp` lies, one of them where it holds alone; `stamp` lies between the
-    // sample `next` and the one before.
-    // At the stamp of a sample there is nothing between: the newest holds, or else the last one of that stamp, and at
-    // the oldest stamp the first one. A change of the parent is not interpolated over: the older sample holds (tf2's
-    // findClosest).
+    // The two samples between which the pose at `stamp` lies, one of them where it holds alone; `stamp` lies between
+    // the sample `next` and the one before. At the stamp of a sample there is nothing between: the newest holds, or
+    // else the last one of that stamp, and at the oldest stamp the first one. A change of the parent is not
+    // interpolated over: the older sample holds (tf2's findClosest).
     Pair pair(std::uint64_t next, Stamp stamp) const {
       const std::size_t i = next % Chunk::kSize;
       const Chunk& chunk = chunk_of(next);
@@ -168,8 +168,8 @@ class History {
       const auto most = static_cast<double>(high_ - low_);
       return low_ + static_cast<std::uint64_t>(offset < most ? offset : most);
     }
-    // The first sample newer than a stamp that covers() allows and that is not the newest: doubling steps from the guess
-    // find it.
+    // The first sample newer than a stamp that covers() allows and that is not the newest: doubling steps from the
+    // guess find it.
     std::uint64_t first_after(Stamp stamp, std::uint64_t guess) const;
     // The newer one of the two samples that View::between() wants for a stamp that covers() allows.
     std::uint64_t next(Stamp stamp, std::uint64_t guess) const {
@@ -211,9 +211,9 @@ class History {
     view.directory_ = directory_.load(std::memory_order_acquire);
     return view;
   }
-  // From which stamp to which there are samples, and the frame that the newest is told in: without a look at the samples
-  // themselves. A static history reaches from the first of all stamps to the last, an empty one from the last to the
-  // first.
+  // From which stamp to which there are samples, and the frame that the newest is told in: without a look at the
+  // samples themselves. A static history reaches from the first of all stamps to the last, an empty one from the last
+  // to the first.
   struct Span {
     Stamp first, last;
     FrameId parent;
@@ -249,8 +249,8 @@ class History {
   // Stores a sample as tf2 does: prunes by the newest stamp before this one, refuses what is older than the cache
   // length, takes an exact repetition silently, puts equal stamps behind each other. Not for HistoryKind::none.
   Insertion insert(const HistoryContext& context, Stamp stamp, const Sample& sample);
-  // insert() of a sample that is newer than all and told in the same frame as they, where nothing has to grow: the usual
-  // case. False: nothing was done.
+  // insert() of a sample that is newer than all and told in the same frame as they, where nothing has to grow: the
+  // usual case. False: nothing was done.
   bool append_newer(const HistoryContext& context, Stamp stamp, const Sample& sample) {
     const std::uint64_t end = end_.load(std::memory_order_relaxed);
     const std::size_t i = end % Chunk::kSize;  // 0 also where there are no samples yet
@@ -295,9 +295,7 @@ class History {
     return start;
   }
   // Saturating: stamps may come from anywhere.
-  static Stamp minus(Stamp stamp, Stamp length) {
-    return stamp < kFirstStamp + length ? kFirstStamp : stamp - length;
-  }
+  static Stamp minus(Stamp stamp, Stamp length) { return stamp < kFirstStamp + length ? kFirstStamp : stamp - length; }
   void drop_older_than(ChunkPool& pool, Stamp stamp);
   void drop_all(ChunkPool& pool);
   PooledChunk* pooled_chunk_at(std::uint64_t index) const { return static_cast<PooledChunk*>(chunk_at(index)); }
@@ -316,8 +314,8 @@ class History {
   RelaxedAtomic<FrameId> parent_{0};
   RelaxedAtomic<HistoryKind> kind_{HistoryKind::none};
   RelaxedAtomic<bool> one_parent_{true};
-  bool mapped_ = false;  // the chunks are of no pool
-  SharedSample fixed_;  // the one sample of a static history
+  bool mapped_ = false;                                  // the chunks are of no pool
+  SharedSample fixed_;                                   // the one sample of a static history
   std::vector<std::unique_ptr<Directory>> directories_;  // the last is in use; readers may still be in the others
 };
 

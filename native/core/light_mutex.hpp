@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A mutex for short scopes that are entered millions of times: one atomic step to lock it and one to unlock, where
 // nobody else wants it. Who must wait sleeps.
 #pragma once

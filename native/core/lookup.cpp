@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/lookup.hpp"
 
 #include <algorithm>
@@ -33,8 +34,8 @@ ErrorCode code_of(Found found) {
   }
 }
 
-void fail_missing_sample(const History::View& history, Found found, FrameId edge, FrameId target, FrameId source, Stamp stamp,
-                 Failure& failure) {
+void fail_missing_sample(const History::View& history, Found found, FrameId edge, FrameId target, FrameId source,
+                         Stamp stamp, Failure& failure) {
   failure.reset(code_of(found), target, source, stamp);
   failure.edge = edge;
   failure.earliest = history.oldest();
@@ -116,8 +117,8 @@ bool walk_pose(const Tree& tree, Method& method, FrameId target, FrameId source,
   return true;
 }
 
-// Along a remembered path between two frames, from the target to the source; false where a link has no sample, or one of another parent,
-// and the slow walk has to say what that means.
+// Along a remembered path between two frames, from the target to the source; false where a link has no sample, or one
+// of another parent, and the slow walk has to say what that means.
 bool path_pose(std::vector<PathCache::Step>& steps, Stamp stamp, Pose& pose) {
   constexpr std::size_t kLinks = 32;
   std::array<Link, kLinks> links;
@@ -168,7 +169,7 @@ bool lookup_path_in_tree(const Tree& tree, PathCache& paths, FrameId target, Fra
 }
 
 bool lookup_in_tree(const Tree& tree, PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
-            Failure& failure) {
+                    Failure& failure) {
   if (target == source) return identity(tree, target, stamp, pose);
   if (paths && lookup_path_in_tree(tree, *paths, target, source, stamp, pose)) return true;
   if (stamp == 0 && !latest_common_time(tree, target, source, stamp, failure)) return false;
@@ -178,8 +179,8 @@ bool lookup_in_tree(const Tree& tree, PathCache* paths, FrameId target, FrameId 
   return true;
 }
 
-bool extrapolate_in_tree(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
-            Failure& failure) {
+bool extrapolate_in_tree(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp,
+                         Pose& pose, Failure& failure) {
   extrapolation.furthest = 0;
   if (target == source) return identity(tree, target, stamp, pose);
   if (stamp == 0 && !latest_common_time(tree, target, source, stamp, failure)) return false;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From frame to frame through the tree at one time: tf2's lookupTransform over a Tree.
 #pragma once
 
@@ -16,7 +17,7 @@ namespace coframe {
 // `stamp` 0 asks for the latest common time and becomes it. False: `failure` says why; frames must exist (not 0).
 // `paths` nullptr: every link is walked.
 bool lookup_in_tree(const Tree& tree, PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
-            Failure& failure);
+                    Failure& failure);
 
 // The same along a remembered path, for two different frames; false where lookup() has to decide.
 bool lookup_path_in_tree(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose);
@@ -36,8 +37,8 @@ inline bool check_path_in_tree(const Tree& tree, PathCache& paths, FrameId targe
 }
 
 // The same beyond the data of a link, as far as `extrapolation` allows, which then knows how far it went.
-bool extrapolate_in_tree(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
-            Failure& failure);
+bool extrapolate_in_tree(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp,
+                         Pose& pose, Failure& failure);
 
 // The newest time at which every link between both frames has data; 0 where all of them are static.
 bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp& stamp, Failure& failure);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers by name: one thread adds, any number look up, without a lock. The names themselves are kept elsewhere.
 #pragma once
 

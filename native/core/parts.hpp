@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Work that several threads share.
 #pragma once
 
@@ -9,8 +10,8 @@
 
 namespace coframe {
 
-// Calls body(first, last) for parts of [0, count), each in a thread of its own; they begin at multiples of `block`, so that
-// there may be fewer than asked for.
+// Calls body(first, last) for parts of [0, count), each in a thread of its own; they begin at multiples of `block`, so
+// that there may be fewer than asked for.
 template <class Body>
 void in_parts(std::size_t count, std::size_t block, unsigned threads, Body&& body) {
   const std::size_t blocks = (count + block - 1) / block;

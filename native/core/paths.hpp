@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paths through the tree that were walked once.
 #pragma once
 
@@ -14,8 +15,8 @@ class PathCache {
  public:
   struct Step {
     const History* history;
-    FrameId parent;  // that all its samples had
-    bool down;       // from parent to child: the pose is to be inverted
+    FrameId parent;          // that all its samples had
+    bool down;               // from parent to child: the pose is to be inverted
     std::uint64_t hint = 0;  // for History::place()
   };
   struct Path {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A rigid pose and its algebra: unit quaternions (x, y, z, w) and translations in metres.
 #pragma once
 

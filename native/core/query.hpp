@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One query to a buffer: where is a frame, seen from another, and when.
 #pragma once
 
@@ -32,10 +33,10 @@ struct Batch {
     clip,  // take the nearest time for which all links have data
   };
   std::size_t count;
-  Stamp* stamps;           // in: when, 0 is the latest; out: when that was
-  double* poses;           // out: x, y, z, qx, qy, qz, qw a row
-  double* twists;          // out, if wanted: vx, vy, vz, wx, wy, wz a row, m/s and rad/s along the target's axes
-  Stamp* beyond;           // out, if extrapolated: nanoseconds beyond the data
+  Stamp* stamps;   // in: when, 0 is the latest; out: when that was
+  double* poses;   // out: x, y, z, qx, qy, qz, qw a row
+  double* twists;  // out, if wanted: vx, vy, vz, wx, wy, wz a row, m/s and rad/s along the target's axes
+  Stamp* beyond;   // out, if extrapolated: nanoseconds beyond the data
   Missing missing = Missing::stop;
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A value that one thread writes while others read it: each read gets one of the values written, in no order that the
 // code around it does not give.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/relay.hpp"
 
 #include <algorithm>
@@ -44,8 +45,7 @@ void Relay::add(SourceId source, WriterId writer, const std::uint8_t* data, std:
   for (std::size_t i = 0; i < decoded_.size(); ++i) {
     const TransformView& view = decoded_[i];
     newest = std::max(newest, view.stamp);
-    const std::uint32_t place =
-        view.as_expected ? from.expected[i].child : place_of(sources_[source], from, i, view);
+    const std::uint32_t place = view.as_expected ? from.expected[i].child : place_of(sources_[source], from, i, view);
     if (place == 0) continue;
     if (check_values(view.values) != 0) {
       ++from.refused;
@@ -123,8 +123,8 @@ std::uint32_t Relay::find_or_add(const std::string& parent, const std::string& c
   return place + 1;
 }
 
-// A source keeps the frames that it told of first, unless it falls silent: two at once would make them flicker, and what
-// comes back by way of another program would go round for ever.
+// A source keeps the frames that it told of first, unless it falls silent: two at once would make them flicker, and
+// what comes back by way of another program would go round for ever.
 bool Relay::is_listened_to(std::uint32_t place, SourceId source, const TransformView& view, std::int64_t now) {
   Claim& claim = claims_[edges_[place].claim];
   const bool is_free = claim.source == kNobody || (!is_static_ && now - claim.received_at > kPatience);
@@ -152,10 +152,8 @@ bool Relay::is_due(Edge& edge, std::int64_t now) const {
 }
 
 void Relay::write(const Edge& edge) {
-  written_.push_back({.parent = edge.parent,
-                      .child = claims_[edge.claim].child,
-                      .stamp = edge.newest,
-                      .values = edge.values});
+  written_.push_back(
+      {.parent = edge.parent, .child = claims_[edge.claim].child, .stamp = edge.newest, .values = edge.values});
 }
 
 }  // namespace coframe

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Trees of transforms on their way into another one: messages in, messages out, each edge from one source only.
 #pragma once
 
@@ -8,10 +9,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/cdr.hpp"
 #include "core/arrival_period.hpp"
-#include "core/stamp_delay.hpp"
+#include "core/cdr.hpp"
 #include "core/renaming.hpp"
+#include "core/stamp_delay.hpp"
 
 namespace coframe {
 
@@ -32,12 +33,12 @@ class Relay {
 
   // A frame, whoever tells of it: one source is listened to.
   struct Claim {
-    std::string child;         // as it is written
-    SourceId source;           // who was first
-    SourceId rival = kNobody;  // who else tells of it, something else
+    std::string child;            // as it is written
+    SourceId source;              // who was first
+    SourceId rival = kNobody;     // who else tells of it, something else
     std::uint64_t contested = 0;  // transforms of rivals, which are left out
     std::int64_t received_at = 0;
-    std::uint32_t edge = 0;    // the newest one's place
+    std::uint32_t edge = 0;  // the newest one's place
   };
 
   struct Edge {
@@ -101,8 +102,8 @@ class Relay {
   std::vector<Source> sources_;
   std::deque<Claim> claims_;  // views of names are written: they stay where they are
   std::deque<Edge> edges_;
-  std::unordered_map<std::string, std::uint32_t> claim_of_;               // by child
-  std::unordered_map<std::string, std::uint32_t> edge_of_;                // by parent, NUL, child
+  std::unordered_map<std::string, std::uint32_t> claim_of_;  // by child
+  std::unordered_map<std::string, std::uint32_t> edge_of_;   // by parent, NUL, child
   std::vector<TransformView> decoded_, written_;
   bool is_news_ = false;  // a static edge has changed
 };

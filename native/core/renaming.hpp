@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The frames of one robot among those of others: a prefix in front of all names but those that are shared.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How readers learn that what they read was being changed meanwhile (a sequence lock): they take no lock, so that no
 // reader ever holds a writer up.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // tf2_msgs/TFMessage and tf/tfMessage as ROS 1 serialises them: little endian, nothing aligned, texts without NUL.
 #pragma once
 

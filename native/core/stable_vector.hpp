@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A vector that only grows and whose elements never move: one thread appends, any number read, without a lock.
 #pragma once
 

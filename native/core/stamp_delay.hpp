@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far a source's stamps are behind the clock of whoever receives them: the lower quartile of the last messages. The
 // way only ever adds to it, which the least would show best, were it not for single stamps that are wild.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frames by name and by number, each with its history. One thread writes (Buffer sees to that), any number read without
 // a lock; what they read is good if revision() did not change meanwhile.
 #pragma once
@@ -22,9 +23,9 @@ struct Frame {
   // What became of the samples that were told of it, since the buffer exists.
   struct Counts {
     RelaxedAtomic<std::uint64_t> stored;
-    RelaxedAtomic<std::uint64_t> late;      // of these, put before newer ones
-    RelaxedAtomic<std::uint64_t> repeated;  // exact repetitions, which change nothing
-    RelaxedAtomic<std::uint64_t> old;       // refused as older than the cache
+    RelaxedAtomic<std::uint64_t> late;                   // of these, put before newer ones
+    RelaxedAtomic<std::uint64_t> repeated;               // exact repetitions, which change nothing
+    RelaxedAtomic<std::uint64_t> old;                    // refused as older than the cache
     RelaxedAtomic<std::uint64_t> self, nan, quaternion;  // refused for these reasons
 
     void add(Insertion outcome);

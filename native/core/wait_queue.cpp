@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/wait_queue.hpp"
 
 #include <algorithm>
@@ -259,7 +260,7 @@ void WaitQueue::dequeue(const std::shared_ptr<Wait>& wait) {
 
 // Names that never become frames must not pile up.
 template <class Waiter>
-void WaitQueue::remove_from_name(const std::string& name, std::vector<std::shared_ptr<Waiter>> Waiters::*waiters,
+void WaitQueue::remove_from_name(const std::string& name, std::vector<std::shared_ptr<Waiter>> Waiters::* waiters,
                                  const std::shared_ptr<Waiter>& waiter) {
   const auto found = by_name_.find(name);
   if (found == by_name_.end()) return;

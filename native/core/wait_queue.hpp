@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who waits for an insertion, found by the frame it concerns: an insertion on another edge costs nothing, and nobody is
 // woken in vain.
 #pragma once
@@ -126,8 +127,8 @@ class WaitQueue {
   WaitCondition condition_for(const LookupQuery& query, const Failure& failure) const;
   void add_behind(FrameId frame, Stamp common, std::vector<FrameId>& frames) const;
   template <class Waiter>
-  void remove_from_name(const std::string& name, std::vector<std::shared_ptr<Waiter>> Waiters::*waiters,
-                      const std::shared_ptr<Waiter>& waiter);
+  void remove_from_name(const std::string& name, std::vector<std::shared_ptr<Waiter>> Waiters::* waiters,
+                        const std::shared_ptr<Waiter>& waiter);
   void enqueue(const std::shared_ptr<Wait>& wait, WaitCondition condition);
   void dequeue(const std::shared_ptr<Wait>& wait);
   void forget(const std::shared_ptr<Wait>& wait);

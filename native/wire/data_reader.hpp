@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A DDS reader with a data listener: the part that all our readers share.
 #pragma once
 
@@ -12,7 +13,8 @@ namespace coframe {
 // `close` returns. Samples may be waiting already when the listener is attached: the owner looks once by itself.
 class DataReader {
  public:
-  DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data, void* argument);
+  DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data,
+             void* argument);
   ~DataReader() { close(); }
   DataReader(const DataReader&) = delete;
   DataReader& operator=(const DataReader&) = delete;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The endpoints that DDS discovery knows, own and foreign: publications or subscriptions as they come and go.
 #pragma once
 

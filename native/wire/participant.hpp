@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One membership in a DDS domain: the domain with its configuration, and a participant in it.
 #pragma once
 

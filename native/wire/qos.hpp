@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Quality of service: the four policies ROS programs set, and the DDS object made of them.
 #pragma once
 

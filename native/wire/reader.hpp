@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // DDS -> serialised messages of any type, taken by whoever waits for the event.
 #pragma once
 

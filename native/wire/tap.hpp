@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // DDS -> serialised messages with the time at which each came, taken by whoever looks now and then.
 #pragma once
 
@@ -14,8 +15,8 @@ namespace coframe {
 
 class Tap {
  public:
-  // Messages, the oldest first: when each came by the system's clock, when its writer says it was sent (both nanoseconds
-  // since 1970), by whom, and where its first bytes end among those of all of them.
+  // Messages, the oldest first: when each came by the system's clock, when its writer says it was sent (both
+  // nanoseconds since 1970), by whom, and where its first bytes end among those of all of them.
   struct Messages {
     std::vector<std::int64_t> arrived, sent;
     std::vector<dds::Handle> writers;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "wire/tf_reader.hpp"
 
 #include <chrono>
@@ -17,9 +18,9 @@ std::int64_t now() {
 
 }  // namespace
 
-TfReader::TfReader(dds::Entity participant, dds::Entity topic, const QosProfile& profile,
-                   const std::string& user_data, std::shared_ptr<Buffer> buffer, bool is_static,
-                   const std::string& authority, std::shared_ptr<const Renaming> renaming)
+TfReader::TfReader(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
+                   std::shared_ptr<Buffer> buffer, bool is_static, const std::string& authority,
+                   std::shared_ptr<const Renaming> renaming)
     : buffer_(std::move(buffer)),
       is_static_(is_static),
       authority_(authority),
@@ -44,7 +45,8 @@ std::vector<TfReader::WriterStatistics> TfReader::writers() const {
   const std::lock_guard lock(mutex_);
   std::vector<WriterStatistics> all;
   for (const auto& [writer, source] : sources_) {
-    all.push_back({writer, source.messages, source.received_at, source.period, source.delay, source.stream.name_problems});
+    all.push_back(
+        {writer, source.messages, source.received_at, source.period, source.delay, source.stream.name_problems});
   }
   return all;
 }
@@ -67,7 +69,9 @@ TfReader::Source& TfReader::source_of(dds::Handle writer) {
   const auto found = sources_.find(writer);
   if (found != sources_.end()) return found->second;
   if (sources_.size() >= kMaxSources) std::erase_if(sources_, [](const auto& entry) { return !entry.second.named; });
-  return sources_.emplace(writer, Source{.stream = buffer_->open_stream(is_static_, authority_, renaming_), .period = {}, .delay = {}})
+  return sources_
+      .emplace(writer,
+               Source{.stream = buffer_->open_stream(is_static_, authority_, renaming_), .period = {}, .delay = {}})
       .first->second;
 }
 

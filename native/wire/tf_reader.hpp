@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // DDS -> buffer: transforms are stored on DDS's own thread, without Python and its lock.
 #pragma once
 
@@ -9,8 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/buffer.hpp"
 #include "core/arrival_period.hpp"
+#include "core/buffer.hpp"
 #include "core/stamp_delay.hpp"
 #include "wire/data_reader.hpp"
 #include "wire/qos.hpp"
@@ -25,7 +26,7 @@ class TfReader {
     std::uint64_t messages;
     std::int64_t received_at;  // nanoseconds of the steady clock
     ArrivalPeriod period;
-    StampDelay delay;                // behind the system clock; of transforms that are not static
+    StampDelay delay;  // behind the system clock; of transforms that are not static
     NameProblems name_problems;
   };
 
@@ -68,10 +69,10 @@ class TfReader {
   const bool is_static_;
   const std::string authority_;
   const std::shared_ptr<const Renaming> renaming_;
-  mutable std::mutex mutex_;                          // of the sources
+  mutable std::mutex mutex_;                         // of the sources
   std::unordered_map<dds::Handle, Source> sources_;  // by writer
   std::atomic<std::int64_t> stored_at_ = 0;
-  DataReader reader_;                                 // last: its callback uses the members above
+  DataReader reader_;  // last: its callback uses the members above
 };
 
 }  // namespace coframe
