@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames under other names, and relays of their messages.
+// Renaming of frames, and relays of their messages.
 #include "core/relay.hpp"
 
 #include <nanobind/stl/string.h>
@@ -20,14 +20,14 @@ std::int64_t now() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count();
 }
 
-// What Relay passes on is UTF-8, but examples of names may be cut anywhere.
+// Names that Relay writes are UTF-8, but examples of names may be cut anywhere.
 nb::str to_str(const std::string& name) {
   return nb::steal<nb::str>(
       PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace"));
 }
 
 void add(Relay& self, Relay::SourceId source, Relay::WriterId writer, nb::bytes message, std::int64_t at) {
-  if (source >= self.sources()) throw nb::index_error("there is no such source");
+  if (source >= self.sources()) throw nb::index_error("no source with this number");
   const std::int64_t steady = at < 0 ? now<std::chrono::steady_clock>() : at;
   self.add(source, writer, reinterpret_cast<const std::uint8_t*>(message.c_str()), message.size(), steady,
            now<std::chrono::system_clock>());
@@ -52,7 +52,7 @@ nb::list edges(const Relay& self) {
 }
 
 nb::list relay_writers(const Relay& self, Relay::SourceId source) {
-  if (source >= self.sources()) throw nb::index_error("there is no such source");
+  if (source >= self.sources()) throw nb::index_error("no source with this number");
   nb::list list;
   for (const auto& [handle, writer] : self.writers(source)) {
     list.append(nb::make_tuple(
@@ -72,12 +72,11 @@ nb::tuple writer_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_
 }
 
 void define_relay(nb::module_& module) {
-  nb::class_<Renaming>(module, "Renaming", "Puts a prefix in front of the names of frames, except of those to keep.")
+  nb::class_<Renaming>(module, "Renaming", "Add a prefix to the names of frames, except those to keep.")
       .def(nb::init<std::string, std::vector<std::string>>(), nb::arg("prefix"), nb::arg("keep"))
       .def("__call__", [](const Renaming& self, const std::string& name) { return self(name); }, nb::arg("name"));
 
-  nb::class_<Relay>(module, "Relay",
-                    "TFMessages of several sources into those of one tree. Not for several threads at once.")
+  nb::class_<Relay>(module, "Relay", "Merge the TFMessages of several sources into one tree. Not thread-safe.")
       .def(
           "__init__", [](Relay* self, bool is_static, std::int64_t period) { new (self) Relay(is_static, period); },
           nb::arg("static"), nb::arg("period"))
@@ -86,13 +85,14 @@ void define_relay(nb::module_& module) {
           [](Relay& self, const Renaming& renaming, bool split) {
             return self.add_source(renaming, split ? Relay::Direction::split : Relay::Direction::merge);
           },
-          nb::arg("renaming"), nb::arg("split"), "The number of another source.")
+          nb::arg("renaming"), nb::arg("split"), "Add a source; return its number.")
       .def("add", &add, nb::arg("source"), nb::arg("writer"), nb::arg("message"), nb::arg("at") = -1,
-           "Takes a message in that came from a writer of a source.")
-      .def("take", &take_relayed, "One message of what was taken in since the last one, or None.")
-      .def("forget_writer", &Relay::forget_writer, nb::arg("source"), nb::arg("writer"), "The writer has left.")
-      .def("edges", &edges, "What is known of each edge.")
-      .def("writers", &relay_writers, nb::arg("source"), "What each writer of a source has sent.");
+           "Add a message from a writer of a source.")
+      .def("take", &take_relayed, "Return one message with everything added since the last call, or None.")
+      .def("forget_writer", &Relay::forget_writer, nb::arg("source"), nb::arg("writer"),
+           "Forget a writer that has disappeared.")
+      .def("edges", &edges, "Return the statistics of each edge.")
+      .def("writers", &relay_writers, nb::arg("source"), "Return the statistics of each writer of a source.");
 }
 
 }  // namespace coframe::bindings

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one writer has sent, as Python sees it.
+// The statistics of one writer as a Python tuple.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -12,8 +12,8 @@
 
 namespace coframe::bindings {
 
-// (handle, messages, time of the last one, period, typical delay or None, examples of names: with a slash, with the
-// prefix, without it)
+// (handle, messages, time of the last one, period, typical delay or None, examples of names: with a leading slash, with
+// the prefix, without it)
 nanobind::tuple writer_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t received_at,
                              const ArrivalPeriod& period, const StampDelay& delay, const NameProblems& name_problems);
 

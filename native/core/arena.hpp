@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A piece of memory for many things of one kind, freed as a whole.
+// A block of memory for many objects of one kind that is freed as a whole.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@ class Arena {
   static constexpr std::size_t kAlignment = 64;                // a cache line
   static constexpr std::size_t kLarge = std::size_t{2} << 20;  // a large page
 
-  // Not initialised. For kLarge the system is asked to use a large page: filling that is many times faster than page by
-  // page.
+  // The memory is not initialised. A block of kLarge bytes is requested as one large page, which is filled many times
+  // faster than small pages.
   explicit Arena(std::size_t size);
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;

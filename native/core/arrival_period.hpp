@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The usual period of a source of messages: the median interval between the arrivals of the last ones.
+// The usual period of a publisher: the median interval between the arrivals of its last messages.
 #pragma once
 
 #include <algorithm>

@@ -45,12 +45,12 @@ void measure_intervals(const History::View& samples, EdgeSummary& edge) {
 }
 
 constexpr std::size_t kInsertBlock = 1024;
-// Fewer look-ups are not brought into order.
+// Smaller batches are not sorted.
 constexpr std::size_t kWorthSorting = 4 * kRowBlock;
 
 TransformValues values_of(const double* row) { return {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}}; }
 
-// Why the first row that is refused is; 0, and `row` is behind the last one, where none is.
+// Returns why the first invalid row is rejected; 0, with `row` past the last one, if all are valid.
 unsigned track_refusals(const Track& track, unsigned refused_names, std::size_t& row) {
   for (row = 0; row < track.count; ++row) {
     if (refused_names == 0) row += kernels().plain_rows(track.poses + 7 * row, track.count - row);
@@ -126,7 +126,7 @@ unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId aut
   const std::vector<std::size_t> order = is_sorted ? std::vector<std::size_t>{} : order_of(track);
   std::vector<Stamp> stamps(is_sorted ? 0 : kInsertBlock);
   std::vector<double> poses(is_sorted ? 0 : 7 * kInsertBlock);
-  // In blocks, so that others have their turn.
+  // In blocks, so that other threads get the lock in between.
   for (std::size_t first = 0; first < track.count; first += kInsertBlock) {
     const std::size_t count = std::min(kInsertBlock, track.count - first);
     for (std::size_t i = 0; !is_sorted && i < count; ++i) {
@@ -149,7 +149,7 @@ unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId aut
   return 0;
 }
 
-// Runs that go on behind what is there take the short way.
+// Runs of rows that are newer than the stored samples take the fast path.
 std::size_t Buffer::insert_block(const Track& block, bool is_static, AuthorityId authority,
                                  std::vector<Inserted>& inserted) {
   std::size_t stored = 0;
@@ -212,7 +212,7 @@ DecodeFailure Buffer::ingest_without_notify(TransformStream& stream, const std::
     ++counts_.messages;
     if (failure.reason) ++counts_.malformed;
     for (std::size_t i = 0; i < transforms; ++i) {
-      // Also what is refused as too old changes something: it makes frames known, and older ones may be forgotten.
+      // Rejected old samples also change the tree: they create frames, and older samples may be pruned.
       store(stream, i, stream.decoded[i], stream.inserted[i]);
       if (count(stream.inserted[i].refusals)) ++stored;
     }
@@ -261,7 +261,7 @@ Inserted Buffer::store_named(TransformStream& stream, std::size_t index, const T
   return inserted;
 }
 
-// True for a stored transform.
+// Returns true for a stored transform.
 bool Buffer::count(unsigned refusals) {
   ++(refusals == 0 ? counts_.stored : refusals & kOldData ? counts_.old : counts_.refused);
   return refusals == 0;
@@ -274,7 +274,7 @@ void Buffer::clear() {
     tree_.clear();
   }
   Inserted cleared;
-  cleared.rewired = true;  // what comes next may be another tree
+  cleared.rewired = true;  // the next insertions may build another tree
   announce(&cleared, 1);
 }
 
@@ -307,8 +307,8 @@ std::shared_ptr<Buffer> Buffer::restored(Stamp cache_length, std::span<const std
   return reason ? nullptr : buffer;
 }
 
-// A sample at the latest common time may be dropped between the choice of that time and the look at the sample; a
-// failure that stays the same is none of these.
+// A sample at the latest common time may be pruned after that time was chosen and before the sample is read. A failure
+// that repeats unchanged has another cause.
 template <class Lookup>
 bool Buffer::retry_until_stable(bool for_latest, const Failure& failure, Lookup&& lookup) const {
   std::pair<Stamp, Stamp> before{};
@@ -374,7 +374,7 @@ bool Buffer::extrapolate_by_id(Extrapolation& extrapolation, FrameId target, Fra
   });
 }
 
-// A frame's number, or a failure that says what is wrong with its name.
+// Finds the id of a frame, or fails with what is wrong with its name.
 bool Buffer::resolve(std::string_view name, Argument argument, FrameId& frame, Failure& failure) const {
   if (name.empty()) return fail_name(ErrorCode::empty_name, argument, name, failure);
   if (name.front() == '/') return fail_name(ErrorCode::leading_slash, argument, name, failure);
@@ -390,7 +390,7 @@ bool Buffer::resolve_both(LookupQuery& query, Failure& failure) const {
 bool Buffer::lookup_by_name(LookupQuery& query, LookupResult& result, Failure& failure,
                             Extrapolation* extrapolation) const {
   result.stamp = query.stamp;
-  if (!query.time_travel && query.target == query.source) {  // also for a frame that nobody knows
+  if (!query.time_travel && query.target == query.source) {  // also for a frame that does not exist
     result.pose = Pose{};
     const FrameId frame = find(query.target);
     return frame == 0 || lookup_by_id(frame, frame, result.stamp, result.pose, failure);
@@ -416,7 +416,7 @@ std::size_t Buffer::lookup_many(const LookupQuery& query, const Extrapolation* e
   for (unsigned i = 1; i < threads; ++i) {
     try {
       others.emplace_back(part, i);
-    } catch (const std::system_error&) {  // no more threads to be had
+    } catch (const std::system_error&) {  // the system has no more threads
       part(i);
     }
   }
@@ -633,8 +633,8 @@ void Buffer::announce(const Inserted* inserted, std::size_t count) {
   notify(inserted, count);
 }
 
-// Unlocking was a full barrier between the data and the look for those who wait; they have one between their name and
-// their look at the data.
+// Unlocking was a full barrier between storing the data and checking for waiters; a waiter has one between registering
+// and reading the data.
 void Buffer::notify(const Inserted* inserted, std::size_t count) {
   if (wait_queue_.empty()) return;
   for (std::size_t i = 0; i < count; ++i) wait_queue_.notify(inserted[i]);

@@ -51,7 +51,7 @@ std::string extrapolation_head(const Failure& failure) {
   }
 }
 
-// What all functions say alike, once the names are valid.
+// The texts that all functions have in common, once the names are valid.
 std::string tree_text(const Failure& failure, const Tree& tree) {
   if (failure.code == ErrorCode::not_connected) {
     return "Could not find a connection between '" + tree.name(failure.target) + "' and '" + tree.name(failure.source) +

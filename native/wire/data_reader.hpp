@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A DDS reader with a data listener: the part that all our readers share.
+// A DDS reader with a data listener: the common part of all readers here.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 namespace coframe {
 
 // Calls `on_data(entity, argument)` on DDS threads, one call at a time, from before the constructor returns until
-// `close` returns. Samples may be waiting already when the listener is attached: the owner looks once by itself.
+// `close` returns. Samples may already be waiting when the listener is attached, so the owner checks once itself.
 class DataReader {
  public:
   DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data,

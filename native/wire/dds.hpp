@@ -13,7 +13,7 @@
 namespace coframe::dds {
 
 using Entity = std::int32_t;
-using Handle = std::uint64_t;  // of an instance: a sample's writer, an announced endpoint
+using Handle = std::uint64_t;  // handle of an instance: the writer of a sample, an announced endpoint
 using Code = std::int32_t;     // 0 or a negative error
 
 struct Guid {
@@ -24,7 +24,7 @@ struct SampleInfo {
   std::int32_t sample_state;
   std::int32_t view_state;
   std::int32_t instance_state;
-  bool valid_data;  // false: an instance's or a writer's end, the payload is a stub
+  bool valid_data;  // false: an instance or a writer has ended, the payload is a stub
   std::int64_t source_timestamp;
   Handle instance_handle;
   Handle publication_handle;
@@ -36,7 +36,7 @@ struct SampleInfo {
 };
 
 struct Serdata;  // a reference-counted serialised sample
-struct Sertype;  // what a topic's samples are
+struct Sertype;  // the type of a topic's samples
 struct Qos;
 struct Listener;
 
@@ -75,13 +75,13 @@ struct IoVector {
 #endif
 };
 
-// What the wheel's topics take as a sample to write.
+// The sample that topics of the wheel write.
 struct SampleContainer {
   const void* data;
   std::size_t size;
 };
 
-// dds_topic_descriptor_t: a type, as programs are made of it that know it at compile time.
+// dds_topic_descriptor_t: a type as generated code describes it.
 struct TypeDescriptor {
   struct Blob {
     const unsigned char* data;
@@ -171,7 +171,7 @@ struct Functions {
 #undef COFRAME_DECLARE
 };
 
-// A call that DDS refused.
+// A DDS call that failed.
 class Error : public std::runtime_error {
  public:
   Error(const std::string& what, Code code);
@@ -185,26 +185,27 @@ class Error : public std::runtime_error {
 // The library stays loaded: its threads may outlive any of our objects.
 void load(const std::string& path);
 
-// The functions; throws std::logic_error before `load`, and where `forked`.
+// The functions. Throws std::logic_error before `load` and if `forked`.
 const Functions& functions();
 
-// True in a child that was forked while its parent had joined: DDS's threads are not there, and its locks may be held.
+// True in a child process that was forked while its parent used DDS: the DDS threads do not exist there, and locks may
+// be held.
 bool forked() noexcept;
-// A participant has been opened (1) or closed (-1).
+// Counts participants: opened (1) or closed (-1).
 void count_participants(int change) noexcept;
 
-// `code` itself, or throws Error "could not <what>: <DDS's word>" where it is negative.
+// Returns `code`, or throws Error "could not <what>: <DDS's text>" if it is negative.
 Code check(Code code, const char* what);
 
-// A topic for who checks the bytes himself: its readers are given any that come under the type's name. With the type
-// itself, Cyclone drops what does not fit, with a line on stderr for each message, where nobody can count it; and its
-// check of a message that is sent takes three times as long as all the rest of the sending.
+// Creates a topic whose readers receive all bytes that arrive under the type's name and check them themselves. With the
+// real type, Cyclone drops invalid messages with a line on stderr each, which cannot be counted, and its check of sent
+// messages takes three times as long as the rest of sending.
 Entity create_unchecked_topic(Entity participant, const std::string& name, const std::string& type);
 
 // The handles that `get`, dds_get_matched_*, gives for `entity`.
 std::vector<Handle> matched_handles(Code (*get)(Entity, Handle*, std::size_t), Entity entity);
 
-// One taken sample, given back to DDS when it goes out of scope.
+// One taken sample, returned to DDS at the end of its scope.
 class Sample {
  public:
   Sample(Serdata* data, const SampleInfo& info) noexcept;
@@ -225,8 +226,8 @@ class Sample {
   SampleInfo info_;
 };
 
-// Takes up to `limit` (at most kBatch) samples off `reader`; calls `use(Sample&&)` for those that hold data.
-// Returns how many were taken, with or without data.
+// Takes up to `limit` (at most kBatch) samples from `reader` and calls `use(Sample&&)` for those with data. Returns how
+// many were taken, with or without data.
 inline constexpr std::uint32_t kBatch = 64;
 
 template <class Use>

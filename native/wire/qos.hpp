@@ -18,7 +18,7 @@ struct QosProfile {
 
 using QosPointer = std::unique_ptr<dds::Qos, void (*)(dds::Qos*)>;
 
-// What others read of the entity is `user_data`.
+// `user_data` is visible to other participants.
 QosPointer make_qos(const std::string& user_data);
 QosPointer make_qos(const QosProfile& profile, const std::string& user_data);
 

@@ -8,7 +8,7 @@
 namespace coframe {
 namespace {
 
-// Publishers come and go, and of those without a name nobody says that they have left: so many are remembered.
+// Limits the number of remembered publishers: DDS does not report the end of every one.
 constexpr std::size_t kMaxSources = 1024;
 
 template <class Clock>
@@ -26,7 +26,7 @@ TfReader::TfReader(dds::Entity participant, dds::Entity topic, const QosProfile&
       authority_(authority),
       renaming_(std::move(renaming)),
       reader_(participant, topic, make_qos(profile, user_data).get(), &TfReader::on_data, this) {
-  on_data(reader_.entity(), this);  // what came before the listener
+  on_data(reader_.entity(), this);  // samples that arrived before the listener was attached
 }
 
 void TfReader::name_writer(dds::Handle writer, const std::string& authority) {
@@ -79,7 +79,7 @@ void TfReader::store(const dds::Sample& sample) {
   const auto bytes = sample.bytes();
   std::size_t stored = 0;
   Source& source = source_of(sample.info().publication_handle);
-  // What is malformed the buffer counts.
+  // The buffer counts malformed messages.
   buffer_->ingest_without_notify(source.stream, bytes.data(), bytes.size(), stored);
   source.received_at = now<std::chrono::steady_clock>();
   source.period.add(source.received_at);
