@@ -621,7 +621,7 @@ Returns:
 Args:
     now: Current time in nanoseconds, for ages and a legend; 0 omits them.)doc")
       .def_prop_ro("statistics", &statistics,
-                   R"doc(Counters: ``messages`` and ``malformed`` (ingested as bytes); ``stored``, ``refused`` and ``old`` (transforms).)doc")
+                   R"doc(Counters: ``messages``, ``malformed`` (ingested as bytes); ``stored``, ``refused``, ``old`` (transforms).)doc")
       .def_prop_ro("_changes", [](const BufferObject& self) { return self.core->changes(); });
   add_frequent_methods(cls);
   module.def("register_buffer_class", [](nb::type_object_t<BufferObject> cls) { add_frequent_methods(cls); }, arg("cls"),

@@ -165,7 +165,7 @@ class Buffer:
     def _set_rows(
         self, parent: str, child: str, stamps: Any, poses: Any, static: bool, authority: str
     ) -> tuple[int, int, int]:
-        """Do _set_values() for each row; return the reasons for refusal, the number stored, and the first refused row."""
+        """Do _set_values() for each row; return reasons for refusal, the number stored, and the first refused row."""
 
     def can_transform(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
@@ -332,7 +332,7 @@ class Buffer:
 
     @property
     def statistics(self) -> dict[str, int]:
-        """Counters: ``messages`` and ``malformed`` (ingested as bytes); ``stored``, ``refused`` and ``old`` (transforms)."""
+        """Counters: ``messages``, ``malformed`` (ingested as bytes); ``stored``, ``refused``, ``old`` (transforms)."""
 
     @property
     def _changes(self) -> int:
