@@ -110,7 +110,7 @@ def test_a_full_disk_stops_recording_with_an_error(processes, tmp_path):
     code, text = processes.end("record")
     assert code == 1
     assert f"coframe: {tmp_path / 'run'} cannot be written: " in text
-    assert "What was written before can be read." in text
+    assert "The messages written before this error can be read." in text
     assert "Traceback" not in text
     assert assert_others_open_it(tmp_path / "run") > 10
     with coframe.open_bag(tmp_path / "run") as bag:
@@ -136,7 +136,7 @@ def test_keys_control_the_replay(network, shared):
     try:
         read_until(b"0 messages, paused")
         os.write(master, b"\x1b[C")
-        read_until(b"1 messages, paused")
+        read_until(b"1 message, paused")
         os.write(master, b"\x1b[A")
         os.write(master, b" ")
         read_until(b"rate 1.1")
@@ -153,7 +153,7 @@ def test_keys_control_the_replay(network, shared):
     ("arguments", "code", "reason"),
     [
         (("record", "--max-size", "big"), 2, "--max-size: 'big' is not a size"),
-        (("record", "--compression", "zip"), 2, "there is no compression 'zip'"),
+        (("record", "--compression", "zip"), 2, "No compression named 'zip'"),
         (("record", "-a", "/tf"), 2, "--all cannot be combined with TOPIC"),
         (("record", "-e", "["), 2, "is not a valid regular expression"),
         (("play", "gone"), 1, "gone cannot be read"),
