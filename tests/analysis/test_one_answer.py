@@ -8,8 +8,8 @@ from rich.console import Console
 
 import coframe
 from coframe.analysis.liveness import LivenessTracker, is_stale
-from coframe.cli.live import tree_table
 from coframe.cli.monitor import _data, _tables
+from coframe.cli.tree_table import tree_table
 from coframe.doctor import Observation, diagnose
 from coframe.doctor.transforms import Transforms
 from coframe.tf_publishers import TfPublisher
