@@ -32,7 +32,7 @@ from coframe.time import SECOND
 from coframe.tree_drawing import grow
 from coframe.tree_drawing.graphviz import as_graphviz
 from coframe.tree_drawing.labels import summary
-from coframe.tree_drawing.mermaid import MOST_LINKS, as_markdown, as_mermaid
+from coframe.tree_drawing.mermaid import MOST_EDGES, as_markdown, as_mermaid
 from coframe.tree_drawing.plain import as_data
 from coframe.tree_drawing.svg import as_svg
 
@@ -162,8 +162,8 @@ def _write(path: Path, forest: Forest, title: str) -> None:
     except OSError as error:
         fail(f"{path} cannot be written: {error.strerror}", "Check that the folder exists and is writable.")
     typer.echo(f"{path}: {summary(forest)}", err=True)
-    if path.suffix.lower() in {".mmd", ".md"} and len(forest.frames) > MOST_LINKS:
-        warn(f"Mermaid draws at most {MOST_LINKS} edges, unless its option maxEdges is increased")
+    if path.suffix.lower() in {".mmd", ".md"} and len(forest.frames) > MOST_EDGES:
+        warn(f"Mermaid draws at most {MOST_EDGES} edges, unless its option maxEdges is increased")
 
 
 def _print(forests: dict[str, Forest]) -> None:
