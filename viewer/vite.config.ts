@@ -62,7 +62,8 @@ function replayPage(): Plugin {
 function preload(): Plugin {
   return {
     name: "preload",
-    transformIndexHtml: (html) => html.replace("</head>", `  <link rel="modulepreload" href="./assets/page.js" />\n  </head>`),
+    transformIndexHtml: (html) =>
+      html.replace("</head>", `  <link rel="modulepreload" href="./assets/page.js" />\n  </head>`),
   };
 }
 

@@ -44,9 +44,7 @@ export class Bar {
       this.pill,
       menu("download", "Export", [
         ["Picture (PNG)", "The scene as it is now", actions.savePicture],
-        ...(live
-          ? ([["Replay (HTML)", "One file that plays without a server", actions.saveReplay]] as const)
-          : []),
+        ...(live ? ([["Replay (HTML)", "One file that plays without a server", actions.saveReplay]] as const) : []),
       ]),
       menu("sun", "Appearance", [
         ["Dark or light", "Key: d", actions.toggleTheme],

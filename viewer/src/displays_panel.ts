@@ -31,12 +31,7 @@ export class DisplaysPanel {
     private readonly displays: Displays,
   ) {
     this.adding = h("select", { aria: { label: "Add a display" }, on: { change: () => this.add() } });
-    this.element = h(
-      "section",
-      { class: "tab-body" },
-      h("div", { class: "toolbar" }, this.adding),
-      this.cards,
-    );
+    this.element = h("section", { class: "tab-body" }, h("div", { class: "toolbar" }, this.adding), this.cards);
     displays.onChange(() => this.render());
     model.on("topics", () => this.fillAdding());
     setInterval(() => this.tellAll(), 500);
@@ -87,7 +82,12 @@ export class DisplaysPanel {
     const detail = h("small");
     const title = h(
       "button",
-      { type: "button", class: "card-title", aria: { expanded: "false" }, on: { click: () => this.unfold(card, title) } },
+      {
+        type: "button",
+        class: "card-title",
+        aria: { expanded: "false" },
+        on: { click: () => this.unfold(card, title) },
+      },
       h("span", {}, shorten(config.name, 60)),
       h("span", {}, detail),
     );
@@ -136,7 +136,8 @@ export class DisplaysPanel {
     if (kind?.topic) body.append(this.topicField(display));
     const fields = display.specs.map((spec) => ({ spec, element: this.field(display, spec) }));
     const hide = (): void => {
-      for (const { spec, element } of fields) element.hidden = spec.needs !== undefined && !display.options.flag(spec.needs);
+      for (const { spec, element } of fields)
+        element.hidden = spec.needs !== undefined && !display.options.flag(spec.needs);
     };
     hide();
     body.append(...fields.map(({ element }) => element));
@@ -245,4 +246,3 @@ export class DisplaysPanel {
 function field(label: string, control: HTMLElement): HTMLElement {
   return h("label", { class: "field" }, h("span", {}, label), control);
 }
-

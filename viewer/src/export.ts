@@ -89,12 +89,25 @@ export class ReplayExport {
       dialog.close();
     };
     dialog.append(
-      h("div", { class: "sheet-head" }, h("h2", {}, "Save a replay"), iconButton("close", "Close", () => dialog.close())),
+      h(
+        "div",
+        { class: "sheet-head" },
+        h("h2", {}, "Save a replay"),
+        iconButton("close", "Close", () => dialog.close()),
+      ),
       h(
         "div",
         { class: "sheet-body" },
-        h("p", { class: "muted" }, "One HTML file that opens anywhere, without a server: for homework and bug reports."),
-        h("p", { class: "muted" }, "It holds the frames, the robots and the displays that are shown. Large clouds are thinned; the file says by how much."),
+        h(
+          "p",
+          { class: "muted" },
+          "One HTML file that opens anywhere, without a server: for homework and bug reports.",
+        ),
+        h(
+          "p",
+          { class: "muted" },
+          "It holds the frames, the robots and the displays that are shown. Large clouds are thinned; the file says by how much.",
+        ),
         h("label", { class: "field" }, h("span", {}, model.clock.loop ? "Marked, s" : "Last seconds"), last),
         h("label", { class: "field" }, h("span", {}, "Pictures/s"), rate),
         h("div", { class: "buttons" }, h("button", { type: "button", class: "primary", on: { click: save } }, "Save")),
@@ -118,7 +131,11 @@ export class ReplayExport {
       type: "replay",
       displays: displays.shownTopics,
       // Far from the origin the camera's place means nothing to another page.
-      rviz: { displays: displays.save(), global: {}, view: this.view.placement.origin.some(Boolean) ? null : rviz.camera() },
+      rviz: {
+        displays: displays.save(),
+        global: {},
+        view: this.view.placement.origin.some(Boolean) ? null : rviz.camera(),
+      },
     });
   }
 

@@ -42,7 +42,8 @@ export function verdict(told: Findings | null, mode: Hello["mode"] | undefined):
   if (told === null) return "";
   if (told.state === "failed") return shorten(told.text, TEXT);
   if (told.state === "waiting") return mode === "live" ? "Listening for some seconds…" : "Examining the recording…";
-  if (told.state === "none") return "The doctor examines the ROS graph and recordings; of what is shown here it cannot tell who sent what.";
+  if (told.state === "none")
+    return "The doctor examines the ROS graph and recordings; of what is shown here it cannot tell who sent what.";
   if (told.findings.length) return "What is wrong, why that matters, and what to do. Click one to see its frame.";
   return mode === "live" ? "Nothing is wrong in the last 10 seconds." : "Nothing is wrong in this recording.";
 }
@@ -59,7 +60,12 @@ export class FindingsPanel {
   private shown = "";
 
   constructor(private readonly model: Model) {
-    this.element = h("section", { class: "tab-body" }, h("div", { class: "section" }, h("h3", {}, "Doctor"), this.summary), this.list);
+    this.element = h(
+      "section",
+      { class: "tab-body" },
+      h("div", { class: "section" }, h("h3", {}, "Doctor"), this.summary),
+      this.list,
+    );
     model.on("findings", (findings) => this.show(findings));
     model.on("page", (page) => this.sheet.show(page));
     model.on("hello", () => this.show(null));
@@ -77,7 +83,9 @@ export class FindingsPanel {
 
   private card(finding: Finding): HTMLElement {
     const { severity, subject, code, first, publishers, namespace } = finding;
-    const facts = [namespace, publishers.length ? `published by ${publishers.join(", ")}` : ""].filter(Boolean).join(" · ");
+    const facts = [namespace, publishers.length ? `published by ${publishers.join(", ")}` : ""]
+      .filter(Boolean)
+      .join(" · ");
     return h(
       "li",
       { class: "finding", data: { severity, code } },
@@ -93,12 +101,20 @@ export class FindingsPanel {
       h("p", {}, h("b", {}, "Do: "), shorten(finding.fix, TEXT)),
       facts ? h("p", { class: "muted" }, shorten(facts, 300)) : null,
       finding.explains.length
-        ? h("ul", { class: "list" }, ...finding.explains.map((effect) => h("li", {}, `So: ${headline(effect)} ${shorten(effect.subject, 100)}`)))
+        ? h(
+            "ul",
+            { class: "list" },
+            ...finding.explains.map((effect) => h("li", {}, `So: ${headline(effect)} ${shorten(effect.subject, 100)}`)),
+          )
         : null,
       h(
         "div",
         { class: "buttons" },
-        h("button", { type: "button", class: "small", on: { click: () => this.model.send({ type: "explain", code }) } }, `About ${code}`),
+        h(
+          "button",
+          { type: "button", class: "small", on: { click: () => this.model.send({ type: "explain", code }) } },
+          `About ${code}`,
+        ),
         first === null ? null : this.firstButton(first),
       ),
     );
@@ -106,7 +122,11 @@ export class FindingsPanel {
 
   private firstButton(first: number): HTMLElement {
     const act = (): void => this.model.setClock({ live: false, playing: false }, first);
-    return h("button", { type: "button", class: "small", title: "Look at the first time", on: { click: act } }, format.stamp(this.model.origin, first));
+    return h(
+      "button",
+      { type: "button", class: "small", title: "Look at the first time", on: { click: act } },
+      format.stamp(this.model.origin, first),
+    );
   }
 
   private choose(finding: Finding): void {
@@ -126,7 +146,12 @@ class CodeSheet {
     this.dialog = h(
       "dialog",
       { aria: { label: "About a finding" } },
-      h("div", { class: "sheet-head" }, this.title, iconButton("close", "Close", () => this.dialog.close())),
+      h(
+        "div",
+        { class: "sheet-head" },
+        this.title,
+        iconButton("close", "Close", () => this.dialog.close()),
+      ),
       this.body,
     );
     document.body.append(this.dialog);
@@ -143,7 +168,15 @@ class CodeSheet {
 function block(text: string): HTMLElement {
   if (text.startsWith("## ")) return h("h3", {}, text.slice(3));
   if (text.startsWith("```")) return h("pre", {}, text.replace(/^```\w*\n?|\n?```$/g, ""));
-  if (text.startsWith("- ")) return h("ul", {}, ...text.slice(2).split(/\n- /).map((item) => h("li", {}, ...inline(item))));
+  if (text.startsWith("- "))
+    return h(
+      "ul",
+      {},
+      ...text
+        .slice(2)
+        .split(/\n- /)
+        .map((item) => h("li", {}, ...inline(item))),
+    );
   return h("p", {}, ...inline(text));
 }
 

@@ -33,7 +33,9 @@ export class Inspector {
     private readonly model: Model,
     view: View,
   ) {
-    this.reference.addEventListener("change", () => this.model.select(model.selection.frame, this.reference.value || null));
+    this.reference.addEventListener("change", () =>
+      this.model.select(model.selection.frame, this.reference.value || null),
+    );
     this.fault.append(this.faultText, this.faultHint);
     this.blocks = {
       xyz: this.block("Translation, m", ["x", "y", "z"], "", (r) => r.translation),
@@ -54,7 +56,9 @@ export class Inspector {
         "div",
         { class: "inspector-head" },
         this.title,
-        iconButton("target", "Follow with the camera (f)", () => view.setFollowed(view.followed === model.selection.frame ? null : model.selection.frame)),
+        iconButton("target", "Follow with the camera (f)", () =>
+          view.setFollowed(view.followed === model.selection.frame ? null : model.selection.frame),
+        ),
         iconButton("close", "Close (Esc)", () => model.select(null)),
       ),
       h("label", { class: "field" }, h("span", {}, "Relative to"), this.reference),
@@ -173,7 +177,14 @@ export class Inspector {
     const copied = (): string => {
       const numbers = (this.relation && values(this.relation)) ?? [];
       return numbers.length === 16
-        ? [0, 4, 8, 12].map((at) => numbers.slice(at, at + 4).map(format.plain).join(" ")).join("\n")
+        ? [0, 4, 8, 12]
+            .map((at) =>
+              numbers
+                .slice(at, at + 4)
+                .map(format.plain)
+                .join(" "),
+            )
+            .join("\n")
         : numbers.map(format.plain).join(" ");
     };
     this.results.append(h("div", { class: "block" }, this.head(title, copied), row));

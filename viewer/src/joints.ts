@@ -29,7 +29,9 @@ export class JointsPanel {
 
   private render(): void {
     const robots = this.displays.robots.filter((display) => display.robot);
-    const key = JSON.stringify(robots.map(({ id, robot }) => [id, robot?.id, robot?.joints.map((joint) => joint.name)]));
+    const key = JSON.stringify(
+      robots.map(({ id, robot }) => [id, robot?.id, robot?.joints.map((joint) => joint.name)]),
+    );
     if (key === this.shown) return;
     this.shown = key;
     if (robots.length === 0) {
@@ -49,7 +51,8 @@ export class JointsPanel {
 
   private section(display: RobotDisplay, robot: Robot): HTMLElement {
     const movable = robot.joints.filter(isMovable);
-    const positions = this.positions.get(robot.id) ?? Object.fromEntries(movable.map((joint) => [joint.name, joint.value]));
+    const positions =
+      this.positions.get(robot.id) ?? Object.fromEntries(movable.map((joint) => [joint.name, joint.value]));
     this.positions.set(robot.id, positions);
     const rows = movable.map((joint) => this.row(display, robot, joint, positions));
     const publish = h("input", { type: "checkbox", disabled: !this.model.hello?.can_publish });
@@ -115,7 +118,10 @@ export class JointsPanel {
       this.send(display, robot);
     });
     const name = h("span", { title: joint.name.slice(0, 300) }, shorten(joint.name, 60));
-    return { element: h("div", { class: "joint", data: { joint: joint.name.slice(0, 200) } }, name, number, range), set };
+    return {
+      element: h("div", { class: "joint", data: { joint: joint.name.slice(0, 200) } }, name, number, range),
+      set,
+    };
   }
 
   /** The page tries the values out at once; the server hears of them at a rate that it can use. */
@@ -127,7 +133,12 @@ export class JointsPanel {
     if (this.timers.has(robot.id)) return;
     const timer = window.setTimeout(() => {
       this.timers.delete(robot.id);
-      this.model.send({ type: "joints", robot: robot.id, positions: { ...positions }, publish: this.publishing.has(robot.id) });
+      this.model.send({
+        type: "joints",
+        robot: robot.id,
+        positions: { ...positions },
+        publish: this.publishing.has(robot.id),
+      });
     }, SEND_MS);
     this.timers.set(robot.id, timer);
   }

@@ -34,11 +34,7 @@ export function rotate(q: Quaternion, v: Vector): Vector {
   const tx = 2 * (y * v[2] - z * v[1]);
   const ty = 2 * (z * v[0] - x * v[2]);
   const tz = 2 * (x * v[1] - y * v[0]);
-  return [
-    v[0] + w * tx + y * tz - z * ty,
-    v[1] + w * ty + z * tx - x * tz,
-    v[2] + w * tz + x * ty - y * tx,
-  ];
+  return [v[0] + w * tx + y * tz - z * ty, v[1] + w * ty + z * tx - x * tz, v[2] + w * tz + x * ty - y * tx];
 }
 
 /** a ∘ b: the pose b, given in the frame a, in a's parent. */
@@ -100,7 +96,11 @@ export function principalAxes(matrix: readonly number[]): { variances: Vector; q
   const at = (i: number, j: number): number => m[i * 3 + j] as number;
   let axes: Quaternion = [0, 0, 0, 1];
   for (let sweep = 0; sweep < SWEEPS; sweep++)
-    for (const [p, q, r] of [[0, 1, 2], [1, 2, 0], [2, 0, 1]] as const) {
+    for (const [p, q, r] of [
+      [0, 1, 2],
+      [1, 2, 0],
+      [2, 0, 1],
+    ] as const) {
       if (Math.abs(at(p, q)) < 1e-300) continue;
       const angle = 0.5 * Math.atan2(2 * at(p, q), at(p, p) - at(q, q));
       const [c, s] = [Math.cos(angle), Math.sin(angle)];

@@ -14,7 +14,12 @@ export class Measure {
   private readonly material: THREE.LineDashedMaterial;
 
   constructor(palette: Palette) {
-    this.material = new THREE.LineDashedMaterial({ depthTest: false, transparent: true, dashSize: 0.05, gapSize: 0.03 });
+    this.material = new THREE.LineDashedMaterial({
+      depthTest: false,
+      transparent: true,
+      dashSize: 0.05,
+      gapSize: 0.03,
+    });
     this.object = new THREE.Line(new THREE.BufferGeometry(), this.material);
     this.object.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(6), 3));
     this.object.frustumCulled = false;

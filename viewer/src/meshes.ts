@@ -62,7 +62,9 @@ async function fetchBytes(url: string, name: string): Promise<ArrayBuffer> {
   if (!response.ok) throw new MeshError(`${short(name)}: ${(await response.text()).slice(0, 200) || response.status}`);
   const tooLarge = (size: number): never => {
     stop.abort();
-    throw new MeshError(`${short(name)} is larger than the ${MOST_BYTES / 1e6} MB that are drawn (${Math.round(size / 1e6)} MB)`);
+    throw new MeshError(
+      `${short(name)} is larger than the ${MOST_BYTES / 1e6} MB that are drawn (${Math.round(size / 1e6)} MB)`,
+    );
   };
   const announced = Number(response.headers.get("Content-Length") ?? 0);
   if (announced > MOST_BYTES) tooLarge(announced);
@@ -105,7 +107,12 @@ function ending(manager: THREE.LoadingManager): () => Promise<void> {
   return () => (busy ? new Promise((resolve) => (end = resolve)) : Promise.resolve());
 }
 
-async function parsed(bytes: ArrayBuffer, url: string, name: string, manager: THREE.LoadingManager): Promise<LoadedMesh> {
+async function parsed(
+  bytes: ArrayBuffer,
+  url: string,
+  name: string,
+  manager: THREE.LoadingManager,
+): Promise<LoadedMesh> {
   const kind = /\.([a-z0-9]+)$/i.exec(name.split(/[?#]/)[0] ?? "")?.[1]?.toLowerCase() ?? "";
   // What stands beside the file is served below its own address.
   const folder = url.startsWith("data:") ? "" : `${url}/`;

@@ -27,8 +27,16 @@ export class Overlay {
     private readonly model: Model,
     private readonly view: View,
   ) {
-    this.orbit = h("button", { type: "button", title: "Turning view (v)", on: { click: () => this.setMode("orbit") } }, "3D");
-    this.top = h("button", { type: "button", title: "From above (v)", on: { click: () => this.setMode("top") } }, "Top");
+    this.orbit = h(
+      "button",
+      { type: "button", title: "Turning view (v)", on: { click: () => this.setMode("orbit") } },
+      "3D",
+    );
+    this.top = h(
+      "button",
+      { type: "button", title: "From above (v)", on: { click: () => this.setMode("top") } },
+      "Top",
+    );
     this.follow = iconButton("target", "Follow the selected frame (f)", () => this.toggleFollow());
     this.ruler = iconButton("ruler", "Measure between two frames (m)", () => this.toggleMeasure());
     this.nothing = h(
@@ -123,7 +131,10 @@ export class Overlay {
     // Every attempt that fails says so again: the first counts.
     this.lost ||= window.setTimeout(() => {
       this.notice.hidden = false;
-      setText(this.notice, "The connection to the server is lost. This page comes back by itself when the server runs again.");
+      setText(
+        this.notice,
+        "The connection to the server is lost. This page comes back by itself when the server runs again.",
+      );
     }, PATIENCE_MS);
   }
 }

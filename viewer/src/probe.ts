@@ -65,7 +65,9 @@ export function exposeProbe(model: Model, view: View, displays: Displays): void 
     /** Where a point of the fixed frame is on the canvas, in pixels. */
     pixel(point: Vector): [number, number] {
       const { width, height, camera } = view.stage;
-      const place = new THREE.Vector3(...point).sub(new THREE.Vector3(...view.placement.origin)).project(camera.current);
+      const place = new THREE.Vector3(...point)
+        .sub(new THREE.Vector3(...view.placement.origin))
+        .project(camera.current);
       return [((place.x + 1) / 2) * width, ((1 - place.y) / 2) * height];
     },
     get connected() {

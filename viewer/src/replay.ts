@@ -72,7 +72,11 @@ export class ReplaySource implements Source {
       if (frame.parent < 0) component.root = frame.name;
       component.size++;
     }
-    this.forest = new Forest(1, block.frames, Array.from(components, (c) => c ?? { root: "", size: 0 }));
+    this.forest = new Forest(
+      1,
+      block.frames,
+      Array.from(components, (c) => c ?? { root: "", size: 0 }),
+    );
     this.fixed = Math.max(0, this.forest.index.get(block.fixed) ?? 0);
     this.at = block.from;
   }
@@ -90,12 +94,23 @@ export class ReplaySource implements Source {
       origin: block.origin,
       span,
       fixed: block.fixed,
-      rviz: block.rviz && { displays: block.rviz.displays, view: block.rviz.view, global: NO_GLOBAL_OPTIONS, unknown: [] },
+      rviz: block.rviz && {
+        displays: block.rviz.displays,
+        view: block.rviz.view,
+        global: NO_GLOBAL_OPTIONS,
+        unknown: [],
+      },
       topics: this.displays.map(({ block: { topic, type, display } }) => ({ topic, type, display })),
       can_publish: false,
     };
     listener("text", hello);
-    listener("text", { type: "tree", revision: 1, fixed: block.fixed, frames: forest.frames, components: forest.components });
+    listener("text", {
+      type: "tree",
+      revision: 1,
+      fixed: block.fixed,
+      frames: forest.frames,
+      components: forest.components,
+    });
     block.robots.forEach((robot, id) => listener("text", { ...robot, id }));
     if (block.stats.length === this.count) listener("text", { type: "stats", revision: 1, span, frames: block.stats });
     this.started = true;
@@ -221,7 +236,8 @@ export class ReplaySource implements Source {
     const all: DisplayPose[] = [];
     for (const [id, subscribed] of this.subscribed) {
       const entries = subscribed.recorded.at(sample, id, seen);
-      for (const { sequence } of entries) if (!subscribed.shown.has(sequence)) this.sendDrawing(id, sequence, subscribed);
+      for (const { sequence } of entries)
+        if (!subscribed.shown.has(sequence)) this.sendDrawing(id, sequence, subscribed);
       subscribed.shown = new Set(entries.map(({ sequence }) => sequence));
       this.tellStatus(id, sample, subscribed);
       all.push(...entries);

@@ -1,7 +1,14 @@
 /** The displays of a replay: what the server would have sent of each, picture after picture. */
 
 import { compose, type Pose } from "./math";
-import { decode, type DisplayMessage, type DisplayPose, type DisplayStatus, type ReplayDisplayBlock, type Vector } from "./protocol";
+import {
+  decode,
+  type DisplayMessage,
+  type DisplayPose,
+  type DisplayStatus,
+  type ReplayDisplayBlock,
+  type Vector,
+} from "./protocol";
 
 /** Where the frame that everything is recorded in was at a time, seen from the one that is looked from now. */
 export type Seen = (stamp: number) => Pose | null;

@@ -40,7 +40,11 @@ export class RvizPanel {
         "div",
         { class: "section" },
         h("h3", {}, "RViz configuration"),
-        h("p", {}, "Displays, options and view of an .rviz file of RViz 1 or 2. What you change here can be saved for RViz."),
+        h(
+          "p",
+          {},
+          "Displays, options and view of an .rviz file of RViz 1 or 2. What you change here can be saved for RViz.",
+        ),
         this.file,
         h(
           "div",
@@ -108,7 +112,12 @@ export class RvizPanel {
       ...rviz.unknown
         .slice(0, 500)
         .map(({ path, class: kind, name }) =>
-          h("li", {}, shorten(name || kind || path, 80), h("div", { class: "muted mono" }, shorten(`${path} ${kind}`, 120))),
+          h(
+            "li",
+            {},
+            shorten(name || kind || path, 80),
+            h("div", { class: "muted mono" }, shorten(`${path} ${kind}`, 120)),
+          ),
         ),
     );
   }

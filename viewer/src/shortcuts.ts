@@ -25,7 +25,13 @@ export class Shortcuts {
       h(
         "div",
         { class: "sheet-body" },
-        h("dl", { class: "keys" }, ...[...shortcuts, ...MOUSE].map((s) => h("div", {}, h("dt", {}, s.text), h("dd", {}, h("span", { class: "key" }, s.shown ?? s.key))))),
+        h(
+          "dl",
+          { class: "keys" },
+          ...[...shortcuts, ...MOUSE].map((s) =>
+            h("div", {}, h("dt", {}, s.text), h("dd", {}, h("span", { class: "key" }, s.shown ?? s.key))),
+          ),
+        ),
       ),
     );
     document.body.append(this.dialog);

@@ -55,7 +55,13 @@ export function sparkWidth(width: number): number {
 }
 
 /** A row an edge: name, bars, gaps. */
-export function drawRows(canvas: HTMLCanvasElement, edges: Edge[], timeline: Timeline, forest: Forest, colours: Colours): void {
+export function drawRows(
+  canvas: HTMLCanvasElement,
+  edges: Edge[],
+  timeline: Timeline,
+  forest: Forest,
+  colours: Colours,
+): void {
   const rows = edges.slice(0, MOST_ROWS);
   const width = canvas.parentElement?.clientWidth ?? 300;
   const context = prepare(canvas, width, Math.max(1, rows.length * ROW_PX));

@@ -23,7 +23,10 @@ export class Timeline {
     aria: { label: "Time", valuemin: "0", valuemax: "0", valuenow: "0" },
   });
   private readonly head = h("div", { class: "head", aria: { hidden: "true" } });
-  private readonly rows = h("canvas", { role: "img", aria: { label: "How often each frame came, and where it has gaps" } });
+  private readonly rows = h("canvas", {
+    role: "img",
+    aria: { label: "How often each frame came, and where it has gaps" },
+  });
   private readonly sparks: HTMLElement;
   private message: TimelineMessage | null = null;
   private edges: Edge[] = [];
@@ -39,12 +42,29 @@ export class Timeline {
     private readonly model: Model,
   ) {
     this.play = iconButton("pause", "Pause or play (Space)", () => this.toggle());
-    this.live = h("button", { type: "button", class: "small", title: "Back to the newest (l)", on: { click: () => this.goLive() } }, "Live");
-    this.loop = iconButton("loop", "Loop (o): all, or the part marked by dragging with Shift", () => this.toggleLoop(), "wide-only");
-    this.sparksButton = iconButton("chevron", "Rate of each frame over time (t)", () => this.toggleSparks(), "wide-only");
+    this.live = h(
+      "button",
+      { type: "button", class: "small", title: "Back to the newest (l)", on: { click: () => this.goLive() } },
+      "Live",
+    );
+    this.loop = iconButton(
+      "loop",
+      "Loop (o): all, or the part marked by dragging with Shift",
+      () => this.toggleLoop(),
+      "wide-only",
+    );
+    this.sparksButton = iconButton(
+      "chevron",
+      "Rate of each frame over time (t)",
+      () => this.toggleSparks(),
+      "wide-only",
+    );
     this.sparks = h("div", { class: "sparks", hidden: !remembered("sparks", false) }, this.rows);
-    const speed = select("Speed", SPEEDS.map((s) => [s, `${s}×`] as const), "1", (value) =>
-      this.model.setClock({ speed: Number(value), live: false }),
+    const speed = select(
+      "Speed",
+      SPEEDS.map((s) => [s, `${s}×`] as const),
+      "1",
+      (value) => this.model.setClock({ speed: Number(value), live: false }),
     );
     root.append(
       h(
@@ -174,7 +194,13 @@ export class Timeline {
   private colours(): Colours {
     const style = getComputedStyle(document.documentElement);
     const read = (name: string): string => style.getPropertyValue(name).trim();
-    return { text: read("--text"), muted: read("--muted"), bar: read("--accent"), gap: `${read("--bad")}44`, line: read("--line") };
+    return {
+      text: read("--text"),
+      muted: read("--muted"),
+      bar: read("--accent"),
+      gap: `${read("--bad")}44`,
+      line: read("--line"),
+    };
   }
 
   /** Soon: what is asked for several times is drawn once. */
@@ -205,7 +231,12 @@ export class Timeline {
     if (!this.sparks.hidden && this.message) drawRows(this.rows, this.edges, this.message, this.model.forest, colours);
   }
 
-  private drawDensity(context: CanvasRenderingContext2D, colours: Colours, x: (ns: number) => number, height: number): void {
+  private drawDensity(
+    context: CanvasRenderingContext2D,
+    colours: Colours,
+    x: (ns: number) => number,
+    height: number,
+  ): void {
     const { message } = this;
     if (!message || message.revision !== this.model.forest.revision) return;
     // Live, the bars are up to two seconds old: they fill the bar all the same rather than end before it.

@@ -239,7 +239,13 @@ export class TreePanel {
     else row.element.removeAttribute("aria-expanded");
     const mark = model.marks.get(name);
     setMark(row.mark, mark?.severity);
-    const described = describe(name, state, stats?.publisher ?? null, stats?.samples ?? null, stats?.longest_gap ?? null);
+    const described = describe(
+      name,
+      state,
+      stats?.publisher ?? null,
+      stats?.samples ?? null,
+      stats?.longest_gap ?? null,
+    );
     row.element.title = [described, ...(mark?.lines ?? [])].join("\n");
     row.caret.hidden = !data.hasChildren;
     row.caret.setAttribute("aria-label", `${this.folded.has(name) ? "Open" : "Fold"} ${name.slice(0, 60)}`);

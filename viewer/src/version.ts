@@ -12,7 +12,10 @@ export type Verdict = "current" | "reload" | "different";
  * A page is reloaded at most once per server version: if the versions still differ afterwards, another reload would not
  * help. Without a storage to remember the reload, the page is not reloaded at all.
  */
-export function compareVersion(version: unknown, storage: Pick<Storage, "getItem" | "setItem" | "removeItem">): Verdict {
+export function compareVersion(
+  version: unknown,
+  storage: Pick<Storage, "getItem" | "setItem" | "removeItem">,
+): Verdict {
   try {
     if (version === PROTOCOL_VERSION) {
       storage.removeItem(KEY);

@@ -58,7 +58,9 @@ describe("the playhead", () => {
       model.setClock({ live: false, playing: false }, model.playhead + 1e9);
       model.take(tick(10e9)); // one that was on its way
     }
-    expect(sent.map((message) => message.type === "time" && message.mode === "at" && message.at)).toEqual([11e9, 12e9, 13e9]);
+    expect(sent.map((message) => message.type === "time" && message.mode === "at" && message.at)).toEqual([
+      11e9, 12e9, 13e9,
+    ]);
     expect([model.playhead, model.waiting]).toEqual([13e9, true]);
     model.take(tick(13e9));
     model.take(tick(14e9));

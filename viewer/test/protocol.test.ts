@@ -80,7 +80,13 @@ describe("display messages", () => {
   it("shapes' rows stay inside the payload", () => {
     const payload = new Float32Array([0, 1, 2, 3, 4, 5]);
     expect(Array.from(slice(payload, [3, 1], 3))).toEqual([3, 4, 5]);
-    for (const pair of [[3, 2], [-1, 1], [0, -1], [NaN, 1], [0, 1e12]] as [number, number][])
+    for (const pair of [
+      [3, 2],
+      [-1, 1],
+      [0, -1],
+      [NaN, 1],
+      [0, 1e12],
+    ] as [number, number][])
       expect(slice(payload, pair, 3)).toHaveLength(0);
   });
 

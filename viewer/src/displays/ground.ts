@@ -24,7 +24,10 @@ export class Ground extends Display {
       this.lines.removeFromParent();
     }
     const colour = this.options.colour("Color") || this.context.palette().grid;
-    const geometry = gridGeometry(Math.round(this.options.number("Plane Cell Count")), this.options.number("Cell Size"));
+    const geometry = gridGeometry(
+      Math.round(this.options.number("Plane Cell Count")),
+      this.options.number("Cell Size"),
+    );
     const alpha = this.config.options["Alpha"] === undefined ? 1 : this.options.number("Alpha");
     const material = new THREE.LineBasicMaterial({ color: colour, transparent: alpha < 1, opacity: alpha });
     this.lines = new THREE.LineSegments(geometry, material);

@@ -2,7 +2,15 @@
 
 import * as THREE from "three";
 import { Meshes } from "../meshes";
-import type { DisplayMessage, DisplayStatus, Robot, RvizConfiguration, RvizDisplay, DisplayOptions, Topic } from "../protocol";
+import type {
+  DisplayMessage,
+  DisplayStatus,
+  Robot,
+  RvizConfiguration,
+  RvizDisplay,
+  DisplayOptions,
+  Topic,
+} from "../protocol";
 import { remember, remembered } from "../storage";
 import type { Theme } from "../theme";
 import type { View } from "../view";

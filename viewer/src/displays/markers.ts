@@ -302,7 +302,9 @@ function text(item: DrawableMarker): THREE.Object3D | null {
   lines.forEach((line, i) => context.fillText(line, canvas.width / 2, (i + 0.5) * TEXT_PX * 1.2));
   const texture = new THREE.CanvasTexture(canvas);
   texture.colorSpace = THREE.SRGBColorSpace;
-  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map: texture, opacity: alphaOf(item), depthWrite: false }));
+  const sprite = new THREE.Sprite(
+    new THREE.SpriteMaterial({ map: texture, opacity: alphaOf(item), depthWrite: false }),
+  );
   const height = item.scale[2] * lines.length * 1.2;
   sprite.scale.set((height * canvas.width) / canvas.height, height, 1);
   return sprite;

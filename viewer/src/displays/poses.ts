@@ -39,7 +39,8 @@ export class PosesDisplay extends MessageDisplay<Shapes> {
     const count = Math.floor(poses.length / 7);
     if (count === 0) return group;
     const newest = poses.subarray((count - 1) * 7);
-    if (head.covariance && this.specs !== POSE_SPECS) group.add(covarianceShapes(newest, head.covariance, this.options));
+    if (head.covariance && this.specs !== POSE_SPECS)
+      group.add(covarianceShapes(newest, head.covariance, this.options));
     if (head.kind === "poses") {
       group.add(this.shape(poses, 1));
       return group;

@@ -66,7 +66,15 @@ export class RobotDisplay extends Display {
       for (const { map } of materialsOf(part) as THREE.MeshPhongMaterial[]) textures += map && hasPicture(map) ? 1 : 0;
     });
     const visible = (this.model?.visible ?? false) && this.object.visible;
-    return { ...super.probe(), robot: this.robot?.name ?? null, meshes, textures, loading: this.loading, visible, links: this.linkPoses() };
+    return {
+      ...super.probe(),
+      robot: this.robot?.name ?? null,
+      meshes,
+      textures,
+      loading: this.loading,
+      visible,
+      links: this.linkPoses(),
+    };
   }
 
   /** In the scene: where each link is drawn. */
@@ -214,12 +222,7 @@ export class RobotDisplay extends Display {
   }
 }
 
-function matrixOf(
-  placement: Placement,
-  model: Context["model"],
-  prefix: string,
-  link: string,
-): THREE.Matrix4 | null {
+function matrixOf(placement: Placement, model: Context["model"], prefix: string, link: string): THREE.Matrix4 | null {
   const i = model.forest.index.get(prefix + link) ?? -1;
   if (i < 0 || i >= placement.count || !Number.isFinite(placement.positions[i * 3] as number)) return null;
   return new THREE.Matrix4().compose(
