@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The bar at the top: what is shown, in which frame, and whether it is alive. */
 
 import { fillSelect, h, iconButton, select, setText } from "./dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Ways to look: turning about a point, straight down, or following a frame. */
 
 import * as THREE from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The canvas and its WebGL context: whoever asks first has that made, all others get the same one. */
 
 import { fatal } from "./fatal";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The list of displays with their options, and what can be added. */
 
 import type { Display } from "./displays/display";

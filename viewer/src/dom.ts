@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Elements made by hand. Text goes in as text nodes only, so no name from the network can become markup. */
 
 type Child = Node | string | null | undefined;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Who is interested in what: a typed list of listeners for each event. */
 
 export class Emitter<Events extends object> {

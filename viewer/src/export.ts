@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** A picture of the scene, and a replay that plays without a server. */
 
 import type { Displays } from "./displays/manager";

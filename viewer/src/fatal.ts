@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** What is said where the page cannot go on. */
 
 import { byId, h } from "./dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** What the doctor says of the frames: a list beside them, a mark on each row concerned, and the page of each code. */
 
 import { h, icon, iconButton, shorten, type IconName } from "./dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Numbers and times as people read them. Fixed widths where they stand in columns. */
 
 const MINUS = "−";

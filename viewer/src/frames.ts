@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The frames themselves: axes, lines to their parents, the highlighted chain. A handful of draw calls in all. */
 
 import * as THREE from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** One frame seen from another: every way of writing the pose, the chain between the two, and why there is none. */
 
 import { copyText, fillSelect, h, iconButton, setText, shorten } from "./dom";

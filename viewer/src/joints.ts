@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Sliders for a robot's movable joints: to try poses, and to publish them if asked to. */
 
 import { RobotDisplay } from "./displays/robot";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Names beside frames: real elements, few of them, never one over another. */
 
 import * as THREE from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /**
  * What runs first, while the page itself is still being read: the server is asked for the frames, and the browser for
  * the canvas's context, which takes it as long.

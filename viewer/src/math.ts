@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Rigid poses in float64, as ROS writes them: quaternions x, y, z, w. */
 
 import type { Vector } from "./protocol";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The distance between two frames that the user points at. */
 
 import * as THREE from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Mesh files: fetched with a limit, parsed by their ending, shared by all who name them. */
 
 import * as THREE from "three";

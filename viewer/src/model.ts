@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** What the page knows: the last of each kind of message, and what the user has chosen. */
 
 import { Emitter } from "./emitter";

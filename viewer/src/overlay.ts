@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Over the scene: how to look, what is being measured, and what to do when there is nothing to see. */
 
 import type { CameraMode } from "./camera";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The page: what comes from the source goes to the model, and every part listens to that. */
 
 import { Bar } from "./bar";

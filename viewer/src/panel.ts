@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The panel at the side: tabs, a width that can be dragged, hidden when asked. On a phone it is a drawer. */
 
 import { h, iconButton } from "./dom";

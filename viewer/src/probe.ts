@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** What tests, and the curious, can read of the page: `window.coframe`, told anew with each picture. */
 
 import * as THREE from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** A recording inside the page: answers what the server would, as far as the pictures in it can tell. */
 
 import { between, compose, IDENTITY, inverse, matrix, relative, rpyDegrees, type Pose, type Quaternion } from "./math";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The displays of a replay: what the server would have sent of each, picture after picture. */
 
 import { compose, type Pose } from "./math";

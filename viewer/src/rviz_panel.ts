@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** .rviz files: read one, see what of it is not known here, write one back. */
 
 import type { Displays } from "./displays/manager";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The canvas: renderer, light, and a picture only when something changed. */
 
 import * as THREE from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Keys, and the sheet that lists them. */
 
 import { h, iconButton } from "./dom";

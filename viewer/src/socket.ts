@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The WebSocket to the server; opens immediately and reconnects whenever it closes. */
 
 import { fatal } from "./fatal";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Where frames come from: a server over a socket, or a recording inside the page itself. */
 
 import type { BinaryMessage, ClientMessage, ServerMessage } from "./protocol";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** How often each edge came, over time: bars on a canvas, gaps marked. */
 
 import { shorten } from "./dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** What the page remembers between visits. A browser that forbids storage just forgets. */
 
 const PREFIX = "coframe.";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Dark, light, and colours that colour-blind people can tell apart. */
 
 import { remember, remembered } from "./storage";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The time: pause, scrub, step, speeds, loops, and back to live. */
 
 import { h, icon, iconButton, select, setText } from "./dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** A sentence that comes up at the edge and goes by itself. */
 
 import { byId, h, iconButton } from "./dom";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /**
  * The trees as rows: a check box, a name, how often and how lately it came, and from whom.
  *

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Checks JSON values against the generated schema of the protocol. */
 
 import { RECORDS, SERVER_MESSAGES, type Schema, type ServerMessage } from "./generated/protocol";

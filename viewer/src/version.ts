@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Detects a page that is older than its server, and reloads it once. */
 
 import { PROTOCOL_VERSION } from "./generated/protocol";

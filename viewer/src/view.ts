@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The picture as a whole: frames, names, what is highlighted or measured, and which frame a click means. */
 
 import * as THREE from "three";

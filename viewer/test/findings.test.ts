@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { marksOf, verdict } from "../src/findings";
 import type { Finding, Findings } from "../src/protocol";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { Forest, Model } from "../src/model";
 import type { ClientMessage, Tick } from "../src/protocol";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import type { BinaryMessage, Relation, ReplayBlock, ReplayDisplayBlock, ServerMessage, Tick } from "../src/protocol";
 import { ReplaySource } from "../src/replay";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { PROTOCOL_VERSION } from "../src/generated/protocol";
 import { compareVersion } from "../src/version";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Arrows along x and small axes, many at once. */
 
 import * as THREE from "three";

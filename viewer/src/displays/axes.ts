@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Axes: one frame, drawn large. */
 
 import * as THREE from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Camera: what a camera sees, as a pyramid from its optical frame, from the intrinsics in CameraInfo. */
 
 import * as THREE from "three";

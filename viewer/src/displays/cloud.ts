@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** LaserScan and PointCloud2: points, coloured on the graphics card. */
 
 import * as THREE from "three";

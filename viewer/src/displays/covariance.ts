@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** How uncertain a pose is: an ellipsoid of one standard deviation about it, and a cone that its x axis may lie in. */
 
 import * as THREE from "three";

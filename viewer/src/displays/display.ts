@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** What all displays have: a place in the scene, options, and a word on how they are doing. */
 
 import * as THREE from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Grid: lines on the ground, to see how large and how level things are. */
 
 import * as THREE from "three";

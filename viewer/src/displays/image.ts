@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Image: what a camera sees, in a corner over the scene. */
 
 import * as THREE from "three";

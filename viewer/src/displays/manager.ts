@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The list of displays: made from an .rviz file, from what was shown last time, or from what there is to see. */
 
 import * as THREE from "three";

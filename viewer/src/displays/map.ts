@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Map: an occupancy grid as a picture on the ground. */
 
 import * as THREE from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Marker and MarkerArray: whatever a program wants drawn. The numbers are visualization_msgs' own. */
 
 import * as THREE from "three";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /**
  * A display's options, under RViz's own names, so that a file's values are used as they stand and saved unharmed.
  * Those that stand inside of others have a path: "Covariance/Position/Alpha".

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Path: a line through poses, with axes or arrows at each if wanted. */
 
 import * as THREE from "three";

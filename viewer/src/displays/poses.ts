@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Pose, PoseArray and Odometry: arrows or axes, the newest bright and its trail behind it. */
 
 import * as THREE from "three";

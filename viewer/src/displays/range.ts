@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Range: the cone that an ultrasound or infrared sensor looks into, as far as it sees. */
 
 import * as THREE from "three";

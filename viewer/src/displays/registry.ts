@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Which displays there are, by RViz's names. */
 
 import type { Meshes } from "../meshes";

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** RobotModel: a URDF's links, each where its frame is; where there is no such frame, where the joints put it. */
 
 import * as THREE from "three";
