@@ -3,9 +3,9 @@
 
 import * as THREE from "three";
 import type { Displays } from "./displays/manager";
-import type { Model } from "./model";
-import type { Vector } from "./protocol";
-import type { View } from "./view";
+import type { Model } from "./model/model";
+import type { Vector } from "./protocol/messages";
+import type { View } from "./scene/view";
 
 interface FrameProbe {
   /** In the fixed frame, in metres, as float64. */

@@ -15,7 +15,7 @@ import {
   rpyDegrees,
   type Pose,
   type Quaternion,
-} from "../src/math";
+} from "../src/util/math";
 
 /** The same numbers at every run. */
 function* numbers(): Generator<number> {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { Forest, Model } from "../src/model";
-import type { ClientMessage, Tick } from "../src/protocol";
-import { decodeCounts } from "../src/sparklines";
+import { Forest, Model } from "../src/model/model";
+import type { ClientMessage, Tick } from "../src/protocol/messages";
+import { decodeCounts } from "../src/panels/sparklines";
 import { cssColour, Options, rvizColour } from "../src/displays/options";
-import * as format from "../src/format";
+import * as format from "../src/util/format";
 
 const frame = (name: string, parent: number, component = 0) => ({ name, parent, static: false, component });
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { decode, ProtocolError, slice } from "../src/protocol";
+import { decode, ProtocolError, slice } from "../src/protocol/messages";
 
 /** Writes the fields one after another, as the server does. */
 function pack(...fields: ["u32" | "f32" | "f64" | "u8", ...number[]][]): ArrayBuffer {

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import type { BinaryMessage, Relation, ReplayBlock, ReplayDisplayBlock, ServerMessage, Tick } from "../src/protocol";
-import { ReplaySource } from "../src/replay";
-import type { SourceEvents } from "../src/source";
+import type {
+  BinaryMessage,
+  Relation,
+  ReplayBlock,
+  ReplayDisplayBlock,
+  ServerMessage,
+  Tick,
+} from "../src/protocol/messages";
+import { ReplaySource } from "../src/replay/source";
+import type { SourceEvents } from "../src/protocol/source";
 
 const base64 = (array: ArrayBufferView): string =>
   Buffer.from(array.buffer, array.byteOffset, array.byteLength).toString("base64");

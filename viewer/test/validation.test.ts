@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { checkServerMessage, ProtocolError } from "../src/validation";
+import { checkServerMessage, ProtocolError } from "../src/protocol/validation";
 
 const tree = {
   type: "tree",

@@ -2,8 +2,8 @@
 /** LaserScan and PointCloud2: points, coloured on the graphics card. */
 
 import * as THREE from "three";
-import { displayed } from "../frames";
-import type { Cloud, DisplayOptions } from "../protocol";
+import { displayed } from "../scene/frames";
+import type { Cloud, DisplayOptions } from "../protocol/messages";
 import { MessageDisplay } from "./display";
 import type { OptionSpec } from "./options";
 

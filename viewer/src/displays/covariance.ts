@@ -2,7 +2,7 @@
 /** How uncertain a pose is: an ellipsoid of one standard deviation about it, and a cone that its x axis may lie in. */
 
 import * as THREE from "three";
-import { principalAxes } from "../math";
+import { principalAxes } from "../util/math";
 import type { OptionSpec, Options } from "./options";
 
 export const COVARIANCE_SPECS: readonly OptionSpec[] = [

@@ -2,7 +2,7 @@
 /** Map: an occupancy grid as a picture on the ground. */
 
 import * as THREE from "three";
-import type { Grid } from "../protocol";
+import type { Grid } from "../protocol/messages";
 import { MessageDisplay } from "./display";
 import type { OptionSpec } from "./options";
 

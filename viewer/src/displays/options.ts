@@ -4,7 +4,7 @@
  * Those that stand inside of others have a path: "Covariance/Position/Alpha".
  */
 
-import type { Json, JsonObject } from "../protocol";
+import type { Json, JsonObject } from "../protocol/messages";
 
 /** `needs` names a flag without which it has no effect, and is not shown. */
 export type OptionSpec = { key: string; label?: string; needs?: string } & (

@@ -2,7 +2,7 @@
 /** Pose, PoseArray and Odometry: arrows or axes, the newest bright and its trail behind it. */
 
 import * as THREE from "three";
-import { slice, type Shapes, type DisplayOptions } from "../protocol";
+import { slice, type Shapes, type DisplayOptions } from "../protocol/messages";
 import { arrowGeometry, instances, poseAxes } from "./arrows";
 import { COVARIANCE_SPECS, covarianceShapes } from "./covariance";
 import { MessageDisplay } from "./display";

@@ -3,9 +3,9 @@
 
 import * as THREE from "three";
 import URDFLoader, { type URDFJoint, type URDFRobot } from "urdf-loader";
-import { dropEmptyTextures, hasPicture, materialsOf, NOTHING, type Meshes } from "../meshes";
-import type { Placement } from "../placement";
-import type { Robot, Tick } from "../protocol";
+import { dropEmptyTextures, hasPicture, materialsOf, NOTHING, type Meshes } from "../scene/meshes";
+import type { Placement } from "../scene/frame_poses";
+import type { Robot, Tick } from "../protocol/messages";
 import { Display, release, type Context, type DisplayConfig } from "./display";
 import type { OptionSpec } from "./options";
 
