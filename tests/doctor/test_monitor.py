@@ -1,4 +1,4 @@
-"""Figures of links, publishers and chains."""
+"""Figures of edges, publishers and chains, and `coframe monitor`."""
 
 import json
 import re
@@ -25,7 +25,7 @@ def seen(tmp_path):
     return observation
 
 
-def test_rate_jitter_and_delay_of_links(seen):
+def test_rate_jitter_and_delay_of_edges(seen):
     rows = {(row.parent, row.child): row for row in edge_figures(seen)}
     drive, arm, mount = rows["odom", "base_link"], rows["base_link", "arm"], rows["base_link", "lidar"]
     assert drive.rate == pytest.approx(50.0)
@@ -39,13 +39,13 @@ def test_rate_jitter_and_delay_of_links(seen):
     assert mount[5:] == (*(None,) * 6, False), "a static edge has no rate, delay and age"
 
 
-def test_a_publisher_counts_messages_not_transforms(seen):
+def test_rate_of_a_publisher_counts_messages(seen):
     (everyone,) = publisher_figures(seen)
     assert everyone.messages == 200 + 40 - 0
     assert everyone.delay == pytest.approx((200 * 2 * MS + 40 * 30 * MS) / 240)
 
 
-def test_a_chain_is_limited_by_its_slowest_link(seen):
+def test_slowest_edge_limits_a_chain(seen):
     chain = chain_figures(seen, "odom", "arm")
     assert chain.frames == ["odom", "base_link", "arm"]
     assert chain.limit == ("base_link", "arm")
@@ -56,13 +56,13 @@ def test_a_chain_is_limited_by_its_slowest_link(seen):
     assert up_and_down.frames == ["lidar", "base_link", "arm"]
 
 
-def test_chains_that_do_not_move_or_are_none(seen):
+def test_static_and_missing_chains(seen):
     assert chain_figures(seen, "base_link", "lidar").limit is None
     assert chain_figures(seen, "base_link", "nowhere") is None
     assert chain_figures(seen, "arm", "arm").frames == ["arm"]
 
 
-def test_a_stopped_link_limits_the_chain(tmp_path):
+def test_edge_that_stopped_limits_the_chain(tmp_path):
     run = Run.healthy(seconds=4, skip={"scan"})
     for i in range(20):
         run.tf("base_link", "arm", START + i * SECOND // 50, (0.1 * i, 0, 0))
@@ -74,7 +74,7 @@ def test_a_stopped_link_limits_the_chain(tmp_path):
 
 
 class Irregular:
-    """Two links whose messages come when they like, and what is to be said of them, from the very numbers."""
+    """Two edges with irregular messages, and their expected figures, computed from the same numbers."""
 
     def __init__(self, folder):
         random = np.random.default_rng(7)
@@ -92,7 +92,7 @@ class Irregular:
         self.end = max((self.sent[link] + self.took[link]).max() for link in self.sent)
 
     def newest(self, link, now):
-        """The newest stamp that has come by then."""
+        """Return the newest stamp that was received by then."""
         return self.sent[link][self.sent[link] + self.took[link] <= now].max()
 
 
@@ -101,7 +101,7 @@ def irregular(tmp_path):
     return Irregular(tmp_path)
 
 
-def test_figures_of_links_are_those_of_the_numbers(irregular):
+def test_figures_of_irregular_edges(irregular):
     for row in edge_figures(irregular.seen):
         sent, took = irregular.sent[row.parent, row.child], irregular.took[row.parent, row.child]
         intervals = np.diff(np.sort(sent + took))
@@ -114,7 +114,7 @@ def test_figures_of_links_are_those_of_the_numbers(irregular):
         assert row.age == pytest.approx((irregular.end - sent.max()) * SECOND, abs=2)
 
 
-def test_figures_of_a_chain_are_those_of_asking_all_the_time(irregular):
+def test_figures_of_an_irregular_chain(irregular):
     chain = chain_figures(irregular.seen, "base_link", "map")
     begun = max((irregular.sent[link] + irregular.took[link]).min() for link in irregular.sent)
     moments = np.linspace(begun + 1e-6, irregular.end, 4001)
@@ -129,8 +129,8 @@ def test_figures_of_a_chain_are_those_of_asking_all_the_time(irregular):
     assert chain.delay_p99 == pytest.approx(np.percentile(ages, 99) * SECOND, rel=0.05)
 
 
-def test_the_classic_format_is_tf2_monitors(seen, capsys):
-    """As its source prints it: three line ends, one blank line before the frames, the second heading as an error."""
+def test_classic_format_matches_tf2_monitor(seen, capsys):
+    """tf2_monitor prints three newlines, one empty line before the frames, and the second heading on stderr."""
     _print_classic(seen, ("odom", "lidar"))
     printed = capsys.readouterr()
     assert printed.err == "\nAll Broadcasters:\n"
@@ -158,13 +158,13 @@ def test_the_classic_format_is_tf2_monitors(seen, capsys):
         (["--duration", "0s"], "greater than 0"),
     ],
 )
-def test_wrong_usage_is_a_sentence(arguments, text):
+def test_wrong_usage_is_reported(arguments, text):
     result = CliRunner().invoke(app, ["monitor", *arguments])
     assert result.exit_code == 2
     assert text in result.output
 
 
-def test_the_command_names_publishers_live(inside):
+def test_live_report_names_publishers(inside):
     inside.start("-m", "coframe.lab.complete_tf_tree")
 
     def monitor(*options):
