@@ -1,4 +1,4 @@
-"""`coframe frames`: recordings, output files, live trees and changes."""
+"""The command `coframe frames`: recordings, files, live trees and changes with --watch."""
 
 import dataclasses
 import io
@@ -23,18 +23,18 @@ def frames(*arguments):
     return CliRunner().invoke(app, ["frames", *map(str, arguments)])
 
 
-def test_trees_of_a_recording_in_the_terminal(shared):
+def test_recording_in_the_terminal(shared):
     result = frames(shared / "recordings" / "tb3_tf_missing_static")
     assert result.exit_code == 0
     lines = [line.split() for line in result.stdout.splitlines()]
-    assert lines[0] == ["frame", "Hz", "jitter", "ms"], "what nobody knows has no column"
+    assert lines[0] == ["frame", "Hz", "jitter", "ms"], "columns without values are omitted"
     assert ["base_link", "root"] in lines
     assert ["├─", "wheel_left_link", "19.4", "17.1"] in lines
     assert ["odom", "root"] in lines
     assert "5 frames in 2 separate trees: base_link (3), odom (2)" in result.stdout
 
 
-def test_chosen_topics_show_one_robot_only(tmp_path):
+def test_chosen_topics_are_those_of_one_robot(tmp_path):
     run = Run()
     run.tf("odom", "base", START, topic="/robot1/tf")
     run.tf("base", "lidar", START, static=True)
@@ -43,12 +43,12 @@ def test_chosen_topics_show_one_robot_only(tmp_path):
     assert (apart.exit_code, "several namespaces" in apart.stderr) == (2, True)
     result = frames(bag, "-o", tmp_path / "one.json", "--tf-topic", "robot1/tf")
     assert result.exit_code == 0, result.output
-    output = frames(bag, "--json", "--tf-topic", "robot1/tf").stdout
-    assert list(json.loads(output)["namespaces"]) == ["/robot1"]
+    printed = frames(bag, "--json", "--tf-topic", "robot1/tf").stdout
+    assert list(json.loads(printed)["namespaces"]) == ["/robot1"]
     assert "3 frames in 1 tree" in frames(bag, "--tf-topic", "robot1/tf").stdout
 
 
-def test_output_in_every_format(shared, tmp_path):
+def test_every_format_of_a_recording(shared, tmp_path):
     paths = [tmp_path / f"frames{suffix}" for suffix in (".gv", ".svg", ".pdf", ".json", ".mmd", ".md")]
     options = [part for path in paths for part in ("-o", path)]
     result = frames(shared / "recordings" / "tb3_tf_missing_static", *options)
@@ -63,7 +63,7 @@ def test_output_in_every_format(shared, tmp_path):
     assert mmd.read_text() in md.read_text()
 
 
-def test_each_namespace_has_its_own_trees(tmp_path):
+def test_namespaces_are_drawn_separately(tmp_path):
     run = Run()
     for robot in ("/r1", "/r2"):
         run.tf("odom", "base", START, static=True, topic=f"{robot}/tf_static")
@@ -87,14 +87,14 @@ def test_each_namespace_has_its_own_trees(tmp_path):
         (["nowhere.mcap"], 1, "nowhere.mcap"),
     ],
 )
-def test_wrong_usage_is_reported(arguments, code, text):
+def test_wrong_usage_gives_a_message(arguments, code, text):
     result = frames(*arguments)
     assert result.exit_code == code
     assert text in result.output
     assert "Traceback" not in result.output
 
 
-def test_errors_of_output_files_are_reported(tmp_path, monkeypatch):
+def test_failed_output_gives_a_message(tmp_path, monkeypatch):
     run = Run()
     run.tf("a", "b", START, static=True)
     bag = run.write(tmp_path)
@@ -112,18 +112,18 @@ def test_errors_of_output_files_are_reported(tmp_path, monkeypatch):
 
 
 def test_live_trees_name_their_publishers(inside, tmp_path, eventually):
-    printed = tmp_path / "printed"
+    output_path = tmp_path / "output"
 
     def frames():
-        whole = printed.read_text().rpartition("\n")[0].splitlines()[-1:]
+        whole = output_path.read_text().rpartition("\n")[0].splitlines()[-1:]
         return {frame["name"]: frame for line in whole for frame in json.loads(line)["frames"]}
 
-    with printed.open("w") as output:
+    with output_path.open("w") as output:
         inside.start("-m", "coframe.cli", "frames", "--watch", "--json", stdout=output)
         inside.start("-m", "coframe.lab.complete_tf_tree")
         eventually(lambda: len(frames()) == 11 and frames()["link1"]["edges"][-1]["transforms"] > 40)
     found = frames()
-    # What comes before it is known who is there has no name.
+    # Transforms that arrive before the discovery of their publisher have no publisher name.
     assert {edge["publisher"] for frame in found.values() for edge in frame["edges"]} - {""} == {"/complete_tf_tree"}
     assert found["link1"]["parent"] == "base_link"
     assert 40 < found["link1"]["edges"][-1]["rate"] < 60
@@ -133,19 +133,21 @@ def test_live_trees_name_their_publishers(inside, tmp_path, eventually):
 
 @pytest.mark.slow
 def test_watch_prints_changes(inside, tmp_path, eventually):
-    printed = tmp_path / "printed"
-    with printed.open("w") as output:
+    output_path = tmp_path / "output"
+    with output_path.open("w") as output:
         node = inside.start("-m", "coframe.lab.complete_tf_tree")
         inside.start("-m", "coframe.cli", "frames", "--watch", "--duration", "2s", stdout=output)
-        eventually(lambda: "11 frames in 1 tree" in printed.read_text() or "end_effector is new" in printed.read_text())
+        eventually(
+            lambda: "11 frames in 1 tree" in output_path.read_text() or "end_effector is new" in output_path.read_text()
+        )
         inside.start("-m", "coframe.cli", "static", "--frame-id", "base_link", "--child-frame-id", "mug")
-        eventually(lambda: "mug is new: below base_link" in printed.read_text())
+        eventually(lambda: "mug is new: below base_link" in output_path.read_text())
         node.kill()
-        eventually(lambda: "link1 is stale: no transform for" in printed.read_text())
-        eventually(lambda: "link1 is gone; it was below base_link" in printed.read_text())
+        eventually(lambda: "link1 is stale: no transform for" in output_path.read_text())
+        eventually(lambda: "link1 is gone; it was below base_link" in output_path.read_text())
 
 
-def test_changes_are_highlighted_and_hidden_rows_are_counted(tmp_path):
+def test_changes_are_highlighted_and_omitted_rows_are_counted(tmp_path):
     run = Run.healthy(seconds=2, skip={"scan"})
     for number in range(40):
         run.tf("base_link", f"sensor{number}", START, static=True)
@@ -158,7 +160,7 @@ def test_changes_are_highlighted_and_hidden_rows_are_counted(tmp_path):
     assert "43 frames in 1 tree" in text
 
 
-def test_narrow_terminal_cuts_publishers_first(tmp_path):
+def test_narrow_screen_shortens_publishers_first(tmp_path):
     (seen,) = observe_recording(Run.healthy(seconds=2, skip={"scan"}).write(tmp_path)).values()
     transforms = dataclasses.replace(
         seen.transforms, publishers=("/a_node_with_a_name_that_is_longer_than_it_should_be",)
