@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { decode, ProtocolError, slice } from "../src/protocol";
+import { decode, ProtocolError, slice } from "../src/protocol/messages";
 
 /** Packs the fields one after another, as the server does. */
 function pack(...fields: ["u32" | "f32" | "f64" | "u8", ...number[]][]): ArrayBuffer {
@@ -80,7 +81,13 @@ describe("display messages", () => {
   it("refer to rows inside the payload of shapes only", () => {
     const payload = new Float32Array([0, 1, 2, 3, 4, 5]);
     expect(Array.from(slice(payload, [3, 1], 3))).toEqual([3, 4, 5]);
-    for (const pair of [[3, 2], [-1, 1], [0, -1], [NaN, 1], [0, 1e12]] as [number, number][])
+    for (const pair of [
+      [3, 2],
+      [-1, 1],
+      [0, -1],
+      [NaN, 1],
+      [0, 1e12],
+    ] as [number, number][])
       expect(slice(payload, pair, 3)).toHaveLength(0);
   });
 
