@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.bags import from_yaml, open_bag
+from coframe.bags.namespaces import namespace_of
 from coframe.bags.transforms import ingest_for, is_static
-from coframe.bags.tree import namespace_of
 from coframe.doctor.collector import Collector
 from coframe.doctor.joints import joint_states
 from coframe.doctor.observation import (
