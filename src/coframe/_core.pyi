@@ -27,30 +27,30 @@ class Transform:
     ) -> None: ...
     @property
     def values(self) -> tuple[float, float, float, float, float, float, float]:
-        """(x, y, z, qx, qy, qz, qw) as floats; of a batch: the identity."""
+        """(x, y, z, qx, qy, qz, qw) as floats, translation in metres; for a batch the identity."""
 
     @property
     def stamp(self) -> int | None:
-        """Nanoseconds, or None."""
+        """Time in nanoseconds, or None."""
 
     @property
     def target(self) -> str | None:
-        """The frame that the values are expressed in, or None."""
+        """The target frame, in which the values are expressed, or None."""
 
     @property
     def source(self) -> str | None:
-        """The frame whose pose the values are, or None."""
+        """The source frame, whose pose the values are, or None."""
 
     @property
     def _beyond(self) -> int:
-        """Nanoseconds of extrapolation beyond the data of an edge; 0: none."""
+        """How far the lookup extrapolated beyond the samples of an edge, in nanoseconds."""
 
     @property
     def _batch(self) -> Any:
         """None, or (translations, quaternions, stamps, extrapolated) as arrays; the last two may be None."""
 
 class Failure:
-    """The facts of a failed lookup; str() returns tf2's text."""
+    """The facts of a failed lookup; str() returns the text of tf2."""
 
     @property
     def code(self) -> str: ...
@@ -79,7 +79,7 @@ class Buffer:
     def __init__(self, cache_ns: int) -> None: ...
     @property
     def cache_ns(self) -> int:
-        """How long dynamic transforms are kept, in nanoseconds; negative: without limit."""
+        """Length of the cache for dynamic transforms in nanoseconds; negative if the buffer keeps everything."""
 
     def lookup(
         self,
@@ -91,22 +91,37 @@ class Buffer:
         extrapolate: DurationLike | None = None,
         hold: bool = False,
     ) -> PublicTransform:
-        """Return the transform that takes coordinates in `source` to coordinates in `target` at `stamp`.
+        """Return the transform at `stamp` that transforms data from `source` into `target`.
 
         Args:
-            target: The frame that the result is expressed in.
-            source: The frame that is looked up.
-            stamp: Nanoseconds or a Time; 0 or None is the latest time at which all edges have data.
-            timeout: How long to wait for the transform, without the GIL; None and 0 do not wait.
-            extrapolate: The longest extrapolation beyond the samples of an edge, used after waiting without success;
-                None: none, as in tf2. ``extrapolated`` of the result is the extrapolation used.
-            hold: Extrapolate by keeping the last pose instead of the last twist.
+            target: The target frame.
+            source: The source frame.
+            stamp: Time of the lookup: nanoseconds, datetime64, an aware datetime, or a Time; 0 or None means the
+                latest time at which all edges between the frames have data.
+            timeout: How long to wait for the transform, such as ``"100ms"``; None and 0 do not wait. Other Python
+                threads run meanwhile.
+            extrapolate: How far the lookup may extrapolate beyond the samples of an edge, such as ``"50ms"``, after
+                waiting has not helped; None does not extrapolate, as tf2.
+            hold: Whether extrapolation holds the last pose instead of continuing with the last twist.
+
+        Returns:
+            A single transform: translation in metres, unit quaternion x, y, z, w, and the time of the lookup in
+            ``stamp``. Its ``extrapolated`` is the length of the extrapolation in nanoseconds.
 
         Raises:
-            LookupException: A frame does not exist.
+            LookupException: A frame does not exist, or the tree contains a loop.
             ConnectivityException: The frames are in different trees.
             ExtrapolationException: An edge has no sample at that time.
-            InvalidArgumentException: A name is empty or begins with a slash.
+            InvalidArgumentException: A name is empty or has a leading slash.
+            TypeError: A stamp or duration has a wrong type, such as a float of seconds.
+
+        Example:
+            >>> import coframe
+            >>> buffer = coframe.Buffer()
+            >>> for second in (1, 2):
+            ...     _ = buffer.set("odom", "base", coframe.Transform([second, 0, 0]), second * 1_000_000_000)
+            >>> buffer.lookup("odom", "base", 1_500_000_000).translation.tolist()
+            [1.5, 0.0, 0.0]
         """
 
     def _lookup_full(
@@ -119,9 +134,9 @@ class Buffer:
         *,
         timeout: DurationLike | None = None,
     ) -> PublicTransform:
-        """Return the pose of `source` at `source_stamp` relative to `target` at `target_stamp` (time travel).
+        """Return the pose of `source` at `source_stamp` relative to `target` at `target_stamp`.
 
-        `fixed` is a frame that does not move between the two times. Raises the same exceptions as lookup().
+        The frame `fixed` is assumed not to move between the two times. Raises as lookup().
         """
 
     def _lookup_rows(
@@ -137,24 +152,32 @@ class Buffer:
         extrapolate: DurationLike | None = None,
         hold: bool = False,
     ) -> int:
-        """Look up a transform for each of the `stamps`, which are replaced by those of the results.
+        """Do lookup() for each of the `stamps`, which become the stamps of the results; the arrays are written to.
 
         Returns:
-            The first row without a transform, which raises unless it is filled with NaN; the number of rows if none.
+            The first row without a transform that is an error, unless NaN marks such rows; the number of rows if there
+            is none.
         """
 
     def _stamps_between(self, target: str, source: str, first: int, last: int) -> bytes:
-        """Return the sorted stamps of all samples between two times on the edges between two frames, as int64."""
+        """Return the stamps of all samples between two times on the edges between two frames, sorted, as int64."""
 
     def _set_rows(
         self, parent: str, child: str, stamps: Any, poses: Any, static: bool, authority: str
     ) -> tuple[int, int, int]:
-        """Insert one transform per row; return the rejection bits, the number stored and the first rejected row."""
+        """Do _set_values() for each row; return reasons for refusal, the number stored, and the first refused row."""
 
     def can_transform(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
     ) -> bool:
-        """Return whether lookup() succeeds within `timeout`."""
+        """Return whether :meth:`lookup` would succeed, or succeeds within `timeout`.
+
+        Args:
+            target: The target frame.
+            source: The source frame.
+            stamp: Time of the lookup, as in :meth:`lookup`.
+            timeout: How long to wait for the transform; None and 0 do not wait.
+        """
 
     def _can_transform_full(
         self,
@@ -166,7 +189,7 @@ class Buffer:
         *,
         timeout: DurationLike | None = None,
     ) -> bool:
-        """Return whether _lookup_full() succeeds within `timeout`."""
+        """Return whether _lookup_full() would succeed, or succeeds within `timeout`."""
 
     def _why_not(self, target: str, source: str, stamp: StampLike | None = None) -> str:
         """Return tf2's text for why can_transform() is False; "" if it is True."""
@@ -177,17 +200,31 @@ class Buffer:
         """Return tf2's text for why _can_transform_full() is False; "" if it is True."""
 
     def latest_common_time(self, target: str, source: str) -> int:
-        """Return the newest time at which every edge between both frames has data, in nanoseconds; 0 if all are static.
+        """Return the newest time at which every edge between two frames has data.
+
+        Returns:
+            Nanoseconds; 0 if all edges are static.
 
         Raises:
             LookupException: A frame does not exist.
-            TransformException: The frames are in different trees, or there is a loop (tf2 raises the base class here).
+            TransformException: The frames are in different trees, or the tree contains a loop (tf2 chooses the class).
         """
 
     def chain(
         self, target: str, target_stamp: StampLike | None, source: str, source_stamp: StampLike | None, fixed: str
     ) -> list[str]:
-        """Return the frames between source, fixed frame and target."""
+        """Return the frames on the path from `source` through `fixed` to `target`.
+
+        Args:
+            target: The target frame.
+            target_stamp: Time of the target, as in :meth:`lookup`.
+            source: The source frame.
+            source_stamp: Time of the source, as in :meth:`lookup`.
+            fixed: A frame that does not move between the two times.
+
+        Raises:
+            TransformException: As :meth:`lookup`.
+        """
 
     def _set_values(
         self,
@@ -204,50 +241,56 @@ class Buffer:
         static: bool,
         authority: str,
     ) -> int:
-        """Insert a transform given as numbers; return 0, or the reasons for rejection as bits (see insert_texts)."""
+        """Store a transform from numbers; return 0, or the reasons for refusal as bits (see insert_texts)."""
 
     def _set_plain(
         self, parent: str, child: str, transform: PublicTransform, stamp: StampLike | None, static: bool
     ) -> int | None:
-        """Insert a dynamic Transform between known frames; return None for all other arguments."""
+        """Do as _set_values() for a dynamic Transform between known frames; return None for any other case."""
 
     def _set_message(self, message: Any, static: bool, authority: str) -> int | None:
-        """Insert a TransformStamped between known frames; return None for all other arguments."""
+        """Do as _set_values() for a TransformStamped between known frames; return None for any other case."""
 
     def _lookup_message(self, target: str, source: str, time: Any) -> Any:
-        """Look up a TransformStamped at a Time; return None if lookup() has to decide."""
+        """Return lookup() as a TransformStamped for a Time; None if lookup() has to decide."""
 
     def ingest(self, cdr: Any, *, static: bool = False, authority: str = "no recorded authority") -> int:
-        """Insert the transforms of a tf2_msgs/msg/TFMessage given as CDR bytes; return how many were stored.
+        """Store the transforms of a serialized tf2_msgs/msg/TFMessage, all of them or none.
 
-        A malformed message is rejected as a whole.
+        Args:
+            cdr: The message as CDR bytes.
+            static: Whether the transforms are static, as on /tf_static.
+            authority: Name of the publisher, as reports show it.
+
+        Returns:
+            The number of stored transforms.
 
         Raises:
-            DecodeError: The bytes are not a TFMessage; `statistics` counts them.
+            DecodeError: The bytes are not a TFMessage; `statistics` counts such messages.
         """
 
     def encode(self, *, static: bool) -> bytes:
-        """Return the newest sample of every static, or every dynamic, frame as the CDR of one TFMessage."""
+        """Return the newest sample of every static, or of every dynamic, frame as the CDR bytes of one TFMessage."""
 
     def clear(self) -> None:
-        """Remove all dynamic samples; frames and static transforms stay, as in tf2."""
+        """Remove all dynamic samples; frames stay known, and static transforms stay, as in tf2."""
 
     def remove_frame(self, name: str) -> bool:
-        """Remove a frame with the edge to its parent and the edges of its children to it, including static ones.
+        """Remove a frame with the edges to its parent and to its children, also static ones.
 
         Returns:
-            False if there is no such frame.
+            Whether the frame existed.
         """
 
     def freeze(self) -> None:
-        """Make the buffer read-only."""
+        """Make the buffer read-only: from now on it stores nothing and removes nothing."""
 
     @property
     def frozen(self) -> bool:
         """Whether the buffer is read-only."""
 
     def _become_snapshot(self, other: Buffer) -> None:
-        """Turn a new buffer into a frozen copy of the current state of `other`."""
+        """Become a frozen copy of `other` as it is now; only for a buffer that is not used yet."""
 
     def _frame_tuples(self) -> list[tuple[str, str, bool, int, int, int, float, str]]: ...
     def _edge_tuples(
@@ -261,35 +304,39 @@ class Buffer:
         ]
     ]: ...
     def _edge_at(self, child: str, stamp: int) -> tuple[str, str, int, int] | None:
-        """Return the state of the edge above a frame at a time (0: the latest); None for a frame without an edge.
+        """Return the state of a frame's samples at a time; 0 is the latest. None for a frame without a parent.
 
         Returns:
-            ``ok``, or the reason for a failure as a Failure's code (``too_new``, ...); the parent at that time (or the
-            last one without a sample then; "" if none); and the stamps of the samples before and after.
+            The state (``ok``, or a code of Failure such as ``too_new``), the parent at that time (or the last parent if
+            there is no sample at that time; "" without any), and the stamps of the samples before and after.
         """
 
     def frame_names(self) -> list[str]:
-        """Return all frames in the order of their first appearance (a child before its parent)."""
+        """Return the names of all frames in the order in which the buffer received them, a child before its parent."""
 
     def frame_exists(self, name: str) -> bool:
-        """Return whether the frame exists."""
+        """Return whether the buffer has received a transform that names the frame."""
 
     def all_frames_as_string(self) -> str:
-        """Return tf2's text of the tree, one line per frame."""
+        """Return tf2's text of the tree, with one line per frame."""
 
     def all_frames_as_yaml(self) -> str:
-        """Return tf2's YAML of the tree, valid for every frame name."""
+        """Return tf2's YAML of the tree; unlike in tf2, it is valid YAML for every frame name."""
 
     def all_frames_as_dot(self, now: int = 0) -> str:
-        """Return tf2's Graphviz text of the tree; `now` in nanoseconds adds ages and a legend."""
+        """Return tf2's graphviz text of the tree.
+
+        Args:
+            now: Current time in nanoseconds, for ages and a legend; 0 omits them.
+        """
 
     @property
     def statistics(self) -> dict[str, int]:
-        """Counts of messages and malformed messages, and of stored, refused and old transforms."""
+        """Counters: ``messages``, ``malformed`` (ingested as bytes); ``stored``, ``refused``, ``old`` (transforms)."""
 
     @property
     def _changes(self) -> int:
-        """A counter that increases with every change."""
+        """A counter that increases with every insertion."""
 
 class Mailbox:
     """A queue of tokens that waits and watches put when something has happened."""
