@@ -86,7 +86,7 @@ def observe_recording(
                 transforms=collector.transforms(),
                 empty_messages=collector.empty,
                 damaged_messages=collector.damaged,
-                messages_left_out=collector.left_out,
+                messages_ignored=collector.ignored,
                 topics=facts.topics,
                 sensors=tuple(s for s in facts.sensors if _belongs(s.topic, name, collectors)),
                 descriptions=tuple(text for topic, text in facts.descriptions if _belongs(topic, name, collectors)),
