@@ -1,7 +1,7 @@
-"""Writes the message classes from the definitions in ``interfaces/``.
+"""Generator of the message classes from the definitions in ``interfaces/``.
 
 python scripts/generate_messages.py            write src/coframe/messages/generated and the packages in src/ros
-python scripts/generate_messages.py --check    exit 1 if what is committed differs
+python scripts/generate_messages.py --check    exit with code 1 if the committed files differ
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ TIME = NamespacedType(("builtin_interfaces", "msg"), "Time")
 
 
 class Message(NamedTuple):
-    """A class to write."""
+    """A message class to generate."""
 
     package: str
     kind: str
@@ -49,7 +49,7 @@ class Message(NamedTuple):
 
 
 def main() -> int:
-    """Writes everything, or compares with what is there."""
+    """Write all files, or compare them with the existing ones."""
     files = generate()
     if "--check" not in sys.argv[1:]:
         for path, text in files.items():
@@ -59,16 +59,12 @@ def main() -> int:
     stale = [path for path, text in files.items() if not path.is_file() or path.read_text("utf-8") != text]
     stale += [path for path in GENERATED.rglob("*.py") if path not in files]
     for path in stale:
-        print(f"{path.relative_to(ROOT)} is not what the definitions give; run scripts/generate_messages.py")
+        print(f"{path.relative_to(ROOT)} is out of date. Run scripts/generate_messages.py.")
     return 1 if stale else 0
 
 
-# Of the packages that users import: all of them come from here, or none.
-CHECK = "\nfrom coframe import ros_side\n\nros_side.check(__name__)\n"
-
-
 def generate() -> dict[Path, str]:
-    """The text of every file."""
+    """Return the text of every file."""
     files = {GENERATED / "__init__.py": '"""The message classes of each ROS package."""\n'}
     for folder in sorted(path for path in INTERFACES.iterdir() if path.is_dir()):
         package = folder.name
@@ -88,18 +84,18 @@ def generate() -> dict[Path, str]:
 
 
 class Module:
-    """One module to write: the messages, services or actions of one package."""
+    """A module to generate: the messages, services or actions of one package."""
 
     def __init__(self, package: str, kind: str) -> None:
         self.package = package
         self.kind = kind
         self.messages: dict[str, Message] = {}
-        self.wholes: dict[str, list[str]] = {}  # services and actions: the lines of the class after their messages
+        self.compounds: dict[str, list[str]] = {}  # The lines of each service or action class.
         self.imports: dict[str, set[str]] = {}
         self.names: dict[str, set[str]] = {"definition": set(), "message": set(), "hints": set()}
 
     def add(self, path: Path) -> None:
-        """Takes in one definition file."""
+        """Add one definition file."""
         parts = parse(path.read_text("utf-8"), self.package, PARTS[self.kind])
         name = path.stem
         if self.kind == "msg":
@@ -119,7 +115,7 @@ class Module:
         self._add_message(f"{name}_Request", request)
         self._add_message(f"{name}_Response", response)
         self.names["message"].add("Service")
-        self.wholes[name] = [
+        self.compounds[name] = [
             f"class {name}(Service):",
             f'    """Service {self.package}/{self.kind}/{name}."""',
             "",
@@ -147,7 +143,7 @@ class Module:
         self._import("action_msgs", "srv", "CancelGoal")
         self._import("action_msgs", "msg", "GoalStatusArray")
         self.names["message"].add("Action")
-        self.wholes[name] = [
+        self.compounds[name] = [
             f"class {name}(Action):",
             f'    """Action {self.package}/{self.kind}/{name}."""',
             "",
@@ -157,7 +153,7 @@ class Module:
             f"    Feedback: TypeAlias = {name}_Feedback",
             "",
             "    class Impl:",
-            '        """The services and messages that carry the action."""',
+            '        """The services and messages of the action protocol."""',
             "",
             f"        SendGoalService: TypeAlias = {name}_SendGoal",
             f"        GetResultService: TypeAlias = {name}_GetResult",
@@ -171,19 +167,19 @@ class Module:
             self.imports.setdefault(f"{package}.{kind}", set()).add(name)
 
     def docstring(self) -> str:
-        """What the module says about itself."""
+        """Return the docstring of the module."""
         return f"{KINDS[self.kind]} of {self.package}."
 
     def text(self) -> str:
-        """The generated module."""
+        """Return the text of the module with the classes."""
         self.names["message"].add("Message")
         classes = ["\n".join(self._class(message)) for message in self._in_order()]
-        classes += ["\n".join(lines) for lines in self.wholes.values()]
+        classes += ["\n".join(lines) for lines in self.compounds.values()]
         header = NOTICE.format(package=self.package, kind=self.kind)
         header += f'"""{self.docstring()}"""\n\nfrom __future__ import annotations\n\n'
         if any("array(" in text for text in classes):
             header += "from array import array\n"
-        alias = ", TypeAlias" if self.wholes else ""
+        alias = ", TypeAlias" if self.compounds else ""
         header += f"from typing import TYPE_CHECKING, Any, Final{alias}\n\n"
         if any("np." in text for text in classes):
             header += "import numpy as np\n\n"
@@ -204,8 +200,8 @@ class Module:
         return lines
 
     def public_text(self) -> str:
-        """The ROS package's module that gives the classes their well-known place."""
-        names = sorted([*self.messages, *self.wholes], key=_natural)
+        """Return the text of the ROS package's module, from which users import the classes."""
+        names = sorted([*self.messages, *self.compounds], key=_natural)
         lines = [
             NOTICE.format(package=self.package, kind=self.kind).rstrip(),
             f'"""{self.docstring()}"""',
@@ -221,7 +217,7 @@ class Module:
         return "\n".join(lines) + "\n"
 
     def _in_order(self) -> list[Message]:
-        """The messages, each after those it holds."""
+        """Return the messages in an order in which each comes after the messages that it contains."""
         ordered: dict[str, Message] = {}
 
         def visit(message: Message) -> None:
@@ -237,7 +233,7 @@ class Module:
 
     def _class(self, message: Message) -> list[str]:
         structure = message.structure
-        # Type checkers must not see __slots__: assignments to the attributes without underscore would be errors.
+        # __slots__ is hidden from type checkers, because they would reject assignments to attributes without a slot.
         slots = ", ".join(f'"_{field.name}"' for field in structure.fields)
         return [
             f"class {message.name}(Message):",
@@ -301,7 +297,7 @@ def _constructor(fields: list[Field]) -> list[str]:
 
 
 def _natural(name: str) -> list[tuple[str, int]]:
-    """The key that sorts Int8 before Int16, as the linter wants it."""
+    """Return a sort key that puts Int8 before Int16, as the linter requires."""
     return [(text, int(digits or -1)) for text, digits in re.findall(r"(\D+)(\d*)", name)]
 
 
@@ -333,7 +329,7 @@ def _parameter_hint(type_: AbstractType) -> str:
 
 
 def _default(field: Field) -> str:
-    """The expression for the value a field has when the constructor is not given one."""
+    """Return the expression for the default value of a field."""
     type_ = field.type
     number = number_of(type_)
     if field.default is not None:

@@ -54,7 +54,7 @@ nb::list writers(const Relay& self, Relay::SourceId source) {
   if (source >= self.sources()) throw nb::index_error("there is no such source");
   nb::list list;
   for (const auto& [handle, writer] : self.writers(source)) {
-    list.append(nb::make_tuple(writer_tuple(handle, writer.messages, writer.received_at, writer.delay, writer.name_problems),
+    list.append(nb::make_tuple(writer_tuple(handle, writer.messages, writer.received_at, writer.period, writer.delay, writer.name_problems),
                                writer.malformed, writer.refused));
   }
   return list;
@@ -62,10 +62,11 @@ nb::list writers(const Relay& self, Relay::SourceId source) {
 
 }  // namespace
 
-nb::tuple writer_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t received_at, const StampDelay& delay,
+nb::tuple writer_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t received_at,
+                       const ArrivalPeriod& period, const StampDelay& delay,
                       const NameProblems& name_problems) {
   const nb::object behind = delay.known() ? nb::object(nb::int_(delay.typical())) : nb::object(nb::none());
-  return nb::make_tuple(writer, messages, received_at, behind, text_of(name_problems.slashed), text_of(name_problems.prefixed),
+  return nb::make_tuple(writer, messages, received_at, period.median(), behind, text_of(name_problems.slashed), text_of(name_problems.prefixed),
                         text_of(name_problems.plain));
 }
 

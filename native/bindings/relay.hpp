@@ -5,13 +5,15 @@
 
 #include <cstdint>
 
+#include "core/arrival_period.hpp"
 #include "core/stamp_delay.hpp"
 #include "core/renaming.hpp"
 
 namespace coframe::bindings {
 
-// (handle, messages, heard at, typical lag or None, examples of names: with a slash, with the prefix, without it)
-nanobind::tuple writer_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t received_at, const StampDelay& delay,
+// (handle, messages, time of the last one, period, typical delay or None, examples of names: with a slash, with the prefix, without it)
+nanobind::tuple writer_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t received_at,
+                             const ArrivalPeriod& period, const StampDelay& delay,
                             const NameProblems& name_problems);
 
 }  // namespace coframe::bindings

@@ -132,8 +132,8 @@ nb::list writers(const PyTfReader& reader) {
     all = reader.writers();
   }
   nb::list list;
-  for (const auto& [writer, messages, received_at, delay, name_problems] : all) {
-    list.append(writer_tuple(writer, messages, received_at, delay, name_problems));
+  for (const auto& [writer, messages, received_at, period, delay, name_problems] : all) {
+    list.append(writer_tuple(writer, messages, received_at, period, delay, name_problems));
   }
   return list;
 }

@@ -35,6 +35,7 @@ void Relay::add(SourceId source, WriterId writer, const std::uint8_t* data, std:
   Writer& from = writer_of(sources_.at(source), writer);
   ++from.messages;
   from.received_at = now;
+  from.period.add(now);
   if (decode_tf_message(data, size, decoded_, from.expected).reason) {
     ++from.malformed;
     return;

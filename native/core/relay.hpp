@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/cdr.hpp"
+#include "core/arrival_period.hpp"
 #include "core/stamp_delay.hpp"
 #include "core/renaming.hpp"
 
@@ -54,6 +55,7 @@ class Relay {
     std::uint64_t messages = 0, malformed = 0;
     std::uint64_t refused = 0;  // transforms with bad names or values, or of one edge too many
     std::int64_t received_at = 0;
+    ArrivalPeriod period;
     StampDelay delay;
     NameProblems name_problems;
     std::vector<ExpectedNames> expected;  // `child` is 1 + the edge's place; 0: not for this relay

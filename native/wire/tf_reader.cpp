@@ -44,7 +44,7 @@ std::vector<TfReader::WriterStatistics> TfReader::writers() const {
   const std::lock_guard lock(mutex_);
   std::vector<WriterStatistics> all;
   for (const auto& [writer, source] : sources_) {
-    all.push_back({writer, source.messages, source.received_at, source.delay, source.stream.name_problems});
+    all.push_back({writer, source.messages, source.received_at, source.period, source.delay, source.stream.name_problems});
   }
   return all;
 }
@@ -67,7 +67,7 @@ TfReader::Source& TfReader::source_of(dds::Handle writer) {
   const auto found = sources_.find(writer);
   if (found != sources_.end()) return found->second;
   if (sources_.size() >= kMaxSources) std::erase_if(sources_, [](const auto& entry) { return !entry.second.named; });
-  return sources_.emplace(writer, Source{.stream = buffer_->open_stream(is_static_, authority_, renaming_), .delay = {}})
+  return sources_.emplace(writer, Source{.stream = buffer_->open_stream(is_static_, authority_, renaming_), .period = {}, .delay = {}})
       .first->second;
 }
 
@@ -78,6 +78,7 @@ void TfReader::store(const dds::Sample& sample) {
   // What is malformed the buffer counts.
   buffer_->ingest_without_notify(source.stream, bytes.data(), bytes.size(), stored);
   source.received_at = now<std::chrono::steady_clock>();
+  source.period.add(source.received_at);
   if (stored > 0) stored_at_.store(source.received_at, std::memory_order_release);
   buffer_->notify_ingested(source.stream);
   ++source.messages;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/buffer.hpp"
+#include "core/arrival_period.hpp"
 #include "core/stamp_delay.hpp"
 #include "wire/data_reader.hpp"
 #include "wire/qos.hpp"
@@ -23,6 +24,7 @@ class TfReader {
     dds::Handle writer;
     std::uint64_t messages;
     std::int64_t received_at;  // nanoseconds of the steady clock
+    ArrivalPeriod period;
     StampDelay delay;                // behind the system clock; of transforms that are not static
     NameProblems name_problems;
   };
@@ -53,6 +55,7 @@ class TfReader {
     bool named = false;
     std::uint64_t messages = 0;
     std::int64_t received_at = 0;
+    ArrivalPeriod period;
     StampDelay delay;
   };
 

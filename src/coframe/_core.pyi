@@ -583,7 +583,7 @@ class Relay:
             how many left out for the rate; the newest stamp; when it was heard of last.
         """
 
-    def writers(self, source: int) -> list[tuple[tuple[int, int, int, int | None, str, str, str], int, int]]:
+    def writers(self, source: int) -> list[tuple[tuple[int, int, int, int, int | None, str, str, str], int, int]]:
         """What each writer of a source has sent: as TfReader.writers(), messages and transforms that were bad."""
 
 def frozen_parts(buffer: Buffer) -> tuple[bytes, int]:
@@ -750,7 +750,7 @@ class TfReader:
         authority: str,
         renaming: Renaming | None = None,
     ) -> None: ...
-    def writers(self) -> list[tuple[int, int, int, int | None, str, str, str]]:
+    def writers(self) -> list[tuple[int, int, int, int, int | None, str, str, str]]:
         """What each writer has sent.
 
         Returns:

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, overload
 import numpy as np
 
 from coframe import _core, errors, frozen_file, time
+from coframe.analysis.clocks import present_for
+from coframe.analysis.liveness import buffered_period, is_stale
 from coframe.dispatcher import Dispatcher
 from coframe.errors import InvalidArgumentException, TimeoutException, TransformException
 from coframe.formatting import duration
@@ -83,6 +85,9 @@ class EdgeInfo(NamedTuple):
         repeated: Number of exact repetitions, which change nothing.
         rejected: Number of rejected samples by reason: ``"older than the cache"``, ``"not a number"``,
             ``"invalid quaternion"``, ``"its own parent"``. Reasons that did not occur are omitted.
+        stale: Whether the edge is stale: it is not static, and its newest sample is older than 1 s and than 5 times
+            the median interval between its stamps. None where the present is not known: in recordings, and where the
+            stamps are not on the system clock and no `now` was given.
     """
 
     parent: str
@@ -100,6 +105,7 @@ class EdgeInfo(NamedTuple):
     late: int
     repeated: int
     rejected: dict[str, int]
+    stale: bool | None
 
 
 class CallbackHandle:
@@ -585,8 +591,14 @@ class Buffer(_core.Buffer):
             now: Current time in nanoseconds, from which ages are computed; by default the system time. Pass the time
                 of the clock for recordings and simulations.
         """
-        now = system_time.time_ns() if now is None else now
-        return [_edge_info(*facts, now) for facts in self._edge_tuples(children)]
+        given = now is not None or self.frozen or self.cache_ns < 0
+        wall = system_time.time_ns() if now is None else now
+        edges = []
+        for facts in self._edge_tuples(children):
+            newest = facts[0][5]
+            present = now if given else present_for(newest, wall)
+            edges.append(_edge_info(self, *facts, wall, present))
+        return edges
 
     def frames(self) -> list[FrameInfo]:
         """Return the state of every frame, in the order in which the buffer received them."""
@@ -628,10 +640,12 @@ _REASONS = ("older than the cache", "its own parent", "not a number", "invalid q
 
 
 def _edge_info(
+    buffer: Buffer,
     frame: tuple[str, str, bool, int, int, int, float, str],
     intervals: tuple[float, float, float],
     counts: tuple[int, int, int, int, int, int, int],
     now: int,
+    present: int | None,
 ) -> EdgeInfo:
     child, parent, static, samples, oldest, newest, _, authority = frame
     mean, deviation, longest = intervals
@@ -652,7 +666,21 @@ def _edge_info(
         late=late,
         repeated=repeated,
         rejected={reason: count for reason, count in zip(_REASONS, refused, strict=True) if count},
+        stale=_is_stale(buffer, frame, present),
     )
+
+
+def _is_stale(
+    buffer: Buffer, frame: tuple[str, str, bool, int, int, int, float, str], present: int | None
+) -> bool | None:
+    child, parent, static, samples, oldest, newest, *_ = frame
+    if static or not samples:
+        return False
+    if present is None:
+        return None
+    silence = present - newest
+    # The period is read only where it decides.
+    return is_stale(silence, 0.0) and is_stale(silence, buffered_period(buffer, parent, child, oldest, newest, samples))
 
 
 def _timed_out(target: str, source: str, timeout: DurationLike | None, error: TransformException) -> TimeoutException:

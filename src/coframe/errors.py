@@ -30,7 +30,8 @@ import difflib
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe import _core
-from coframe.analysis.missing_edges import missing_edge, tree_of
+from coframe.analysis.missing_edges import missing_edge
+from coframe.analysis.tree import FrameTrees
 from coframe.lookup_hints import doctor_code, hint
 from coframe.time import SECOND
 
@@ -339,7 +340,8 @@ def _similar_names(name: str, known: list[str]) -> list[str]:
 
 def _trees(failure: Failure) -> str:
     roots = failure.roots or ("", "")
-    trees = [tree_of(root, failure.parents) for root in roots]
+    structure = FrameTrees.from_parents(failure.parents)
+    trees = [structure.tree(root) for root in roots]
     described = " and ".join(
         f"{root!r} with {', '.join(below)}" if below else f"{root!r} alone" for root, *below in trees
     )

@@ -1,14 +1,27 @@
-"""Durations and stamps as sentences tell them."""
+"""Durations, stamps, counts and lists of names as messages show them."""
 
 from __future__ import annotations
 
-__all__ = ["duration", "seconds"]
+from typing import TYPE_CHECKING
 
-_UNITS = ((86_400e9, "days"), (3_600e9, "h"), (1e9, "s"), (1e6, "ms"), (1e3, "us"))
+from coframe.time import DAY, HOUR, MICROSECOND, MILLISECOND, SECOND
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+__all__ = ["count", "duration", "listed", "quoted", "seconds", "times"]
+
+_UNITS = ((DAY, "days"), (HOUR, "h"), (SECOND, "s"), (MILLISECOND, "ms"), (MICROSECOND, "us"))
+_MOST_LISTED = 5
 
 
 def duration(nanoseconds: float) -> str:
-    """Three digits and a unit: ``17.3 ms``."""
+    """Return a duration with three digits and a unit.
+
+    Example:
+        >>> duration(17_300_000), duration(90e9)
+        ('17.3 ms', '90 s')
+    """
     for size, unit in _UNITS:
         number = nanoseconds / size
         if abs(number) >= 0.9995:
@@ -17,6 +30,38 @@ def duration(nanoseconds: float) -> str:
 
 
 def seconds(nanoseconds: int) -> str:
-    """A stamp, with all nine digits."""
+    """Return a stamp in seconds with all nine digits."""
     sign, size = ("-", -nanoseconds) if nanoseconds < 0 else ("", nanoseconds)
-    return f"{sign}{size // 10**9}.{size % 10**9:09d}"
+    return f"{sign}{size // SECOND}.{size % SECOND:09d}"
+
+
+def listed(names: Iterable[str]) -> str:
+    """Return names as a list; of a long list the first names and the number of the others.
+
+    Example:
+        >>> listed("abc"), listed("abcdefg")
+        ('a, b, c', 'a, b, c, d, e and 2 more')
+    """
+    every = list(names)
+    more = len(every) - _MOST_LISTED
+    return ", ".join(every[:_MOST_LISTED]) + (f" and {more} more" if more > 0 else "")
+
+
+def quoted(names: Iterable[str]) -> str:
+    """Return names in quotation marks as a list, shortened as by :func:`listed`."""
+    return listed(repr(name) for name in names)
+
+
+def times(number: int) -> str:
+    """Return ``once``, ``twice`` or ``3 times``."""
+    return {1: "once", 2: "twice"}.get(number, f"{number} times")
+
+
+def count(number: int, noun: str) -> str:
+    """Return a number and a noun, in the plural unless the number is 1.
+
+    Example:
+        >>> count(1, "frame"), count(2, "frame")
+        ('1 frame', '2 frames')
+    """
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

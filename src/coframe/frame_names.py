@@ -1,15 +1,15 @@
-"""The frames of one robot among those of others: a prefix in front of every name but the shared ones.
+"""Frame prefixes, which keep the frames of several robots apart: a prefix in front of all names but the shared ones.
 
-The prefix is put there as it is, as robot_state_publisher's ``frame_prefix``: nobody invents a slash.
+The prefix is added without a slash of its own, like robot_state_publisher's ``frame_prefix``.
 
 ============  ===============  ======================  ==========================================
-prefix        name             becomes                 because
+prefix        name             becomes                 reason
 ============  ===============  ======================  ==========================================
 ``robot1/``   ``base_link``    ``robot1/base_link``
-``robot1``    ``base_link``    ``robot1base_link``     the prefix has no slash of its own
-``robot1/``   ``/base_link``   ``robot1/base_link``    tf2 takes a leading slash off
-``robot1/``   ``map``          ``map``                 where it is kept: ``keep=["map"]``
-``robot1/``   ``robot1/odom``  ``robot1/odom``         it begins with ``robot1/`` already
+``robot1``    ``base_link``    ``robot1base_link``     the prefix does not end with a slash
+``robot1/``   ``/base_link``   ``robot1/base_link``    tf2 removes a leading slash
+``robot1/``   ``map``          ``map``                 the frame is shared: ``keep=["map"]``
+``robot1/``   ``robot1/odom``  ``robot1/odom``         the name begins with ``robot1/`` already
 ============  ===============  ======================  ==========================================
 """
 
@@ -22,19 +22,20 @@ from coframe import _core
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["absolute", "belongs", "kept", "oddities", "prefix_advice", "renaming"]
+__all__ = ["absolute", "belongs", "kept", "naming_problems", "prefix_advice", "renaming"]
 
 
 def renaming(prefix: str = "", keep: Iterable[str] = ()) -> _core.Renaming | None:
-    """What gives frames their names among those of others; None where all keep theirs.
+    """Return the function that adds a prefix to frame names; None for an empty prefix.
 
     Args:
-        prefix: In front of each name, with its own slash: ``robot1/``.
-        keep: The frames that are shared, such as ``map`` and ``world``; a text is one name, or several behind commas.
+        prefix: Prefix of each name, with its own slash: ``robot1/``.
+        keep: Names of the shared frames, such as ``map`` and ``world``, which keep their names. A string is one name
+            or several, separated by commas.
 
     Raises:
         ValueError: The prefix begins with a slash.
-        TypeError: Something is no text.
+        TypeError: The prefix or a name is not a string.
 
     Example:
         >>> names = renaming("robot1/", keep=["map"])
@@ -45,12 +46,15 @@ def renaming(prefix: str = "", keep: Iterable[str] = ()) -> _core.Renaming | Non
     """
     shared = kept(keep)
     if prefix.startswith("/"):
-        raise ValueError(f"the prefix {prefix!r} begins with a slash, as no frame of tf2 does: {prefix.lstrip('/')!r}")
+        raise ValueError(
+            f"the prefix {prefix!r} begins with a slash, which tf2 does not allow in frame names. Use "
+            f"{prefix.lstrip('/')!r}."
+        )
     return _core.Renaming(prefix, shared) if prefix else None
 
 
 def kept(keep: Iterable[str]) -> list[str]:
-    """The shared frames, from their names or from one text with commas between them.
+    """Return the names of the shared frames as a list, from names or from one string with commas.
 
     Example:
         >>> kept("map, world"), kept(["/map"])
@@ -61,7 +65,7 @@ def kept(keep: Iterable[str]) -> list[str]:
 
 
 def absolute(topic: str) -> str:
-    """A topic's name as the graph has it, with one slash in front: recorders and users may leave it out.
+    """Return the absolute name of a topic, with one leading slash, which recorders and users may omit.
 
     Example:
         >>> absolute("tf"), absolute("/robot1/tf")
@@ -71,7 +75,7 @@ def absolute(topic: str) -> str:
 
 
 def belongs(topic: str, tf_topic: str, tf_static_topic: str) -> bool:
-    """Whether a topic is of the robot whose transforms are on these two: one of them, or in the first one's namespace.
+    """Return whether a topic belongs to the robot with these transform topics: one of them, or in their namespace.
 
     Example:
         >>> belongs("/robot1/scan", "/robot1/tf", "/tf_static"), belongs("/robot2/scan", "/robot1/tf", "/tf_static")
@@ -84,38 +88,44 @@ def belongs(topic: str, tf_topic: str, tf_static_topic: str) -> bool:
 
 
 def prefix_advice(prefix: str) -> str:
-    """A sentence for who may have forgotten the prefix's slash; "" where it ends as prefixes do.
+    """Return a warning about a prefix that probably lacks its slash; "" for any other prefix.
 
     Example:
         >>> prefix_advice("robot1")
-        "the prefix 'robot1' makes 'robot1base_link' of 'base_link': write 'robot1/' for 'robot1/base_link'"
+        "the prefix 'robot1' turns 'base_link' into 'robot1base_link'; write 'robot1/' for 'robot1/base_link'"
         >>> prefix_advice("robot1/"), prefix_advice("r1_"), prefix_advice("")
         ('', '', '')
     """
     if not prefix[-1:].isalnum():
         return ""
     return (
-        f"the prefix {prefix!r} makes {prefix + 'base_link'!r} of 'base_link': "
+        f"the prefix {prefix!r} turns 'base_link' into {prefix + 'base_link'!r}; "
         f"write {prefix + '/'!r} for {prefix + '/base_link'!r}"
     )
 
 
-def oddities(origin: str, slashed: str, prefixed: str, plain: str) -> list[str]:
-    """What is odd about the names that come from `origin`, a sentence each, from examples ("": there is none).
+def naming_problems(origin: str, slashed: str, prefixed: str, plain: str) -> list[str]:
+    """Return a warning for each problem with the frame names that a publisher uses.
+
+    Args:
+        origin: The publisher.
+        slashed: An example of a name with a leading slash; "" if there is none.
+        prefixed: An example of a name that has the prefix already; "" if there is none.
+        plain: An example of a name without the prefix; "" if there is none.
 
     Example:
-        >>> oddities("/robot1/tf", "/odom", "robot1/odom", "laser")[1].partition(":")[0]
-        '/robot1/tf has half a prefix'
+        >>> naming_problems("/robot1/tf", "/odom", "robot1/odom", "laser")[1].partition(":")[0]
+        '/robot1/tf uses the prefix for only some of its frames'
     """
-    told = []
+    problems = []
     if slashed:
-        told.append(
-            f"{origin} tells of {slashed!r}, with a slash in front, which is left off: tf2's frames have none, "
-            "and look-ups of such names fail"
+        problems.append(
+            f"{origin} publishes the frame {slashed!r}; its leading slash is removed, because frame names of tf2 have "
+            "none and lookups of such names fail"
         )
     if prefixed and plain:
-        told.append(
-            f"{origin} has half a prefix: {prefixed!r} beside {plain!r}. Elsewhere these are two trees; "
-            "give all of its nodes the prefix, or none"
+        problems.append(
+            f"{origin} uses the prefix for only some of its frames: {prefixed!r} and {plain!r}. Without coframe these "
+            "are two trees; give the prefix to all of its nodes, or to none"
         )
-    return told
+    return problems

@@ -1,4 +1,4 @@
-"""Unit quaternions (x, y, z, w) as arrays of shape (..., 4), with any batch axes in front."""
+"""Operations on unit quaternions (x, y, z, w) as arrays of shape (..., 4), with any leading batch axes."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ Array: TypeAlias = NDArray[np.float64]
 
 __all__ = ["from_matrix", "from_rpy", "inverse", "multiply", "rotate", "to_matrix", "to_rpy"]
 
-# |sin(pitch)| from here on is straight up or down, where roll and yaw turn about the same axis.
+# From this |sin(pitch)| on, the x axis points straight up or down, and roll and yaw rotate about the same axis.
 _GIMBAL_LOCK = 1.0 - 1e-12
 
 
 def multiply(a: Array, b: Array) -> Array:
-    """The Hamilton product: the rotation b, then a. Shapes (..., 4), broadcast."""
+    """Return the Hamilton product a b: the rotation b, then the rotation a. Shapes (..., 4) are broadcast."""
     ax, ay, az, aw = np.moveaxis(a, -1, 0)
     bx, by, bz, bw = np.moveaxis(b, -1, 0)
     return np.stack(
@@ -31,19 +31,19 @@ def multiply(a: Array, b: Array) -> Array:
 
 
 def inverse(q: Array) -> Array:
-    """The opposite rotation, which for a unit quaternion is its conjugate. Shape (..., 4)."""
+    """Return the inverse rotation, which for a unit quaternion is its conjugate. Shape (..., 4)."""
     return np.concatenate((-q[..., :3], q[..., 3:]), axis=-1)
 
 
 def rotate(q: Array, v: Array) -> Array:
-    """Vectors (..., 3) turned by q (..., 4), broadcast: v + 2 w (u x v) + 2 u x (u x v)."""
+    """Return vectors (..., 3) rotated by q (..., 4), broadcast: v + 2 w (u x v) + 2 u x (u x v)."""
     u, w = q[..., :3], q[..., 3:]
     t = 2.0 * np.cross(u, v)
     return v + w * t + np.cross(u, t)
 
 
 def to_matrix(q: Array) -> Array:
-    """Rotation matrices (..., 3, 3)."""
+    """Return the rotation matrices, shape (..., 3, 3)."""
     x, y, z, w = np.moveaxis(q, -1, 0)
     rows = (
         (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
@@ -54,9 +54,10 @@ def to_matrix(q: Array) -> Array:
 
 
 def from_matrix(matrix: Array) -> Array:
-    """Unit quaternions (..., 4) of rotation matrices (..., 3, 3), with w >= 0.
+    """Return the unit quaternions (..., 4) of rotation matrices (..., 3, 3), with w >= 0.
 
-    The column of 4 q q^T with the largest diagonal, so that nothing is divided by a small number (Shepperd, 1978).
+    Uses the column of 4 q q^T with the largest diagonal element, which avoids division by a small number
+    (Shepperd, 1978).
     """
     m = np.asarray(matrix, dtype=np.float64)
     d = np.diagonal(m, axis1=-2, axis2=-1)
@@ -78,7 +79,7 @@ def from_matrix(matrix: Array) -> Array:
 
 
 def from_rpy(rpy: Array) -> Array:
-    """Quaternions of roll, pitch, yaw (..., 3) in radians: turns about the fixed axes x, then y, then z (REP 103)."""
+    """Return the quaternions (..., 4) of roll, pitch, yaw (..., 3) in radians about fixed x, y, z (REP 103)."""
     (sr, sp, sy), (cr, cp, cy) = np.moveaxis(np.sin(rpy / 2), -1, 0), np.moveaxis(np.cos(rpy / 2), -1, 0)
     return np.stack(
         (
@@ -92,10 +93,10 @@ def from_rpy(rpy: Array) -> Array:
 
 
 def to_rpy(q: Array) -> Array:
-    """Roll, pitch, yaw (..., 3) in radians; pitch in [-pi/2, pi/2]. At gimbal lock yaw is 0, as in tf2."""
+    """Return roll, pitch, yaw (..., 3) in radians, with pitch in [-pi/2, pi/2]. At gimbal lock yaw is 0, as in tf2."""
     m = to_matrix(q)
     locked = np.abs(m[..., 2, 0]) >= _GIMBAL_LOCK
     pitch = np.arcsin(np.clip(-m[..., 2, 0], -1.0, 1.0))
     roll = np.where(locked, np.arctan2(-m[..., 1, 2], m[..., 1, 1]), np.arctan2(m[..., 2, 1], m[..., 2, 2]))
     yaw = np.where(locked, 0.0, np.arctan2(m[..., 1, 0], m[..., 0, 0]))
-    return np.stack((roll, pitch, yaw), axis=-1) + 0.0  # no -0
+    return np.stack((roll, pitch, yaw), axis=-1) + 0.0  # Adding 0 turns -0 into 0.

@@ -1,4 +1,4 @@
-"""As few poses of a motion as keep the steps between them short."""
+"""Resampling of a motion with as few poses as a limit on the steps between them allows."""
 
 from __future__ import annotations
 
@@ -17,19 +17,22 @@ if TYPE_CHECKING:
 
 Stamps = NDArray[np.int64]
 
-# A step is cut into parts of equal time, of which some may still be too long: so often is it tried again.
-_ROUNDS = 30
-# Poses to choose from, a step: the more, the nearer to the limits the chosen steps come.
-_CHOICE = 4
+# Steps are divided into parts of equal time. Parts that are still too long are divided again, at most this many times.
+_MAX_ROUNDS = 30
+# Candidate poses per step. With more of them, the chosen steps come closer to the limits.
+_CANDIDATES = 4
 
 
 @dataclass(frozen=True)
 class StepLimits:
-    """How far two poses in a row may be apart.
+    """Largest step between two successive poses.
 
     Attributes:
-        max_translation: Metres; None: any.
-        max_rotation: Radians; None: any.
+        max_translation: Distance in metres; None for no limit.
+        max_rotation: Angle in radians; None for no limit.
+
+    Raises:
+        ValueError: A limit is not positive.
     """
 
     max_translation: float | None
@@ -41,31 +44,31 @@ class StepLimits:
                 raise ValueError(f"{name} must be positive, not {limit}")
 
     def resample(self, poses_at: Callable[[Stamps], Transform], stamps: Stamps) -> Transform:
-        """Poses from the first stamp to the last.
+        """Return poses from the first stamp to the last, with steps within the limits.
 
         Args:
-            poses_at: Gives the poses at stamps.
-            stamps: (N,) in order; those of the samples, between which the motion is smooth.
+            poses_at: Returns the batch of poses at given stamps.
+            stamps: Stamps of the samples, shape (N,), sorted. Between two of them the motion is smooth.
         """
         poses = poses_at(stamps)
-        parts_a_step = _CHOICE
-        for _ in range(_ROUNDS):
-            parts = np.ceil(self._share(poses[:-1], poses[1:]) * parts_a_step).astype(np.int64)
+        parts_per_step = _CANDIDATES
+        for _ in range(_MAX_ROUNDS):
+            parts = np.ceil(self._share(poses[:-1], poses[1:]) * parts_per_step).astype(np.int64)
             parts = np.clip(parts, 1, np.maximum(np.diff(stamps), 1))
             if (parts == 1).all():
                 break
-            stamps = _cut(stamps, parts)
+            stamps = _divide(stamps, parts)
             poses = poses_at(stamps)
-            parts_a_step = 1
+            parts_per_step = 1
         return poses[self._thin(poses)]
 
     def _thin(self, poses: Transform) -> NDArray[np.intp]:
-        """The indices of poses to keep: each next one is the last that is near enough."""
+        """Return the indices of the poses to keep; each is the last one within the limits of the one before."""
         kept = [0]
         last = len(poses) - 1
         while kept[-1] < last:
             start = kept[-1]
-            # In growing pieces, as most steps are short and some are very long.
+            # Search in growing intervals: most steps are short, and some are very long.
             width = 8
             while True:
                 end = min(start + width, last)
@@ -77,7 +80,7 @@ class StepLimits:
         return np.array(kept, dtype=np.intp)
 
     def _share(self, a: Transform, b: Transform) -> NDArray[np.float64]:
-        """How much of the limit each step takes."""
+        """Return the size of each step as a fraction of the limit."""
         share = np.zeros(len(b))
         if self.max_translation is not None:
             distance = np.linalg.norm(b.translation - a.translation, axis=-1)
@@ -89,8 +92,8 @@ class StepLimits:
         return share
 
 
-def _cut(stamps: Stamps, parts: Stamps) -> Stamps:
-    """Each interval cut into so many of equal length."""
+def _divide(stamps: Stamps, parts: Stamps) -> Stamps:
+    """Divide each interval between two stamps into the given number of equal parts."""
     start = np.repeat(stamps[:-1], parts)
     width = np.repeat(np.diff(stamps), parts)
     number = np.arange(len(start)) - np.repeat(np.cumsum(parts) - parts, parts)

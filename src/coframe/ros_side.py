@@ -1,4 +1,4 @@
-"""All ROS packages come from one side: from here, or from a ROS installation on the path; never from both."""
+"""A check that all ROS packages are imported from one place: coframe or a ROS installation, never both."""
 
 from __future__ import annotations
 
@@ -29,24 +29,24 @@ PACKAGES: Final = (
 )
 
 
-def ours() -> Path:
-    """The folder of our ROS packages: beside the package in a checkout, inside it in an installation."""
+def ros_folder() -> Path:
+    """Return the folder of coframe's ROS packages: next to coframe in a checkout, inside it when installed."""
     package = Path(__file__).resolve().parent
     inside = package / "ros"
     return inside if inside.is_dir() else package.parent / "ros"
 
 
-@functools.lru_cache(maxsize=1)  # every package of ours asks
+@functools.lru_cache(maxsize=1)  # Each of coframe's ROS packages calls this when it is imported.
 def foreign_packages(path: tuple[str, ...]) -> dict[str, str]:
-    """Finds packages that would be imported from elsewhere.
+    """Find the ROS packages that would be imported from another folder than coframe's.
 
     Args:
-        path: Folders in the order of the search, such as `sys.path`.
+        path: Folders in search order, such as `sys.path`.
 
     Returns:
-        Package -> the folder it would come from.
+        The folder of each such package, by package name.
     """
-    home = ours()
+    home = ros_folder()
     found: dict[str, str] = {}
     for entry in path:
         folder = Path(entry or ".")
@@ -59,14 +59,14 @@ def foreign_packages(path: tuple[str, ...]) -> dict[str, str]:
 
 
 def check(importing: str, path: list[str] | None = None) -> None:
-    """Refuses a mixture of our packages with those of a ROS installation.
+    """Raise ImportError if coframe's ROS packages would be mixed with those of a ROS installation.
 
     Args:
-        importing: Our package that is being imported.
-        path: Folders in the order of the search; None: `sys.path`.
+        importing: Name of coframe's ROS package that is being imported.
+        path: Folders in search order; None means `sys.path`.
 
     Raises:
-        ImportError: Some of the packages would come from elsewhere.
+        ImportError: Some of the packages would be imported from another folder.
     """
     found = foreign_packages(tuple(sys.path if path is None else path))
     if not found:
@@ -74,7 +74,7 @@ def check(importing: str, path: list[str] | None = None) -> None:
     names = ", ".join(sorted(found))
     folders = ", ".join(sorted(set(found.values())))
     raise ImportError(
-        f"coframe's {importing} is being imported, but {names} would come from {folders}, and the two do not mix: "
-        "source a complete ROS 2 so that everything comes from there, or take that folder out of PYTHONPATH so that "
-        "everything comes from coframe"
+        f"cannot import coframe's {importing}: {names} would be imported from {folders}, and packages of coframe and "
+        "of a ROS installation cannot be mixed. Source a complete ROS 2 to import all of them from there, or remove "
+        "this folder from PYTHONPATH to import all of them from coframe."
     )

@@ -6,7 +6,9 @@ import time
 from typing import TYPE_CHECKING, NamedTuple
 
 from coframe import frame_names
-from coframe.time import DAY, MILLISECOND, SECOND
+from coframe.analysis.clocks import clock_of
+from coframe.analysis.liveness import is_stale
+from coframe.time import MILLISECOND, SECOND
 from coframe.wire.names import any_ros_name
 
 if TYPE_CHECKING:
@@ -17,7 +19,6 @@ if TYPE_CHECKING:
 
 __all__ = ["TfPublisher", "publisher_state", "publishers_of", "tf_publisher"]
 
-STALE_AFTER = 1.0  # seconds
 # A larger difference between stamps and the clock of this machine is not explained by the transport delay.
 _CLOCK_TOLERANCE = 500 * MILLISECOND
 # Localization nodes stamp map -> odom ahead of time, so that the transform is valid until the next one.
@@ -33,6 +34,7 @@ class TfPublisher(NamedTuple):
         static: Whether its transforms are static.
         messages: The number of messages received.
         age: The time since the last message arrived, in seconds.
+        period: The median interval between the arrivals of the last messages, in seconds; 0.0 with fewer than two.
         lag: The delay of its stamps relative to the clock of this machine on arrival, in nanoseconds: the lower
             quartile of the last messages. Negative if the stamps are ahead. None if it is static or there are too
             few messages.
@@ -45,13 +47,14 @@ class TfPublisher(NamedTuple):
     static: bool
     messages: int
     age: float
+    period: float
     lag: int | None
     present: bool
     naming_problems: list[str]
 
     def stale(self) -> bool:
-        """Return whether the transforms are dynamic and none has arrived for one second."""
-        return not self.static and self.age > STALE_AFTER
+        """Return whether the publisher is stale, by the rule for edges (see :mod:`coframe.analysis.liveness`)."""
+        return is_stale(self.age * SECOND, self.period * SECOND, static=self.static)
 
     def clock_problem(self, children: Collection[str] = ()) -> str:
         """Return a text if the stamps do not match the clock of this machine, "" otherwise.
@@ -65,7 +68,7 @@ class TfPublisher(NamedTuple):
         only_odom = bool(children) and all(child.rpartition("/")[2] == "odom" for child in children)
         if only_odom and -_INTENTIONAL_LEAD <= self.lag < 0:
             return ""
-        if abs(self.lag) > DAY:
+        if clock_of(self.lag) == "other":
             return (
                 f"{self.node} on {self.topic} uses a different clock for its stamps than this machine, such as a "
                 "simulated or recorded one: check use_sim_time"
@@ -125,5 +128,8 @@ def tf_publisher(
     """
     node = node or "an unnamed node"
     age = max(0, time.monotonic_ns() - statistics.received_at) / SECOND
-    problems = frame_names.oddities(f"{node} on {topic}", statistics.slashed, statistics.prefixed, statistics.plain)
-    return TfPublisher(node, topic, static, statistics.messages, age, statistics.lag, present, problems)
+    problems = frame_names.naming_problems(
+        f"{node} on {topic}", statistics.slashed, statistics.prefixed, statistics.plain
+    )
+    period = statistics.period / SECOND
+    return TfPublisher(node, topic, static, statistics.messages, age, period, statistics.lag, present, problems)

@@ -1,6 +1,6 @@
-"""Times and durations as int64 nanoseconds, from what people write.
+"""Conversion of times and durations to int64 nanoseconds, and the units of time.
 
-A float of seconds is never accepted: today's time in seconds does not fit a float64 to the nanosecond.
+Floats of seconds are never accepted: a float64 cannot hold the current time to the nanosecond.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ __all__ = [
     "stamp_ns",
 ]
 
-# Units of time in nanoseconds. These are the only definitions in the package: import them, do not repeat them.
+# Units of time in nanoseconds. Import them from here; the package does not define them anywhere else.
 MICROSECOND = 1_000
 MILLISECOND = 1_000_000
 SECOND = 1_000_000_000
@@ -38,14 +38,14 @@ _DURATION = re.compile(r"\s*(\d+)(?:\.(\d+))?\s*([a-z]+)\s*", re.ASCII)
 
 
 class HasNanoseconds(Protocol):
-    """rclpy's Time and Duration."""
+    """An object like rclpy's Time and Duration."""
 
     @property
     def nanoseconds(self) -> int: ...
 
 
 class HasSecNanosec(Protocol):
-    """builtin_interfaces' Time and Duration."""
+    """A message like Time and Duration of builtin_interfaces."""
 
     @property
     def sec(self) -> int: ...
@@ -58,36 +58,45 @@ DurationLike: TypeAlias = "SupportsIndex | str | datetime.timedelta | np.timedel
 
 
 def stamp_ns(stamp: StampLike) -> int:
-    """A point in time as nanoseconds since the epoch.
+    """Return a point in time as nanoseconds since the epoch.
 
     Args:
         stamp: int nanoseconds, numpy.datetime64, an aware datetime, rclpy's Time or a Time message.
 
     Raises:
-        TypeError: It is something else; a float of seconds above all.
-        ValueError: It is a datetime without a time zone, or NaT, or does not fit 64 bits.
+        TypeError: The stamp has another type, such as a float of seconds.
+        ValueError: The stamp is a datetime without a time zone, or NaT, or does not fit 64 bits.
+
+    Example:
+        >>> import numpy as np
+        >>> stamp_ns(np.datetime64("1970-01-01T00:00:01.5"))
+        1500000000
     """
     if isinstance(stamp, np.datetime64):
         if np.isnat(stamp):
-            raise ValueError("NaT is not a point in time")
+            raise ValueError("a stamp must not be NaT")
         return int(stamp.astype("datetime64[ns]").astype(np.int64))
     if isinstance(stamp, datetime.datetime):
         if stamp.tzinfo is None:
-            raise ValueError("a datetime without a time zone is ambiguous: give it one, such as timezone.utc")
+            raise ValueError(f"the datetime {stamp} has no time zone. Give it one, such as datetime.timezone.utc.")
         return _timedelta_ns(stamp - datetime.datetime.fromtimestamp(0, datetime.timezone.utc))
     return _in_range(_number_ns(stamp, "a stamp", "int nanoseconds, numpy.datetime64, datetime or a Time"))
 
 
 def duration_ns(duration: DurationLike) -> int:
-    """A duration as nanoseconds.
+    """Return a duration as nanoseconds.
 
     Args:
         duration: Text such as ``"100ms"`` or ``"1.5s"`` (units ns, us, ms, s, min, h), int nanoseconds,
             ``timedelta``, numpy.timedelta64, rclpy's Duration or a Duration message.
 
     Raises:
-        TypeError: It is something else; a float of seconds above all.
-        ValueError: The text is not a number and a unit, or it is NaT, or it does not fit 64 bits.
+        TypeError: The duration has another type, such as a float of seconds.
+        ValueError: The text is not a number and a unit, or the duration is NaT or does not fit 64 bits.
+
+    Example:
+        >>> duration_ns("1.5s")
+        1500000000
     """
     if isinstance(duration, str):
         return _in_range(_parse_duration(duration))
@@ -95,7 +104,7 @@ def duration_ns(duration: DurationLike) -> int:
         return _timedelta_ns(duration)
     if isinstance(duration, np.timedelta64):
         if np.isnat(duration):
-            raise ValueError("NaT is not a duration")
+            raise ValueError("a duration must not be NaT")
         return int(duration.astype("timedelta64[ns]").astype(np.int64))
     return _in_range(
         _number_ns(duration, "a duration", 'text such as "100ms", int nanoseconds, timedelta or a Duration')
@@ -104,7 +113,7 @@ def duration_ns(duration: DurationLike) -> int:
 
 def _in_range(nanoseconds: int) -> int:
     if not -(2**63) <= nanoseconds < 2**63:
-        raise ValueError(f"{nanoseconds} ns do not fit 64 bits, which hold 292 years")
+        raise ValueError(f"{nanoseconds} ns does not fit 64 bits, which hold 292 years")
     return nanoseconds
 
 
@@ -112,17 +121,17 @@ def _parse_duration(text: str) -> int:
     match = _DURATION.fullmatch(text)
     if match is None or match[3] not in _UNITS:
         units = ", ".join(_UNITS)
-        raise ValueError(f'{text!r} is not a duration: write a number and a unit ({units}), such as "100ms"')
+        raise ValueError(f'{text!r} is not a duration. Write a number and a unit ({units}), such as "100ms".')
     whole, fraction, unit = match[1], match[2] or "", _UNITS[match[3]]
     scale: int = 10 ** len(fraction)
     return int(whole) * unit + int(fraction or "0") * unit // scale
 
 
 def _timedelta_ns(delta: datetime.timedelta) -> int:
-    return (delta.days * 86_400 + delta.seconds) * SECOND + delta.microseconds * 1_000
+    return delta.days * DAY + delta.seconds * SECOND + delta.microseconds * MICROSECOND
 
 
-def _number_ns(value: Any, what: str, wanted: str) -> int:
+def _number_ns(value: Any, name: str, accepted: str) -> int:
     try:
         return int(operator.index(value))
     except TypeError:
@@ -131,5 +140,5 @@ def _number_ns(value: Any, what: str, wanted: str) -> int:
         return int(value.sec) * SECOND + int(value.nanosec)
     if hasattr(value, "nanoseconds"):
         return int(value.nanoseconds)
-    reason = "; a float of seconds cannot hold today's time to the nanosecond" if isinstance(value, float) else ""
-    raise TypeError(f"{what} must be {wanted}, not {type(value).__name__}{reason}")
+    reason = ". A float of seconds cannot hold the current time to the nanosecond." if isinstance(value, float) else ""
+    raise TypeError(f"{name} must be {accepted}, not {type(value).__name__}{reason}")

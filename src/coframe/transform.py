@@ -22,39 +22,41 @@ __all__ = ["Transform"]
 
 Array = NDArray[np.float64]
 
-# How far from a rotation a matrix may be: what float32 and five printed digits leave over.
+# Largest deviation of a matrix from a rotation, for matrices that were stored as float32 or printed with five digits.
 _MATRIX_TOLERANCE = 1e-5
-# Quaternions between these lengths have squares that a float64 holds to full precision.
+# The squares of quaternions between these lengths fit a float64 with full precision.
 _SHORT, _LONG = 1e-140, 1e140
 _IDENTITY = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 
 class Transform(_core.Transform):
-    """An element of SE(3) that takes coordinates in ``source`` to coordinates in ``target``.
+    """A rigid motion, an element of SE(3), that transforms coordinates from ``source`` to ``target``.
 
-    ``point_target = transform @ point_source``. Frames may be None, which fits every frame. A batch has further
-    axes in front: ``translation`` (..., 3), ``quaternion`` (..., 4). Instances do not change.
+    ``point_target = transform @ point_source``. A frame that is None matches every frame. A batch has additional
+    leading axes: ``translation`` (..., 3), ``quaternion`` (..., 4). Transforms are immutable.
 
     Args:
-        translation: Metres, shape (..., 3): where the origin of ``source`` is, seen from ``target``.
-        quaternion: x, y, z, w, shape (..., 4); normalised here.
-        target: The frame that coordinates come out in.
-        source: The frame that coordinates go in from.
-        stamp: Nanoseconds, or anything that :func:`coframe.time.stamp_ns` takes; of a batch also an int64 array.
+        translation: Position of the origin of ``source`` in ``target``, in metres, shape (..., 3).
+        quaternion: Rotation as x, y, z, w, shape (..., 4); it is normalised.
+        target: The frame of the transformed coordinates.
+        source: The frame of the coordinates to transform.
+        stamp: Nanoseconds, or anything that :func:`coframe.time.stamp_ns` takes; for a batch also an int64 array of
+            its shape.
 
     Raises:
         InvalidArgumentException: A value is not finite, or a quaternion is zero.
-        ValueError: A shape does not end in 3 or 4.
+        ValueError: ``translation`` or ``quaternion`` has another shape.
 
     Example:
         >>> import coframe
+        >>> import numpy as np
         >>> lidar = coframe.Transform.from_rpy([0.1, 0, 0.3], [0, 0, np.pi / 2], target="base", source="lidar")
         >>> (lidar @ [1.0, 0.0, 0.0]).round(3).tolist()
         [0.1, 1.0, 0.3]
     """
 
     __slots__ = ()
-    # `array @ transform` is no product: numpy must not take the transform for an array of objects.
+    # `array @ transform` is not defined. Without this, NumPy would treat the transform as an array of objects.
     __array_ufunc__ = None
 
     def __init__(
@@ -70,8 +72,8 @@ class Transform(_core.Transform):
             nanoseconds = None if stamp is None else stamp_ns(stamp)
             super().__init__(*values, target, source, nanoseconds, None)
             return
-        t = _vectors(translation, 3, "a translation")
-        q = _normalised(_vectors(quaternion, 4, "a quaternion"))
+        t = _vectors(translation, 3, "translation")
+        q = _normalised(_vectors(quaternion, 4, "quaternion"))
         if t.ndim == 1 and q.ndim == 1:
             nanoseconds = None if stamp is None else stamp_ns(stamp)
             (x, y, z), (qx, qy, qz, qw) = t.tolist(), q.tolist()
@@ -79,7 +81,7 @@ class Transform(_core.Transform):
             return
         shape = np.broadcast_shapes(t.shape[:-1], q.shape[:-1])
         stamps = _stamps(stamp, shape)
-        # A copy: the caller's array may change, a transform does not.
+        # The caller may change the array later, so a batch keeps a copy.
         batch = (np.broadcast_to(t.copy(), (*shape, 3)), np.broadcast_to(q, (*shape, 4)), stamps, None)
         super().__init__(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, target, source, None, batch)
 
@@ -93,8 +95,20 @@ class Transform(_core.Transform):
         source: str | None = None,
         stamp: StampLike | None = None,
     ) -> Transform:
-        """From roll, pitch, yaw in radians, shape (..., 3): turns about the fixed axes x, then y, then z (REP 103)."""
-        q = quaternion.from_rpy(_vectors(rpy, 3, "roll, pitch, yaw"))
+        """Create a transform from roll, pitch and yaw: rotations about the fixed axes x, then y, then z (REP 103).
+
+        Args:
+            translation: Position in metres, shape (..., 3).
+            rpy: Roll, pitch, yaw in radians, shape (..., 3).
+            target: The target frame.
+            source: The source frame.
+            stamp: Time, as in :class:`Transform`.
+
+        Raises:
+            InvalidArgumentException: A value is not finite.
+            ValueError: ``translation`` or ``rpy`` has another shape.
+        """
+        q = quaternion.from_rpy(_vectors(rpy, 3, "rpy"))
         return cls(translation, q, target=target, source=source, stamp=stamp)
 
     @classmethod
@@ -106,41 +120,51 @@ class Transform(_core.Transform):
         source: str | None = None,
         stamp: StampLike | None = None,
     ) -> Transform:
-        """From homogeneous matrices, shape (..., 4, 4).
+        """Create a transform from homogeneous matrices.
+
+        Args:
+            matrix: Shape (..., 4, 4), with translations in metres.
+            target: The target frame.
+            source: The source frame.
+            stamp: Time, as in :class:`Transform`.
 
         Raises:
-            ValueError: The shape is another, the last row is not 0 0 0 1, or the upper left is no rotation.
+            InvalidArgumentException: A translation is not finite.
+            ValueError: The shape is different, the last row is not 0 0 0 1, or the upper left 3x3 is not a rotation.
         """
         m = np.asarray(matrix, dtype=np.float64)
         if m.shape[-2:] != (4, 4):
-            raise ValueError(f"a matrix must have the shape (..., 4, 4), not {m.shape}")
+            raise ValueError(f"matrix must have shape (..., 4, 4), not {m.shape}")
         rotation = m[..., :3, :3]
         error = np.abs(rotation @ np.swapaxes(rotation, -1, -2) - np.eye(3)).max(initial=0.0)
         if not error <= _MATRIX_TOLERANCE or (np.linalg.det(rotation) < 0).any():
-            raise ValueError(f"the upper left 3x3 is not a rotation (R R^T differs from 1 by up to {error:.2g})")
+            raise ValueError(
+                "the upper left 3x3 of the matrix is not a rotation: R R^T differs from the identity by up to "
+                f"{error:.2g}, or the determinant is negative"
+            )
         if not (m[..., 3, :] == (0.0, 0.0, 0.0, 1.0)).all():
-            raise ValueError("the last row of a rigid motion's matrix is 0 0 0 1")
+            raise ValueError("the last row of the matrix must be 0 0 0 1")
         q = quaternion.from_matrix(rotation)
         return cls(m[..., :3, 3], q, target=target, source=source, stamp=stamp)
 
     @property
     def translation(self) -> Array:
-        """Metres, shape (3,), of a batch (..., 3)."""
+        """Position of the source frame in the target frame, in metres; shape (3,), for a batch (..., 3)."""
         return _frozen(self.values[:3]) if self._batch is None else self._batch[0]
 
     @property
     def quaternion(self) -> Array:
-        """x, y, z, w, of unit length, shape (4,), of a batch (..., 4)."""
+        """Unit quaternion x, y, z, w of the rotation; shape (4,), for a batch (..., 4)."""
         return _frozen(self.values[3:]) if self._batch is None else self._batch[1]
 
     @property
     def stamps(self) -> NDArray[np.int64] | None:
-        """Nanoseconds of each pose of a batch, shape ``self.shape``; None where it has none, or no batch axes."""
+        """Stamps of a batch in nanoseconds, int64 of shape ``self.shape``; None without stamps or batch axes."""
         return None if self._batch is None else self._batch[2]
 
     @property
     def extrapolated(self) -> int | NDArray[np.int64]:
-        """How many nanoseconds beyond the data of a link the look-up went; 0: not at all. Of a batch ``self.shape``."""
+        """How far the lookup extrapolated beyond the samples, in nanoseconds; for a batch of shape ``self.shape``."""
         if self._batch is None:
             return self._beyond
         if self._batch[3] is None:
@@ -149,12 +173,12 @@ class Transform(_core.Transform):
 
     @property
     def rotation(self) -> Array:
-        """Rotation matrices, shape (3, 3), of a batch (..., 3, 3)."""
+        """Rotation matrix; shape (3, 3), for a batch (..., 3, 3)."""
         return quaternion.to_matrix(self.quaternion)
 
     @property
     def matrix(self) -> Array:
-        """Homogeneous matrices, shape (4, 4), of a batch (..., 4, 4)."""
+        """Homogeneous matrix; shape (4, 4), for a batch (..., 4, 4)."""
         m = np.zeros((*self.shape, 4, 4))
         m[..., :3, :3] = self.rotation
         m[..., :3, 3] = self.translation
@@ -163,16 +187,16 @@ class Transform(_core.Transform):
 
     @property
     def rpy(self) -> Array:
-        """Roll, pitch, yaw in radians, shape (3,), of a batch (..., 3); fixed axes x, y, z."""
+        """Roll, pitch and yaw about the fixed axes x, y, z, in radians; shape (3,), for a batch (..., 3)."""
         return quaternion.to_rpy(self.quaternion)
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """The batch axes; () for a single transform."""
+        """Shape of the batch axes; () for a single transform."""
         return () if self._batch is None else self._batch[0].shape[:-1]
 
     def inverse(self) -> Transform:
-        """The same relation from the other end: target and source change places."""
+        """Return the inverse transform, with target and source exchanged."""
         q = quaternion.inverse(self.quaternion)
         return _derived(-quaternion.rotate(q, self.translation), q, self.source, self.target, self._any_stamp())
 
@@ -182,12 +206,19 @@ class Transform(_core.Transform):
     def __matmul__(self, other: ArrayLike) -> Array: ...
 
     def __matmul__(self, other: Transform | ArrayLike) -> Transform | Array:
-        """``a<-b @ b<-c`` is ``a<-c``; with points (..., 3) in ``source``: the points in ``target``.
+        """Compose two transforms, ``a<-b @ b<-c`` is ``a<-c``, or transform points from ``source`` to ``target``.
 
-        Batch axes are broadcast against each other and against the axes of the points before the last.
+        Batch axes are broadcast against each other and against all axes of the points but the last.
+
+        Args:
+            other: A transform, or points of shape (..., 3) in metres.
+
+        Returns:
+            A transform, or the points in ``target``.
 
         Raises:
-            FrameMismatchException: The inner frames are named and differ.
+            FrameMismatchException: The inner frames have names, which differ.
+            ValueError: The points have another shape.
         """
         if isinstance(other, Transform):
             return self._compose(other)
@@ -205,7 +236,7 @@ class Transform(_core.Transform):
                 f"cannot compose {_arrow(self)} with {_arrow(other)}: {self.source!r} is not {other.target!r}",
                 target=self.target,
                 source=other.source,
-                hint="The inner frames must be the same; is one of the two the wrong way round (inverse())?",
+                hint="The inner frames must be the same. Does one of the transforms need inverse()?",
             )
         mine, others = self._any_stamp(), other._any_stamp()
         q = quaternion.multiply(self.quaternion, other.quaternion)
@@ -220,29 +251,36 @@ class Transform(_core.Transform):
     def transform_pose(
         self, pose: Transform, covariance: ArrayLike, *, own_covariance: ArrayLike | None = None
     ) -> tuple[Transform, Array]:
-        """A pose in ``source`` and how sure it is, as both are in ``target``.
+        """Transform a pose and its covariance from ``source`` to ``target``.
 
         Args:
-            pose: In ``source``; a pose is the transform from the thing's own frame.
-            covariance: Of the pose, as in ROS's PoseWithCovariance: (..., 6, 6) or (..., 36), over x, y, z (m) and
-                turns about the fixed axes x, y, z (rad) of ``source``.
-            own_covariance: How sure this transform itself is, over the axes of ``target``; None: exactly known, as in
-                tf2.
+            pose: Pose expressed in ``source``, as a transform from the frame of the posed object.
+            covariance: Covariance of the pose as in ROS's PoseWithCovariance, shape (..., 6, 6) or (..., 36): x, y, z
+                in metres and rotations about the fixed axes x, y, z in radians, expressed in ``source``.
+            own_covariance: Covariance of this transform itself, expressed in ``target``; None if it is exactly known,
+                as in tf2.
 
         Returns:
-            ``self @ pose``, and its covariance over the axes of ``target``, in the shape that was given. First order.
+            ``self @ pose``, and its covariance expressed in ``target``, to first order, in the shape of ``covariance``.
 
         Raises:
-            FrameMismatchException: The pose is not in ``source``.
-            ValueError: A covariance of another shape.
+            FrameMismatchException: The pose is not expressed in ``source``.
+            ValueError: A covariance has another shape.
         """
-        return self @ pose, transform_covariance(self, pose, covariance, own_covariance)
+        moved = transform_covariance(self.rotation, pose.translation, covariance, own_covariance)
+        return self @ pose, moved
 
     def _any_stamp(self) -> Any:
         return self.stamp if self._batch is None else self.stamps
 
     def is_close(self, other: Transform, *, translation: float = 1e-9, rotation: float = 1e-9) -> bool:
-        """Whether both are the same motion to within metres and radians; frames and stamps are not compared."""
+        """Return whether two transforms are equal within tolerances; frames and stamps are not compared.
+
+        Args:
+            other: The other transform, with batch axes that broadcast.
+            translation: Largest distance in metres.
+            rotation: Largest angle in radians.
+        """
         apart = np.linalg.norm(self.translation - other.translation, axis=-1)
         turn = quaternion.multiply(quaternion.inverse(self.quaternion), other.quaternion)
         angle = 2.0 * np.arctan2(np.linalg.norm(turn[..., :3], axis=-1), np.abs(turn[..., 3]))
@@ -265,13 +303,13 @@ class Transform(_core.Transform):
 
     def __len__(self) -> int:
         if not self.shape:
-            raise TypeError("a single transform has no length")
+            raise TypeError("a single transform has no length; only a batch has")
         return self.shape[0]
 
     def __getitem__(self, index: Any) -> Transform:
-        """One pose, or a part, of a batch."""
+        """Return one transform or a part of a batch, with NumPy's indexing."""
         if not self.shape:
-            raise TypeError("a single transform cannot be indexed")
+            raise TypeError("a single transform cannot be indexed; only a batch can")
         picked = np.arange(int(np.prod(self.shape))).reshape(self.shape)[index]
         flat_t, flat_q = self.translation.reshape(-1, 3), self.quaternion.reshape(-1, 4)
         stamp = None if self.stamps is None else self.stamps.reshape(-1)[picked]
@@ -299,12 +337,12 @@ def batch_of(
     stamps: NDArray[np.int64] | None,
     beyond: NDArray[np.int64] | None = None,
 ) -> Transform:
-    """A batch around arrays (..., 3) and (..., 4) that nobody else writes to; rows of NaN stand for no answer."""
+    """Return a batch on arrays (..., 3) and (..., 4) that no other code writes to; rows of NaN have no transform."""
     return _rebuild(_IDENTITY, target, source, None, (translation, quaternion, stamps, beyond))
 
 
 def _derived(translation: Array, quaternion: Array, target: str | None, source: str | None, stamp: Any) -> Transform:
-    """From values that come from transforms: unit quaternions, and NaN only where a row of a batch had none."""
+    """Return a transform with values computed from transforms, so that they need neither checks nor normalisation."""
     shape = np.broadcast_shapes(translation.shape[:-1], quaternion.shape[:-1])
     if shape:
         t, q = np.broadcast_to(translation, (*shape, 3)), np.broadcast_to(quaternion, (*shape, 4))
@@ -322,7 +360,7 @@ def _rebuild(
     batch: Any,
     beyond: int = 0,
 ) -> Transform:
-    """Bit for bit what it was: unlike the constructor, this does not normalise again."""
+    """Return a transform with exactly these values; unlike the constructor, this does not normalise again."""
     transform = Transform.__new__(Transform)
     _core.Transform.__init__(transform, *values, target, source, stamp, batch, beyond)
     return transform
@@ -331,9 +369,10 @@ def _rebuild(
 def _single_pose(
     translation: ArrayLike, quaternion: ArrayLike
 ) -> tuple[float, float, float, float, float, float, float] | None:
-    """The numbers of what is plainly one pose, without numpy, which takes ten times as long for seven of them.
+    """Return the values of a single pose of floats without NumPy, which takes ten times as long for seven numbers.
 
-    None for all else: batches, other kinds of numbers, and what is wrong.
+    Returns:
+        x, y, z, qx, qy, qz, qw; None for batches, other types of numbers and invalid values.
     """
     t, q = _few_numbers(translation, 3), _few_numbers(quaternion, 4)
     if t is None or q is None or not all(type(number) is float for number in (*t, *q)):
@@ -351,19 +390,19 @@ def _few_numbers(values: Any, count: int) -> Sequence[Any] | None:
     return values if isinstance(values, tuple | list) and len(values) == count else None
 
 
-def _vectors(values: ArrayLike, size: int, what: str) -> Array:
+def _vectors(values: ArrayLike, size: int, name: str) -> Array:
     array = np.asarray(values, dtype=np.float64)
     if array.ndim == 0 or array.shape[-1] != size:
-        raise ValueError(f"{what} must have the shape (..., {size}), not {array.shape}")
+        raise ValueError(f"{name} must have shape (..., {size}), not {array.shape}")
     if not np.isfinite(array).all():
         raise InvalidArgumentException.with_details(
-            f"{what} must be finite", hint="Look for NaN or inf where the numbers come from."
+            f"{name} must be finite, but contains NaN or inf", hint="Check where the values come from."
         )
     return array
 
 
 def _frozen(values: tuple[float, ...]) -> Array:
-    """An array that refuses to be written to: a transform would not change with it."""
+    """Return a read-only array, as writing to this copy would not change the transform."""
     array = np.array(values)
     array.setflags(write=False)
     return array
@@ -372,18 +411,18 @@ def _frozen(values: tuple[float, ...]) -> Array:
 def _points(values: ArrayLike) -> Array:
     points = np.asarray(values, dtype=np.float64)
     if points.ndim == 0 or points.shape[-1] != 3:
-        raise ValueError(f"points must have the shape (..., 3), not {points.shape}")
+        raise ValueError(f"points must have shape (..., 3), not {points.shape}")
     return points
 
 
 def _normalised(q: Array) -> Array:
     with np.errstate(over="ignore"):
         length = np.sqrt((q * q).sum(axis=-1, keepdims=True))
-    if not ((length > _SHORT) & (length < _LONG)).all():  # squares that left the range of float64
+    if not ((length > _SHORT) & (length < _LONG)).all():  # The squares overflow or underflow.
         largest = np.abs(q).max(axis=-1, keepdims=True, initial=0.0)
         if not (largest > 0.0).all():
             raise InvalidArgumentException.with_details(
-                "a quaternion of length zero is no rotation", hint="Is w unset? It is 1 at rest."
+                "quaternion must not be zero", hint="Is w unset? The identity rotation has w = 1."
             )
         q = q / largest
         length = np.sqrt((q * q).sum(axis=-1, keepdims=True))
@@ -392,16 +431,19 @@ def _normalised(q: Array) -> Array:
 
 
 def stamps_of(stamps: Any) -> NDArray[np.int64]:
-    """Nanoseconds from an array of int64 or datetime64.
+    """Return stamps as an int64 array of nanoseconds.
+
+    Args:
+        stamps: An array of integers in nanoseconds, or of datetime64.
 
     Raises:
-        TypeError: It is something else; floats of seconds above all.
-        ValueError: One of them is NaT.
+        TypeError: The array has another type, such as floats of seconds.
+        ValueError: A stamp is NaT.
     """
     array = np.asarray(stamps)
     if array.dtype.kind == "M":
         if np.isnat(array).any():
-            raise ValueError("NaT is not a point in time")
+            raise ValueError("stamps must not contain NaT")
         array = array.astype("datetime64[ns]").astype(np.int64)
     if array.dtype.kind not in "iu" and array.size:
         raise TypeError(f"stamps must be int64 nanoseconds or datetime64, not {array.dtype}")

@@ -1,12 +1,12 @@
-"""What ends the process that asks it, as a lack of memory would; in a module that other processes can import."""
+"""A query that kills its process, as a lack of memory would; in a module that worker processes can import."""
 
 import os
 
-from coframe.bags import Question
+from coframe.bags import TrajectoryQuery
 
 
-class DeadlyQuestion(Question):
-    def ask(self, recording):
+class DeadlyQuery(TrajectoryQuery):
+    def run(self, recording):
         if "deadly" in recording.path.name:
             os._exit(9)
-        return super().ask(recording)
+        return super().run(recording)

@@ -1,4 +1,4 @@
-"""The same question to many recordings: one dataset, and none of them stops the others."""
+"""The same query over many recordings: one dataset, and a bad recording does not stop the others."""
 
 import json
 import os
@@ -9,15 +9,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 import recordings
-from deadly import DeadlyQuestion
+from deadly import DeadlyQuery
 from typer.testing import CliRunner
 
 import coframe
-from coframe.bags import Answer, Question, answer, answer_all, batch
+from coframe.bags import QueryResult, TrajectoryQuery, batch, query_recording, query_recordings
 from coframe.cli.app import app
 
 arrow_dataset = pytest.importorskip("pyarrow.dataset")
-WALK = Question("odom", "lidar", rate=10)
+WALK = TrajectoryQuery("odom", "lidar", rate=10)
 
 
 @pytest.fixture
@@ -32,64 +32,69 @@ def bags(tmp_path):
     return [good, folder / "nothing.mcap", cut, other, folder / "missing.mcap"]
 
 
-def assert_complete(bags, answers, folder):
-    """What is written is what each recording says by itself."""
-    assert [answer.bag for answer in answers] == [str(bag) for bag in bags]
-    good = [one for one in answers if not one.error]
-    assert {one.bag for one in good} == {str(bags[i]) for i in (0, 2, 3)}
+def assert_complete(bags, results, folder):
+    """The dataset contains what a query of each recording by itself returns."""
+    assert [result.bag for result in results] == [str(bag) for bag in bags]
+    good = [result for result in results if not result.error]
+    assert {result.bag for result in good} == {str(bags[i]) for i in (0, 2, 3)}
     table = arrow_dataset.dataset(folder).to_table()
     bag_of_row = np.array(table["bag"].to_pylist())
-    assert table.num_rows == sum(one.poses for one in good) > 60
-    for one in good:
-        with coframe.open_bag(one.bag) as recording:
-            poses, _ = WALK.ask(recording)
-        rows = bag_of_row == one.bag
+    assert table.num_rows == sum(result.poses for result in good) > 60
+    for result in good:
+        with coframe.open_bag(result.bag) as recording:
+            poses, _ = WALK.run(recording)
+        rows = bag_of_row == result.bag
         assert table["stamp_ns"].to_numpy()[rows].tolist() == poses.stamps.tolist()
         found = np.stack([table[name].to_numpy()[rows] for name in ("x", "y", "z", "qx", "qy", "qz", "qw")], axis=1)
         assert (found == np.concatenate([poses.translation, poses.quaternion], axis=1)).all()
 
 
 def test_processes_of_this_machine(bags, tmp_path):
-    """One dies, two cannot be read, one is cut off."""
+    """One recording kills its process, two cannot be read, one is truncated."""
     deadly = recordings.write_mcap(bags[0].with_name("deadly.mcap"))
-    question = DeadlyQuestion("odom", "lidar", rate=10)
-    told = []
-    *answers, dead = answer_all([*bags, deadly], question, tmp_path / "out", workers=2, progress=told.append)
-    assert_complete(bags, answers, tmp_path / "out")
-    assert "its process died" in dead.error
-    assert sorted(told) == sorted([*answers, dead])
-    assert "cannot be read: No such file" in answers[4].error
-    assert answers[2].problems
+    query = DeadlyQuery("odom", "lidar", rate=10)
+    reported = []
+    *results, dead = query_recordings([*bags, deadly], query, tmp_path / "out", workers=2, progress=reported.append)
+    assert_complete(bags, results, tmp_path / "out")
+    assert "The process died" in dead.error
+    assert sorted(reported) == sorted([*results, dead])
+    assert "cannot be read: No such file" in results[4].error
+    assert results[2].problems
 
 
 @pytest.fixture
 def in_this_process(monkeypatch):
-    monkeypatch.setitem(batch.ENGINES, "processes", lambda jobs, _workers: (answer(*job) for job in jobs))
+    monkeypatch.setitem(batch.ENGINES, "processes", lambda jobs, _workers: (query_recording(*job) for job in jobs))
 
 
 @pytest.mark.usefixtures("in_this_process")
-def test_a_second_run_does_what_is_left(bags, tmp_path):
-    assert_complete(bags, answer_all(bags, WALK, tmp_path / "out"), tmp_path / "out")
+def test_a_second_run_queries_only_new_and_changed_recordings(bags, tmp_path):
+    assert_complete(bags, query_recordings(bags, WALK, tmp_path / "out"), tmp_path / "out")
     bags[3].joinpath("metadata.yaml").touch()
-    again = answer_all(bags, WALK, tmp_path / "out")
+    again = query_recordings(bags, WALK, tmp_path / "out")
     assert_complete(bags, again, tmp_path / "out")
-    assert [one.kept for one in again] == [True, False, True, False, False]
+    assert [result.kept for result in again] == [True, False, True, False, False]
 
 
-def test_an_answer_to_another_question_is_not_kept(bags, tmp_path):
-    first = answer(str(bags[0]), WALK, str(tmp_path))
+def test_the_file_of_another_query_is_not_kept(bags, tmp_path):
+    first = query_recording(str(bags[0]), WALK, str(tmp_path))
     assert not first.error
-    assert answer(str(bags[0]), WALK, str(tmp_path)) == first._replace(kept=True, problems=())
-    other = answer(str(bags[0]), Question("odom", "base", start="1s"), str(tmp_path))
+    assert query_recording(str(bags[0]), WALK, str(tmp_path)) == first._replace(kept=True, problems=())
+    later = TrajectoryQuery("odom", "base", start="1s")
+    other = query_recording(str(bags[0]), later, str(tmp_path))
     assert (other.kept, other.error) == (False, "")
     (part,) = tmp_path.glob("*.parquet")
     part.write_bytes(part.read_bytes()[:-20])
-    assert not answer(str(bags[0]), Question("odom", "base", start="1s"), str(tmp_path)).kept
-    assert "there is nothing between" in answer(str(bags[0]), Question("odom", "base", start="1h"), str(tmp_path)).error
-    assert "is no point in time" in answer(str(bags[0]), Question("odom", "base", start="soon"), str(tmp_path)).error
+    assert not query_recording(str(bags[0]), later, str(tmp_path)).kept
 
 
-@pytest.mark.filterwarnings("ignore")  # of another library, which has its own
+@pytest.mark.parametrize(("start", "error"), [("1h", "No stamps between"), ("soon", "is not a point in time")])
+def test_a_query_without_a_result_has_an_error(bags, tmp_path, start, error):
+    query = TrajectoryQuery("odom", "base", start=start)
+    assert error in query_recording(str(bags[0]), query, str(tmp_path)).error
+
+
+@pytest.mark.filterwarnings("ignore")  # Dask has its own warnings
 def test_a_cluster_of_dask(bags, tmp_path):
     distributed = pytest.importorskip("distributed")
     dask = pytest.importorskip("dask")
@@ -97,52 +102,54 @@ def test_a_cluster_of_dask(bags, tmp_path):
         distributed.LocalCluster(n_workers=1, processes=False, dashboard_address=None) as cluster,
         dask.config.set({"scheduler-address": cluster.scheduler_address}),
     ):
-        answers = answer_all(bags, WALK, tmp_path / "out", on="dask")
-    assert_complete(bags, answers, tmp_path / "out")
+        results = query_recordings(bags, WALK, tmp_path / "out", on="dask")
+    assert_complete(bags, results, tmp_path / "out")
 
 
 RAY = """
 import json, sys
-from coframe.bags import answer_all
-from deadly import DeadlyQuestion
+from coframe.bags import query_recordings
+from deadly import DeadlyQuery
 
 folder, *bags = sys.argv[1:]
-answers = answer_all(bags, DeadlyQuestion("odom", "lidar", rate=10), folder, on="ray", workers=2)
-print(json.dumps(answers))
+results = query_recordings(bags, DeadlyQuery("odom", "lidar", rate=10), folder, on="ray", workers=2)
+print(json.dumps(results))
 """
 
 
 @pytest.mark.slow
 def test_a_cluster_of_ray(bags, tmp_path, network):
-    """One that Ray makes for itself, on a network of its own; one of the recordings ends its worker's process."""
+    """Ray starts a cluster on a network of its own; one of the recordings kills its worker."""
     pytest.importorskip("ray", reason="Ray is not installed (pip install ray)")
     deadly = recordings.write_mcap(bags[0].with_name("deadly.mcap"))
     command = network.command(sys.executable, "-c", RAY, tmp_path / "out", *bags, deadly)
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parent), "RAY_USAGE_STATS_ENABLED": "0"}
     ended = subprocess.run(command, capture_output=True, text=True, env=environment, check=False)
     assert ended.returncode == 0, ended.stderr
-    *answers, dead = (Answer(*values) for values in json.loads(ended.stdout.splitlines()[-1]))  # Ray talks, too
-    assert_complete(bags, answers, tmp_path / "out")
-    assert dead.error.startswith("Ray says: ")
+    *results, dead = (
+        QueryResult(*values) for values in json.loads(ended.stdout.splitlines()[-1])
+    )  # Ray prints lines of its own
+    assert_complete(bags, results, tmp_path / "out")
+    assert dead.error.startswith("Ray reports: ")
 
 
 @pytest.mark.usefixtures("in_this_process")
-def test_the_command_lists_the_bad_ones_in_the_end(bags, tmp_path):
+def test_the_command_lists_failed_recordings_at_the_end(bags, tmp_path):
     command = ["batch", "odom", "lidar", *map(str, bags), "--rate", "10", "-o", str(tmp_path / "out")]
     ended = CliRunner().invoke(app, command)
     assert ended.exit_code == 1
-    assert "poses of 3 recordings" in ended.stdout
-    assert f"coframe: {bags[1]} is no recording: nothing.mcap: it is neither" in ended.stderr
+    assert "poses from 3 recordings" in ended.stdout
+    assert f"coframe: {bags[1]} is not a recording: nothing.mcap: the file is neither" in ended.stderr
     assert ended.stderr.count(str(bags[1])) == 1
-    assert ended.stderr.rstrip().endswith("2 of 5 recordings have no answer: see above")
+    assert ended.stderr.rstrip().endswith("2 of 5 recordings failed, for the reasons above")
     assert CliRunner().invoke(app, [*command, "--on", "abacus"]).exit_code == 2
 
 
-def test_what_is_not_installed_is_said_before_any_work(bags, tmp_path, monkeypatch):
+def test_missing_packages_are_reported_before_any_work(bags, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "ray", None)
     with pytest.raises(coframe.RecordingError, match="Ray needs the package ray") as caught:
-        answer_all(bags, WALK, tmp_path / "out", on="ray")
+        query_recordings(bags, WALK, tmp_path / "out", on="ray")
     assert caught.value.hint == "pip install ray"
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     with pytest.raises(coframe.RecordingError, match="Parquet needs the package pyarrow"):
-        answer_all(bags, WALK, tmp_path / "out")
+        query_recordings(bags, WALK, tmp_path / "out")

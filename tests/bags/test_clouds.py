@@ -1,4 +1,4 @@
-"""Clouds and scans out of recordings: where their points belong, what is left out and why, and every kind of file."""
+"""Clouds and scans of recordings: transformed points, skipped messages with reasons, and all file formats."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ def cloud_message(points, stamp, frame="lidar"):
 
 
 def truth():
-    """The robot drives at a metre a second and turns meanwhile."""
+    """Return the transforms of a robot that drives at 1 m/s and turns at the same time."""
     buffer = coframe.Buffer(None)
     for i in range(41):
         at = START + i * SECOND // 20
@@ -43,36 +43,36 @@ def truth():
     return buffer
 
 
-def seen(times, walls=WALL):
-    """What the lidar measures of the wall at these times."""
+def measured(times, walls=WALL):
+    """Return the points of the wall as the lidar measures them at these times."""
     poses = truth().lookup_many("lidar", "map", times)
     return np.stack([poses[i] @ walls[i % len(walls)] for i in range(len(times))])
 
 
 def sweep(stamp, kind):
-    """A cloud whose points were measured one after the other."""
+    """Return a cloud whose points were measured one after the other."""
     offsets = np.arange(len(WALL)) * SWEEP // len(WALL)
     times = {
         "ouster": ("t", "<u4", offsets),
         "velodyne": ("time", "<f4", offsets / SECOND),
         "hesai": ("timestamp", "<f8", (stamp + offsets) / SECOND),
         "livox": ("timestamp", "<f8", (stamp + offsets).astype(float)),
-        "odd": ("us", "<u4", offsets // 1000),
+        "other": ("us", "<u4", offsets // 1000),
     }
     name, dtype, values = times.get(kind, ("ring", "<f4", np.zeros(len(WALL))))
     points = np.zeros(len(WALL) + 1, [(a, "<f4") for a in "xyz"] + [("intensity", "<u2"), (name, dtype)])
-    for axis, column in zip("xyz", seen(stamp + offsets).T, strict=True):
+    for axis, column in zip("xyz", measured(stamp + offsets).T, strict=True):
         points[axis][:-1] = column
     points["intensity"] = np.arange(len(points))
     points[name][:-1] = values
-    points[name][-1] = np.nan if kind == "velodyne" else values[0]  # where it saw nothing
+    points[name][-1] = np.nan if kind == "velodyne" else values[0]  # a beam without an echo
     points["x"][-1] = np.nan
     return cloud_message(points, stamp)
 
 
 @pytest.fixture
 def path(tmp_path):
-    """Transforms from START on for two seconds; clouds from half a second before to half a second after."""
+    """Return a recording with transforms for two seconds, clouds in that time, and messages that cannot be read."""
     rows, buffer = [], truth()
     for i in range(41):
         at = START + i * SECOND // 20
@@ -80,7 +80,7 @@ def path(tmp_path):
     rows.append(("/tf_static", START, recordings.cdr("base", "lidar", buffer.lookup("base", "lidar"), START)))
     for i in range(2, 18):
         stamp = START + i * SWEEP
-        rows += [(f"/points_{kind}", stamp, sweep(stamp, kind)) for kind in (*KINDS, "odd")]
+        rows += [(f"/points_{kind}", stamp, sweep(stamp, kind)) for kind in (*KINDS, "other")]
         rows += [("/points", stamp, sweep(stamp, "ring"))]
     for stamp in (START - SECOND, START + 3 * SECOND):
         rows.append(("/points_ouster", stamp, cloud_message(np.ones(3, [(a, "<f4") for a in "xyz"]), stamp)))
@@ -98,7 +98,7 @@ def xyz(points):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_points_of_a_moving_sensor_fall_on_the_wall(path, kind):
+def test_points_of_a_moving_sensor_are_on_the_wall(path, kind):
     with coframe.open_bag(path) as recording:
         for cloud in Clouds(recording, f"points_{kind}", "map", start=START + 2 * SWEEP, stop=START + SECOND):
             assert cloud.deskewed
@@ -110,48 +110,46 @@ def test_points_of_a_moving_sensor_fall_on_the_wall(path, kind):
         assert 0.03 < np.abs(xyz(smeared.points) - WALL).max() < 0.5
 
 
-def test_a_time_that_cannot_be_guessed_is_named(path):
-    """The driver calls it `us`, and nobody knows that name."""
+def test_the_field_with_the_times_can_be_given(path):
+    """The driver uses the name `us`, which is not among the usual ones."""
     stamp = START + 5 * SWEEP
     with coframe.open_bag(path) as recording:
-        (unknown,) = Clouds(recording, "/points_odd", "map", at=stamp)
+        (unknown,) = Clouds(recording, "/points_other", "map", at=stamp)
         assert not unknown.deskewed
-        clouds = Clouds(recording, "/points_odd", "map", at=stamp, point_times="us:us")
+        clouds = Clouds(recording, "/points_other", "map", at=stamp, point_times="us:us")
         (cloud,) = clouds
-        assert clouds.times_read == {"the field us, taken for us from the message's stamp": 1}
+        assert clouds.times_read == {"the field us, interpreted in us relative to the message's stamp": 1}
         np.testing.assert_allclose(xyz(cloud.points), WALL, rtol=0, atol=1e-6)
-        (guessed,) = Clouds(recording, "/points_odd", "map", at=stamp, point_times="us")
-        assert np.abs(xyz(guessed.points) - WALL).max() > 0.03  # integers are taken for nanoseconds
-        wrong = Clouds(recording, "/points_odd", "map", at=stamp, point_times="us:s")
+        (guessed,) = Clouds(recording, "/points_other", "map", at=stamp, point_times="us")
+        assert np.abs(xyz(guessed.points) - WALL).max() > 0.03  # integers are interpreted as nanoseconds
+        wrong = Clouds(recording, "/points_other", "map", at=stamp, point_times="us:s")
         assert list(wrong) == []
-        assert list(wrong.left_out) == ["cannot be read: the field 'us' in s is more than 10 s off the stamp"]
-        gone = Clouds(recording, "/points_odd", "map", at=stamp, point_times="time", fields=[])
-        assert list(gone) == []
-        assert "there is no field 'time' among" in next(iter(gone.left_out))
-        with pytest.raises(ValueError, match=r"'us:h' is no field with a unit: write time:us"):
-            Clouds(recording, "/points_odd", "map", point_times="us:h")
+        assert list(wrong.skipped) == ["cannot be read: the field 'us' in s is more than 10 s off the stamp"]
+        missing = Clouds(recording, "/points_other", "map", at=stamp, point_times="time", fields=[])
+        assert list(missing) == []
+        assert "there is no field 'time' among" in next(iter(missing.skipped))
+        with pytest.raises(ValueError, match=r"'us:h' is not a field with a unit: write for example time:us"):
+            Clouds(recording, "/points_other", "map", point_times="us:h")
 
 
-def test_the_command_says_how_times_were_read(path, tmp_path):
+def test_the_command_reports_how_times_were_read(path, tmp_path):
     command = ["cloud", str(path), "/points_velodyne", "--frame", "map", "-o", str(tmp_path / "out.ply")]
     ended = CliRunner().invoke(app, command)
     assert ended.exit_code == 0
-    told = (
-        "coframe: points of 16 messages moved by their own times: the field time, taken for s from the message's stamp"
-    )
-    assert told in ended.stderr
+    assert "coframe: deskewed the points of 16 messages by their own times: the field time, " in ended.stderr
+    assert "interpreted in s relative to the message's stamp" in ended.stderr
     for option in ("time:h", ":s"):
         ended = CliRunner().invoke(app, [*command, "--point-times", option])
-        assert (ended.exit_code, f"'{option}' is no field with a unit" in ended.stderr) == (2, True)
+        assert (ended.exit_code, f"'{option}' is not a field with a unit" in ended.stderr) == (2, True)
 
 
-def test_what_cannot_be_meant_is_refused(path, tmp_path):
+def test_unknown_formats_and_frames_are_errors(path, tmp_path):
     def cloud(*options, frame="map", output="out.ply"):
         ended = CliRunner().invoke(app, ["cloud", str(path), *options, "--frame", frame, "-o", str(tmp_path / output)])
         return ended.exit_code, ended.stderr
 
     code, text = cloud("/points", output="out.las")
-    assert (code, "there is no format 'las'" in text) == (2, True)
+    assert (code, "No format named 'las'" in text) == (2, True)
     code, text = cloud("/points", frame="mapp")
     assert (code, text.count("mapp"), "Did you mean 'map'?" in text) == (1, 2, True)
     assert not list(tmp_path.glob("out*"))
@@ -159,13 +157,13 @@ def test_what_cannot_be_meant_is_refused(path, tmp_path):
 
 def test_scans_have_two_fields(shared):
     with coframe.open_bag(shared / "recordings" / "tb3_gazebo_walker") as recording:
-        with pytest.raises(ValueError, match="scans have no field ring, only index, intensity"):
+        with pytest.raises(ValueError, match=r"Scans have no field named ring. Known fields: index, intensity"):
             Clouds(recording, "/scan", "odom", fields=["ring"])
         (cloud,) = Clouds(recording, "/scan", "odom", fields=["index"], at=recording.span[1])
         assert cloud.points.dtype.names == ("x", "y", "z", "index")
 
 
-def test_a_frame_that_moves_needs_one_that_does_not(path):
+def test_a_moving_target_frame_needs_a_fixed_frame(path):
     with coframe.open_bag(path) as recording:
         stamp = START + 5 * SWEEP
         (cloud,) = Clouds(recording, "/points_ouster", "base", fixed="map", at=stamp)
@@ -173,25 +171,25 @@ def test_a_frame_that_moves_needs_one_that_does_not(path):
         np.testing.assert_allclose(xyz(cloud.points), expected, rtol=0, atol=1e-6)
 
 
-def test_what_cannot_be_transformed_is_counted_with_its_reason(path):
+def test_skipped_messages_are_counted_by_reason(path):
     with coframe.open_bag(path) as recording:
         clouds = Clouds(recording, "/points_ouster", "map")
         good = list(clouds)
         assert (clouds.total, len(good), clouds.messages) == (21, 16, 16)
         assert clouds.points == 16 * len(WALL) == sum(len(cloud.points) for cloud in good)
-        reasons = sorted(clouds.left_out)
-        assert sum(clouds.left_out.values()) == 5
+        reasons = sorted(clouds.skipped)
+        assert sum(clouds.skipped.values()) == 5
         assert [reason.partition(":")[0] for reason in reasons] == [
             "ExtrapolationException",
             "LookupException",
             "cannot be read",
             "cannot be read",
         ]
-        assert clouds.left_out[reasons[0]] == 2
-        assert clouds.points_left_out == {"measured nothing (not a number)": 16}
+        assert clouds.skipped[reasons[0]] == 2
+        assert clouds.points_skipped == {"have no finite coordinates": 16}
 
 
-def test_points_beyond_the_last_transform_are_left_out_one_by_one(tmp_path):
+def test_single_points_after_the_last_transform_are_skipped(tmp_path):
     stamp = START + 40 * SECOND // 20 - SWEEP // 2
     rows = [
         ("/tf", START + i, recordings.cdr("map", "lidar", coframe.Transform(), at))
@@ -205,7 +203,7 @@ def test_points_beyond_the_last_transform_are_left_out_one_by_one(tmp_path):
         clouds = Clouds(recording, "/points", "map")
         (cloud,) = clouds
         assert len(cloud.points) == 3
-        assert clouds.points_left_out == {"have no transform at their own time": 1}
+        assert clouds.points_skipped == {"have no transform at their own time": 1}
 
 
 def read_ply(data):
@@ -230,7 +228,7 @@ def read_pcd(data):
 
 
 @pytest.mark.parametrize("kind", ["ply", "pcd", "npy", "npz", "mcap", "folder"])
-def test_every_kind_of_file_has_all_points(path, tmp_path, kind):
+def test_all_formats_contain_all_points(path, tmp_path, kind):
     target = tmp_path / ("out" if kind == "folder" else f"out.{kind}")
     with coframe.open_bag(path) as recording:
         clouds = Clouds(recording, "/points", "map", deskew="off")
@@ -271,25 +269,23 @@ def test_voxels_keep_one_point_each(path, tmp_path):
             clouds.accumulated(1e-9)
 
 
-def test_other_topics_and_other_fields_are_refused_kindly(path, tmp_path):
+def test_other_topics_and_unknown_fields_are_errors_with_hints(path, tmp_path):
     with coframe.open_bag(path) as recording:
-        with pytest.raises(
-            coframe.RecordingError, match="/tf has messages of the type tf2_msgs/msg/TFMessage"
-        ) as caught:
+        with pytest.raises(coframe.RecordingError, match="/tf has type tf2_msgs/msg/TFMessage, not Poi") as caught:
             Clouds(recording, "tf", "map")
         assert "/points_ouster" in caught.value.hint
         with pytest.raises(coframe.RecordingError, match="has no topic 'nothing'"):
             Clouds(recording, "nothing", "map")
-        with pytest.raises(coframe.RecordingError, match="nothing of /points could be seen from attic: LookupExc"):
+        with pytest.raises(coframe.RecordingError, match=r"No message on /points can be tra.* attic: LookupExc"):
             write_clouds(Clouds(recording, "/points", "attic"), tmp_path / "a.ply")
         clouds = Clouds(recording, "/points", "map", fields=["colour"])
         assert list(clouds) == []
-        assert "the points have no field 'colour'" in next(iter(clouds.left_out))
+        assert "the points have no field 'colour'" in next(iter(clouds.skipped))
     assert not list(tmp_path.glob("*a.ply*"))
 
 
-def test_scans_hit_the_wall_that_they_were_measured_at(tmp_path):
-    """Beside projecting each beam by hand."""
+def test_scans_of_a_moving_sensor_are_deskewed(tmp_path):
+    """The result is compared with a projection of each beam by hand."""
     buffer, stamp, beams = truth(), START + SECOND // 2, 60
     scan = find(SCAN)(angle_min=-1.0, angle_increment=2.0 / beams, time_increment=0.05 / beams, range_max=20.0)
     scan.header.frame_id = "/lidar"
@@ -311,4 +307,13 @@ def test_scans_hit_the_wall_that_they_were_measured_at(tmp_path):
         clouds = Clouds(recording, "/scan", "map")
         (cloud,) = clouds
         np.testing.assert_allclose(xyz(cloud.points), np.array(expected), rtol=0, atol=1e-5)  # the message has float32
-        assert clouds.points_left_out == {"measured nothing (out of range)": 6}
+        assert clouds.points_skipped == {"are out of range": 6}
+
+
+def test_old_names_of_attributes_warn(path):
+    with coframe.open_bag(path) as recording:
+        clouds = Clouds(recording, "/points", "map")
+        with pytest.warns(DeprecationWarning, match="Clouds.skipped"):
+            assert clouds.left_out is clouds.skipped
+        with pytest.warns(DeprecationWarning, match="Clouds.points_skipped"):
+            assert clouds.points_left_out is clouds.points_skipped

@@ -93,7 +93,7 @@ def test_a_closed_recording_has_its_transforms_only(tmp_path, plugin):
         next(messages)
     recordings.assert_same(recording.buffer)
     for late in (messages, recording.messages("/tf")):
-        with pytest.raises(coframe.RecordingError, match="is closed: only its transforms are left"):
+        with pytest.raises(coframe.RecordingError, match="is closed: its messages can no longer be read"):
             next(late)
 
 
@@ -287,7 +287,7 @@ def test_protobuf_is_read_as_the_recording_describes_it(tmp_path, damaged):
     first, second = recording.messages("/tf")
     if damaged:
         assert first.message == rows[0][2]
-        assert "given as bytes: its definition cannot be used" in recording.problems[-1]
+        assert "returned as bytes: its definition cannot be used" in recording.problems[-1]
         return
     told = first.message
     assert (told.parent_frame_id, told.translation.y, told.timestamp.nanos) == ("a", 2.0, 5)
@@ -335,7 +335,7 @@ def test_types_are_read_as_the_recording_describes_them(tmp_path):
     assert {first[topic] for topic in ("/secret", "/broken", "/evil", "/blob")} == {b"\0\1\0\0\7"}
     assert len(recording.problems) == 4
     assert any(
-        "/secret: messages of the type secret_msgs/msg/Secret are given as bytes" in p for p in recording.problems
+        "/secret: messages of type secret_msgs/msg/Secret are returned as bytes" in p for p in recording.problems
     )
 
 
@@ -393,10 +393,10 @@ def test_what_is_no_recording(tmp_path):
     (tmp_path / "old.bag").write_bytes(b"#ROSBAG V1.2\n")
     (tmp_path / "folder").mkdir()
     for name, reason in [
-        ("empty.mcap", "it is empty"),
+        ("empty.mcap", "the file is empty"),
         ("text.db3", "neither MCAP nor SQLite"),
         ("old.bag", "bags of version 1"),
-        ("folder", "is no recording"),
+        ("folder", "is not a recording"),
         ("gone", "cannot be read: No such file"),
     ]:
         with pytest.raises(coframe.RecordingError, match=reason) as caught:

@@ -1,4 +1,4 @@
-"""A recording of two robots with the same names, asked about one: as every command about recordings is typed."""
+"""A recording of two robots with the same frame names: each command reads only one of them, with a prefix."""
 
 import json
 import re
@@ -28,7 +28,7 @@ def bag(tmp_path_factory):
 
 
 def run(*arguments):
-    """What a command says, and its exit code."""
+    """Run a command; return its exit code and its output."""
     result = CliRunner().invoke(app, [str(argument) for argument in arguments])
     assert "Traceback" not in result.output
     return result.exit_code, result.stdout
@@ -42,40 +42,40 @@ def test_lookup_and_trajectory(bag):
     assert (code, {line.split()[1] for line in out.splitlines()}) == (0, {"2.0"})
 
 
-def test_info_and_doctor_tell_of_sensors_in_the_renamed_tree(bag):
+def test_info_and_doctor_report_sensors_in_the_renamed_tree(bag):
     code, out = run("bag", "info", bag, "--json", *ROBOT1)
-    told = json.loads(out)
-    assert (code, [tree["root"] for tree in told["trees"]]) == (0, ["odom"])
-    sensor = next(sensor for sensor in told["sensors"] if sensor["topic"] == "/robot1/scan")
+    report = json.loads(out)
+    assert (code, [tree["root"] for tree in report["trees"]]) == (0, ["odom"])
+    sensor = next(sensor for sensor in report["sensors"] if sensor["topic"] == "/robot1/scan")
     assert (sensor["frame"], sensor["possible"]) == ("robot1/lidar", 1)
     code, out = run("doctor", bag, "--json", *ROBOT1)
-    told = json.loads(out)["namespaces"]["/robot1"]
-    assert told["trees"] == {"odom": ["robot1/base", "robot1/lidar", "odom"]}
-    assert {(sensor["frame"], sensor["root"]) for sensor in told["sensors"]} == {("robot1/lidar", "odom")}
+    report = json.loads(out)["namespaces"]["/robot1"]
+    assert report["trees"] == {"odom": ["robot1/base", "robot1/lidar", "odom"]}
+    assert {(sensor["frame"], sensor["root"]) for sensor in report["sensors"]} == {("robot1/lidar", "odom")}
 
 
-def test_a_misspelt_topic_is_no_healthy_recording(bag):
+def test_a_misspelled_topic_is_an_error(bag):
     for command in (["doctor", bag], ["frames", bag], ["lookup", bag, "odom", "base"]):
         result = CliRunner().invoke(app, [*map(str, command), "--tf-topic", "/robot3/tf"])
         assert result.exit_code == 1
-        assert "has no topic /robot3/tf\n  It has transforms on /robot1/tf, /robot1/tf_static, " in result.stderr
+        assert "has no topic /robot3/tf\n  Topics with transforms: /robot1/tf, /robot1/tf_static, " in result.stderr
 
 
 def test_a_cloud(bag, tmp_path):
     code, out = run("cloud", bag, "/robot1/scan", "--frame", "robot1/base", "-o", tmp_path / "a.npz", *ROBOT1)
-    assert (code, "of 1 messages, in robot1/base" in out) == (0, True)
+    assert (code, "of 1 message, in frame 'robot1/base'" in out) == (0, True)
 
 
-@pytest.mark.slow  # which starts processes
+@pytest.mark.slow  # It starts processes.
 def test_a_batch(bag, tmp_path):
     pytest.importorskip("pyarrow")
     code, out = run("batch", "odom", "robot1/base", bag, "-o", tmp_path / "poses", *ROBOT1)
-    assert (code, "50 poses of 1 recordings" in out) == (0, True)
+    assert (code, "50 poses from 1 recording" in out) == (0, True)
 
 
-def test_only_one_robot_is_mended_under_a_prefix(bag, tmp_path):
+def test_bag_fix_gives_the_prefix_to_one_robot_only(bag, tmp_path):
     code, out = run("bag", "fix", bag, tmp_path / "new", *ROBOT1)
-    assert (code, re.findall(r"mended: (\S+): \d+ names of frames", out)) == (
+    assert (code, re.findall(r"fixed: (\S+): \d+ frame names", out)) == (
         0,
         ["/robot1/tf_static", "/robot1/tf", "/robot1/scan"],
     )

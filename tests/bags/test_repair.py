@@ -1,4 +1,4 @@
-"""Recordings written anew: what was wrong with them is told, and is no longer so."""
+"""Repaired copies of recordings: problems are reported and absent from the copy."""
 
 import shutil
 
@@ -11,7 +11,7 @@ from runs import Run
 from typer.testing import CliRunner
 
 import coframe
-from coframe.bags import mend
+from coframe.bags import repair
 from coframe.cli.app import app
 from coframe.messages import find, serialize
 
@@ -24,46 +24,46 @@ def fix(*arguments):
 
 
 def assert_clean(path):
-    """That nobody has anything to complain of."""
+    """Assert that neither coframe nor rosbags reports a problem; return the messages."""
     result = CliRunner().invoke(app, ["bag", "info", str(path)])
     assert (result.exit_code, result.stderr) == (0, "")
     with Reader(path) as reader:
         return list(reader.messages())
 
 
-def test_a_recording_that_breaks_off(tmp_path):
+def test_a_truncated_recording(tmp_path):
     cut = recordings.write_mcap(tmp_path / "cut.mcap", finish=False)
     cut.write_bytes(cut.read_bytes()[:3000])
     code, output = fix(cut, tmp_path / "new")
     assert code == 0
-    assert "found: cut.mcap: it breaks off at byte 3000 of 3000" in output
+    assert "found: cut.mcap: truncated at byte 3000 of 3000" in output
     messages = assert_clean(tmp_path / "new")
     assert 20 < len(messages) < COUNT
-    assert f"mended: {len(messages)} messages of 2 topics written anew, with an index and metadata.yaml" in output
+    assert f"fixed: {len(messages)} messages on 2 topics copied, with an index and metadata.yaml" in output
     assert [bytes(data) for *_, data in messages] == [data for *_, data in recordings.messages()[: len(messages)]]
 
 
-def test_how_far_it_is_is_told(tmp_path):
-    told = []
-    mend(recordings.write_mcap(tmp_path / "a.mcap"), tmp_path / "new", progress=lambda *step: told.append(step))
-    assert list(dict.fromkeys(what for what, *_ in told)) == ["reading", "writing", "checking"]
-    last = {what: (done, total) for what, done, total in told}
+def test_progress_is_reported(tmp_path):
+    reported = []
+    repair(recordings.write_mcap(tmp_path / "a.mcap"), tmp_path / "new", progress=lambda *step: reported.append(step))
+    assert list(dict.fromkeys(what for what, *_ in reported)) == ["reading", "writing", "checking"]
+    last = {what: (done, total) for what, done, total in reported}
     assert last["writing"] == (COUNT + 1, COUNT + 1)
     assert all(done == total > 0 for done, total in last.values())
 
 
-def test_metadata_that_name_other_files(shared, tmp_path):
+def test_metadata_that_list_other_files(shared, tmp_path):
     code, output = fix(shared / "recordings" / "broken" / "db3_renamed_metadata_stale", tmp_path / "new")
     assert code == 0
-    assert "found: metadata.yaml names rosbag2_2023_11_29-19_52_49_0.db3, which is not there" in output
+    assert "found: metadata.yaml lists rosbag2_2023_11_29-19_52_49_0.db3, which does not exist" in output
     assert len(assert_clean(tmp_path / "new")) == 191
 
 
 @pytest.mark.parametrize(
     "name", ["tilt_laser.bag", "turtlesim_tf_demo_lz4.bag", "tb3_tf_missing_static", "world_talk_1hz"]
 )
-def test_real_recordings_give_the_same_answers(shared, tmp_path, name):
-    mend(shared / "recordings" / name, tmp_path / "new")
+def test_repaired_real_recordings_contain_the_same_transforms(shared, tmp_path, name):
+    repair(shared / "recordings" / name, tmp_path / "new")
     assert_clean(tmp_path / "new")
     with coframe.open_bag(shared / "recordings" / name) as old, coframe.open_bag(tmp_path / "new") as new:
         assert new.problems == []
@@ -74,11 +74,11 @@ def test_real_recordings_give_the_same_answers(shared, tmp_path, name):
                 np.testing.assert_array_equal(*poses)
 
 
-def test_slashes_in_front_of_names(shared, tmp_path):
-    mended = mend(shared / "recordings" / "tilt_laser.bag", tmp_path / "new")
-    assert "/tf: 1422 names of frames freed of '/' in front" in mended.done
-    assert "/scan: 178 names of frames freed of '/' in front" in mended.done
-    assert any("/temperature: 712 messages left out: ROS 2 has no such type" in sentence for sentence in mended.done)
+def test_leading_slashes_of_frame_names_are_removed(shared, tmp_path):
+    report = repair(shared / "recordings" / "tilt_laser.bag", tmp_path / "new")
+    assert "/tf: 1422 frame names stripped of leading slashes" in report.changes
+    assert "/scan: 178 frame names stripped of leading slashes" in report.changes
+    assert any("/temperature: 712 messages skipped: ROS 2 has no type" in sentence for sentence in report.changes)
     with coframe.open_bag(tmp_path / "new") as bag:
         assert {m.message.header.frame_id for m in bag.messages("/scan")} == {"laser"}
 
@@ -95,7 +95,7 @@ def test_prefixes(tmp_path):
     )
     code, output = fix(source, tmp_path / "new", "--prefix", "r1/", "--keep", "odom")
     assert code == 0
-    assert "mended: /odom: 1 names of frames put under 'r1/'" in output
+    assert "fixed: /odom: 1 frame names given the prefix 'r1/'" in output
     assert_clean(tmp_path / "new")
     with coframe.open_bag(tmp_path / "new") as bag:
         poses = bag.buffer.trajectory("odom", "r1/lidar").matrix
@@ -107,16 +107,16 @@ def test_prefixes(tmp_path):
 def test_statics_come_first_and_from_another_recording(tmp_path):
     static, *moving = recordings.messages()
     late = recordings.write_mcap(tmp_path / "late.mcap", rows=[*moving, ("/tf_static", START + 9 * SECOND, static[2])])
-    mended = mend(late, tmp_path / "first")
-    assert "/tf_static: 1 static transforms put in front, which came later" in mended.done
+    report = repair(late, tmp_path / "first")
+    assert "/tf_static: 1 static transforms moved to the beginning" in report.changes
     (first, _, data), *_ = assert_clean(tmp_path / "first")
     assert (first.topic, bytes(data)) == ("/tf_static", static[2])
-    assert len(mend(tmp_path / "first", tmp_path / "again").done) == 1
+    assert len(repair(tmp_path / "first", tmp_path / "again").changes) == 1
 
     without = recordings.write_mcap(tmp_path / "without.mcap", rows=moving)
     code, output = fix(without, tmp_path / "new", "--statics", late)
     assert code == 0
-    assert "mended: /tf_static: 1 static transforms added" in output
+    assert "fixed: /tf_static: 1 static transforms added" in output
     assert_clean(tmp_path / "new")
     with coframe.open_bag(tmp_path / "new") as bag:
         recordings.assert_same(bag.buffer)
@@ -129,52 +129,52 @@ def test_statics_are_added_to_one_robot(tmp_path):
     run, plain = Run(), Run()
     run.tf("odom", "base", START, topic="/robot1/tf")
     run.tf("base", "camera", START, static=True, topic="/robot1/tf_static")
-    run.tf("base", "lidar", START, static=True)  # another robot's, of the same name
+    run.tf("base", "lidar", START, static=True)  # of another robot with the same names
     for child in ("lidar", "camera"):
         plain.tf("base", child, START, static=True)
     (tmp_path / "plain").mkdir()
     robot1 = ["--tf-topic", "/robot1/tf", "--tf-static-topic", "robot1/tf_static", "--prefix", "robot1/"]
     code, output = fix(run.write(tmp_path), tmp_path / "new", "--statics", plain.write(tmp_path / "plain"), *robot1)
     assert code == 0
-    assert "mended: /robot1/tf_static: 1 static transforms added" in output
-    assert "1 static transforms not added, since the recording tells of their frames" in output
+    assert "fixed: /robot1/tf_static: 1 static transforms added" in output
+    assert "1 static transforms not added because the recording contains their frames" in output
     with coframe.open_bag(tmp_path / "new") as bag:
         assert bag.buffers["/robot1"].can_transform("robot1/odom", "robot1/lidar")
         assert [(edge.parent, edge.child) for edge in bag.buffers[""].edges() if edge.parent] == [("base", "lidar")]
 
 
-def test_a_topic_without_a_slash_is_the_robots_too(tmp_path):
+def test_a_topic_without_a_leading_slash_belongs_to_the_robot(tmp_path):
     run = Run()
     run.tf("odom", "base", START, topic="tf")
     code, output = fix(run.write(tmp_path), tmp_path / "new", "--prefix", "robot1/")
-    assert (code, "tf: 2 names of frames put under 'robot1/'" in output) == (0, True)
+    assert (code, "tf: 2 frame names given the prefix 'robot1/'" in output) == (0, True)
 
 
-def test_what_tf2_refuses_and_damaged_messages_go(tmp_path):
+def test_rejected_transforms_and_damaged_messages_are_removed(tmp_path):
     nan = recordings.cdr("odom", "base", coframe.Transform(), START)[:-8] + b"\0" * 6 + b"\xf8\x7f"
     both = recordings.cdr("odom", "base", coframe.Transform(), START)
     rows = [*recordings.messages(), ("/tf", START, nan), ("/tf", START, b"\0\1\0\0cut"), ("/tf_static", START, both)]
     source = recordings.write_mcap(tmp_path / "a.mcap", rows=rows)
     with coframe.open_bag(source) as bag:
         assert len(bag.problems) == 3
-    mended = mend(source, tmp_path / "new")
-    assert len(mended.found) == 3
-    assert mended.left == []
-    assert "/tf: 1 transforms left out that tf2 refuses" in mended.done
-    assert "/tf: 1 damaged messages left out" in mended.done
-    assert "/tf_static: 1 static transforms left out of frames that also move" in mended.done
+    report = repair(source, tmp_path / "new")
+    assert len(report.problems) == 3
+    assert report.remaining == []
+    assert "/tf: 1 transforms removed that tf2 rejects" in report.changes
+    assert "/tf: 1 damaged messages skipped" in report.changes
+    assert "/tf_static: 1 static transforms removed of frames that also move" in report.changes
     with coframe.open_bag(tmp_path / "new") as bag:
         recordings.assert_same(bag.buffer)
 
 
-def test_what_cannot_be_mended_is_told(tmp_path):
-    rows = [*recordings.messages(), ("/odd", START, b"\0\1\0\0abcd")]
-    source = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/odd": ("my_pkg/msg/Odd", "", b"", "cdr")})
+def test_remaining_problems_are_reported(tmp_path):
+    rows = [*recordings.messages(), ("/own", START, b"\0\1\0\0abcd")]
+    source = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={"/own": ("my_pkg/msg/Own", "", b"", "cdr")})
     code, output = fix(source, tmp_path / "new")
     assert code == 0
-    assert "still odd: /odd: messages of the type my_pkg/msg/Odd are given as bytes" in output
+    assert "remaining: /own: messages of type my_pkg/msg/Own are returned as bytes" in output
     with coframe.open_bag(tmp_path / "new") as bag:
-        assert next(bag.messages("/odd")).data == b"\0\1\0\0abcd"
+        assert next(bag.messages("/own")).data == b"\0\1\0\0abcd"
 
 
 def test_nothing_is_overwritten(tmp_path):
@@ -184,9 +184,15 @@ def test_nothing_is_overwritten(tmp_path):
     assert fix(source, tmp_path)[0] == 1
     code, output = fix(source, tmp_path / "b.mcap")
     assert code == 1
-    assert "is there already, and nothing is overwritten" in output
+    assert "already exists and is not overwritten" in output
     code, output = fix(tmp_path / "gone", tmp_path / "new")
     assert code == 1
     assert not (tmp_path / "new").exists()
     assert fix(source, tmp_path / "new", "--compression", "zip")[0] == 2
     assert source.read_bytes() == (tmp_path / "b.mcap").read_bytes() == before
+
+
+@pytest.mark.parametrize(("old", "new"), [("mend", "repair"), ("answer_all", "query_recordings")])
+def test_old_names_of_functions_warn(old, new):
+    with pytest.warns(DeprecationWarning, match=f"coframe.bags.{new}"):
+        assert getattr(coframe.bags, old) is getattr(coframe.bags, new)

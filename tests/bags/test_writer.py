@@ -250,7 +250,7 @@ def test_what_a_killed_writer_leaves_can_be_read_wherever_it_was_killed(tmp_path
     """Not only between two writes: the operating system may have done a part of one."""
     file = tmp_path / "a.mcap"
     writer = McapWriter(file)
-    channel = writer.add_channel("/tf", TF, encoding="cdr", definition="", definition_format="", about={})
+    channel = writer.add_channel("/tf", TF, encoding="cdr", definition="", definition_format="", metadata={})
     rows = recordings.messages()[1:]
     for _, at, data in rows[:30]:
         writer.write(channel, data, at, at)
@@ -301,11 +301,11 @@ def test_it_can_be_read_while_it_is_written(tmp_path):
 
 def test_a_folder_that_is_there_is_refused(tmp_path):
     (tmp_path / "run").mkdir()
-    with pytest.raises(coframe.RecordingError, match="is there already, and nothing is overwritten"):
+    with pytest.raises(coframe.RecordingError, match="already exists and is not overwritten"):
         Writer(tmp_path / "run")
-    with pytest.raises(coframe.RecordingError, match="cannot be made: "):
+    with pytest.raises(coframe.RecordingError, match="cannot be created: "):
         Writer("/proc/run")
-    with pytest.raises(ValueError, match="there is no compression 'zip'"):
+    with pytest.raises(ValueError, match="No compression named 'zip'"):
         Writer(tmp_path / "other", compression="zip")
 
 

@@ -51,7 +51,7 @@ def test_the_shape_is_the_given_one():
     assert coframe.Transform().transform_pose(coframe.Transform(), flat)[1].tolist() == flat.tolist()
     batch = coframe.Transform(np.zeros((7, 3)))
     assert batch.transform_pose(coframe.Transform(), np.eye(6))[1].shape == (7, 6, 6)
-    with pytest.raises(ValueError, match=r"must have the shape"):
+    with pytest.raises(ValueError, match=r"must have shape"):
         coframe.Transform().transform_pose(coframe.Transform(), np.eye(3))
 
 

@@ -47,13 +47,13 @@ def edges_of(message):
         ("ü/", "ö", "ü/ö"),
     ],
 )
-def test_the_rule(prefix, name, becomes):
+def test_prefixes_are_added_by_the_rules(prefix, name, becomes):
     assert frame_names.renaming(prefix, keep="map, world")(name) == becomes
 
 
-def test_no_prefix_is_no_renaming_and_a_slash_in_front_is_refused():
+def test_an_empty_prefix_renames_nothing_and_a_leading_slash_is_refused():
     assert frame_names.renaming("", keep=["map"]) is None
-    with pytest.raises(ValueError, match=r"'/robot1/' begins with a slash, .*: 'robot1/'"):
+    with pytest.raises(ValueError, match=r"'/robot1/' begins with a slash, .* Use 'robot1/'"):
         frame_names.renaming("/robot1/")
 
 
@@ -158,26 +158,26 @@ def test_a_writer_that_invents_names_without_end_is_bounded():
     assert len(native.edges()) == 65536
 
 
-def test_oddities_are_told_by_example():
+def test_naming_problems_are_reported_with_examples():
     native, pass_on = relay("robot1/", keep=["map"])
     pass_on(0, stamped("map", "odom"))
-    [(heard, _, _)] = native.writers(0)
-    assert heard[4:] == ("", "", "odom")
+    [(writer, _, _)] = native.writers(0)
+    assert writer[4:] == ("", "", "odom")
     pass_on(0, stamped("/map", "robot1/odom"))
-    [(heard, _, _)] = native.writers(0)
-    assert heard[4:] == ("/map", "robot1/odom", "odom")
-    told = frame_names.oddities("/robot1/tf", *heard[4:])
-    assert "'/map', with a slash in front" in told[0]
-    assert "half a prefix: 'robot1/odom' beside 'odom'" in told[1]
+    [(writer, _, _)] = native.writers(0)
+    assert writer[4:] == ("/map", "robot1/odom", "odom")
+    problems = frame_names.naming_problems("/robot1/tf", *writer[4:])
+    assert "'/map'; its leading slash is removed" in problems[0]
+    assert "for only some of its frames: 'robot1/odom' and 'odom'" in problems[1]
 
 
-def test_how_far_a_source_is_off_is_no_matter_of_one_message():
+def test_the_clock_offset_of_a_source_ignores_single_wild_stamps():
     import time
 
     native = _core.Relay(False, 0)
     native.add_source(_core.Renaming("", []), False)
     for number in range(30):
-        wrong = 10**12 if number % 5 == 0 else 0  # now and then a wild stamp
+        wrong = 10**12 if number % 5 == 0 else 0  # Every fifth stamp is wild.
         now = time.time_ns() + 10**9 + wrong
         native.add(0, 1, cdr(stamped("a", "b", stamp=now)))
         if number < 14:
@@ -185,7 +185,7 @@ def test_how_far_a_source_is_off_is_no_matter_of_one_message():
     assert native.writers(0)[0][0][3] == pytest.approx(-(10**9), abs=5 * 10**7)
 
 
-def test_names_of_a_buffer_are_renamed_as_bytes_come_in():
+def test_frames_are_renamed_when_bytes_are_ingested():
     buffer = coframe.Buffer()
     names = frame_names.renaming("robot1/", keep=["map"])
     message = cdr(stamped("map", "odom"), stamped("/odom", "base", x=1.0))

@@ -189,7 +189,7 @@ def told(buffer, count):
 
 def test_a_callback_that_exits_ends_no_thread_that_others_need(caplog):
     assert told(coframe.Buffer(), 3) == [1, 2, 3]
-    assert "wanted to end the thread" in caplog.text
+    assert "tried to end the thread" in caplog.text
 
 
 def test_who_interrupts_a_callback_keeps_nobody_waiting():

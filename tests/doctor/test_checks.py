@@ -39,7 +39,7 @@ def joints(run, at, **positions):
     run.message("/joint_states", "sensor_msgs/msg/JointState", message, at)
 
 
-def test_a_healthy_run_has_no_finding_at_all(examine):
+def test_healthy_run_has_no_findings(examine):
     report = examine(Run.healthy())
     assert report.findings == []
     assert report.healthy
@@ -52,18 +52,18 @@ def test_every_check_has_a_page_and_every_page_a_check():
     assert len(codes()) >= 25
 
 
-def test_every_code_has_a_fault_that_is_found_and_nothing_else():
+def test_every_code_has_a_test_in_which_it_is_the_only_finding():
     tests = "".join(file.read_text("utf-8") for file in Path(__file__).parent.glob("test_*.py"))
     assert sorted(set(re.findall(r'\bonly\((?:.+, )?"(TF\d+)"\)', tests))) == list(codes())
 
 
-def test_every_code_is_in_the_documents_table(request):
+def test_every_code_is_in_the_table_of_the_documentation(request):
     table = (request.config.rootpath / "docs" / "doctor.md").read_text("utf-8")
     rows = re.findall(r"^\| \[(TF\d+)\]\(\.\./src/coframe/doctor/code_pages/(TF\d+)\.md\) \| \S", table, re.MULTILINE)
     assert rows == [(code, code) for code in codes()]
 
 
-def test_a_run_without_transforms_is_not_called_healthy(examine):
+def test_run_without_transforms_is_not_healthy(examine):
     run = Run()
     run.scan(START)
     assert not examine(run).healthy
@@ -72,37 +72,40 @@ def test_a_run_without_transforms_is_not_called_healthy(examine):
 # 1 to 7: structure
 
 
-def test_separate_trees_name_the_missing_link(only):
+def test_separate_trees_name_the_missing_edge(only):
     run = Run.healthy(skip={"scan", "static"})
     run.tf("base_link", "lidar", START, (0.1, 0, 0), static=True)
     run.tf("shelf", "box", START, static=True)
     finding = only(run, "TF001")
-    assert "2 trees: 'odom' with 2 frames below it, and 'shelf' with box" in finding.text
+    assert (
+        "2 separate trees: 'odom' with 2 frames below it, and 'shelf' with box; no transform to 'shelf' is published"
+        in finding.text
+    )
     assert "coframe static --frame-id PARENT --child-frame-id shelf" in finding.fix
 
 
-def test_the_usual_link_between_two_trees_is_named(only):
+def test_usual_edge_between_two_trees_is_named(only):
     run = Run.healthy()
     run.tf("world", "map", START, (0.1, 0, 0), static=True)
-    assert "most likely map -> odom is missing" in only(run, "TF001").text
+    assert "the transform map -> odom is probably missing" in only(run, "TF001").text
 
 
-def test_a_misspelt_frame_is_guessed_with_the_line_to_change(only):
+def test_misspelt_frame_is_recognized_with_the_line_to_change(only):
     run = Run.healthy(skip={"scan", "static"})
     run.tf("base_lnk", "lidar", START, (0.1, 0, 0), static=True)
     finding = only(run, "TF001")
-    assert "'base_lnk' looks like 'base_link' misspelt" in finding.text
+    assert "'base_lnk' looks like a misspelling of 'base_link'" in finding.text
     assert "t.header.frame_id = 'base_link'" in finding.fix
 
 
-def test_left_and_right_are_not_each_others_misspelling(only):
+def test_left_and_right_are_not_misspellings_of_each_other(only):
     run = Run.healthy(skip={"scan", "static"})
     run.tf("base_link", "wheel_left_link", START, static=True)
     run.tf("wheel_right_link", "tyre", START, static=True)
-    assert "misspelt" not in only(run, "TF001").text
+    assert "misspelling" not in only(run, "TF001").text
 
 
-def test_two_parents(only):
+def test_frame_with_two_parents(only):
     run = Run.healthy()
     for i in range(600):
         run.drive(later(i / 50 + 0.01), "map", "base_link")
@@ -112,7 +115,7 @@ def test_two_parents(only):
     assert finding.severity is Severity.ERROR
 
 
-def test_a_frame_that_changes_its_parent_once_is_a_note(only):
+def test_frame_that_changes_its_parent_once_is_a_note(only):
     run = Run.healthy()
     for i in range(600):
         run.drive(later(i / 50 + 0.002), "base_link" if i < 300 else "odom", "cup")
@@ -130,7 +133,7 @@ def test_flicker_in_a_recording(only):
 
 @pytest.mark.parametrize("turns", ["AB", "AAB", "AAAB", "AAAAB", "AABAB", "AAABAAB"])
 @pytest.mark.parametrize("rows", [600, 30_000])
-def test_flicker_by_publishers_of_any_two_rates(turns, rows):
+def test_flicker_of_two_publishers_at_any_rates(turns, rows):
     stamp = np.arange(rows) * 10 * MS
     values = np.tile([0, 0, 0, 0, 0, 0, 1.0], (rows, 1))
     values[:, 0] = (
@@ -141,14 +144,14 @@ def test_flicker_by_publishers_of_any_two_rates(turns, rows):
     assert found.distance == pytest.approx(0.3, abs=2e-3)
 
 
-def test_flicker_by_a_publisher_that_is_rarer(only):
+def test_flicker_of_a_publisher_with_a_lower_rate(only):
     run = Run.healthy()
     for i in range(100):
         run.drive(later(i / 9 + 0.007), offset=0.5)
     only(run, "TF003")
 
 
-def test_a_shaking_robot_does_not_flicker(examine):
+def test_vibrating_robot_does_not_flicker(examine):
     run = Run.healthy(skip={"odom"})
     noise = np.random.default_rng(1).normal(scale=0.02, size=(600, 2))
     for i, (x, y) in enumerate(noise.tolist()):
@@ -171,7 +174,7 @@ def test_loop(only):
 
 @pytest.mark.parametrize(
     ("parent", "child", "text"),
-    [("a", "a", "is its own parent"), ("a", "", "has no name"), ("", "b", "no parent's name")],
+    [("a", "a", "is its own parent"), ("a", "", "is an empty frame name"), ("", "b", "has an empty parent name")],
 )
 def test_names_that_tf2_refuses(only, parent, child, text):
     run = Run.healthy()
@@ -179,7 +182,7 @@ def test_names_that_tf2_refuses(only, parent, child, text):
     assert text in only(run, "TF004").text
 
 
-def test_a_link_on_both_topics(only):
+def test_edge_on_both_topics(only):
     run = Run.healthy()
     for i in range(600):
         run.tf("base_link", "lidar", later(i / 50), (0.1, 0.0, 0.3))
@@ -187,7 +190,8 @@ def test_a_link_on_both_topics(only):
 
 
 @pytest.mark.parametrize(
-    ("frame", "text"), [("/lidar2", "begin with a slash"), ("Base Link", "blanks"), ("BASE-LINK", "differ in case")]
+    ("frame", "text"),
+    [("/lidar2", "with a leading slash"), ("Base Link", "spaces"), ("BASE-LINK", "differ only in case")],
 )
 def test_names(examine, frame, text):
     run = Run.healthy()
@@ -197,30 +201,30 @@ def test_names(examine, frame, text):
     assert any(text in finding.text for finding in findings)
 
 
-def test_a_prefix_does_not_hide_the_slash_that_was_sent(tmp_path):
+def test_prefix_does_not_hide_a_published_slash(tmp_path):
     run = Run.healthy()
     run.tf("/base_link", "/lidar2", START, static=True)
     (observation,) = observe_recording(run.write(tmp_path), prefix="r/").values()
     (finding,) = diagnose(observation).findings
-    assert finding.text == "2 names begin with a slash: '/base_link', '/lidar2'"
+    assert finding.text == "2 frame names with a leading slash: '/base_link', '/lidar2'"
     assert finding.frames == {"r/base_link", "r/lidar2"}
     assert finding.first_stamp == START
 
 
-def test_half_a_prefix_explains_the_two_trees(only):
+def test_incomplete_prefix_explains_the_two_trees(only):
     run = Run.healthy(skip={"scan"})
     for i in range(600):
         run.drive(later(i / 50), "robot1/odom", "robot1/base_link")
     finding = only(run, "TF006")
-    assert "half a prefix" in finding.text
+    assert "incomplete prefix" in finding.text
     assert [effect.code for effect in finding.explains] == ["TF001"]
 
 
-def test_odom_above_map(only):
+def test_map_below_base_link(only):
     run = Run.healthy()
     for i in range(600):
         run.drive(later(i / 50), "base_link", "map")
-    assert "'map' stands below 'base_link'" in only(run, "TF007").text
+    assert "'map' is below 'base_link'" in only(run, "TF007").text
 
 
 # 8 to 15: time
@@ -251,10 +255,10 @@ def test_two_clocks(only):
     run = Run.healthy()
     for i in range(600):
         run.drive(later(i / 50), "base_link", "arm", stamp=100 * SECOND + i * SECOND // 50)
-    assert "base_link -> arm is stamped by a clock hours off" in only(run, "TF009").text
+    assert "the stamps of base_link -> arm are on a clock that is hours off the system clock" in only(run, "TF009").text
 
 
-def test_a_sensor_by_the_walls_clock_in_a_simulation(only):
+def test_sensor_on_the_system_clock_in_a_simulation(only):
     run = Run()
     clock = find("rosgraph_msgs/msg/Clock")
     for i in range(600):
@@ -268,7 +272,7 @@ def test_a_sensor_by_the_walls_clock_in_a_simulation(only):
     assert "use_sim_time:=true" in finding.fix
 
 
-def test_a_machine_whose_clock_is_off(only):
+def test_machine_with_a_wrong_clock(only):
     run = Run.healthy()
     for i in range(600):
         for parent, child in (("base_link", "arm"), ("arm", "hand")):
@@ -289,10 +293,10 @@ def test_old_data(only):
     run = Run.healthy(seconds=20)
     for i in range(5):
         run.drive(later(2 + i / 50), arrived=later(19 + i / 50))
-    assert "5 of 1005 transforms are older than the newest one" in only(run, "TF011").text
+    assert "5 of 1005 transforms are older than a buffer of 10 s keeps" in only(run, "TF011").text
 
 
-def test_time_that_jumps_back(only):
+def test_time_jumps_back(only):
     run = Run.healthy(skip={"scan"})
     for i in range(600):
         run.drive(later(i / 50), arrived=later(12 + i / 50), stamp=later(2 + i / 50))
@@ -300,29 +304,29 @@ def test_time_that_jumps_back(only):
     assert "jumped back once, by up to 9.98 s" in finding.text
 
 
-def test_a_gap(only):
+def test_gap(only):
     run = Run.healthy(skip={"odom", "scan"})
     for i in range(600):
         if not 200 <= i < 300:
             run.drive(later(i / 50))
-    assert "a gap of 2.02 s where 20 ms is usual" in only(run, "TF013").text
+    assert "a gap of 2.02 s; the usual period is 20 ms" in only(run, "TF013").text
 
 
-def test_a_link_that_has_fallen_silent(only):
+def test_stale_edge(only):
     run = Run.healthy()
     for i in range(200):
         run.drive(later(i / 50), "base_link", "arm")
-    assert "nothing for the last 8" in only(run, "TF013").text
+    assert "stale: no transform for the last 8" in only(run, "TF013").text
 
 
-def test_a_link_that_is_rare(only):
+def test_edge_with_a_low_rate(only):
     run = Run.healthy()
     for i in range(12):
         run.drive(later(i), "base_link", "arm")
-    assert "only every 1 s" in only(run, "TF013").text
+    assert "published only every 1 s" in only(run, "TF013").text
 
 
-def test_a_sensor_whose_frame_is_misspelt(only):
+def test_sensor_with_a_misspelt_frame(only):
     run = Run.healthy(skip={"scan"})
     for i in range(100):
         run.scan(later(i / 10), "lider")
@@ -331,37 +335,37 @@ def test_a_sensor_whose_frame_is_misspelt(only):
     assert "msg.header.frame_id = 'lidar'" in finding.fix
 
 
-def test_a_sensor_that_is_ahead_of_its_transforms(only):
+def test_sensor_whose_transforms_are_late(only):
     run = Run.healthy(skip={"odom", "scan"})
     for i in range(600):
         run.drive(later(i / 50), arrived=later(i / 50) + 300 * MS)
         if i % 5 == 0:
             run.scan(later(i / 50))
     finding = only(run, "TF014")
-    assert "cannot be transformed from 'lidar' to 'odom' even 200 ms after they came" in finding.text
+    assert "cannot be transformed from 'lidar' to 'odom' within 200 ms of their arrival" in finding.text
 
 
-def test_a_sensor_that_comes_when_its_time_is_forgotten(only):
+def test_sensor_messages_that_arrive_after_the_cache_length(only):
     run = Run.healthy(seconds=30, skip={"scan"})
     for i in range(100):
         run.scan(later(i / 10), arrived=later(i / 10 + 15))
     finding = only(run, "TF015")
-    assert "when a buffer of 10 s has forgotten them" in finding.text
+    assert "but a buffer keeps transforms for 10 s only" in finding.text
     assert "cache_time=Duration(seconds=16)" in finding.fix
 
 
 # 16 to 18: static delivery
 
 
-def test_static_links_of_an_earlier_run(only):
+def test_static_transforms_of_an_earlier_process(only):
     run = Run.healthy()
     run.tf("base_link", "lidar", START - 100 * SECOND, (0.1, 0.0, 0.3), static=True, arrived=START)
     finding = only(run, "TF016")
-    assert "100 s apart, always the same" in finding.text
+    assert "100 s apart and equal values" in finding.text
     assert finding.severity is Severity.NOTE
 
 
-def test_a_static_link_that_is_sent_again_is_no_leftover(examine):
+def test_repeated_static_transform_with_a_new_stamp_is_no_finding(examine):
     run = Run.healthy()
     for i in range(3):
         run.tf("base_link", "lidar", later(1 + 3 * i), (0.1, 0.0, 0.3), static=True)
@@ -370,16 +374,16 @@ def test_a_static_link_that_is_sent_again_is_no_leftover(examine):
 
 
 @pytest.mark.parametrize("plugin", StoragePlugin)
-def test_a_static_publisher_that_offered_volatile(only, examine, plugin):
+def test_static_publisher_with_durability_volatile(only, examine, plugin):
     volatile, kept = QosDurability.VOLATILE, QosDurability.TRANSIENT_LOCAL
     finding = only(Offered(Run.healthy(seconds=1), plugin, kept, volatile, volatile), "TF016")
     assert finding.severity is Severity.ERROR
-    assert "a publisher on /tf_static offered the durability volatile" in finding.text
+    assert "a publisher of /tf_static offered durability volatile" in finding.text
     assert "--qos-profile-overrides-path" in finding.fix
     assert examine(Offered(Run.healthy(seconds=1), plugin, kept), folder="good").findings == []
 
 
-def test_a_recording_without_its_statics(only):
+def test_recording_without_static_transforms(only):
     run = Run.healthy(skip={"static", "scan"})
     for i in range(600):
         run.tf("wheel_base", "wheel", later(i / 50), (0.1, 0, 0), yaw(i / 50))
@@ -387,22 +391,22 @@ def test_a_recording_without_its_statics(only):
     assert [effect.code for effect in finding.explains] == ["TF001"]
 
 
-def test_a_mount_that_is_sent_again_and_again(only):
+def test_constant_dynamic_transform_should_be_static(only):
     run = Run.healthy()
     for i in range(120):
         run.tf("base_link", "camera", later(i / 10) + 3 * MS, (0.25, 0, 0.5))
     finding = only(run, "TF018")
-    assert "coframe static --frame-id base_link --child-frame-id camera --x 0.25 --y 0.0 --z 0.5" in finding.fix
+    assert "coframe static --frame-id base_link --child-frame-id camera --x 0.25 --y 0 --z 0.5" in finding.fix
 
 
-def test_a_joint_at_rest_is_no_mount(examine):
+def test_joint_at_rest_need_not_be_static(examine):
     run = Run.healthy()
     for i in range(600):
         run.tf("base_link", "arm", later(i / 50), (0.25, 0, 0.5))
     assert examine(run).findings == []
 
 
-def test_a_moving_link_sent_as_static(only):
+def test_changing_transform_published_as_static(only):
     run = Run.healthy()
     for i in range(40):
         run.tf("base_link", "arm", later(i / 50), (0.2, 0, 0), yaw(i / 50), static=True)
@@ -415,10 +419,10 @@ def test_a_moving_link_sent_as_static(only):
 @pytest.mark.parametrize(
     ("turn", "text", "severity"),
     [
-        ((0, 0, 0, 0), "was never set", Severity.ERROR),
+        ((0, 0, 0, 0), "the rotation was not set", Severity.ERROR),
         ((0, 0, float("nan"), 1), "NaN", Severity.ERROR),
-        ((0, 0, 0.5, 1), "is no rotation", Severity.ERROR),
-        ((0, 0.707, 0, 0.707), "not quite of length 1", Severity.NOTE),
+        ((0, 0, 0.5, 1), "is not a rotation", Severity.ERROR),
+        ((0, 0.707, 0, 0.707), "not exactly normalized", Severity.NOTE),
     ],
 )
 def test_quaternions(only, turn, text, severity):
@@ -430,7 +434,7 @@ def test_quaternions(only, turn, text, severity):
     assert finding.edge == ("base_link", "camera")
 
 
-def test_a_jump(only):
+def test_jump(only):
     run = Run.healthy(skip={"odom"})
     for i in range(600):
         run.drive(later(i / 50), offset=3.0 if i > 300 else 0.0)
@@ -440,10 +444,10 @@ def test_a_jump(only):
 @pytest.mark.parametrize(
     ("child", "place", "turn", "text"),
     [
-        ("camera", (0.1, 0, 0), yaw(90.0), "yaw = 90 taken as radians"),
-        ("camera", (0.1, 0, 0), rpy(-45.0, 0, 0), "roll = -45 taken as radians"),
-        ("camera", (100, 0, 300), yaw(0), "were millimetres meant (316.2 mm)"),
-        ("camera_optical_frame", (0.1, 0, 0), yaw(0), "is called optical, but is not turned"),
+        ("camera", (0.1, 0, 0), yaw(90.0), "yaw = 90 radians"),
+        ("camera", (0.1, 0, 0), rpy(-45.0, 0, 0), "roll = -45 radians"),
+        ("camera", (100, 0, 300), yaw(0), "was 316.2 mm intended"),
+        ("camera_optical_frame", (0.1, 0, 0), yaw(0), "is named optical, but is not rotated"),
     ],
 )
 def test_suspicious_mounts(only, child, place, turn, text):
@@ -453,7 +457,7 @@ def test_suspicious_mounts(only, child, place, turn, text):
 
 
 @pytest.mark.parametrize("degrees", range(-180, 181, 15))
-def test_plain_angles_are_not_suspicious(examine, degrees):
+def test_usual_angles_are_not_suspicious(examine, degrees):
     run = Run.healthy(seconds=1)
     run.tf("base_link", "camera", START, (0.1, 0, 0), yaw(np.radians(degrees)), static=True)
     run.tf("camera", "camera_optical_frame", START, (0, 0, 0), (-0.5, 0.5, -0.5, 0.5), static=True)
@@ -463,7 +467,7 @@ def test_plain_angles_are_not_suspicious(examine, degrees):
 # 22 to 24: the robot's model
 
 
-def test_a_model_that_agrees(examine):
+def test_model_that_agrees_with_tf(examine):
     run = Run.healthy()
     describe(run, URDF)
     for i in range(300):
@@ -472,29 +476,29 @@ def test_a_model_that_agrees(examine):
     assert examine(run).findings == []
 
 
-def test_a_joint_that_nobody_tells_of(only):
+def test_joint_without_joint_state(only):
     run = Run.healthy()
     describe(run, URDF)
-    assert "nobody tells of 1 of 1 movable joints: turn" in only(run, "TF022").text
+    assert "no joint state for 1 of 1 movable joints: turn" in only(run, "TF022").text
 
 
-def test_a_joint_state_without_a_joint(only):
+def test_joint_state_without_joint(only):
     run = Run.healthy()
     describe(run, URDF)
     for i in range(300):
         joints(run, later(i / 25), turn=i / 25, elbow=0.0)
         run.tf("base_link", "wheel", later(i / 25), turn=yaw(i / 25))
-    assert "tell of elbow, which" in only(run, "TF022").text
+    assert "the joint states contain elbow, but" in only(run, "TF022").text
 
 
 @pytest.mark.parametrize(
     ("height", "turned", "link", "text"),
     [
         (0.4, 0.0, ("base_link", "lidar"), "by 0.1 m and 0 degrees"),
-        (0.3, 0.1, ("base_link", "wheel"), "5.73 degrees, the median of 300"),
+        (0.3, 0.1, ("base_link", "wheel"), "5.73 degrees (median of 300)"),
     ],
 )
-def test_transforms_that_are_not_the_models(only, height, turned, link, text):
+def test_transforms_that_differ_from_the_model(only, height, turned, link, text):
     run = Run.healthy()
     describe(run, URDF.replace("0.1 0 0.3", f"0.1 0 {height}"))
     for i in range(300):
@@ -506,7 +510,7 @@ def test_transforms_that_are_not_the_models(only, height, turned, link, text):
 
 
 @pytest.mark.parametrize("text", ["", "<robot name=''/>", "<robot name='r'><link name='a'/><link name='b'/></robot>"])
-def test_a_broken_description(only, text):
+def test_invalid_description(only, text):
     run = Run.healthy()
     describe(run, text)
     assert only(run, "TF024").severity is Severity.WARNING
@@ -515,18 +519,18 @@ def test_a_broken_description(only, text):
 # 25: listeners
 
 
-def test_a_node_whose_look_ups_fail(only):
+def test_node_whose_lookups_fail(only):
     run = Run.healthy()
     log = find("rcl_interfaces/msg/Log")
     text = "Transform lookup failed: Lookup would require extrapolation into the future.  Requested time 9.0 but ..."
     for i in range(100):
         run.message("/rosout", "rcl_interfaces/msg/Log", log(name="tf_listener", msg=text), later(i / 10))
     finding = only(run, "TF025")
-    assert "tf_listener complains 100 times" in finding.text
+    assert "tf_listener logged 100 failed lookups" in finding.text
     assert "lookup_transform(target, source, rclpy.time.Time())" in finding.fix
 
 
-def test_look_ups_that_failed_at_the_start_only_are_no_fault(examine):
+def test_lookups_that_fail_only_at_the_start_are_no_finding(examine):
     run = Run.healthy()
     log = find("rcl_interfaces/msg/Log")
     for i in range(10):
@@ -535,7 +539,7 @@ def test_look_ups_that_failed_at_the_start_only_are_no_fault(examine):
     assert examine(run).findings == []
 
 
-def test_a_recorder_that_was_held_up(only):
+def test_recorder_that_was_blocked(only):
     run = Run.healthy(skip={"scan"}, arrived=lambda at: max(at, later(6)) if at > later(4) else at)
     assert "then 109 transforms at once" in only(run, "TF025").text
 
@@ -543,13 +547,13 @@ def test_a_recorder_that_was_held_up(only):
 # all of them
 
 
-def test_a_check_can_be_left_out(examine):
+def test_check_can_be_ignored(examine):
     run = Run.healthy()
     run.tf("a", "a", later(1))
     assert examine(run, ignore=["tf004"]).findings == []
 
 
-def test_robots_with_a_tf_of_their_own_are_examined_apart(tmp_path):
+def test_namespaces_are_examined_separately(tmp_path):
     run = Run()
     for i in range(300):
         for robot in ("robot1", "robot2"):
@@ -559,7 +563,7 @@ def test_robots_with_a_tf_of_their_own_are_examined_apart(tmp_path):
     assert all(report.findings == [] for report in reports.values())
 
 
-def test_hostile_names_and_numbers_end_in_findings_not_in_exceptions(examine):
+def test_hostile_names_and_numbers_give_findings_not_exceptions(examine):
     run = Run.healthy(seconds=1)
     for name in ("\x1b[31m", "a" * 5000, "\u202e", "..", "/", "//"):
         run.tf(name, f"{name}x", START, (1e300, -1e300, 5e-324), static=True)
@@ -570,14 +574,14 @@ def test_hostile_names_and_numbers_end_in_findings_not_in_exceptions(examine):
     json.dumps([str(finding) for finding in report.findings])
 
 
-# What hostile or hopeless systems make of it
+# Hostile input and very large trees
 
 
 def observed(links):
-    """An observation with one transform of each link."""
+    """Return an observation with one transform per edge."""
     numbers = {}
     parent, child = np.array([[numbers.setdefault(name, len(numbers)) for name in link] for link in links]).T
-    arrived = START + np.arange(len(links)) * MS
+    arrived = START + np.arange(len(links)) * (900 * MS // len(links))  # none is stale
     values = np.tile([0, 0, 0, 0, 0, 0, 1.0], (len(links), 1))
     nobody = np.zeros(len(links), dtype=int)
     moving = np.zeros(len(links), dtype=bool)
@@ -597,14 +601,14 @@ def observed(links):
     ids=["trees", "chain", "loop", "wide", "slashes"],
 )
 @pytest.mark.timeout(20)
-def test_thousands_of_frames_take_seconds_and_tell_it_shortly(links, found, findings):
+def test_thousands_of_frames_take_seconds_and_give_few_findings(links, found, findings):
     report = diagnose(observed(links))
     if found is not None:
         assert {finding.code for finding in report.every_finding()} == found
         assert len(report.every_finding()) == findings
 
 
-def test_a_likely_link_is_looked_for_only_where_the_root_may_be_its_child():
+def test_missing_edge_is_searched_only_where_the_root_can_be_its_child():
     class Frames(list):
         read = 0
 
@@ -617,7 +621,7 @@ def test_a_likely_link_is_looked_for_only_where_the_root_may_be_its_child():
     assert (unlikely.read, likely.read) == (2, 0)  # for base_footprint -> base_link, too
 
 
-def test_frames_without_end_are_counted(examine, monkeypatch):
+def test_messages_beyond_the_limit_of_frame_names_are_counted(examine, monkeypatch):
     monkeypatch.setattr("coframe.doctor.collector._MOST_NAMES", 100)
     run = Run()
     for i in range(300):
@@ -625,11 +629,11 @@ def test_frames_without_end_are_counted(examine, monkeypatch):
     found = examine(run).every_finding()
     (counted,) = [finding for finding in found if finding.code == "TF004"]
     left_out, text = counted.text.split(" ", 1)
-    assert text == "messages were not looked at: there are too many names of frames"
+    assert text == "messages were ignored: there are too many frame names"
     assert 100 < int(left_out) <= 200  # many messages are taken at a time
 
 
-def test_a_loop_is_one_tree_and_is_told_in_order():
+def test_loop_is_one_tree_and_is_listed_in_order():
     report = diagnose(observed([("a", "b"), ("b", "c"), ("c", "a"), ("c", "tool"), ("tool", "tip")]))
     (finding,) = report.every_finding()
     assert finding.code == "TF004"

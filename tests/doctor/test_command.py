@@ -41,7 +41,7 @@ def test_one_finding_a_line_then_why_and_what_to_do(ill):
     result = command(ill)
     assert result.returncode == 1
     first, why, fix, *_ = result.stdout.splitlines()
-    assert first.startswith("TF001 warning: 2 trees: ")
+    assert first.startswith("TF001 warning: 2 separate trees: ")
     assert first.endswith("; first stamp 1700000000.000000000")
     assert why.startswith("      why: A look-up between frames of two trees never succeeds")
     assert fix.startswith(
@@ -54,14 +54,17 @@ def test_healthy_and_left_out(ill, tmp_path):
     (tmp_path / "good").mkdir()
     result = command(Run.healthy(seconds=2).write(tmp_path / "good"))
     assert result.returncode == 0
-    assert result.stdout.startswith("healthy: 101 transforms of 2 links, 3 frames in 1 tree, 1 sensor, ")
+    assert result.stdout.startswith("healthy: 101 transforms of 2 edges, 3 frames in 1 tree, 1 sensor, ")
 
 
 def test_a_namespace_that_is_not_there_is_told_what_is(tmp_path):
     run = Run()
     run.tf("odom", "base_link", START, topic="/robot1/tf")
     run.tf("odom", "base_link", START, topic="/robot2/tf")
-    assert "there are some on /robot1/tf, /robot2/tf" in command(run.write(tmp_path), "--namespace", "/robot3").stdout
+    assert (
+        "there are transforms on /robot1/tf, /robot2/tf"
+        in command(run.write(tmp_path), "--namespace", "/robot3").stdout
+    )
 
 
 def test_json_on_standard_output_alone(ill):
@@ -145,14 +148,14 @@ def test_every_page_is_printed(code):
 @pytest.mark.parametrize(
     ("arguments", "code", "text"),
     [
-        (["--explain", "TF999"], 2, "there is no page for 'TF999'"),
+        (["--explain", "TF999"], 2, "--explain: unknown code 'TF999'"),
         (["--explain", "TF12"], 2, "Did you mean TF012 (Time jumped back)?"),
         (["--explain", "jumps"], 2, "Did you mean TF020 (Jumps)?"),
-        (["--ignore", "TF999"], 2, "there is no check 'TF999'"),
-        (["--ignore", "TF001,TF26"], 2, "there is no check 'TF26'"),
+        (["--ignore", "TF999"], 2, "--ignore: unknown code 'TF999'"),
+        (["--ignore", "TF001,TF26"], 2, "--ignore: unknown code 'TF26'"),
         (["nowhere.mcap"], 1, "nowhere.mcap cannot be read"),
         (["--duration", "soon"], 2, "--duration"),
-        (["--json", "--sarif"], 2, "exclude each other"),
+        (["--json", "--sarif"], 2, "--json cannot be combined with --sarif"),
         (["--namespace", "/robot1"], 2, "For live transforms, use --tf-topic /robot1/tf"),
     ],
 )

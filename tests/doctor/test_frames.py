@@ -31,7 +31,7 @@ def test_a_recording_in_the_terminal(shared):
     assert ["base_link", "root"] in lines
     assert ["├─", "wheel_left_link", "19.4", "17.1"] in lines
     assert ["odom", "root"] in lines
-    assert "5 frames in 2 trees that nothing joins: base_link (3), odom (2)" in result.stdout
+    assert "5 frames in 2 separate trees: base_link (3), odom (2)" in result.stdout
 
 
 def test_chosen_topics_are_those_of_one_robot(tmp_path):
@@ -54,7 +54,7 @@ def test_every_format_of_a_recording(shared, tmp_path):
     result = frames(shared / "recordings" / "tb3_tf_missing_static", *options)
     assert result.exit_code == 0
     assert result.stdout == ""
-    assert result.stderr.count("5 frames in 2 trees") == len(paths)
+    assert result.stderr.count("5 frames in 2 separate trees") == len(paths)
     gv, svg, pdf, data, mmd, md = paths
     assert '"odom" -> "base_footprint"' in gv.read_text()
     assert ElementTree.parse(svg).getroot().tag.endswith("svg")
@@ -71,7 +71,7 @@ def test_namespaces_are_apart(tmp_path):
     assert sorted(json.loads(frames(bag, "--json").stdout)["namespaces"]) == ["/r1", "/r2"]
     refused = frames(bag, "-o", tmp_path / "x.svg")
     assert refused.exit_code == 2
-    assert "--namespace: /r1, /r2" in refused.output
+    assert "in several namespaces: /r1, /r2\n  Choose one with --namespace." in refused.output
     assert frames(bag, "-o", tmp_path / "x.svg", "--namespace", "/r1").exit_code == 0
     data = json.loads(frames(bag, "--namespace", "r2", "--prefix", "r2/", "--keep", "odom", "--json").stdout)
     data = data["namespaces"]["/r2"] if "namespaces" in data else data
@@ -81,9 +81,9 @@ def test_namespaces_are_apart(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "code", "text"),
     [
-        (["-o", "frames.png"], 2, "Let it end in .gv"),
-        (["--watch", "-o", "frames.svg"], 2, "--watch excludes"),
-        (["--duration", "0s"], 2, "more than 0"),
+        (["-o", "frames.png"], 2, "unknown suffix '.png'. Suffixes: .gv"),
+        (["--watch", "-o", "frames.svg"], 2, "--watch cannot be combined with --output"),
+        (["--duration", "0s"], 2, "greater than 0"),
         (["nowhere.mcap"], 1, "nowhere.mcap"),
     ],
 )
@@ -121,13 +121,13 @@ def test_live_trees_name_their_publishers(inside, tmp_path, eventually):
     with told.open("w") as output:
         inside.start("-m", "coframe.cli", "frames", "--watch", "--json", stdout=output)
         inside.start("-m", "coframe.lab.complete_tf_tree")
-        eventually(lambda: len(frames()) == 11 and frames()["link1"]["links"][-1]["transforms"] > 40)
+        eventually(lambda: len(frames()) == 11 and frames()["link1"]["edges"][-1]["transforms"] > 40)
     found = frames()
     # What comes before it is known who is there has no name.
-    assert {link["publisher"] for frame in found.values() for link in frame["links"]} - {""} == {"/complete_tf_tree"}
+    assert {edge["publisher"] for frame in found.values() for edge in frame["edges"]} - {""} == {"/complete_tf_tree"}
     assert found["link1"]["parent"] == "base_link"
-    assert 40 < found["link1"]["links"][-1]["rate"] < 60
-    assert found["link1"]["links"][-1]["age"] is not None
+    assert 40 < found["link1"]["edges"][-1]["rate"] < 60
+    assert found["link1"]["edges"][-1]["age"] is not None
     assert found["lidar_link"]["static"]
 
 
@@ -141,7 +141,7 @@ def test_who_watches_is_told_what_changes(inside, tmp_path, eventually):
         inside.start("-m", "coframe.cli", "static", "--frame-id", "base_link", "--child-frame-id", "mug")
         eventually(lambda: "mug came, below base_link" in told.read_text())
         node.kill()
-        eventually(lambda: "link1 is stale: silent for" in told.read_text())
+        eventually(lambda: "link1 is stale: no transform for" in told.read_text())
         eventually(lambda: "link1 is gone; it was below base_link" in told.read_text())
 
 

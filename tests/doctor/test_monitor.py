@@ -36,7 +36,7 @@ def test_rate_jitter_and_delay_of_links(seen):
     # The recording ends as the drive's last transform comes, 3.982 s after its start; the arm's newest stamp is 3.9 s.
     assert (drive.age, arm.age) == (2 * MS, 82 * MS)
     assert mount.static
-    assert mount[5:] == (None,) * 6, "what is static has neither rate nor delay nor age"
+    assert mount[5:] == (*(None,) * 6, False), "a static edge has no rate, delay and age"
 
 
 def test_a_publisher_counts_messages_not_transforms(seen):
@@ -152,7 +152,11 @@ def test_the_classic_format_is_tf2_monitors(seen, capsys):
 
 @pytest.mark.parametrize(
     ("arguments", "text"),
-    [(["a"], "give two frames, or none"), (["--json", "--classic"], "exclude"), (["--duration", "0s"], "more than 0")],
+    [
+        (["a"], "SOURCE is missing"),
+        (["--json", "--classic"], "--json cannot be combined with --classic"),
+        (["--duration", "0s"], "greater than 0"),
+    ],
 )
 def test_wrong_usage_is_a_sentence(arguments, text):
     result = CliRunner().invoke(app, ["monitor", *arguments])
@@ -166,11 +170,11 @@ def test_the_command_names_publishers_live(inside):
     def monitor(*options):
         return inside.run("-m", "coframe.cli", "monitor", "map", "camera_link", "--once", *options)
 
-    data = {"links": []}
-    while len(data["links"]) < 10 or data["chain"] is None:
+    data = {"edges": []}
+    while len(data["edges"]) < 10 or data["chain"] is None:
         data = json.loads(monitor("--json", "--duration", "2s").stdout)
     classic = monitor("--classic", "--duration", "2s").stdout
-    assert {row["publisher"] for row in data["links"]} == {"/complete_tf_tree"}
+    assert {row["publisher"] for row in data["edges"]} == {"/complete_tf_tree"}
     assert data["chain"]["frames"][:3] == ["map", "odom", "base_link"]
     assert data["chain"]["frames"][-1] == "camera_link"
     assert (

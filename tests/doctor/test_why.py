@@ -36,7 +36,7 @@ def test_a_healthy_way_of_a_recording(shared):
     bag = shared / "recordings" / "tb3_gazebo_walker"
     data = answer(bag, "odom", "wheel_left_link")
     assert data["frames"] == ["odom", "base_footprint", "base_link", "wheel_left_link"]
-    assert [(link["static"], link["publisher"]) for link in data["links"]] == [
+    assert [(link["static"], link["publisher"]) for link in data["edges"]] == [
         (False, "/tf"),
         (True, "/tf_static"),
         (False, "/tf"),
@@ -45,7 +45,9 @@ def test_a_healthy_way_of_a_recording(shared):
     assert data["findings"] == []
     code, out = why(bag, "odom", "wheel_left_link")
     assert code == 0
-    assert out.startswith("yes: there is a transform from wheel_left_link to odom, the latest at 49.866000000: ")
+    assert out.startswith(
+        "yes: there is a transform from wheel_left_link to odom, the latest at 49.866000000, limited by "
+    )
     assert "do:" not in out
 
 
@@ -68,7 +70,7 @@ def test_statics_that_are_missing_from_a_recording(shared):
 )
 def test_before_and_after_what_a_recording_knows_to_the_nanosecond(shared, at, state, by):
     data = answer(shared / "recordings" / "tb3_tf_missing_static", "odom", "base_footprint", "--at", at)
-    (link,) = data["links"]
+    (link,) = data["edges"]
     assert (link["state"], link["by_ns"]) == (state, by)
     assert data["span_ns"] == [280_002_000_000, 302_136_000_000]
     assert "from 280.002000000 to 302.136000000" in data["hint"]
@@ -98,7 +100,7 @@ def test_a_frame_of_another_namespace(tmp_path):
         types[topic] = (TF, "ros2msg", b"", "cdr")
     bag = recordings.write_mcap(tmp_path / "two.mcap", rows=rows, types=types)
     code, out = why(bag, "odom", "lidar")
-    assert (code, "'lidar' is told of on /b/tf: coframe why ... --namespace /b" in out) == (1, True)
+    assert (code, "frame 'lidar' is published on /b/tf: coframe why ... --namespace /b" in out) == (1, True)
     assert why(bag, "odom", "lidar", "--namespace", "/b")[0] == 0
 
 
@@ -122,13 +124,13 @@ def test_hostile_names_do_not_steer_the_terminal(tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "code", "text"),
     [
-        (["a"], 2, "give TARGET and SOURCE"),
-        (["x.mcap", "a", "b", "c"], 2, "give TARGET and SOURCE"),
+        (["a"], 2, "Give the frames TARGET and SOURCE"),
+        (["x.mcap", "a", "b", "c"], 2, "Give the frames TARGET and SOURCE"),
         (["nowhere.mcap", "a", "b"], 1, "nowhere.mcap cannot be read"),
-        (["x.mcap", "a", "b", "--watch"], 2, "exclude each other"),
-        ([__file__, "a"], 2, "give TARGET and SOURCE behind the recording"),
-        (["a", "b", "--duration", "0s"], 2, "more than 0"),
-        (["a", "b", "--at", "soon", "--duration", "1ms"], 2, "--at: 'soon' is no point in time"),
+        (["x.mcap", "a", "b", "--watch"], 2, "--watch cannot be combined with a recording"),
+        ([__file__, "a"], 2, "Give TARGET and SOURCE after the recording"),
+        (["a", "b", "--duration", "0s"], 2, "greater than 0"),
+        (["a", "b", "--at", "soon", "--duration", "1ms"], 2, "--at: 'soon' is not a point in time"),
     ],
 )
 @pytest.mark.usefixtures("domain_id")
@@ -181,14 +183,14 @@ def test_the_labs_three_errors_are_answered_with_the_line_to_change(start, insid
 
     (late, misspelt), codes = answers(("odom", "lidar_link", "--at", "now"), ("odom", "lidar_lnk"))
     assert codes == [1, 1]
-    (link,) = [link for link in late["links"] if link["state"] != "ok"]
+    (link,) = [link for link in late["edges"] if link["state"] != "ok"]
     assert (link["parent"], link["child"], link["state"]) == ("odom", "base_link", "too_new")
     assert 0 < link["by_ns"] < SECOND
     assert link["publisher"] in {"/robot", "/filter"}
     assert at_now in late["hint"]
     (two,) = [finding for finding in late["findings"] if finding["code"] == "TF003"]
     assert sorted(two["publishers"]) == ["/filter", "/robot"]
-    assert "Stop one of the two" in two["fix"]
+    assert "Stop /" in two["fix"]
     assert "lookup_transform('odom', 'lidar_link', ...)" in misspelt["hint"]
     assert any("--tf-topic /robot1/tf" in note for note in misspelt["notes"])
 

@@ -1,4 +1,4 @@
-"""The lab's nodes, in this process or as processes of their own."""
+"""The nodes of the lab, in this process or in their own processes."""
 
 import signal
 import subprocess
@@ -16,7 +16,7 @@ from tf2_msgs.msg import TFMessage
 
 
 class Observer:
-    """A node beside the lab's, which remembers what it hears, and the executor of all nodes of this process."""
+    """A node that stores received messages, and the executor of all nodes of this process."""
 
     def __init__(self) -> None:
         self.node = rclpy.create_node("observer")
@@ -30,18 +30,18 @@ class Observer:
         return node
 
     def hear(self, message_type: type, topic: str, *, latched: bool = False) -> list:
-        """The messages of a topic, as they come."""
+        """Return a list that receives the messages of a topic."""
         heard: list = []
         durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
         self.node.create_subscription(message_type, topic, heard.append, QoSProfile(depth=1000, durability=durability))
         return heard
 
     def hear_tf(self) -> tuple[list, list]:
-        """The messages of /tf and of /tf_static."""
+        """Return the lists of messages on /tf and on /tf_static."""
         return self.hear(TFMessage, "/tf"), self.hear(TFMessage, "/tf_static", latched=True)
 
     def until(self, condition: Callable[[], object], seconds: float = 30.0) -> None:
-        """Spins until a condition holds."""
+        """Spin until a condition is true."""
         deadline = time.monotonic() + seconds
         while not condition():
             assert time.monotonic() < deadline, "the condition did not come true in time"
@@ -60,7 +60,7 @@ class Observer:
 
 @pytest.fixture
 def start(domain_id: int) -> Iterator[Callable[..., Observer]]:
-    """Initialises rclpy with `-p name:=value` parameters and returns an observer."""
+    """Initialize rclpy with `-p name:=value` parameters and return an observer."""
     assert domain_id
     observers: list[Observer] = []
 
@@ -78,7 +78,7 @@ def start(domain_id: int) -> Iterator[Callable[..., Observer]]:
 
 @pytest.fixture
 def run(domain_id: int) -> Iterator[Callable[..., subprocess.Popen[str]]]:
-    """Starts a node of the lab as a process of its own; it has to end cleanly when interrupted."""
+    """Start a node of the lab in its own process, which must stop cleanly when it is interrupted."""
     assert domain_id
     processes: list[subprocess.Popen[str]] = []
 

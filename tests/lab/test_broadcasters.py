@@ -41,7 +41,7 @@ def angle(transform):
     return 2 * math.atan2(transform.transform.rotation.z, transform.transform.rotation.w)
 
 
-def test_sensor_mounts_are_those_of_the_lab(start):
+def test_sensor_mounts_have_the_default_values_of_the_lab(start):
     observer = start()
     observer.add(StaticFramePublisher())
     _, heard = observer.hear_tf()
@@ -58,7 +58,7 @@ def test_sensor_mounts_are_those_of_the_lab(start):
     ]
 
 
-def test_sensor_mounts_may_be_moved(start):
+def test_sensor_mounts_can_be_set_by_parameters(start):
     observer = start("lidar_translation:=[0.1, 0.2, 0.3]", "lidar_rotation:=[0.0, 0.0, 2.0, 0.0]", "lidar_frame:=laser")
     observer.add(StaticFramePublisher())
     _, heard = observer.hear_tf()
@@ -66,7 +66,7 @@ def test_sensor_mounts_may_be_moved(start):
     assert numbers(by_child(heard[0])["laser"]) == [0.1, 0.2, 0.3, 0, 0, 1, 0]
 
 
-def test_the_arm_swings_by_itself(start):
+def test_the_arm_is_simulated_without_joint_states(start):
     observer = start()
     observer.add(DynamicFramePublisher())
     heard, _ = observer.hear_tf()
@@ -91,7 +91,7 @@ def test_the_arm_swings_by_itself(start):
     assert np.allclose(q2, 0.3 * np.sin(0.6 * np.pi * (begin + elapsed) + np.pi / 4), atol=1e-4)
 
 
-def test_joint_states_take_over_and_the_simulation_comes_back(start):
+def test_joint_states_replace_the_simulation_until_they_stop(start):
     observer = start("joint_timeout:=0.3")
     node = observer.add(DynamicFramePublisher())
     heard, _ = observer.hear_tf()
@@ -129,7 +129,7 @@ def test_joint_states_take_over_and_the_simulation_comes_back(start):
 
 
 def arm_after(start, *states):
-    """Angles and stamps of the arm that follow joint states handed straight to the node."""
+    """Return a function that passes a joint state to the node and returns the angles and stamps of the arm."""
     observer = start()
     node = observer.add(DynamicFramePublisher())
     node.timer.cancel()
@@ -150,21 +150,21 @@ def state(*positions, names=(), sec=5):
     return message
 
 
-def test_without_names_the_first_two_positions_count(start):
+def test_without_joint_names_the_first_two_positions_are_used(start):
     assert arm_after(start, state(0.1, 0.2, 0.3)) == [(0.1, 0.2, 5)]
 
 
-def test_other_names_count_in_order(start):
+def test_with_other_joint_names_the_first_two_positions_are_used(start):
     assert arm_after(start, state(0.1, 0.2, names=["shoulder", "elbow"])) == [(0.1, 0.2, 5)]
 
 
-def test_an_unstamped_joint_state_is_stamped_now(start):
+def test_a_joint_state_without_a_stamp_gets_the_current_time(start):
     [(q1, q2, sec)] = arm_after(start, state(0.1, 0.2, sec=0))
     assert (q1, q2) == (0.1, 0.2)
     assert sec > 1_600_000_000
 
 
-def test_joint_states_that_make_no_sense_are_ignored_with_a_warning(start, capfd):
+def test_invalid_joint_states_are_ignored_with_a_warning(start, capfd):
     broken = [
         state(0.1),
         state(),
@@ -213,7 +213,7 @@ def test_the_complete_tree(start):
     assert numbers(transforms["end_effector"])[:3] == [0.3, 0, 0]
 
 
-def test_arm_and_mounts_may_come_from_elsewhere(start):
+def test_arm_and_mounts_can_be_disabled(start):
     observer = start("publish_arm:=false", "publish_mounts:=false")
     observer.add(CompleteTFTree())
     heard, heard_static = observer.hear_tf()
@@ -225,16 +225,20 @@ def test_arm_and_mounts_may_come_from_elsewhere(start):
 @pytest.mark.parametrize(
     ("node", "parameter", "sentence"),
     [
-        ("static_tf_broadcaster", "imu_translation:=[0.0, 1.0]", "parameter 'imu_translation' needs 3 finite numbers"),
+        (
+            "static_tf_broadcaster",
+            "imu_translation:=[0.0, 1.0]",
+            "parameter 'imu_translation' must have 3 finite numbers",
+        ),
         ("static_tf_broadcaster", "imu_rotation:=[0.0, 0.0, 0.0, 0.0]", "parameter 'imu_rotation'"),
         ("static_tf_broadcaster", "imu_rotation:=upwards", "of type 'STRING', expecting type 'DOUBLE_ARRAY'"),
-        ("dynamic_tf_broadcaster", "link_lengths:=[0.5]", "'link_lengths' need two entries"),
-        ("dynamic_tf_broadcaster", "rate:=0.0", "parameter 'rate' must be more than 0"),
-        ("complete_tf_tree", "rate:=0.0", "parameter 'rate' must be more than 0"),
+        ("dynamic_tf_broadcaster", "link_lengths:=[0.5]", "'link_lengths' must have two entries"),
+        ("dynamic_tf_broadcaster", "rate:=0.0", "parameter 'rate' must be greater than 0 Hz"),
+        ("complete_tf_tree", "rate:=0.0", "parameter 'rate' must be greater than 0 Hz"),
     ],
 )
 @pytest.mark.usefixtures("domain_id")
-def test_a_parameter_that_makes_no_sense_ends_the_node_with_a_sentence(node, parameter, sentence):
+def test_an_invalid_parameter_stops_the_node_with_an_error(node, parameter, sentence):
     command = [sys.executable, "-m", f"coframe.lab.{node}", "--ros-args", "-p", parameter]
     result = subprocess.run(command, capture_output=True, text=True, timeout=30, check=False)
     assert result.returncode == 1
@@ -255,7 +259,7 @@ def test_a_parameter_that_makes_no_sense_ends_the_node_with_a_sentence(node, par
     ],
 )
 @pytest.mark.usefixtures("domain_id")
-def test_a_command_line_or_environment_that_makes_no_sense_does_too(node, arguments, environment, sentence):
+def test_an_invalid_command_line_or_environment_stops_the_node_with_an_error(node, arguments, environment, sentence):
     command = [sys.executable, "-m", f"coframe.lab.{node}", "--ros-args", *arguments]
     result = subprocess.run(
         command, capture_output=True, text=True, timeout=30, check=False, env={**os.environ, **environment}

@@ -1,4 +1,4 @@
-"""The lab's robot from its description: the very same transforms as the hand-written nodes send."""
+"""The robot of the lab from its description, which gives the same transforms as the hand-written nodes."""
 
 import subprocess
 import sys
@@ -36,7 +36,7 @@ def values(transform):
 
 
 def broadcast(start, commands):
-    """What a lab sends in simulated time: dynamic transforms by frames and stamp, static ones by frames."""
+    """Return the transforms of a lab in simulated time: dynamic ones by frames and stamp, static ones by frames."""
     parameters = [word for command in commands for word in command.arguments if word != "-p"]
     observer = start("use_sim_time:=true", *parameters)
     nodes = [observer.add(CLASSES[command.name]()) for command in commands if command.name in CLASSES]
@@ -80,7 +80,7 @@ def test_the_description_gives_the_same_transforms_as_the_hand_written_nodes(sta
         np.testing.assert_allclose(from_description_static[key], expected, rtol=0, atol=1e-12, err_msg=str(key))
 
 
-def test_the_arm_of_the_labs_last_step():
+def test_the_dimensions_of_the_last_step_of_the_lab():
     frames = arm(first_length="0.4", second_length="0.3", base_height="0.2").frames({"joint1": 0.3, "joint2": -0.5})
     expected = [0.4 * np.cos(0.3) + 0.3 * np.cos(-0.2), 0.4 * np.sin(0.3) + 0.3 * np.sin(-0.2), 0.2]
     np.testing.assert_allclose(frames["end_effector"].translation, expected, atol=1e-15)
@@ -88,7 +88,7 @@ def test_the_arm_of_the_labs_last_step():
     assert arm().warnings == ()
 
 
-def test_without_xacro_one_sentence_says_what_to_install():
+def test_without_xacro_the_error_says_what_to_install():
     code = "import sys; sys.modules['xacro'] = None; from coframe.lab.robot_state_publisher import main; main([])"
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert result.returncode == 1

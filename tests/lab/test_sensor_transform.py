@@ -21,7 +21,7 @@ def nanoseconds(stamp):
 
 
 class Reference:
-    """The transforms of a recording, interpolated by scipy: an independent answer."""
+    """An independent reference: the transforms of a recording, interpolated by SciPy."""
 
     def __init__(self, dynamic, static):
         self.samples = defaultdict(dict)
@@ -89,7 +89,7 @@ def expected_points(scan, reference, target):
         ("gripper_link", "base_link"),
     ],
 )
-def test_every_scan_arrives_where_it_belongs_while_everything_moves(start, run, frame, target):
+def test_scans_are_transformed_correctly_while_the_robot_moves(start, run, frame, target):
     observer = start()
     scans = observer.hear(LaserScan, "/scan")
     clouds = observer.hear(PointCloud2, "/scan_base_frame")
@@ -142,7 +142,7 @@ def make_transform(sec, x):
 
 @pytest.fixture
 def lab(start):
-    """The node, what it publishes, and its observer; transforms are put in by hand."""
+    """Return the node, its clouds and its observer. The tests insert the transforms."""
 
     def make(*parameters):
         observer = start(*parameters)
@@ -169,7 +169,7 @@ def test_a_scan_waits_for_its_transform(lab):
     assert node.retry_timer.is_canceled()
 
 
-def test_nobody_waits_behind_a_scan_that_cannot_be_transformed(lab, monkeypatch):
+def test_a_scan_that_cannot_be_transformed_does_not_delay_others(lab, monkeypatch):
     node, clouds, observer = lab("wait:=0.2")
     reasons = []
     monkeypatch.setattr(node, "drop", reasons.append)
@@ -184,7 +184,7 @@ def test_nobody_waits_behind_a_scan_that_cannot_be_transformed(lab, monkeypatch)
     assert not node.waiting
 
 
-def test_scans_that_come_out_of_order_are_not_mixed_up(lab):
+def test_scans_that_arrive_out_of_order_keep_their_own_stamps(lab):
     node, clouds, observer = lab("wait:=30.0")
     node.tf_buffer.set_transform(make_transform(10.0, 0.0), "test")
     for sec in (10.3, 10.1, 10.2):
@@ -197,18 +197,18 @@ def test_scans_that_come_out_of_order_are_not_mixed_up(lab):
     assert got == pytest.approx({10_100_000_000: 2.0, 10_200_000_000: 3.0, 10_300_000_000: 4.0}, abs=1e-6)
 
 
-def test_the_queue_has_an_end_and_dropping_is_told_once(lab, capfd):
+def test_the_queue_is_limited_and_dropped_scans_are_logged_once(lab, capfd):
     node, _, _ = lab("wait:=30.0", "queue_size:=3")
     for number in range(10):
         node.scan_callback(make_scan(10.0 + number))
     assert [waiting.scan.header.stamp.sec for waiting in node.waiting] == [17, 18, 19]
     warnings = [line for line in capfd.readouterr().err.splitlines() if "Scan transform failed" in line]
     assert len(warnings) == 1
-    assert "more than 3 scans wait for their transform" in warnings[0]
+    assert "more than 3 scans are waiting for their transforms" in warnings[0]
     assert "dropped 1 of 4 scans" in warnings[0]
 
 
-def test_a_scan_without_a_single_echo_is_an_empty_cloud(lab):
+def test_a_scan_without_echoes_gives_an_empty_cloud(lab):
     node, clouds, observer = lab()
     node.tf_buffer.set_transform_static(make_transform(0.0, 0.0), "test")
     node.scan_callback(make_scan(10.0, ranges=(math.inf, math.nan), intensities=(1.0, 2.0)))
@@ -217,7 +217,7 @@ def test_a_scan_without_a_single_echo_is_an_empty_cloud(lab):
     assert [field.name for field in clouds[0].fields] == ["x", "y", "z", "intensity"]
 
 
-def test_beams_at_the_ends_of_the_range_count_and_intensities_need_a_partner(lab):
+def test_ranges_at_the_limits_are_valid_and_intensities_need_one_value_per_range(lab):
     node, clouds, observer = lab()
     node.tf_buffer.set_transform_static(make_transform(0.0, 0.0), "test")
     node.scan_callback(make_scan(10.0, ranges=(0.5, 10.0, -1.0), intensities=(1.0,)))
@@ -227,7 +227,7 @@ def test_beams_at_the_ends_of_the_range_count_and_intensities_need_a_partner(lab
 
 
 @pytest.mark.parametrize(("x", "y", "yaw"), [(0.0, 0.0, 0.0), (3.3, 0.4, 0.2), (57.1, -0.8, -3.0)])
-def test_what_the_lidar_sees_stands_in_the_hall(x, y, yaw):
+def test_measured_points_are_on_walls_and_pillars(x, y, yaw):
     headings = yaw + np.linspace(-np.pi, np.pi, 720, endpoint=False)
     ranges, intensities = measure(x, y, headings, 10.0)
     again = measure(x, y, headings, 10.0)
@@ -248,7 +248,7 @@ def test_what_the_lidar_sees_stands_in_the_hall(x, y, yaw):
     assert np.array_equal(intensities[hit] == 200.0, on_pillar)
 
 
-def test_the_lidar_sees_the_hall_from_the_robot(start, run):
+def test_the_lidar_measures_from_the_pose_of_the_robot(start, run):
     observer = start()
     scans = observer.hear(LaserScan, "/scan")
     run("simulated_lidar")

@@ -1,4 +1,4 @@
-"""tf_listener: the end effector's pose."""
+"""tf_listener: the pose of the end effector."""
 
 import math
 import signal
@@ -19,7 +19,7 @@ def angle(rotation):
     return 2 * math.atan2(rotation.z, rotation.w)
 
 
-def test_the_pose_is_that_of_the_arm_at_its_stamp(start, run):
+def test_the_pose_belongs_to_its_stamp(start, run):
     observer = start()
     run("tf_listener")
     run("dynamic_tf_broadcaster")
@@ -47,7 +47,7 @@ def test_the_pose_is_that_of_the_arm_at_its_stamp(start, run):
     assert compared >= 15
 
 
-def test_a_late_broadcaster_is_waited_for_with_few_words(start, capfd):
+def test_waiting_for_a_late_broadcaster_logs_few_warnings(start, capfd):
     observer = start()
     observer.add(TransformListenerNode())
     poses = observer.hear(PoseStamped, "/end_effector_pose")

@@ -1,4 +1,4 @@
-"""Random messages of any type, and the same in rosbags' classes."""
+"""Fixtures that build random messages of any type, and the same messages in the classes of rosbags."""
 
 import random
 import struct
@@ -56,14 +56,14 @@ def build(cls: Any, rng: random.Random) -> Any:
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """A test that asks for `ros_type` runs for every message type."""
+    """Run every test with the argument `ros_type` for every message type."""
     if "ros_type" in metafunc.fixturenames:
         metafunc.parametrize("ros_type", MESSAGE_TYPES)
 
 
 @pytest.fixture(scope="session")
 def random_message() -> Callable[[Any, random.Random], Any]:
-    """Builds a message of a class with random values everywhere."""
+    """Return a function that builds a message with random values in all fields."""
     return build
 
 

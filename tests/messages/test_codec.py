@@ -1,4 +1,4 @@
-"""Bytes are those of ROS 2, and bytes that are not are refused in words."""
+"""Serialized bytes equal those of ROS 2, and invalid bytes are refused with a clear message."""
 
 import random
 import struct
@@ -120,7 +120,7 @@ SAMPLES["Odometry"] = odometry_sample()
 
 
 @pytest.mark.parametrize("name", SAMPLES)
-def test_samples_of_the_real_stack(name: str, shared: Path) -> None:
+def test_messages_of_a_real_ros_stack_round_trip(name: str, shared: Path) -> None:
     data = bytes.fromhex((shared / f"wire_samples/humble_{name}.hex").read_text())
     message = SAMPLES[name]
     assert serialize(message).hex() == data.hex()
@@ -129,12 +129,12 @@ def test_samples_of_the_real_stack(name: str, shared: Path) -> None:
     assert repr(decoded) == repr(message)
 
 
-def test_every_sample_is_compared(shared: Path) -> None:
+def test_every_recorded_sample_is_compared(shared: Path) -> None:
     files = {path.stem.removeprefix("humble_") for path in (shared / "wire_samples").glob("humble_*.hex")}
     assert files == set(SAMPLES)
 
 
-def test_same_bytes_as_rosbags(
+def test_bytes_equal_those_of_rosbags(
     ros_type: str, store: Any, to_rosbags: Callable[[Any], Any], random_message: Builder
 ) -> None:
     rng = random.Random(ros_type)
@@ -150,19 +150,19 @@ def test_same_bytes_as_rosbags(
         assert bytes(store.serialize_cdr(theirs, ros_type)) == data
 
 
-def test_messages_of_services_and_actions_survive(random_message: Builder) -> None:
+def test_messages_of_services_and_actions_round_trip(random_message: Builder) -> None:
     for ros_type in ("tf2_msgs/action/LookupTransform_SendGoal_Request", "std_srvs/srv/SetBool_Response"):
         message = random_message(find(ros_type), random.Random(1))
         assert deserialize(serialize(message), type(message)) == message
 
 
-def test_what_has_no_fields_takes_one_byte() -> None:
+def test_a_message_without_fields_takes_one_byte() -> None:
     assert serialize(Empty()) == b"\0\1\0\0\0"
     assert deserialize(b"\0\1\0\0\0", Empty) == Empty()
     assert serialize(find("std_srvs/srv/Trigger").Request()) == b"\0\1\0\0\0"
 
 
-def test_bytes_and_booleans() -> None:
+def test_sequences_of_bytes_and_booleans() -> None:
     assert serialize(Byte(data=b"\xfe")) == b"\0\1\0\0\xfe"
     message = deserialize(serialize(ByteMultiArray(data=[b"\1", b"\xff"])), ByteMultiArray)
     assert message.data == [b"\1", b"\xff"]
@@ -170,7 +170,7 @@ def test_bytes_and_booleans() -> None:
     assert value.bool_array_value == [True, False]
 
 
-def test_decoded_numbers_have_the_types_of_a_fresh_message() -> None:
+def test_decoded_numbers_have_the_types_of_a_new_message() -> None:
     scan = deserialize(serialize(LaserScan(ranges=[1.0])), LaserScan)
     assert isinstance(scan.ranges, array)
     assert scan.ranges.typecode == "f"
@@ -180,7 +180,7 @@ def test_decoded_numbers_have_the_types_of_a_fresh_message() -> None:
     assert info.k.flags.owndata
 
 
-def test_bytearray_memoryview_and_bytes_after_the_end_are_fine() -> None:
+def test_bytearray_memoryview_and_trailing_bytes_are_accepted() -> None:
     data = serialize(String(data="hi"))
     assert deserialize(bytearray(data), String).data == "hi"  # type: ignore[arg-type]
     assert deserialize(memoryview(data), String).data == "hi"  # type: ignore[arg-type]
@@ -188,7 +188,7 @@ def test_bytearray_memoryview_and_bytes_after_the_end_are_fine() -> None:
 
 
 def make(name: str, *types: AbstractType) -> Any:
-    """A message class without a definition file; its fields are called a, b, c, ..."""
+    """Return a message class without a definition file, with fields a, b, c, ..."""
     slots = [f"_{letter}" for letter, _ in zip("abcdefgh", types, strict=False)]
     body: dict[str, Any] = {"ROS_TYPE": f"demo_msgs/msg/{name}", "__slots__": slots, "SLOT_TYPES": types}
 
@@ -199,8 +199,8 @@ def make(name: str, *types: AbstractType) -> Any:
     return type(Message)(name, (Message,), {**body, "__init__": init})
 
 
-class TestOddTypes:
-    """Types that none of the packages has."""
+class TestUnusedTypes:
+    """Field types that no package uses."""
 
     SHIFTED: ClassVar[Any] = make(
         "Shifted",
@@ -247,7 +247,7 @@ class TestOddTypes:
         assert deserialize(serialize(cls([], 7)), cls) == cls([], 7)
         assert serialize(cls([1.0], 7)).hex() == "000100000100000000000000000000000000f03f07"
 
-    def test_wide_text_is_utf16_in_four_bytes_each(self) -> None:
+    def test_wide_strings_are_utf16_in_four_bytes_per_unit(self) -> None:
         cls = make("Wide", UnboundedWString(), BasicType("uint8"))
         data = serialize(cls("é🤖", 9))
         assert data.hex() == "0001000003000000e90000003ed8000016dd000009"
@@ -258,7 +258,7 @@ class TestOddTypes:
             with pytest.raises(DecodeError):
                 deserialize(bytes.fromhex(wrong), cls)
 
-    def test_bounds_hold_on_the_wire(self) -> None:
+    def test_bounds_are_checked_when_serializing_and_deserializing(self) -> None:
         short, wide = make("Short", BoundedString(3)), make("ShortWide", BoundedWString(3))
         for cls in (short, wide):
             assert deserialize(serialize(cls("abc")), cls) == cls("abc")
@@ -270,7 +270,7 @@ class TestOddTypes:
         with pytest.raises(ValueError, match="field integer_range: more than 1 values"):
             serialize(descriptor)
 
-    def test_user_subclasses_travel_as_themselves(self) -> None:
+    def test_subclasses_by_users_can_be_serialized(self) -> None:
         class Named(String):
             def upper(self) -> str:
                 return self.data.upper()
@@ -282,24 +282,24 @@ TF = serialize(SAMPLES["one_map_odom"])
 
 
 @pytest.mark.parametrize(
-    ("data", "cls", "said"),
+    ("data", "cls", "text"),
     [
-        (b"", String, "expected the header of CDR"),
-        (b"\0\1\0", String, "expected the header of CDR"),
+        (b"", String, "expected the CDR header"),
+        (b"\0\1\0", String, "expected the CDR header"),
         (b"\0\7\0\0" + bytes(8), String, "found 00 07 00 00"),
-        (b"\0\1\0\0", String, "std_msgs/msg/String: at byte 4 of 4, for data: expected more than the 0 bytes"),
-        (b"\0\1\0\0\5\0\0\0abc\0", String, "expected 5 bytes, but 4 bytes are left"),
-        (b"\0\1\0\0\xff\xff\xff\xffabc\0", String, "expected 4294967295 bytes, but 4 bytes"),
-        (b"\0\1\0\0\4\0\0\0abcd", String, "ends with NUL, but it ends with 0x64"),
-        (b"\0\1\0\0\4\0\0\0a\0b\0", String, "only NUL"),
+        (b"\0\1\0\0", String, "String: at byte 4 of 4, for data: expected more than the 0 remaining bytes"),
+        (b"\0\1\0\0\5\0\0\0abc\0", String, "expected 5 bytes, found only 4 bytes"),
+        (b"\0\1\0\0\xff\xff\xff\xffabc\0", String, "expected 4294967295 bytes, found only 4 bytes"),
+        (b"\0\1\0\0\4\0\0\0abcd", String, "ends with NUL, found 0x64"),
+        (b"\0\1\0\0\4\0\0\0a\0b\0", String, "NUL only at its end"),
         (b"\0\1\0\0\3\0\0\0\xff\xfe\0", String, "for data: expected UTF-8, found ff"),
-        (b"\0\1\0\0", Empty, "expected more than the 0 bytes"),
+        (b"\0\1\0\0", Empty, "expected more than the 0 remaining bytes"),
         (
             TF[:-1],
             TFMessage,
             (
                 r"at byte 33 of 91, for transforms\[\].transform.translation.x to "
-                r"transforms\[\].transform.rotation.w: expected more than the 58 bytes that are left"
+                r"transforms\[\].transform.rotation.w: expected more than the 58 remaining bytes"
             ),
         ),
         (TF[:70], TFMessage, "at byte 8 of 70, for transforms: expected 1 values of at least 72 bytes each"),
@@ -308,27 +308,27 @@ TF = serialize(SAMPLES["one_map_odom"])
         (serialize(LaserScan(ranges=[1.0] * 9))[:60], LaserScan, "for ranges: expected 9 values of at least 4"),
     ],
 )
-def test_hostile_bytes_are_refused_in_words(data: bytes, cls: Any, said: str) -> None:
-    with pytest.raises(DecodeError, match=said) as caught:
+def test_invalid_bytes_are_refused_with_a_clear_message(data: bytes, cls: Any, text: str) -> None:
+    with pytest.raises(DecodeError, match=text) as caught:
         deserialize(data, cls)
     assert caught.value.hint
 
 
-def test_lying_length_of_elements_without_content() -> None:
+def test_a_wrong_length_of_elements_without_fields_is_refused() -> None:
     cls = make("Empties", UnboundedSequence(NamespacedType(("std_msgs", "msg"), "Empty")))
     start = time.perf_counter()
-    with pytest.raises(DecodeError, match="4294967295 bytes, but 3 bytes are left"):
+    with pytest.raises(DecodeError, match="4294967295 bytes, found only 3 bytes"):
         deserialize(b"\0\1\0\0\xff\xff\xff\xff\0\0\0", cls)
     assert time.perf_counter() - start < 1.0
     assert len(deserialize(b"\0\1\0\0\3\0\0\0\0\0\0", cls).a) == 3
 
 
-def test_a_text_of_length_zero_is_an_empty_one() -> None:
+def test_a_string_of_length_zero_is_empty() -> None:
     assert deserialize(b"\0\1\0\0\0\0\0\0", String).data == ""
 
 
 @pytest.mark.parametrize("message", [SAMPLES["two_odom_base_laser"], SAMPLES["PointCloud2"], SAMPLES["LaserScan"]])
-def test_every_shorter_message_is_refused(message: Message) -> None:
+def test_every_truncated_message_is_refused(message: Message) -> None:
     data = serialize(message)
     for length in range(len(data)):
         with pytest.raises(DecodeError):
@@ -357,26 +357,26 @@ def test_mutated_messages_decode_or_are_refused(random_message: Builder) -> None
 
 
 @pytest.mark.parametrize(
-    ("broken", "error", "said"),
+    ("broken", "error", "text"),
     [
-        (String(), ValueError, "cannot serialize std_msgs/msg/String, field data: a NUL inside"),
+        (String(), ValueError, "cannot serialize std_msgs/msg/String, field data: a NUL character inside"),
         (Header(), TypeError, "cannot serialize std_msgs/msg/Header, field stamp.sec to frame_id: "),
         (Time(), ValueError, "cannot serialize builtin_interfaces/msg/Time, field sec to nanosec: "),
     ],
 )
-def test_what_cannot_be_written_is_refused_in_words(broken: Any, error: type, said: str) -> None:
+def test_values_that_cannot_be_serialized_are_refused_with_a_clear_message(broken: Any, error: type, text: str) -> None:
     if isinstance(broken, String):
         broken.data = "a\0b"
     elif isinstance(broken, Header):
         broken._stamp = None
     else:
         broken._sec = 2**40
-    with pytest.raises(error, match=said):
+    with pytest.raises(error, match=text):
         serialize(broken)
 
 
 def test_other_objects_are_not_messages() -> None:
     with pytest.raises(TypeError, match=r"builtins.int is not a message class"):
         serialize(5)  # type: ignore[arg-type]
-    with pytest.raises(TypeError, match=r"std_srvs.srv.SetBool is not a message class; .*SetBool.Request"):
+    with pytest.raises(TypeError, match=r"std_srvs.srv.SetBool is not a message class. .*SetBool.Request"):
         deserialize(b"\0\1\0\0\0", find("std_srvs/srv/SetBool"))

@@ -1,4 +1,4 @@
-"""The definitions are ROS 2 Humble's, and the generated classes are what they give."""
+"""The definitions equal those of ROS 2 Humble, and the generated classes are up to date."""
 
 import subprocess
 import sys
@@ -62,7 +62,7 @@ def of_our_packages(store: Any) -> dict[str, Any]:
     return {name: facts for name, facts in store.fielddefs.items() if name.split("/")[0] in PACKAGES}
 
 
-def test_every_message_of_the_packages_is_there(store: Any) -> None:
+def test_no_message_of_the_packages_is_missing(store: Any) -> None:
     ours = {f"{path.parts[-3]}/msg/{path.stem}" for path in (ROOT / "interfaces").glob("*/msg/*.msg")}
     assert ours == set(of_our_packages(store))
 
@@ -87,7 +87,7 @@ def test_services_are_complete(package: str) -> None:
         assert f"{package}/srv/{name}_Response" == service.Response.ROS_TYPE
 
 
-def test_generated_files_are_what_the_definitions_give() -> None:
+def test_generated_files_are_up_to_date() -> None:
     script = ROOT / "scripts/generate_messages.py"
     done = subprocess.run([sys.executable, str(script), "--check"], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
@@ -135,7 +135,9 @@ def test_parser_splits_services_and_actions() -> None:
     assert len(parse("int8 a\n---\n---\nint8 b", "demo_msgs", 3)) == 3
 
 
-@pytest.mark.parametrize(("text", "said"), [("int8", "not a field"), ("int8<=3 a", "bound"), ("---\n", "expected 1")])
-def test_parser_refuses_what_the_format_does_not_allow(text: str, said: str) -> None:
-    with pytest.raises(ValueError, match=said):
+@pytest.mark.parametrize(
+    ("text", "expected"), [("int8", "not a field"), ("int8<=3 a", "bound"), ("---\n", "expected 1")]
+)
+def test_parser_refuses_invalid_definitions(text: str, expected: str) -> None:
+    with pytest.raises(ValueError, match=expected):
         parse(text, "demo_msgs")

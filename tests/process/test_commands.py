@@ -80,7 +80,7 @@ def test_static_with_both_argument_styles(processes):
         (["static", "--child-frame-id", "b"], 1, "Frame id must not be empty"),
         (["static", "--frame-id", "b"], 1, "Child frame id must not be empty"),
         (["static", "--frame-id=a", "--colour=red"], 1, "Extra unparsed arguments on command-line: --colour"),
-        (["static", "--frame-id", "a", "--child-frame-id", "\udcff"], 1, "Frame ids are UTF-8 texts"),
+        (["static", "--frame-id", "a", "--child-frame-id", "\udcff"], 1, "Frame ids must be valid UTF-8"),
         (["static", "--frame-id=a", "--child-frame-id=b", "--tf-static-topic", "x y"], 1, "Check the topic's name"),
         (["echo", "a", "b", "--tf-topic", "x y"], 1, "Check the topic's name"),
         (["echo", "a", "b", "inf"], 1, "Rate must be at most 10000"),

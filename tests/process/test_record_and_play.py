@@ -92,16 +92,14 @@ def test_ctrl_c_ends_it_with_an_index_and_a_sentence(processes, tmp_path):
     code, text = processes.end("record")
     assert code == 0
     assert f"{tmp_path / 'run'}: " in text
-    assert " messages of 1 topics, " in text
-    assert "coframe: nobody published on /gone" in text
+    assert " messages on 1 topic, " in text
+    assert "coframe: no message was received on /gone" in text
     assert "Traceback" not in text
     with (tmp_path / "run" / "run_0.mcap").open("rb") as stream:
         assert make_reader(stream).get_summary().statistics.message_count == assert_others_open_it(tmp_path / "run")
     processes.start("again", *CLI, "record", "-o", tmp_path / "run")
     eventually(lambda: not processes.running("again"), lambda: processes.text("again"))
-    assert processes.text("again").startswith(
-        f"coframe: {tmp_path / 'run'} is there already, and nothing is overwritten"
-    )
+    assert processes.text("again").startswith(f"coframe: {tmp_path / 'run'} already exists and is not overwritten")
 
 
 def test_a_full_disk_ends_it_with_a_sentence(processes, tmp_path):
@@ -154,13 +152,13 @@ def test_keys_steer_what_is_played(network, shared):
 @pytest.mark.parametrize(
     ("arguments", "code", "reason"),
     [
-        (("record", "--max-size", "big"), 2, "--max-size: 'big' is no amount of bytes"),
+        (("record", "--max-size", "big"), 2, "--max-size: 'big' is not a size"),
         (("record", "--compression", "zip"), 2, "there is no compression 'zip'"),
-        (("record", "-a", "/tf"), 2, "exclude each other"),
-        (("record", "-e", "["), 2, "is no regular expression"),
+        (("record", "-a", "/tf"), 2, "--all cannot be combined with TOPIC"),
+        (("record", "-e", "["), 2, "is not a valid regular expression"),
         (("play", "gone"), 1, "gone cannot be read"),
         (("play", "gone", "--rate", "0"), 2, "above 0"),
-        (("play", "gone", "--remap", "/tf"), 2, "is no renaming"),
+        (("play", "gone", "--remap", "/tf"), 2, "is not OLD:=NEW"),
     ],
 )
 def test_wrong_usage_is_told(arguments, code, reason, tmp_path, monkeypatch):

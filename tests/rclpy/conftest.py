@@ -1,4 +1,4 @@
-"""Contexts, nodes and child processes for the tests of rclpy."""
+"""Fixtures for the tests of rclpy: contexts, nodes and child processes."""
 
 import os
 import subprocess
@@ -17,7 +17,7 @@ from rclpy.node import Node
 
 @pytest.fixture
 def context(domain_id: int) -> Iterator[Context]:
-    """A context of this test's own, in a domain of its own."""
+    """Return a context in a DDS domain that no other test uses."""
     context = Context()
     context.init([], domain_id=domain_id)
     yield context
@@ -26,7 +26,7 @@ def context(domain_id: int) -> Iterator[Context]:
 
 @pytest.fixture
 def make_node(context: Context) -> Iterator[Callable[..., Node]]:
-    """Makes nodes that end with the test."""
+    """Return a function that creates nodes, which are destroyed after the test."""
     nodes: list[Node] = []
 
     def make(name: str = "tester", **options) -> Node:
@@ -40,13 +40,13 @@ def make_node(context: Context) -> Iterator[Callable[..., Node]]:
 
 @pytest.fixture
 def node(make_node: Callable[..., Node]) -> Node:
-    """A node."""
+    """Return a node."""
     return make_node()
 
 
 @pytest.fixture
 def wait_until() -> Callable[..., None]:
-    """Waits for a condition, while doing `meanwhile`."""
+    """Return a function that waits for a condition and calls `meanwhile` in the meantime."""
 
     def wait(
         condition: Callable[[], object],
@@ -62,7 +62,7 @@ def wait_until() -> Callable[..., None]:
 
 
 class Script:
-    """A Python program in a process of its own, whose output is collected."""
+    """A Python program in a separate process whose output is collected."""
 
     def __init__(self, path: Path, *args: str) -> None:
         self.process = subprocess.Popen(
@@ -83,16 +83,16 @@ class Script:
 
     @property
     def output(self) -> str:
-        """What it printed so far."""
+        """The output on stdout so far."""
         return "".join(self._lines)
 
     @property
     def errors(self) -> str:
-        """What it wrote to stderr so far."""
+        """The output on stderr so far."""
         return "".join(self._errors)
 
     def end(self, timeout: float = 10.0) -> int:
-        """Waits for its end and returns its exit code."""
+        """Wait for the end of the program and return its exit code."""
         code = self.process.wait(timeout)
         for thread in self._threads:
             thread.join(timeout)
@@ -103,7 +103,7 @@ class Script:
 
 @pytest.fixture
 def run_script(domain_id: int, tmp_path: Path) -> Iterator[Callable[..., Script]]:
-    """Starts programs given by their text, in the test's domain; they end with the test."""
+    """Return a function that starts a program from its source text in the DDS domain of the test."""
     assert os.environ["ROS_DOMAIN_ID"] == str(domain_id)
     scripts: list[Script] = []
 

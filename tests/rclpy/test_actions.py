@@ -1,4 +1,4 @@
-"""Actions: goals, feedback, cancelling and results."""
+"""Actions: goals, feedback, cancel requests and results."""
 
 import importlib.util
 import subprocess
@@ -36,7 +36,7 @@ FIBONACCI = "int32 order\n---\nint32[] sequence\n---\nint32[] partial_sequence\n
 
 @pytest.fixture(scope="session")
 def fibonacci(tmp_path_factory):
-    """The action that everybody learns actions with."""
+    """Return the action type of the ROS tutorials."""
     script = Path(__file__).resolve().parents[2] / "scripts/generate_messages.py"
     spec = importlib.util.spec_from_file_location("generate_messages", script)
     generator = importlib.util.module_from_spec(spec)
@@ -52,7 +52,7 @@ def fibonacci(tmp_path_factory):
 
 @pytest.fixture
 def count(fibonacci):
-    """Works on a goal as the tutorial does."""
+    """Return the execute callback of the ROS tutorials."""
 
     def execute(goal_handle):
         sequence = [0, 1]
@@ -67,7 +67,7 @@ def count(fibonacci):
 
 @pytest.fixture
 def serve(make_node, fibonacci):
-    """Starts an action server, spun in a thread until the test ends."""
+    """Return a function that starts an action server and spins it in a thread until the test ends."""
     running = []
 
     def start(execute, *, executor=SingleThreadedExecutor, action=fibonacci, name="fibonacci", node=None, **options):
@@ -88,7 +88,7 @@ def serve(make_node, fibonacci):
 
 @pytest.fixture
 def connect(make_node, fibonacci):
-    """Makes action clients that have found their server."""
+    """Return a function that creates action clients and waits for their server."""
 
     def make(name="client", action_name="fibonacci", action=fibonacci, **options):
         client = ActionClient(make_node(name), action, action_name, **options)
@@ -100,7 +100,7 @@ def connect(make_node, fibonacci):
 
 @pytest.fixture
 def result_of(context):
-    """Spins a client until one of its futures is done."""
+    """Return a function that spins a client until a future is done and returns the result."""
     spinner = SingleThreadedExecutor(context=context)
 
     def spin(client, future):
@@ -114,7 +114,7 @@ def result_of(context):
 
 
 class Gate:
-    """Holds goals up until the test opens it; for execute callbacks with a thread of their own."""
+    """Gate that blocks execute callbacks, which run in their own threads, until the test opens it."""
 
     def __init__(self, end):
         self.end = end
@@ -131,24 +131,28 @@ class Gate:
 def test_feedback_and_result(serve, connect, count, executor, result_of, wait_until, fibonacci):
     serve(count, executor=executor)
     client = connect()
-    heard = []
-    goal_handle = result_of(client, client.send_goal_async(fibonacci.Goal(order=3), feedback_callback=heard.append))
+    received = []
+    goal_handle = result_of(client, client.send_goal_async(fibonacci.Goal(order=3), feedback_callback=received.append))
     assert goal_handle.accepted
     assert goal_handle.stamp.sec > 0
     response = result_of(client, goal_handle.get_result_async())
     assert response.status == goal_handle.status == GoalStatus.STATUS_SUCCEEDED
     assert list(response.result.sequence) == [0, 1, 1, 2, 3]
-    # Feedback that still waits behind the result is not lost.
-    wait_until(lambda: len(heard) == 3, lambda: rclpy.spin_once(client._node, executor=spinner_of(client)))
-    assert [list(message.feedback.partial_sequence) for message in heard] == [[0, 1, 1], [0, 1, 1, 2], [0, 1, 1, 2, 3]]
-    assert all(message.goal_id == goal_handle.goal_id for message in heard)
+    # Feedback that is queued when the result arrives is not lost.
+    wait_until(lambda: len(received) == 3, lambda: rclpy.spin_once(client._node, executor=spinner_of(client)))
+    assert [list(message.feedback.partial_sequence) for message in received] == [
+        [0, 1, 1],
+        [0, 1, 1, 2],
+        [0, 1, 1, 2, 3],
+    ]
+    assert all(message.goal_id == goal_handle.goal_id for message in received)
 
 
 def spinner_of(client):
     return client._node.executor
 
 
-def test_all_in_one_node_with_the_global_executor(domain_id, count, fibonacci):
+def test_server_and_client_in_one_node_with_the_global_executor(domain_id, count, fibonacci):
     rclpy.init(args=[], domain_id=domain_id)
     try:
         node = rclpy.create_node("both")
@@ -169,7 +173,7 @@ def test_all_in_one_node_with_the_global_executor(domain_id, count, fibonacci):
 
 
 @pytest.mark.parametrize("answer", [GoalResponse.REJECT, True], ids=["rejected", "no GoalResponse"])
-def test_rejected(serve, connect, count, result_of, answer, fibonacci):
+def test_rejected_goal(serve, connect, count, result_of, answer, fibonacci):
     serve(count, goal_callback=lambda goal: answer if goal.order < 0 else GoalResponse.ACCEPT)
     client = connect()
     goal_handle = result_of(client, client.send_goal_async(fibonacci.Goal(order=-1), feedback_callback=print))
@@ -203,7 +207,7 @@ def test_cancel(serve, connect, result_of, wait_until, fibonacci):
     assert list(response.result.sequence) == [7]
 
 
-def test_cancel_is_refused(serve, connect, count, result_of, fibonacci):
+def test_rejected_cancel_request(serve, connect, count, result_of, fibonacci):
     gate = Gate(count)
     serve(gate, executor=MultiThreadedExecutor)
     client = connect()
@@ -220,7 +224,7 @@ def test_cancel_is_refused(serve, connect, count, result_of, fibonacci):
 
 
 def test_cancel_several(serve, connect, result_of, fibonacci):
-    """No id: all goals; a time: those accepted until then; an id and a time: that goal as well."""
+    """A request without identifier selects all goals, a stamp earlier goals, and both together the union."""
 
     def end(goal_handle):
         (goal_handle.canceled if goal_handle.is_cancel_requested else goal_handle.succeed)()
@@ -276,7 +280,7 @@ def test_abort(serve, connect, result_of, mistake, capfd, fibonacci):
     assert log[mistake] in capfd.readouterr().err
 
 
-def test_a_goal_ends_once(serve, connect, fibonacci):
+def test_goal_cannot_be_finished_twice(serve, connect, fibonacci):
     errors = []
 
     def execute(goal_handle):
@@ -300,7 +304,7 @@ def test_a_goal_ends_once(serve, connect, fibonacci):
     ]
 
 
-def test_result_after_the_end(serve, connect, count, result_of, fibonacci):
+def test_result_requested_after_the_goal_finished(serve, connect, count, result_of, fibonacci):
     serve(count)
     client = connect()
     goal_handle = result_of(client, client.send_goal_async(fibonacci.Goal(order=1)))
@@ -319,9 +323,9 @@ def test_results_expire(serve, connect, count, result_of, wait_until, fibonacci)
 def test_two_clients(serve, connect, count, result_of, wait_until, fibonacci):
     serve(count)
     clients = [connect("first"), connect("second")]
-    heard = [[], []]
+    received = [[], []]
     futures = [
-        client.send_goal_async(fibonacci.Goal(order=order), feedback_callback=heard[order - 1].append)
+        client.send_goal_async(fibonacci.Goal(order=order), feedback_callback=received[order - 1].append)
         for order, client in enumerate(clients, 1)
     ]
     goal_handles = list(map(result_of, clients, futures))
@@ -331,11 +335,11 @@ def test_two_clients(serve, connect, count, result_of, wait_until, fibonacci):
     ]
     assert [list(response.result.sequence) for response in responses] == [[0, 1, 1], [0, 1, 1, 2]]
     executor = spinner_of(clients[0])
-    wait_until(lambda: [len(messages) for messages in heard] == [1, 2], lambda: executor.spin_once(timeout_sec=0.1))
+    wait_until(lambda: [len(messages) for messages in received] == [1, 2], lambda: executor.spin_once(timeout_sec=0.1))
     assert goal_handles[0] != goal_handles[1]
 
 
-def test_an_identifier_of_ones_own(serve, connect, count, result_of, fibonacci):
+def test_goal_with_a_given_identifier(serve, connect, count, result_of, fibonacci):
     serve(count)
     client = connect()
     goal_id = UUID(uuid=list(range(16)))
@@ -351,7 +355,7 @@ def test_deferred_goals(serve, connect, count, result_of, wait_until, fibonacci)
     client = connect()
     first, second = (result_of(client, client.send_goal_async(fibonacci.Goal(order=order))) for order in (1, 2))
     executor = spinner_of(client)
-    # The client may hear of a goal before the server's callback has run.
+    # The client may receive the response before the server's callback has run.
     wait_until(
         lambda: len(accepted) == 2 and first.status == GoalStatus.STATUS_ACCEPTED,
         lambda: executor.spin_once(timeout_sec=0.1),
@@ -369,7 +373,7 @@ def test_deferred_goals(serve, connect, count, result_of, wait_until, fibonacci)
     assert (response.status, list(response.result.sequence)) == (GoalStatus.STATUS_ABORTED, [3])
 
 
-def test_coroutines_work_on_many_goals_in_one_thread(serve, connect, result_of, fibonacci):
+def test_coroutines_execute_many_goals_in_one_thread(serve, connect, result_of, fibonacci):
     opened = Future()
 
     async def execute(goal_handle):
@@ -467,7 +471,7 @@ def test_names_follow_namespaces_and_remaps(make_node, serve, count, result_of, 
     assert (status.depth, status.durability) == (1, DurabilityPolicy.TRANSIENT_LOCAL)
 
 
-def test_nobody_there_then_somebody_then_nobody(make_node, count, wait_until, fibonacci):
+def test_server_appears_and_disappears(make_node, count, wait_until, fibonacci):
     client = ActionClient(make_node("client"), fibonacci, "fibonacci")
     assert not client.wait_for_server(timeout_sec=0.05)
     server = ActionServer(make_node("server"), fibonacci, "fibonacci", count)
@@ -481,7 +485,7 @@ def test_nobody_there_then_somebody_then_nobody(make_node, count, wait_until, fi
         client.send_goal_async(fibonacci.Goal())
 
 
-def test_a_server_that_is_destroyed_forgets_its_goals(serve, connect, result_of, fibonacci):
+def test_destroyed_server_removes_its_goals(serve, connect, result_of, fibonacci):
     ended = []
 
     def end(goal_handle):
@@ -502,7 +506,7 @@ def test_a_server_that_is_destroyed_forgets_its_goals(serve, connect, result_of,
     assert not ended[0].is_active
 
 
-def test_mistakes(make_node, count, fibonacci):
+def test_invalid_arguments(make_node, count, fibonacci):
     node = make_node()
     with pytest.raises(NoTypeSupportImportedException, match="Expected an action type"):
         ActionClient(node, SetBool, "fibonacci")
@@ -542,7 +546,7 @@ def test_wrong_feedback_and_results(serve, connect, fibonacci):
 
 
 @pytest.mark.parametrize("number", [0, 1, 3])
-def test_status_is_written_as_the_codec_does(number):
+def test_status_encoding_equals_that_of_the_codec(number):
     message = GoalStatusArray()
     for index in range(number):
         info = GoalInfo(goal_id=UUID(uuid=[index] * 16), stamp=Time(sec=-index, nanosec=2**32 - 1 - index))
@@ -551,17 +555,17 @@ def test_status_is_written_as_the_codec_does(number):
     assert encode_statuses(entries) == codec.serialize(message)
 
 
-def test_late_joiners_hear_of_the_status(serve, connect, count, make_node, context, wait_until, fibonacci):
+def test_late_joining_client_receives_the_status(serve, connect, count, make_node, context, wait_until, fibonacci):
     serve(count)
     client = connect()
     assert client.send_goal(fibonacci.Goal()).status == GoalStatus.STATUS_SUCCEEDED
-    late, heard = make_node("late"), []
+    late, received = make_node("late"), []
     qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    late.create_subscription(GoalStatusArray, "fibonacci/_action/status", heard.append, qos)
+    late.create_subscription(GoalStatusArray, "fibonacci/_action/status", received.append, qos)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(late)
-    wait_until(lambda: heard, lambda: executor.spin_once(timeout_sec=0.1))
-    assert [goal.status for goal in heard[0].status_list] == [GoalStatus.STATUS_SUCCEEDED]
+    wait_until(lambda: received, lambda: executor.spin_once(timeout_sec=0.1))
+    assert [goal.status for goal in received[0].status_list] == [GoalStatus.STATUS_SUCCEEDED]
     executor.shutdown()
 
 
@@ -588,21 +592,23 @@ def test_across_processes(run_script, make_node, result_of, wait_until):
     script = run_script(SERVER)
     client = ActionClient(make_node("client"), LookupTransform, "look")
     assert client.wait_for_server(timeout_sec=20)
-    heard = []
+    received = []
     goal = LookupTransform.Goal(target_frame="größer")
-    goal_handle = result_of(client, client.send_goal_async(goal, feedback_callback=heard.append))
+    goal_handle = result_of(client, client.send_goal_async(goal, feedback_callback=received.append))
     response = result_of(client, goal_handle.get_result_async())
     assert response.status == GoalStatus.STATUS_SUCCEEDED
     assert response.result.error.error_string == "größer"
     executor = spinner_of(client)
-    wait_until(lambda: [message.goal_id for message in heard] == [goal_handle.goal_id], lambda: executor.spin_once(0.1))
+    wait_until(
+        lambda: [message.goal_id for message in received] == [goal_handle.goal_id], lambda: executor.spin_once(0.1)
+    )
     script.process.terminate()
     script.end()
     wait_until(lambda: not client.server_is_ready())
     assert not client.send_goal_async(goal).done()
 
 
-BESIDE_ROSLESS = """
+CLIENT_OF_ANOTHER_LIBRARY = """
 import threading, time
 import rclpy, rosless
 from rclpy.action import ActionClient, ActionServer
@@ -653,10 +659,10 @@ thread.join()
 
 
 @pytest.mark.usefixtures("domain_id")
-def test_an_independent_program_hears_and_lists(network, tmp_path):
+def test_interoperation_with_an_independent_library(network, tmp_path):
     pytest.importorskip("rosless", reason="an independent RTPS program")
     path = tmp_path / "beside_rosless.py"
-    path.write_text(BESIDE_ROSLESS, encoding="utf-8")
+    path.write_text(CLIENT_OF_ANOTHER_LIBRARY, encoding="utf-8")
     ended = subprocess.run(
         network.command(sys.executable, path), capture_output=True, text=True, timeout=60, check=False
     )

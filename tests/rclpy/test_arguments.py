@@ -1,4 +1,4 @@
-"""The command line: `--ros-args` and what is behind it."""
+"""Parsing of `--ros-args`."""
 
 import pytest
 
@@ -14,7 +14,7 @@ def resolver(*rules: str, node: str = "arm", namespace: str = "/") -> NameResolv
     return NameResolver(node, namespace, _arguments.parse(["--ros-args", *words]).remaps)
 
 
-def test_only_ros_sections_are_ours():
+def test_arguments_outside_of_ros_args_are_ignored():
     args = ["prog", "x:=y", "--ros-args", "-r", "a:=b", "--", "-r", "c:=d", "--ros-args", "-p", "n:=1"]
     parsed = _arguments.parse(args)
     assert [rule.match for rule in parsed.remaps] == ["a"]
@@ -48,7 +48,7 @@ def test_logging_options():
     assert (logging.stdout, logging.rosout) == (False, False)
 
 
-def test_nodes_are_renamed():
+def test_node_name_and_namespace_remapping():
     rules = _arguments.parse(["--ros-args", "-r", "__node:=left", "-r", "__ns:=/robots"]).remaps
     assert remap_node("arm", "/", rules) == ("left", "/robots")
     rules = _arguments.parse(["--ros-args", "-r", "arm:__name:=left", "-r", "leg:__ns:=/robots"]).remaps
@@ -69,11 +69,11 @@ def test_nodes_are_renamed():
         ("rosservice://chatter:=talk", "chatter", "/robot1/chatter"),
     ],
 )
-def test_topics_are_remapped(rule, name, expected):
+def test_topic_remapping(rule, name, expected):
     assert resolver(rule, namespace="/robot1").resolve(name) == expected
 
 
-def test_first_rule_wins_and_services_have_their_own():
+def test_first_rule_applies_and_services_have_separate_rules():
     assert resolver("a:=first", "a:=second").resolve("a") == "/first"
     assert resolver("rosservice://a:=b").resolve("a", is_service=True) == "/b"
     assert resolver("a:=b").resolve("a", only_expand=True) == "/a"
@@ -99,13 +99,13 @@ def test_first_rule_wins_and_services_have_their_own():
         ("/a/b", "/a/b"),
     ],
 )
-def test_values_are_typed_as_ros_does(text, value):
+def test_types_of_parameter_values(text, value):
     parsed = _yaml.parse_value(text)
     assert parsed == value
     assert type(parsed) is type(value)
 
 
-def test_parameter_rules_choose_their_nodes():
+def test_parameter_rules_match_node_names():
     [everywhere, named] = _arguments.parse(["--ros-args", "-p", "a:=1", "-p", "arm:b:=2"]).parameters
     assert everywhere.matches("/x/leg")
     assert named.matches("/arm")
@@ -131,7 +131,7 @@ def test_parameter_files(tmp_path):
     assert of("/hand") == {"use": True}
 
 
-def test_broken_parameter_file_is_named(tmp_path):
+def test_error_of_an_invalid_parameter_file_contains_its_name(tmp_path):
     pytest.importorskip("yaml")
     path = tmp_path / "params.yaml"
     path.write_text("arm: 5\n")

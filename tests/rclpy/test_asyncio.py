@@ -1,4 +1,4 @@
-"""rclpy's futures in asyncio programs: nothing but `await`, from whatever thread the result comes."""
+"""Awaiting rclpy's futures in asyncio programs, with results from any thread."""
 
 import asyncio
 import gc
@@ -37,7 +37,7 @@ def buffer():
 
 @pytest.fixture
 def in_thread():
-    """Runs a function in another thread, which has ended when the test ends."""
+    """Return a function that runs a function in another thread, which is joined after the test."""
     threads = []
 
     def start(function):
@@ -52,7 +52,7 @@ def in_thread():
 
 @pytest.fixture
 def spinning(make_node):
-    """A node whose callbacks run in another thread."""
+    """Return a node that is spun in another thread."""
     node = make_node("server")
     executor = SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
@@ -65,7 +65,7 @@ def spinning(make_node):
 
 
 def run(coroutine):
-    """asyncio.run, which also fails if the program hangs or a callback of the loop fails."""
+    """Run a coroutine like asyncio.run, and fail if it hangs or a callback of the loop fails."""
     failures = []
 
     async def main():
@@ -78,7 +78,7 @@ def run(coroutine):
     return result
 
 
-def test_a_result_from_another_thread(in_thread):
+def test_result_from_another_thread(in_thread):
     future = Future()
 
     async def main():
@@ -88,7 +88,7 @@ def test_a_result_from_another_thread(in_thread):
     assert run(main()) == 7
 
 
-def test_a_result_that_is_there_needs_no_turn_of_the_loop():
+def test_available_result_needs_no_loop_iteration():
     future = Future()
     future.set_result("there")
     with pytest.raises(StopIteration) as stop:
@@ -101,7 +101,7 @@ def test_a_result_that_is_there_needs_no_turn_of_the_loop():
     assert run(main()) == "there"
 
 
-def test_an_exception_from_another_thread(in_thread):
+def test_exception_from_another_thread(in_thread):
     future = Future()
 
     async def main():
@@ -112,14 +112,14 @@ def test_an_exception_from_another_thread(in_thread):
         run(main())
 
 
-def test_a_thousand_awaits_of_transforms(in_thread):
+def test_awaiting_a_thousand_transforms(in_thread):
     buffer = tf2_ros.Buffer(Duration(seconds=1000))
 
     async def main():
         lookups = [buffer.lookup_transform_async("odom", "base", Time(seconds=n * 0.1)) for n in range(1, 501)]
         waits = [buffer.wait_for_transform_async("odom", "base", Time(seconds=n * 0.1)) for n in range(501, 1001)]
         awaited = asyncio.gather(*lookups, *waits)
-        await asyncio.sleep(0)  # every task has begun to wait
+        await asyncio.sleep(0)  # All tasks start to wait.
 
         def broadcast():
             for seconds in range(0, 101, 10):
@@ -181,7 +181,7 @@ def test_waiting_costs_no_processor_time(make_node, buffer):
     assert run(main()) < 0.2
 
 
-def test_a_timeout_of_asyncio_cancels_the_future():
+def test_asyncio_timeout_cancels_the_future():
     future = Future()
 
     async def main():
@@ -224,7 +224,7 @@ def test_cancelling_the_task_cancels_the_future():
     assert over == [future]
 
 
-def test_a_shielded_future_survives():
+def test_shielded_future_is_not_cancelled():
     future = Future()
 
     async def main():
@@ -238,8 +238,8 @@ def test_a_shielded_future_survives():
     run(main())
 
 
-def test_a_future_that_somebody_else_cancels():
-    """An executor's coroutine gets None, as ever; asyncio's tasks get what asyncio's futures give."""
+def test_future_cancelled_from_outside():
+    """A coroutine of an executor gets None. An asyncio task gets CancelledError, as from asyncio's futures."""
 
     async def main():
         future = Future()
@@ -254,7 +254,7 @@ def test_a_future_that_somebody_else_cancels():
     run(main())
 
 
-def test_one_future_for_several_tasks(in_thread):
+def test_several_tasks_await_one_future(in_thread):
     future = Future()
 
     async def main():
@@ -267,7 +267,7 @@ def test_one_future_for_several_tasks(in_thread):
     assert future._waiters == []
 
 
-def test_a_request_that_was_given_up_is_forgotten(node):
+def test_cancelled_request_is_removed(node):
     client = node.create_client(SetBool, "nowhere")
 
     async def main():
@@ -278,7 +278,7 @@ def test_a_request_that_was_given_up_is_forgotten(node):
     assert client._pending == {}
 
 
-def test_a_loop_that_closed_first_does_no_harm(recwarn):
+def test_result_after_the_loop_is_closed(recwarn):
     future = Future()
     loop = asyncio.new_event_loop()
 
@@ -289,7 +289,7 @@ def test_a_loop_that_closed_first_does_no_harm(recwarn):
     loop.run_until_complete(asyncio.sleep(0))
     assert len(future._waiters) == 1
     loop.close()
-    future.set_result(1)  # its waiter's loop is gone
+    future.set_result(1)  # The loop of the awaiting task is closed.
     task._log_destroy_pending = False
     gone = weakref.ref(task)
     del task
@@ -298,7 +298,7 @@ def test_a_loop_that_closed_first_does_no_harm(recwarn):
     assert not recwarn.list
 
 
-def test_coroutines_driven_by_hand_inside_a_task():
+def test_coroutines_run_by_send_inside_a_task():
     future = Future()
 
     async def wait():
@@ -315,7 +315,7 @@ def test_coroutines_driven_by_hand_inside_a_task():
     assert run(main()) == "there"
 
 
-def test_an_executor_that_spins_inside_a_task(node):
+def test_executor_that_spins_inside_a_task(node):
     executor = SingleThreadedExecutor(context=node.context)
     future = Future()
 
@@ -325,7 +325,7 @@ def test_an_executor_that_spins_inside_a_task(node):
     async def main():
         task = executor.create_task(callback)
         executor.spin_once(timeout_sec=LONG)
-        with pytest.raises(NothingReadyException):  # it sleeps instead of asking again and again
+        with pytest.raises(NothingReadyException):  # The executor sleeps instead of polling.
             executor.wait_for_ready_callbacks(timeout_sec=0)
         future.set_result("rclpy")
         executor.spin_until_future_complete(task, timeout_sec=LONG)
@@ -334,7 +334,7 @@ def test_an_executor_that_spins_inside_a_task(node):
     assert run(main()) == "rclpy"
 
 
-def test_an_asyncio_program_inside_a_callback(node, in_thread):
+def test_asyncio_program_inside_a_callback(node, in_thread):
     executor = SingleThreadedExecutor(context=node.context)
 
     async def callback():
@@ -347,7 +347,7 @@ def test_an_asyncio_program_inside_a_callback(node, in_thread):
     assert task.result() == "asyncio"
 
 
-def test_a_task_of_an_executor_may_be_awaited(spinning):
+def test_awaiting_a_task_of_an_executor(spinning):
     async def double(number):
         return 2 * number
 
@@ -357,7 +357,7 @@ def test_a_task_of_an_executor_may_be_awaited(spinning):
     assert run(main()) == 42
 
 
-def test_cancelling_a_task_that_runs_closes_it_after_its_step(in_thread):
+def test_cancelled_running_task_is_closed_after_its_step(in_thread):
     begun, go_on, closed = threading.Event(), threading.Event(), threading.Event()
 
     async def work():
@@ -378,7 +378,7 @@ def test_cancelling_a_task_that_runs_closes_it_after_its_step(in_thread):
     assert task.cancelled()
 
 
-def test_a_timeout_of_the_buffer_says_what_is_missing(buffer):
+def test_buffer_timeout_describes_what_is_missing(buffer):
     async def main():
         await buffer.lookup_transform_async("odom", "base", Time(), timeout=Duration(seconds=0.01))
 
@@ -386,7 +386,7 @@ def test_a_timeout_of_the_buffer_says_what_is_missing(buffer):
         run(main())
 
 
-def test_nothing_of_asyncio_is_imported_without_need():
-    """Programs of nodes start faster without it."""
+def test_asyncio_is_not_imported_without_need():
+    """Programs that do not use asyncio start faster."""
     code = "import sys, rclpy, tf2_ros; sys.exit('asyncio' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -1,4 +1,4 @@
-"""Clocks, their jumps, and sleeping on them."""
+"""Clocks, time jumps and sleeping."""
 
 import threading
 import time
@@ -22,7 +22,7 @@ def plain_context():
     context.try_shutdown()
 
 
-def test_kinds():
+def test_clock_types():
     assert Clock().clock_type is ClockType.SYSTEM_TIME
     assert isinstance(Clock(clock_type=ClockType.ROS_TIME), ROSClock)
     assert repr(Clock(clock_type=ClockType.STEADY_TIME)) == "Clock(clock_type=STEADY_TIME)"
@@ -30,7 +30,7 @@ def test_kinds():
         Clock(clock_type="wall")
 
 
-def test_now_reads_the_right_clock():
+def test_now_returns_the_time_of_the_clock_type():
     assert abs(Clock().now().nanoseconds - time.time_ns()) < 10**9
     steady = Clock(clock_type=ClockType.STEADY_TIME)
     first = steady.now()
@@ -47,25 +47,25 @@ def test_ros_time_is_system_time_until_it_is_simulated():
     assert clock.now() == Time(seconds=42, clock_type=ClockType.ROS_TIME)
 
 
-def test_jump_callbacks_hear_of_what_they_asked_for():
+def test_jump_callbacks_respect_their_thresholds():
     clock = ROSClock()
-    heard = []
+    calls = []
     handle = clock.create_jump_callback(
-        ANY_JUMP, pre_callback=lambda: heard.append("before"), post_callback=heard.append
+        ANY_JUMP, pre_callback=lambda: calls.append("before"), post_callback=calls.append
     )
     clock._set_ros_time_is_active(True)
-    assert heard.pop().clock_change is ClockChange.ROS_TIME_ACTIVATED
+    assert calls.pop().clock_change is ClockChange.ROS_TIME_ACTIVATED
     for seconds in (10, 10.5, 9, 8.5):
         clock.set_ros_time_override(Time(seconds=seconds, clock_type=ClockType.ROS_TIME))
-    assert [jump.delta for jump in heard if jump != "before"] == [Duration(seconds=10), Duration(seconds=-1.5)]
-    heard.clear()
+    assert [jump.delta for jump in calls if jump != "before"] == [Duration(seconds=10), Duration(seconds=-1.5)]
+    calls.clear()
     handle.unregister()
     handle.unregister()
     clock.set_ros_time_override(Time(seconds=100, clock_type=ClockType.ROS_TIME))
-    assert heard == []
+    assert calls == []
 
 
-def test_thresholds_are_checked():
+def test_invalid_thresholds():
     with pytest.raises(ValueError, match="min_forward must be a positive non-zero duration"):
         JumpThreshold(min_forward=Duration(seconds=-1), min_backward=None)
     with pytest.raises(ValueError, match="min_backward must be a negative non-zero duration"):
@@ -76,13 +76,13 @@ def test_thresholds_are_checked():
         Clock().create_jump_callback(ANY_JUMP)
 
 
-def test_sleeping_takes_its_time(plain_context):
+def test_sleep_duration(plain_context):
     start = time.monotonic()
     assert Clock().sleep_for(Duration(seconds=0.05), context=plain_context)
     assert time.monotonic() - start >= 0.05
 
 
-def test_sleep_needs_a_running_context_and_a_time_of_the_clock(plain_context):
+def test_sleep_requires_a_valid_context_and_a_matching_clock_type(plain_context):
     with pytest.raises(ValueError, match="until's clock type does not match this clock's type"):
         Clock().sleep_until(Time(clock_type=ClockType.STEADY_TIME), context=plain_context)
     plain_context.shutdown()
@@ -120,7 +120,7 @@ def test_simulated_sleep_follows_the_simulation(plain_context, wait_until):
     assert results == [True]
 
 
-def test_change_of_the_source_ends_a_sleep(plain_context, wait_until):
+def test_change_of_the_time_source_ends_a_sleep(plain_context, wait_until):
     clock = ROSClock()
     results = []
     thread = threading.Thread(

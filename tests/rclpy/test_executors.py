@@ -70,21 +70,21 @@ def test_timer_can_be_stopped_and_started(node, executor):
     assert node.destroy_timer(timer)
 
 
-def test_missed_periods_are_left_out(node, executor):
+def test_missed_periods_are_skipped(node, executor):
     timer = node.create_timer(0.01, lambda: None)
     time.sleep(0.1)
     executor.spin_once(timeout_sec=1)
     assert 0 < timer.time_until_next_call() <= 10_000_000
 
 
-def test_spin_once_gives_up_in_time(executor):
+def test_spin_once_times_out(executor):
     start = time.monotonic()
     executor.spin_once(timeout_sec=0.05)
     assert 0.05 <= time.monotonic() - start < 2
     executor.spin_once(timeout_sec=0)
 
 
-def test_waiting_without_running(executor, node):
+def test_wait_for_ready_callbacks(executor, node):
     with pytest.raises(TimeoutException):
         executor.wait_for_ready_callbacks(timeout_sec=0)
     guard = node.create_guard_condition(lambda: None)
@@ -106,7 +106,7 @@ def test_guard_conditions_wake_from_other_threads(node, executor):
     assert calls == [1]
 
 
-def test_everything_due_gets_its_turn(node, executor):
+def test_all_ready_callbacks_run(node, executor):
     calls = []
     node.create_timer(0.0, lambda: calls.append("timer"))
     guard = node.create_guard_condition(lambda: calls.append("guard"))
@@ -116,7 +116,7 @@ def test_everything_due_gets_its_turn(node, executor):
     assert "guard" in calls
 
 
-def test_exceptions_of_callbacks_reach_the_spinner(node, executor):
+def test_spin_raises_exceptions_of_callbacks(node, executor):
     node.create_timer(0.0, lambda: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         executor.spin_once(timeout_sec=1)
@@ -139,7 +139,7 @@ def test_done_callbacks_run_in_the_executor(executor):
     assert threads == [threading.current_thread()]
 
 
-def test_coroutines_await_without_burning_time(node, executor):
+def test_awaiting_coroutines_use_no_processor_time(node, executor):
     future, results = Future(), []
 
     async def wait():
@@ -158,8 +158,8 @@ def test_coroutines_await_without_burning_time(node, executor):
     assert results == ["there"]
 
 
-def test_polling_coroutines_leave_room_for_others(node, executor):
-    class OneTurn:
+def test_polling_coroutines_do_not_starve_others(node, executor):
+    class YieldOnce:
         def __await__(self):
             yield
 
@@ -167,7 +167,7 @@ def test_polling_coroutines_leave_room_for_others(node, executor):
 
     async def poll():
         while not calls:
-            await OneTurn()
+            await YieldOnce()
 
     task = executor.create_task(poll)
     node.create_timer(0.02, lambda: calls.append(1))
@@ -175,7 +175,7 @@ def test_polling_coroutines_leave_room_for_others(node, executor):
     assert task.done()
 
 
-def test_shutdown_under_a_running_callback_ends_the_spin(node, executor):
+def test_shutdown_during_a_callback_ends_the_spin(node, executor):
     publisher = node.create_publisher(String, "a", 10)
 
     def work():
@@ -187,7 +187,7 @@ def test_shutdown_under_a_running_callback_ends_the_spin(node, executor):
     assert not node.context.ok()
 
 
-def test_timers_go_on_when_something_due_is_gone(node, executor):
+def test_timers_continue_after_a_ready_entity_is_destroyed(node, executor):
     calls = []
     gone = node.create_guard_condition(lambda: None)
     first = node.create_guard_condition(lambda: node.destroy_guard_condition(gone))
@@ -201,7 +201,7 @@ def test_timers_go_on_when_something_due_is_gone(node, executor):
     assert calls == [1]
 
 
-def test_coroutine_callbacks_hold_their_group(node, executor, wait_until):
+def test_suspended_coroutine_callbacks_reserve_their_group(node, executor, wait_until):
     future, calls = Future(), []
 
     async def slow():
@@ -227,7 +227,7 @@ def test_spin_until_future_complete_times_out(executor):
     assert not future.done()
 
 
-def test_future_set_elsewhere_wakes_the_spinner(executor):
+def test_future_set_in_another_thread_wakes_the_executor(executor):
     future = Future()
     timer = threading.Timer(0.05, lambda: future.set_result(1))
     timer.start()
@@ -249,7 +249,7 @@ def test_node_belongs_to_one_executor(node, executor):
     assert executor.get_nodes() == [node]
 
 
-def test_node_of_another_context_is_refused(node):
+def test_node_of_another_context_is_rejected(node):
     with Context() as other, pytest.raises(RuntimeError, match="different contexts"):
         SingleThreadedExecutor(context=other).add_node(node)
 
@@ -315,7 +315,7 @@ def test_groups_run_in_parallel(node):
 
 
 @pytest.mark.usefixtures("spinning")
-def test_reentrant_callbacks_meet_themselves(node):
+def test_reentrant_callbacks_overlap(node):
     barrier = threading.Barrier(2, timeout=10)
     passed = threading.Semaphore(0)
 
@@ -330,7 +330,7 @@ def test_reentrant_callbacks_meet_themselves(node):
 
 
 @pytest.mark.usefixtures("spinning")
-def test_one_group_is_one_at_a_time(node, wait_until):
+def test_mutually_exclusive_callbacks_do_not_overlap(node, wait_until):
     active, overlaps, calls = [], [], []
 
     def work():
@@ -347,7 +347,7 @@ def test_one_group_is_one_at_a_time(node, wait_until):
 
 
 @pytest.mark.usefixtures("spinning")
-def test_who_is_always_due_leaves_the_others_of_its_group_their_turn(node, wait_until):
+def test_entity_that_is_always_ready_does_not_starve_its_group(node, wait_until):
     calls = []
     node.create_timer(0.0, lambda: time.sleep(0.001))
     guard = node.create_guard_condition(lambda: calls.append(1))
@@ -356,7 +356,7 @@ def test_who_is_always_due_leaves_the_others_of_its_group_their_turn(node, wait_
         wait_until(lambda count=count: len(calls) == count)
 
 
-def test_exceptions_of_pool_threads_reach_the_spinner(node, pool):
+def test_spin_raises_exceptions_of_pool_threads(node, pool):
     node.create_timer(0.0, lambda: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         pool.spin()
@@ -388,7 +388,7 @@ def test_rate_keeps_the_frequency(node):
     assert node.destroy_rate(rate)
 
 
-def test_groups_know_their_members(node):
+def test_groups_contain_their_entities(node):
     group = ReentrantCallbackGroup()
     timer = node.create_timer(1.0, lambda: None, group)
     assert group.has_entity(timer)

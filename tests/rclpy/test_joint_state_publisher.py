@@ -42,8 +42,8 @@ def positions(message):
 
 
 @pytest.fixture
-def heard(make_node):
-    """A node that listens, and the joint states that it has heard of the plain topic and of the robot's."""
+def received(make_node):
+    """A node that listens, and the joint states that it has received of the plain topic and of the robot's."""
     node = make_node("listener")
     found = {"/joint_states": [], "/robots/joint_states": []}
     for topic, messages in found.items():
@@ -51,13 +51,13 @@ def heard(make_node):
     return node, found
 
 
-def test_the_node_with_a_file_of_parameters(context, heard, wait_until, tmp_path):
-    """Wildcards and full names choose it; sources, a description that changes, and one that is refused."""
-    listener, found = heard
+def test_node_with_a_parameter_file(context, received, wait_until, tmp_path):
+    """Parameters by wildcard and by full name, sources, a changed description and an invalid one."""
+    listener, found = received
     (tmp_path / "parameters.yaml").write_text(PARAMETERS)
     arguments = ["--ros-args", "--params-file", str(tmp_path / "parameters.yaml"), "-r", "__ns:=/robots"]
     node = JointStatePublisher(context=context, cli_args=arguments, start_parameter_services=False)
-    told = found["/robots/joint_states"]
+    messages = found["/robots/joint_states"]
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)
     executor.add_node(listener)
@@ -66,23 +66,23 @@ def test_the_node_with_a_file_of_parameters(context, heard, wait_until, tmp_path
     measured = listener.create_publisher(JointState, "/measured", 10)
     try:
         descriptions.publish(String(data=URDF))
-        wait_until(lambda: told, spin)
-        assert positions(told[0]) == pytest.approx({"turn": 0.5, "lift": 0.4, "follow": -0.25})
-        assert list(told[0].velocity) == [0.0, 0.0, 0.0]
-        assert list(told[0].effort) == []
-        assert told[0].header.stamp.sec > 0
+        wait_until(lambda: messages, spin)
+        assert positions(messages[0]) == pytest.approx({"turn": 0.5, "lift": 0.4, "follow": -0.25})
+        assert list(messages[0].velocity) == [0.0, 0.0, 0.0]
+        assert list(messages[0].effort) == []
+        assert messages[0].header.stamp.sec > 0
 
         wait_until(measured.get_subscription_count, spin)
-        measured.publish(JointState(name=["turn", "lift"], position=[1.0]))  # is left out
+        measured.publish(JointState(name=["turn", "lift"], position=[1.0]))  # Invalid: fewer positions than names.
         measured.publish(JointState(name=["turn", "follow"], position=[1.0, 9.0], velocity=[0.5, 9.0]))
-        wait_until(lambda: positions(told[-1])["turn"] == 1.0, spin)
-        assert positions(told[-1]) == pytest.approx({"turn": 1.0, "lift": 0.4, "follow": -0.75})
-        assert list(told[-1].velocity) == [0.5, 0.0, -0.5]
+        wait_until(lambda: positions(messages[-1])["turn"] == 1.0, spin)
+        assert positions(messages[-1]) == pytest.approx({"turn": 1.0, "lift": 0.4, "follow": -0.75})
+        assert list(messages[-1].velocity) == [0.5, 0.0, -0.5]
 
-        descriptions.publish(String(data="<robot/>"))  # is ignored
+        descriptions.publish(String(data="<robot/>"))  # Not a robot description.
         descriptions.publish(String(data=URDF.replace("lift", "raise")))
-        wait_until(lambda: "raise" in told[-1].name, spin)
-        assert positions(told[-1]) == pytest.approx({"turn": 0.5, "raise": 0.4, "follow": -0.25})
+        wait_until(lambda: "raise" in messages[-1].name, spin)
+        assert positions(messages[-1]) == pytest.approx({"turn": 0.5, "raise": 0.4, "follow": -0.25})
     finally:
         node.destroy_node()
 
@@ -90,21 +90,21 @@ def test_the_node_with_a_file_of_parameters(context, heard, wait_until, tmp_path
 @pytest.mark.parametrize(
     ("arguments", "reason"),
     [
-        (["rate:=0"], "parameter 'rate' must be more than 0 per second, but is 0"),
+        (["rate:=0"], "parameter 'rate' must be greater than 0 Hz and at most 1 MHz, but is 0"),
         (["rate:=fast"], "parameter 'rate' must be a number, but is 'fast'"),
         (["use_mimic_tags:=1"], "parameter 'use_mimic_tags' must be true or false, but is 1"),
         (["source_list:=a"], "parameter 'source_list' must be a list of topics, but is 'a'"),
-        (["dependent_joints.a.factor:=2.0"], "must at least have a parent: 'a' has none"),
+        (["dependent_joints.a.factor:=2.0"], "must at least have a parent. 'a' has no parent"),
         (["dependent_joints.a:=b"], "Invalid dependent_joint name 'a'"),
     ],
 )
-def test_parameters_that_make_no_sense(context, arguments, reason):
+def test_invalid_parameters(context, arguments, reason):
     words = ["--ros-args", *(word for argument in arguments for word in ("-p", argument))]
     with pytest.raises(ValueError, match=reason):
         JointStatePublisher(context=context, cli_args=words, start_parameter_services=False)
 
 
-def test_the_programs_end_with_a_sentence(tmp_path):
+def test_programs_report_errors_in_one_message(tmp_path):
     (tmp_path / "arm.urdf").write_text(URDF)
     circle = ["--ros-args", "-p", "dependent_joints.lift.parent:=follow"]
     file = str(tmp_path / "arm.urdf")
@@ -112,7 +112,7 @@ def test_the_programs_end_with_a_sentence(tmp_path):
     wrong = {
         endless: ["joint_state_publisher", file, *circle],
         f"coframe: {endless}": ["coframe.cli", "joints", file, *circle],
-        "no joint 'trun'": ["coframe.cli", "joints", file, "--zero", "trun=1"],
+        "no joint named 'trun'": ["coframe.cli", "joints", file, "--zero", "trun=1"],
         "coframe: Failed to parse ROS arguments: --param": ["coframe.cli", "robot", file, "--ros-args", "-p", "x"],
         "No such file": ["robot_state_publisher", file, "--ros-args", "--params-file", "/nowhere"],
     }
@@ -127,8 +127,8 @@ def test_the_programs_end_with_a_sentence(tmp_path):
         assert "Traceback" not in errors
 
 
-def test_the_command_where_there_is_no_terminal(context, heard, wait_until, tmp_path):
-    listener, found = heard
+def test_command_without_a_terminal(context, received, wait_until, tmp_path):
+    listener, found = received
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(listener)
     (tmp_path / "arm.urdf").write_text(URDF)
@@ -140,12 +140,14 @@ def test_the_command_where_there_is_no_terminal(context, heard, wait_until, tmp_
         stderr=subprocess.PIPE,
         text=True,
     )
-    told = found["/joint_states"]
+    messages = found["/joint_states"]
     try:
-        wait_until(lambda: len(told) > 1, lambda: executor.spin_once(timeout_sec=0.05), timeout=30.0)
-        assert positions(told[0]) == pytest.approx({"turn": -0.5, "lift": 0.4, "follow": 0.9}, abs=1e-6)
-        assert positions(told[1])["turn"] > positions(told[0])["turn"], "a parameter that no option says otherwise of"
-        assert told[0].velocity.tolist() == [0.0, 0.0, 0.0]
+        wait_until(lambda: len(messages) > 1, lambda: executor.spin_once(timeout_sec=0.05), timeout=30.0)
+        assert positions(messages[0]) == pytest.approx({"turn": -0.5, "lift": 0.4, "follow": 0.9}, abs=1e-6)
+        assert positions(messages[1])["turn"] > positions(messages[0])["turn"], (
+            "the parameter 'delta' of the command line is not applied"
+        )
+        assert messages[0].velocity.tolist() == [0.0, 0.0, 0.0]
     finally:
         process.send_signal(signal.SIGINT)
         output, errors = process.communicate(timeout=20)
@@ -153,16 +155,16 @@ def test_the_command_where_there_is_no_terminal(context, heard, wait_until, tmp_
     assert "Traceback" not in errors
 
 
-def test_the_sliders_of_the_viewer_are_a_source(context, heard, wait_until, tmp_path):
+def test_sliders_of_the_viewer(context, received, wait_until, tmp_path):
     pytest.importorskip("websockets", reason="the viewer's server")
-    listener, found = heard
+    listener, found = received
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(listener)
     (tmp_path / "arm.urdf").write_text(URDF)
     command = [sys.executable, "-m", "coframe.cli", "joints", str(tmp_path / "arm.urdf"), "--gui", "--no-browser"]
     process = subprocess.Popen([*command, "--port", "0"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     sliders = listener.create_publisher(JointState, "/coframe_joints/sliders", 10)
-    told = found["/joint_states"]
+    messages = found["/joint_states"]
 
     def spin():
         executor.spin_once(timeout_sec=0.05)
@@ -171,7 +173,7 @@ def test_the_sliders_of_the_viewer_are_a_source(context, heard, wait_until, tmp_
     try:
         assert process.stdout.readline().startswith("http://127.0.0.1:")
         expected = {"turn": 1.25, "lift": 0.5, "follow": 1.1}
-        wait_until(lambda: told and positions(told[-1]) == pytest.approx(expected), spin, timeout=30.0)
+        wait_until(lambda: messages and positions(messages[-1]) == pytest.approx(expected), spin, timeout=30.0)
     finally:
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=20)
@@ -179,32 +181,37 @@ def test_the_sliders_of_the_viewer_are_a_source(context, heard, wait_until, tmp_
     assert "Traceback" not in errors
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="a terminal of its own, as Unix has them")
-def test_the_sliders_of_the_terminal(context, heard, wait_until, tmp_path):
+@pytest.mark.skipif(sys.platform == "win32", reason="requires a Unix pseudo-terminal")
+def test_sliders_of_the_terminal(context, received, wait_until, tmp_path):
     import pty
 
-    listener, found = heard
+    listener, found = received
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(listener)
     (tmp_path / "arm.urdf").write_text(URDF)
-    ours, its = pty.openpty()
+    controller, terminal = pty.openpty()
     command = [sys.executable, "-m", "coframe.cli", "joints", str(tmp_path / "arm.urdf"), "--rate", "50"]
     process = subprocess.Popen(
-        command, stdin=its, stdout=its, stderr=its, start_new_session=True, env={**os.environ, "TERM": "xterm"}
+        command,
+        stdin=terminal,
+        stdout=terminal,
+        stderr=terminal,
+        start_new_session=True,
+        env={**os.environ, "TERM": "xterm"},
     )
-    os.close(its)
+    os.close(terminal)
     screen = bytearray()
 
     def spin():
         executor.spin_once(timeout_sec=0.02)
-        while select.select([ours], [], [], 0)[0]:
+        while select.select([controller], [], [], 0)[0]:
             try:
-                screen.extend(os.read(ours, 65536))
-            except OSError:  # it has ended
+                screen.extend(os.read(controller, 65536))
+            except OSError:  # The program has ended.
                 return
 
     def pressed(key, **expected):
-        os.write(ours, key)
+        os.write(controller, key)
         wait_until(lambda: positions(found["/joint_states"][-1]) == pytest.approx(expected), spin)
 
     try:
@@ -212,15 +219,15 @@ def test_the_sliders_of_the_terminal(context, heard, wait_until, tmp_path):
         pressed(b"\x1b[B\x1b[C", turn=0.0, lift=0.404, follow=0.908)
         pressed(b"\x1b[5~", turn=0.0, lift=0.444, follow=0.988)
         pressed(b"0", turn=0.0, lift=0.4, follow=0.9)
-        pressed(b"\x1b[5~" * 9, turn=0.0, lift=0.6, follow=1.3)  # no further than its limit
-        os.write(ours, b"q")
+        pressed(b"\x1b[5~" * 9, turn=0.0, lift=0.6, follow=1.3)  # The slider stops at the joint limit.
+        os.write(controller, b"q")
         wait_until(lambda: process.poll() is not None, spin)
         assert process.returncode == 0
         spin()
         assert b"Traceback" not in screen
-        assert b"follow" not in screen  # what follows has no slider
+        assert b"follow" not in screen  # Mimic joints have no slider.
     finally:
         if process.poll() is None:
             process.kill()
             process.wait()
-        os.close(ours)
+        os.close(controller)

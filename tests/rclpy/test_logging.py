@@ -1,4 +1,4 @@
-"""Loggers: the format on the terminal, levels, filters."""
+"""Loggers: console format, levels and filters."""
 
 import io
 import re
@@ -18,7 +18,7 @@ def fresh_levels():
     rclpy.logging.clear_config()
 
 
-def test_format_is_ros_s(capfd):
+def test_default_format(capfd):
     get_logger("arm").info("moving")
     assert re.fullmatch(r"\[INFO\] \[\d{10}\.\d{9}\] \[arm\]: moving\n", capfd.readouterr().err)
 
@@ -45,7 +45,7 @@ def test_levels_are_inherited_along_dots(capfd):
     assert "hidden" not in capfd.readouterr().err
 
 
-def test_names_must_be_there():
+def test_empty_names_are_rejected():
     with pytest.raises(ValueError, match="Logger name must not be empty"):
         get_logger("")
     with pytest.raises(ValueError, match="Child logger name must not be None or empty"):
@@ -69,20 +69,20 @@ def test_throttle_follows_the_given_clock():
     assert logged == [1, 5, 10]
 
 
-def test_loggers_are_apart():
+def test_filters_are_separate_per_logger():
     first, second = get_logger("one"), get_logger("two")
     assert [logger.info("x", once=True) for logger in (first, second, first)] == [True, True, False]
     assert get_logger("one") is first
     assert first.get_child("child") is first.get_child("child")
 
 
-def test_places_in_the_code_are_apart():
+def test_filters_are_separate_per_call_site():
     logger = get_logger("arm")
     assert logger.info("x", once=True)
     assert logger.info("x", once=True)
 
 
-def test_bad_options_are_named():
+def test_invalid_options_are_reported():
     logger = get_logger("arm")
     with pytest.raises(TypeError, match='"twice" is not one of the recognized logging options'):
         logger.info("x", twice=True)
@@ -90,7 +90,7 @@ def test_bad_options_are_named():
         logger.info("x", throttle_time_source_type=ROSClock())
 
 
-def test_a_place_in_the_code_keeps_its_severity():
+def test_call_site_must_not_change_its_severity():
     def log(severity):
         get_logger("arm").log("x", severity, once=True)
 
@@ -99,10 +99,10 @@ def test_a_place_in_the_code_keeps_its_severity():
         log(LoggingSeverity.ERROR)
 
 
-def test_format_can_be_chosen(capfd, monkeypatch):
+def test_custom_format(capfd, monkeypatch):
     monkeypatch.setenv("RCUTILS_CONSOLE_OUTPUT_FORMAT", "{severity}|{name}|{message}|{function_name}|{other}")
     get_logger("arm").info("{name}")
-    assert capfd.readouterr().err == "INFO|arm|{name}|test_format_can_be_chosen|{other}\n"
+    assert capfd.readouterr().err == "INFO|arm|{name}|test_custom_format|{other}\n"
 
 
 def test_colors(capfd, monkeypatch):
@@ -125,7 +125,7 @@ def test_stdout_on_request(capfd, monkeypatch):
     assert "moving" in capfd.readouterr().out
 
 
-def test_sinks_get_the_records_of_children():
+def test_sinks_receive_the_records_of_child_loggers():
     records = []
     console.sinks["arm"] = records.append
     try:

@@ -1,4 +1,4 @@
-"""The mistakes that everybody makes once: each is met by a sentence that helps."""
+"""Helpful error messages for common mistakes."""
 
 import pytest
 

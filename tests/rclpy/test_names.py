@@ -1,4 +1,4 @@
-"""Rules of names, and their expansion."""
+"""Validation and expansion of names."""
 
 import pytest
 
@@ -36,7 +36,7 @@ def test_root_namespace():
 
 
 @pytest.mark.parametrize("name", ["", "a b", "a//b", "a/", "1a", "a/1b", "~a", "a~", "a{", "{1}", "{a b}", "a-b"])
-def test_bad_topic_names(name):
+def test_invalid_topic_names(name):
     with pytest.raises(InvalidTopicNameException, match="Invalid topic name"):
         validate_topic_name(name)
     with pytest.raises(InvalidServiceNameException, match="Invalid service name"):
@@ -48,19 +48,19 @@ def test_unknown_substitution():
         expand_topic_name("{robot}/a", "arm", "/")
 
 
-def test_error_points_at_the_place():
+def test_error_marks_the_invalid_character():
     with pytest.raises(InvalidTopicNameException) as caught:
         validate_topic_name("ab cd")
     assert str(caught.value).splitlines()[1:] == ["  'ab cd'", "     ^"]
 
 
 @pytest.mark.parametrize("name", ["a", "/a/{b}", "~/a"])
-def test_full_names_have_everything_filled_in(name):
+def test_full_names_must_be_expanded(name):
     with pytest.raises(InvalidTopicNameException):
         validate_full_topic_name(name)
 
 
-def test_good_names_pass():
+def test_valid_names():
     assert validate_full_topic_name("/tf_static")
     assert validate_topic_name("~/a_1/{node}")
     assert validate_node_name("arm_1")
@@ -69,12 +69,12 @@ def test_good_names_pass():
 
 
 @pytest.mark.parametrize("name", ["", "1a", "a/b", "a b"])
-def test_bad_node_names(name):
+def test_invalid_node_names(name):
     with pytest.raises(InvalidNodeNameException):
         validate_node_name(name)
 
 
 @pytest.mark.parametrize("name", ["", "a", "/a/", "//a", "/1a", "/a b"])
-def test_bad_namespaces(name):
+def test_invalid_namespaces(name):
     with pytest.raises(InvalidNamespaceException):
         validate_namespace(name)

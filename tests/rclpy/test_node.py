@@ -1,4 +1,4 @@
-"""Nodes: names, what they have, and their end."""
+"""Nodes: names, entities and destruction."""
 
 import pytest
 
@@ -39,12 +39,12 @@ def test_command_line_of_the_node_and_of_the_process(domain_id):
     context.shutdown()
 
 
-def test_needs_init():
+def test_node_requires_init():
     with pytest.raises(NotInitializedException, match=r"rclpy.init\(\) has not been called"):
         rclpy.create_node("arm", context=Context())
 
 
-def test_bad_arguments_are_refused(make_node):
+def test_invalid_arguments(make_node):
     with pytest.raises(InvalidNodeNameException):
         make_node("a b")
     node = make_node()
@@ -58,13 +58,13 @@ def test_bad_arguments_are_refused(make_node):
         node.create_rate(0)
 
 
-def test_nodes_that_fail_leave_nothing_behind(make_node):
+def test_failed_nodes_are_removed_from_the_graph(make_node):
     with pytest.raises(InvalidParameterTypeException, match=r"value \(5\) for parameter 'use_sim_time'"):
         make_node("failed", cli_args=["--ros-args", "-p", "use_sim_time:=5"])
     assert make_node().get_node_names() == ["tester"]
 
 
-def test_entities_come_and_go(node):
+def test_creating_and_destroying_entities(node):
     publisher = node.create_publisher(String, "a", 10)
     timer = node.create_timer(1.0, lambda: None)
     assert list(node.publishers) == [publisher]
@@ -76,7 +76,7 @@ def test_entities_come_and_go(node):
     assert list(node.publishers) == []
 
 
-def test_destroying_twice_is_fine(node):
+def test_destroying_twice_has_no_effect(node):
     executor = SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
     node.destroy_node()
@@ -103,7 +103,7 @@ def test_graph(make_node, wait_until):
     assert ("/chatter", ["std_msgs/msg/String"]) in listener.get_publisher_names_and_types_by_node("talker", "/a")
 
 
-def test_context_of_its_own(domain_id):
+def test_node_with_a_separate_context(domain_id):
     with rclpy.init(args=[], context=Context(), domain_id=domain_id) as started:
         context = started.context
         assert context.ok()

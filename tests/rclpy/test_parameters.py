@@ -1,4 +1,4 @@
-"""Parameters of a node."""
+"""Parameters of nodes."""
 
 import pytest
 
@@ -29,13 +29,13 @@ VALUES = [
 
 
 @pytest.mark.parametrize(("value", "kind"), VALUES)
-def test_types_are_found_and_survive_the_message(value, kind):
+def test_types_of_values_and_conversion_to_messages(value, kind):
     parameter = Parameter("p", value=value)
     assert parameter.type_ is kind
     assert Parameter.from_parameter_msg(parameter.to_parameter_msg()) == parameter
 
 
-def test_values_no_parameter_can_have():
+def test_values_of_unsupported_types():
     with pytest.raises(TypeError, match="not one of the allowed types"):
         Parameter("p", value={"a": 1})
     with pytest.raises(TypeError):
@@ -46,7 +46,7 @@ def test_values_no_parameter_can_have():
         Parameter("p", "integer", 1)
 
 
-def test_text_to_value():
+def test_value_from_a_string():
     assert get_parameter_value("5").integer_value == 5
     assert parameter_value_to_python(get_parameter_value("[1, 2]")) == [1, 2]
     assert parameter_value_to_python(get_parameter_value("[1, x]")) == "[1, x]"
@@ -75,7 +75,7 @@ def test_declare_by_type(node):
     assert node.get_parameter("name").value == "y"
 
 
-def test_several_with_a_namespace_and_a_prefix(node):
+def test_declare_parameters_with_a_namespace(node):
     node.declare_parameters("gain", [("p", 1.0), ("i", 2.0, ParameterDescriptor(description="integral")), ("d",)])
     assert {name: parameter.value for name, parameter in node.get_parameters_by_prefix("gain").items()} == {
         "p": 1.0,
@@ -88,7 +88,7 @@ def test_several_with_a_namespace_and_a_prefix(node):
         node.declare_parameters("", [(5,)])
 
 
-def test_overrides_win_over_defaults(make_node):
+def test_overrides_take_precedence_over_defaults(make_node):
     node = make_node(cli_args=["--ros-args", "-p", "a:=5", "-p", "b:=5"], parameter_overrides=[Parameter("b", value=7)])
     assert node.declare_parameter("a", 1).value == 5
     assert node.declare_parameter("b", 1).value == 7
@@ -112,7 +112,7 @@ def test_automatic_declaration(make_node):
     assert node.get_parameters_by_prefix("zeros")["joint1"].value == 1.5
 
 
-def test_undeclared_ones_where_allowed(make_node):
+def test_allowed_undeclared_parameters(make_node):
     node = make_node(allow_undeclared_parameters=True)
     assert node.get_parameter("x").type_ is Parameter.Type.NOT_SET
     assert node.set_parameters([Parameter("x", value=1)])[0].successful
@@ -150,7 +150,7 @@ def test_set_checks_type_range_and_read_only(node):
         node.set_parameters([Parameter("unknown", value=1)])
 
 
-def test_all_or_nothing(node):
+def test_atomic_setting(node):
     node.declare_parameters("", [("a", 1), ("b", 2)])
     assert not node.set_parameters_atomically([Parameter("a", value=5), Parameter("b", value="x")]).successful
     assert node.get_parameter("a").value == 1
@@ -158,7 +158,7 @@ def test_all_or_nothing(node):
     assert node.get_parameter("b").value == 6
 
 
-def test_callbacks_decide(node):
+def test_callbacks_accept_or_reject_values(node):
     node.declare_parameter("a", 1)
 
     def refuse_big(parameters):
@@ -172,7 +172,7 @@ def test_callbacks_decide(node):
     assert node.set_parameters([Parameter("a", value=11)])[0].successful
 
 
-def test_new_descriptor(node):
+def test_set_descriptor(node):
     node.declare_parameter("a", 20)
     limits = ParameterDescriptor(integer_range=[IntegerRange(from_value=0, to_value=10)])
     with pytest.raises(InvalidParameterValueException):

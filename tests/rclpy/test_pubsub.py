@@ -32,7 +32,7 @@ def test_messages_arrive_in_order(node, spin):
     assert publisher.topic_name == "/numbers"
 
 
-def test_only_the_newest_wait_until_they_are_taken(node, spin):
+def test_queue_keeps_the_latest_messages(node, spin):
     got = []
     node.create_subscription(Int32, "numbers", lambda message: got.append(message.data), 3)
     publisher = node.create_publisher(Int32, "numbers", 3)
@@ -43,7 +43,7 @@ def test_only_the_newest_wait_until_they_are_taken(node, spin):
     assert got == [7, 8, 9]
 
 
-def test_late_subscriptions_get_what_is_kept(node, spin):
+def test_late_joining_subscriptions_receive_kept_messages(node, spin):
     qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     node.create_publisher(String, "map", qos).publish(String(data="here"))
     got = []
@@ -73,7 +73,7 @@ def test_coroutine_callbacks_message_info_and_bytes(node, spin):
     spin(lambda: len(got) == 2)
 
 
-def test_wrong_types_are_refused(node):
+def test_wrong_types_are_rejected(node):
     publisher = node.create_publisher(String, "a", 10)
     with pytest.raises(TypeError, match="Expected"):
         publisher.publish(Int32())
@@ -81,14 +81,14 @@ def test_wrong_types_are_refused(node):
         node.create_subscription(String, "a", lambda: None, 10)
 
 
-def test_publishing_after_the_shutdown_says_so(node):
+def test_publishing_after_the_shutdown_raises(node):
     publisher = node.create_publisher(String, "a", 10)
     node.context.shutdown()
     with pytest.raises(RuntimeError, match="publisher's context is invalid"):
         publisher.publish(String())
 
 
-def test_remapped_topics_meet(make_node, wait_until):
+def test_remapped_topics_match(make_node, wait_until):
     talker = make_node("talker", cli_args=["--ros-args", "-r", "chatter:=/elsewhere"])
     publisher = talker.create_publisher(String, "chatter", 10)
     listener = make_node("listener")
@@ -96,7 +96,7 @@ def test_remapped_topics_meet(make_node, wait_until):
     wait_until(lambda: publisher.get_subscription_count() == 1)
 
 
-def test_destroyed_subscriptions_are_gone(node, wait_until):
+def test_destroyed_subscriptions_are_removed_from_the_graph(node, wait_until):
     subscription = node.create_subscription(String, "a", lambda _: None, 10)
     publisher = node.create_publisher(String, "a", 10)
     wait_until(lambda: subscription.get_publisher_count() == 1)
@@ -117,16 +117,16 @@ def test_waiting_for_one_message(node, wait_until):
     assert wait_for_message(String, node, "a", time_to_wait=0.01) == (False, None)
 
 
-def test_log_messages_go_to_rosout(node, spin):
+def test_log_messages_are_published_on_rosout(node, spin):
     got = []
     node.create_subscription(Log, "/rosout", got.append, 10)
     node.get_logger().get_child("hand").warn("careful")
     spin(lambda: got)
     assert (got[0].level, got[0].name, got[0].msg) == (30, "tester.hand", "careful")
-    assert got[0].function == "test_log_messages_go_to_rosout"
+    assert got[0].function == "test_log_messages_are_published_on_rosout"
 
 
-def test_rosout_can_be_switched_off(domain_id, make_node):
+def test_rosout_can_be_disabled(domain_id, make_node):
     assert make_node("loud").count_publishers("/rosout") == 1
     context = Context()
     context.init(["--ros-args", "--disable-rosout-logs"], domain_id=domain_id)

@@ -1,4 +1,4 @@
-"""Profiles of the quality of service."""
+"""QoS profiles."""
 
 import pytest
 
@@ -36,7 +36,7 @@ def test_depth_alone_is_keep_last_reliable_volatile():
     assert profile.depth == 7
 
 
-def test_incomplete_profiles_are_refused():
+def test_incomplete_profiles_are_rejected():
     with pytest.raises(InvalidQoSProfileException, match="History and/or depth settings are required"):
         QoSProfile()
     with pytest.raises(InvalidQoSProfileException, match="KEEP_LAST without a depth setting"):
@@ -44,7 +44,7 @@ def test_incomplete_profiles_are_refused():
     assert QoSProfile(history=HistoryPolicy.KEEP_ALL).depth == 0
 
 
-def test_wrong_types_are_refused():
+def test_wrong_types_are_rejected():
     with pytest.raises(AssertionError, match="nonsense"):
         QoSProfile(depth=1, nonsense=2)
     with pytest.raises(AssertionError):
@@ -73,7 +73,7 @@ def test_short_names():
     assert QoSPresetProfiles.SENSOR_DATA.value is qos_profile_sensor_data
 
 
-def test_profiles_are_values():
+def test_profiles_are_compared_by_value():
     assert QoSProfile(depth=1) == QoSProfile(depth=1)
     assert QoSProfile(depth=1) != QoSProfile(depth=2)
     assert QoSProfile(depth=1, lifespan=Duration(seconds=1)) != QoSProfile(depth=1)
@@ -81,7 +81,7 @@ def test_profiles_are_values():
     assert "depth=1" in repr(QoSProfile(depth=1))
 
 
-def test_numbers_are_depths():
+def test_int_is_a_depth():
     assert as_qos_profile(3) == QoSProfile(depth=3)
     with pytest.raises(ValueError, match="greater than or equal to zero"):
         as_qos_profile(-1)
@@ -97,18 +97,18 @@ def test_compatibility():
     assert "Best effort publisher and reliable subscription" in reason
 
 
-def test_parameters_override_what_a_node_lets_them(make_node):
+def test_qos_override_parameters(make_node):
     given = {
         "qos_overrides./words.subscription.reliability": "reliable",
         "qos_overrides./words.subscription.depth": 9,
-        "qos_overrides./words.subscription.durability": "transient_local",  # which is not asked for
+        "qos_overrides./words.subscription.durability": "transient_local",  # The node does not allow this override.
         "qos_overrides./words.publisher_late.lifespan": 2_000_000_000,
         "qos_overrides./wrong.publisher.reliability": "sometimes",
     }
     node = make_node(parameter_overrides=[Parameter(name, value=value) for name, value in given.items()])
     usual = QoSOverridingOptions.with_default_policies()
-    heard = node.create_subscription(String, "words", print, qos_profile_sensor_data, qos_overriding_options=usual)
-    profile = heard.qos_profile
+    received = node.create_subscription(String, "words", print, qos_profile_sensor_data, qos_overriding_options=usual)
+    profile = received.qos_profile
     assert (profile.reliability, profile.depth) == (ReliabilityPolicy.RELIABLE, 9)
     assert (profile.history, profile.durability) == (HistoryPolicy.KEEP_LAST, DurabilityPolicy.VOLATILE)
     assert qos_profile_sensor_data.depth == 5

@@ -1,4 +1,4 @@
-"""robot_state_publisher as a node, and as a command in a process of its own."""
+"""robot_state_publisher as a node, and as a command in a separate process."""
 
 import subprocess
 import sys
@@ -23,8 +23,8 @@ LATCHED = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 @pytest.fixture
-def heard(make_node):
-    """A node that listens, and what it has heard by topic."""
+def received(make_node):
+    """A node that listens, and what it has received by topic."""
     node = make_node("listener")
     found = {"/tf": [], "/tf_static": [], "/robot_description": []}
     for topic, kind, qos in (
@@ -40,8 +40,8 @@ def frames(messages):
     return [(t.header.frame_id, t.child_frame_id) for message in messages for t in message.transforms]
 
 
-def test_the_node(context, heard, wait_until):
-    listener, found = heard
+def test_node(context, received, wait_until):
+    listener, found = received
     overrides = [Parameter("robot_description", value=URDF), Parameter("frame_prefix", value="r1/")]
     node = RobotStatePublisher(context=context, parameter_overrides=overrides, start_parameter_services=False)
     executor = SingleThreadedExecutor(context=context)
@@ -57,12 +57,16 @@ def test_the_node(context, heard, wait_until):
         assert found["/robot_description"][0].data == URDF
         state = JointState(name=["turn"], position=[0.5])
         state.header.stamp.sec = 7
-        states.publish(JointState(name=["turn"], position=[0.5, 0.6]))  # is left out
+        states.publish(JointState(name=["turn"], position=[0.5, 0.6]))  # Invalid: more positions than names.
         states.publish(state)
         wait_until(lambda: found["/tf"], spin)
-        (told,) = found["/tf"][0].transforms
-        assert (told.header.frame_id, told.child_frame_id, told.header.stamp.sec) == ("r1/base", "r1/upper", 7)
-        assert told.transform.rotation.z == pytest.approx(0.247403959)
+        (transform,) = found["/tf"][0].transforms
+        assert (transform.header.frame_id, transform.child_frame_id, transform.header.stamp.sec) == (
+            "r1/base",
+            "r1/upper",
+            7,
+        )
+        assert transform.transform.rotation.z == pytest.approx(0.247403959)
 
         for text, reason in (
             ("", "Empty URDF is not allowed"),
@@ -75,7 +79,7 @@ def test_the_node(context, heard, wait_until):
         other = URDF.replace("tool", "gripper")
         (result,) = node.set_parameters([Parameter("robot_description", value=other)])
         assert result.successful
-        # Those who come late are told of this robot alone.
+        # Late-joining subscriptions receive the transforms of the new robot only.
         wait_until(lambda: frames(found["/tf_static"][-1:]) == [("r1/upper", "r1/gripper")], spin)
         wait_until(lambda: found["/robot_description"][-1].data == other, spin)
 
@@ -88,7 +92,7 @@ def test_the_node(context, heard, wait_until):
         results = node.set_parameters([Parameter(name, value=value) for name, value in changes.items()])
         assert all(result.successful for result in results)
         found["/tf"].clear()
-        for _ in range(3):  # the same stamp again and again, which would be told once
+        for _ in range(3):  # Without ignore_timestamp, equal stamps would be published once.
             states.publish(state)
         wait_until(lambda: len(found["/tf"]) == 3, spin)
         assert frames(found["/tf"]) == [("base", "r2/upper")] * 3
@@ -96,8 +100,8 @@ def test_the_node(context, heard, wait_until):
         node.destroy_node()
 
 
-def test_the_command(context, heard, wait_until, tmp_path):
-    listener, found = heard
+def test_command(context, received, wait_until, tmp_path):
+    listener, found = received
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(listener)
     argument = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"><xacro:arg name="reach" default="1"/>'
@@ -122,7 +126,7 @@ def test_the_command(context, heard, wait_until, tmp_path):
     assert "Traceback" not in errors
 
 
-def test_a_description_that_is_refused(tmp_path):
+def test_invalid_description(tmp_path):
     (tmp_path / "bad.urdf").write_text("<robot name='r'>\n<link/></robot>")
     for command in (["coframe.cli", "robot"], ["robot_state_publisher"]):
         result = subprocess.run(

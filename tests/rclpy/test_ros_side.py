@@ -1,4 +1,4 @@
-"""No mixture of our ROS packages with others'."""
+"""Detection of a mixture of coframe's ROS packages with those of a ROS installation."""
 
 import os
 import subprocess
@@ -10,42 +10,42 @@ import pytest
 from coframe import ros_side
 
 
-def test_ours_alone_is_fine():
+def test_only_coframes_packages():
     assert ros_side.foreign_packages(tuple(sys.path)) == {}
     ros_side.check("rclpy")
 
 
-def test_half_a_ros_before_ours_is_refused(tmp_path):
+def test_partial_ros_installation_before_coframe_is_rejected(tmp_path):
     package = tmp_path / "geometry_msgs"
     package.mkdir()
     (package / "__init__.py").touch()
-    path = [str(tmp_path), str(ros_side.ours())]
+    path = [str(tmp_path), str(ros_side.ros_folder())]
     assert ros_side.foreign_packages(tuple(path)) == {"geometry_msgs": str(tmp_path)}
-    with pytest.raises(ImportError, match=r"tf2_ros is being imported, but geometry_msgs would .* a complete ROS 2"):
+    with pytest.raises(ImportError, match=r"import coframe's tf2_ros: geometry_msgs would .* a complete ROS 2"):
         ros_side.check("tf2_ros", path)
 
 
-def test_the_documentation_quotes_it(tmp_path):
+def test_documentation_quotes_the_error(tmp_path):
     (tmp_path / "geometry_msgs").mkdir()
     (tmp_path / "geometry_msgs" / "__init__.py").touch()
     with pytest.raises(ImportError) as caught:
-        ros_side.check("tf2_ros", [str(tmp_path), str(ros_side.ours())])
+        ros_side.check("tf2_ros", [str(tmp_path), str(ros_side.ros_folder())])
     page = (Path(__file__).parents[2] / "docs" / "migration.md").read_text()
     assert f"ImportError: {caught.value}".replace(str(tmp_path), "/opt/ros/humble/lib/python3.10/site-packages") in page
 
 
-def test_what_comes_after_ours_does_not_matter(tmp_path):
+def test_packages_after_coframes_are_ignored(tmp_path):
     (tmp_path / "rclpy").mkdir()
     (tmp_path / "rclpy" / "__init__.py").touch()
-    ros_side.check("rclpy", [str(ros_side.ours()), str(tmp_path)])
+    ros_side.check("rclpy", [str(ros_side.ros_folder()), str(tmp_path)])
 
 
-def test_folders_without_code_do_not_matter(tmp_path):
+def test_directories_without_code_are_ignored(tmp_path):
     (tmp_path / "std_msgs").mkdir()
-    ros_side.check("rclpy", [str(tmp_path), str(ros_side.ours())])
+    ros_side.check("rclpy", [str(tmp_path), str(ros_side.ros_folder())])
 
 
-def test_a_sourced_ros_wins(tmp_path):
+def test_sourced_ros_takes_precedence(tmp_path):
     (tmp_path / "rclpy").mkdir()
     (tmp_path / "rclpy" / "__init__.py").write_text("whose = 'theirs'")
     environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
@@ -54,4 +54,4 @@ def test_a_sourced_ros_wins(tmp_path):
     assert result.stdout == "theirs\n"
     code = "import tf2_ros"
     result = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=False)
-    assert "coframe's tf2_ros is being imported, but rclpy would come from" in result.stderr
+    assert "cannot import coframe's tf2_ros: rclpy would be imported from" in result.stderr

@@ -1,4 +1,4 @@
-"""Services and clients, and the services of parameters."""
+"""Services, service clients and parameter services."""
 
 import threading
 
@@ -37,7 +37,7 @@ def test_call_async(node, executor):
     assert [future.result().success for future in futures] == [True, False, True]
 
 
-def test_clients_get_their_own_answers(node, executor):
+def test_clients_receive_only_their_own_responses(node, executor):
     node.create_service(SetBool, "switch", answer)
     clients = [node.create_client(SetBool, "switch") for _ in range(2)]
     assert all(client.wait_for_service(timeout_sec=10) for client in clients)
@@ -47,7 +47,7 @@ def test_clients_get_their_own_answers(node, executor):
     assert [future.result().message for future in futures] == ["got True", "got False"]
 
 
-def test_nobody_there(node):
+def test_no_server_available(node):
     client = node.create_client(SetBool, "nowhere")
     assert not client.service_is_ready()
     assert not client.wait_for_service(timeout_sec=0.05)
@@ -121,7 +121,7 @@ def test_await_inside_a_callback(node, executor):
     assert future.result().success
 
 
-def test_forgotten_answers_reach_the_spinner(node, executor):
+def test_spin_raises_if_a_callback_returns_no_response(node, executor):
     node.create_service(SetBool, "switch", lambda _request, _response: None)
     client = node.create_client(SetBool, "switch")
     assert client.wait_for_service(timeout_sec=10)

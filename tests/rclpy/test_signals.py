@@ -1,4 +1,4 @@
-"""The ends of programs: Ctrl-C, SIGTERM, shutdown elsewhere, and programs that forget it."""
+"""Ends of programs: SIGINT, SIGTERM, shutdown in other threads, and missing shutdowns."""
 
 import signal
 
@@ -64,7 +64,7 @@ def ready(run_script, wait_until):
     return start
 
 
-def test_ctrl_c_is_a_keyboard_interrupt(ready):
+def test_sigint_raises_keyboard_interrupt(ready):
     script = ready(CAREFUL)
     script.process.send_signal(signal.SIGINT)
     assert script.end() == 0
@@ -80,7 +80,7 @@ def test_sigterm_ends_the_spin(ready):
     assert script.errors == ""
 
 
-def test_last_words_after_a_signal(ready):
+def test_publishing_after_a_signal(ready):
     script = ready(
         f"{NODE}\npublisher = node.create_publisher(String, 'a', 10)\nprint('ready')\ntry:\n    rclpy.spin(node)\n"
         "except KeyboardInterrupt:\n    publisher.publish(String(data='stop'))\n    print('said')\n"
@@ -90,7 +90,7 @@ def test_last_words_after_a_signal(ready):
     assert script.output.split() == ["ready", "said"]
 
 
-def test_uncaught_interrupt_is_silent(ready):
+def test_uncaught_interrupt_prints_no_traceback(ready):
     script = ready(CARELESS)
     script.process.send_signal(signal.SIGINT)
     assert script.end() in {130, -signal.SIGINT}
@@ -99,7 +99,7 @@ def test_uncaught_interrupt_is_silent(ready):
 
 @pytest.mark.parametrize("statement", BLOCKED.values(), ids=BLOCKED.keys())
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM], ids=["SIGINT", "SIGTERM"])
-def test_everything_that_blocks_ends_without_a_traceback(ready, statement, number):
+def test_signals_end_blocking_calls_without_a_traceback(ready, statement, number):
     if "time.sleep" in statement and number == signal.SIGTERM:
         statement = statement.replace("time.sleep(60)", "thread.join()")
     script = ready(f"{NODE}\nprint('ready')\n{statement}\n")
@@ -145,13 +145,13 @@ def test_shutdown_in_a_callback_ends_the_spin(ready):
     ],
     ids=["idle", "spinning thread", "pool"],
 )
-def test_forgotten_shutdowns_do_not_hang(ready, statement):
+def test_programs_without_shutdown_do_not_hang(ready, statement):
     script = ready(f"{NODE}\n{statement}\nprint('ready')\n")
     assert script.end() == 0
     assert script.errors == ""
 
 
-def test_signals_are_python_s_again_after_the_shutdown(ready):
+def test_shutdown_restores_pythons_signal_handlers(ready):
     script = ready(
         "import signal, sys, rclpy\nbefore = signal.getsignal(signal.SIGINT), sys.excepthook\nrclpy.init()\n"
         "assert signal.getsignal(signal.SIGINT) is not before[0]\nrclpy.shutdown()\n"
@@ -160,7 +160,7 @@ def test_signals_are_python_s_again_after_the_shutdown(ready):
     assert script.end() == 0
 
 
-def test_signals_can_be_left_alone(ready):
+def test_signal_handlers_can_be_disabled(ready):
     script = ready(
         "import signal, rclpy\nfrom rclpy.signals import SignalHandlerOptions\n"
         "before = signal.getsignal(signal.SIGINT)\n"
@@ -170,7 +170,7 @@ def test_signals_can_be_left_alone(ready):
     assert script.end() == 0
 
 
-def test_a_user_s_own_handler_is_called_too(ready):
+def test_handlers_of_the_program_are_called_as_well(ready):
     script = ready(
         "import signal, rclpy\nsignal.signal(signal.SIGINT, lambda *_: print('mine'))\nrclpy.init()\n"
         "node = rclpy.create_node('ender')\nprint('ready')\nrclpy.spin(node)\nprint('end')\n"

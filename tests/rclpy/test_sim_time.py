@@ -1,4 +1,4 @@
-"""Simulated time by /clock."""
+"""Simulated time from /clock."""
 
 import pytest
 
@@ -30,13 +30,13 @@ def simulation(make_node, wait_until):
     return node
 
 
-def test_the_clock_follows(simulation):
+def test_clock_uses_simulated_time(simulation):
     assert simulation.get_clock().now().nanoseconds == 0
     simulation.advance_to(100.5)
     assert simulation.get_clock().now().seconds_nanoseconds() == (100, 500_000_000)
 
 
-def test_timers_follow(simulation, wait_until):
+def test_timers_use_simulated_time(simulation, wait_until):
     calls = []
     simulation.advance_to(100)
     simulation.create_timer(10.0, lambda: calls.append(simulation.get_clock().now().nanoseconds // 10**9))
@@ -46,12 +46,12 @@ def test_timers_follow(simulation, wait_until):
     simulation.advance_to(110)
     wait_until(lambda: calls, simulation.spin_once)
     assert calls == [110]
-    simulation.advance_to(5)  # the simulation was started over
+    simulation.advance_to(5)  # The simulation was restarted.
     simulation.advance_to(16)
     wait_until(lambda: len(calls) == 2, simulation.spin_once)
 
 
-def test_switching_off_is_a_jump(simulation):
+def test_disabling_simulated_time_is_a_jump(simulation):
     jumps = []
     simulation.advance_to(100)
     simulation.get_clock().create_jump_callback(

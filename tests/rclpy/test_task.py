@@ -16,7 +16,7 @@ def test_result_and_exception():
         failed.result()
 
 
-def test_done_callbacks_run_at_once():
+def test_done_callbacks_run_immediately():
     future, calls = Future(), []
     future.add_done_callback(calls.append)
     assert calls == []
@@ -26,7 +26,7 @@ def test_done_callbacks_run_at_once():
     assert calls == [future, future]
 
 
-def test_a_failing_callback_does_not_stop_the_others(capsys):
+def test_failing_callback_does_not_stop_the_others(capsys):
     future, calls = Future(), []
     future.add_done_callback(lambda _: 1 / 0)
     future.add_done_callback(calls.append)
@@ -35,7 +35,7 @@ def test_a_failing_callback_does_not_stop_the_others(capsys):
     assert "ZeroDivisionError" in capsys.readouterr().err
 
 
-def test_unfetched_exceptions_are_reported(capsys):
+def test_unretrieved_exceptions_are_reported(capsys):
     future = Future()
     future.set_exception(RuntimeError("lost"))
     del future
@@ -53,7 +53,7 @@ def test_cancel():
     assert not done.cancelled()
 
 
-def test_coroutines_can_be_driven_by_hand():
+def test_coroutines_run_by_send():
     future = Future()
 
     async def wait():
@@ -73,7 +73,7 @@ def test_task_of_a_function():
     assert task.result() == 3
 
 
-def test_task_of_a_coroutine_goes_on_when_called_again():
+def test_task_of_a_coroutine_continues_when_called_again():
     future = Future()
 
     async def wait(extra):

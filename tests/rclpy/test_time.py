@@ -1,4 +1,4 @@
-"""Time and Duration: values, arithmetic, and comparisons that refuse what makes no sense."""
+"""Time and Duration: values, arithmetic and comparisons."""
 
 import pytest
 
@@ -8,13 +8,13 @@ from rclpy.duration import Duration, Infinite
 from rclpy.time import Time
 
 
-def test_seconds_and_nanoseconds_add_up():
+def test_seconds_and_nanoseconds_are_added():
     assert Time(seconds=1.5, nanoseconds=7).nanoseconds == 1_500_000_007
     assert Time(seconds=3, nanoseconds=4).seconds_nanoseconds() == (3, 4)
     assert Duration(seconds=-1, nanoseconds=1).nanoseconds == -999_999_999
 
 
-def test_default_clock_is_the_system_s():
+def test_default_clock_type_is_system_time():
     assert Time().clock_type is ClockType.SYSTEM_TIME
     assert repr(Time(seconds=1)) == "Time(nanoseconds=1000000000, clock_type=SYSTEM_TIME)"
 
@@ -28,19 +28,19 @@ def test_default_clock_is_the_system_s():
         ({"nanoseconds": 2**63}, OverflowError, "Total nanoseconds value is too large to store in C time point."),
     ],
 )
-def test_impossible_times_are_refused(arguments, error, text):
+def test_invalid_times_are_rejected(arguments, error, text):
     with pytest.raises(error, match=text):
         Time(**arguments)
 
 
-def test_too_long_durations_are_refused():
+def test_too_long_durations_are_rejected():
     with pytest.raises(OverflowError, match="too large to store in C duration"):
         Duration(nanoseconds=2**63)
     assert str(Infinite) == "Infinite"
     assert str(Duration(nanoseconds=5)) == "5 nanoseconds"
 
 
-def test_time_and_duration_calculate():
+def test_arithmetic_of_time_and_duration():
     later = Time(seconds=5, clock_type=ClockType.STEADY_TIME) + Duration(seconds=1)
     assert later == Time(seconds=6, clock_type=ClockType.STEADY_TIME)
     assert Duration(seconds=1) + Time(seconds=1) == Time(seconds=2)
@@ -48,7 +48,7 @@ def test_time_and_duration_calculate():
     assert Time(seconds=3) - Duration(seconds=1) == Time(seconds=2)
 
 
-def test_arithmetic_errors_say_what_is_wrong():
+def test_arithmetic_errors():
     with pytest.raises(ValueError, match="Subtraction leads to negative time"):
         Time(seconds=1) - Duration(seconds=2)
     with pytest.raises(OverflowError, match="Addition leads to overflow in C storage"):
@@ -61,7 +61,7 @@ def test_arithmetic_errors_say_what_is_wrong():
         Time() - 5
 
 
-def test_comparing_with_other_things_raises():
+def test_comparison_with_other_types_raises():
     with pytest.raises(TypeError, match="Can't compare times with different clock types"):
         assert Time() == Time(clock_type=ClockType.ROS_TIME)
     with pytest.raises(TypeError, match="Can't compare times with different clock types"):
@@ -81,7 +81,7 @@ def test_order():
     assert Duration(seconds=2) > Duration(seconds=1) >= Duration(seconds=1)
 
 
-def test_messages_there_and_back():
+def test_conversion_to_and_from_messages():
     message = Time(nanoseconds=1_700_000_000_123_456_789).to_msg()
     assert (message.sec, message.nanosec) == (1_700_000_000, 123_456_789)
     assert Time.from_msg(message) == Time(nanoseconds=1_700_000_000_123_456_789, clock_type=ClockType.ROS_TIME)
@@ -89,7 +89,7 @@ def test_messages_there_and_back():
         assert Duration.from_msg(Duration(nanoseconds=nanoseconds).to_msg()) == Duration(nanoseconds=nanoseconds)
 
 
-def test_only_the_right_message_is_taken():
+def test_conversion_rejects_other_messages():
     with pytest.raises(TypeError, match=r"Must pass a builtin_interfaces.msg.Time object"):
         Time.from_msg(builtin_interfaces.msg.Duration())
     with pytest.raises(TypeError, match=r"Must pass a builtin_interfaces.msg.Duration object"):

@@ -1,4 +1,4 @@
-"""What mypy tells a user's program, and so what editors know."""
+"""Type checking of user programs with mypy."""
 
 import subprocess
 import sys
@@ -39,7 +39,7 @@ PROGRAM = """
 """
 
 
-def test_mypy_finds_the_mistakes_and_nothing_else(tmp_path):
+def test_mypy_finds_only_the_errors(tmp_path):
     source = textwrap.dedent(PROGRAM).strip()
     (tmp_path / "program.py").write_text(source)
     wrong = [number for number, line in enumerate(source.splitlines(), 1) if line.endswith("# wrong")]

@@ -174,7 +174,7 @@ def test_pause_step_and_rate(bag, hear, eventually):
         assert player.wait(20)
         assert time.monotonic() - begun < 2.0
         assert len(words(said())) == COUNT
-        with pytest.raises(ValueError, match="above 0 and up to 1000"):
+        with pytest.raises(ValueError, match="above 0 and at most 1000"):
             player.set_rate(0)
 
 
@@ -230,7 +230,7 @@ def test_damaged_messages_are_left_out_and_told_of(tmp_path, hear):
     with coframe.play(tmp_path / "run", delay=SETTLED) as player:
         assert player.wait(20)
         assert len(player.problems) == 2
-        assert all("damaged messages, which are left out" in problem for problem in player.problems)
+        assert all("damaged messages are skipped" in problem for problem in player.problems)
     assert words(said()) == ["a", "b"]
 
 
@@ -242,7 +242,7 @@ def test_names_that_dds_does_not_take_are_left_out_and_told_of(tmp_path, hear):
     said = hear("/words")
     with coframe.play(tmp_path / "run", delay=SETTLED) as player:
         assert player.wait(20)
-        assert [problem.partition(" is not played")[0] for problem in player.problems[:2]] == ["words", ""]
+        assert [problem.partition(" is not replayed")[0] for problem in player.problems[:2]] == ["words", ""]
     assert words(said()) == ["/words"]
 
 
@@ -250,11 +250,11 @@ def test_names_that_dds_does_not_take_are_left_out_and_told_of(tmp_path, hear):
     ("options", "reason"),
     [
         ({"topics": ["/gone"]}, "has no topic /gone"),
-        ({"start_offset": "1h"}, "lasts 2.950 s: it cannot start at 3600.000 s"),
+        ({"start_offset": "1h"}, "lasts 2.950 s: the replay cannot start at 3600.000 s"),
         ({"start_offset": -SECOND}, "cannot start at -1.000 s"),
-        ({"rate": 0.0}, "above 0 and up to 1000"),
-        ({"rate": float("nan")}, "above 0 and up to 1000"),
-        ({"clock": 1e9}, "up to 1000 times a second"),
+        ({"rate": 0.0}, "above 0 and at most 1000"),
+        ({"rate": float("nan")}, "above 0 and at most 1000"),
+        ({"clock": 1e9}, "above 0 Hz and at most 1000 Hz"),
     ],
 )
 def test_what_makes_no_sense_is_refused(bag, options, reason):

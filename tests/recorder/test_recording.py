@@ -13,7 +13,7 @@ from coframe.messages import find, serialize
 from coframe.recorder import Recorder
 from coframe.recorder.frame_renaming import FrameRenamer
 from coframe.recorder.message_queue import Source
-from coframe.recorder.topic_subscriptions import Wanted
+from coframe.recorder.topic_subscriptions import TopicFilter
 from coframe.wire import QoS
 
 STRING, TF_MESSAGE = find("std_msgs/msg/String"), find("tf2_msgs/msg/TFMessage")
@@ -114,14 +114,14 @@ def test_topics_that_are_not_ros_harm_nothing(participant, node, eventually, tmp
     ],
 )
 def test_which_topics_are_wanted(choice, chosen):
-    wanted = Wanted(*choice)
+    wanted = TopicFilter(*choice)
     assert {topic for topic in ("/tf", "/tf_static", "/scan", "/a/_action/feedback") if wanted(topic)} == chosen
 
 
 def test_topics_that_nobody_publishes_on_are_told_of():
-    assert Wanted(["/tf", "gone"], None, None).missing({"/tf"}) == ["/gone"]
-    with pytest.raises(ValueError, match="is no regular expression"):
-        Wanted(None, "(", None)
+    assert TopicFilter(["/tf", "gone"], None, None).missing({"/tf"}) == ["/gone"]
+    with pytest.raises(ValueError, match="is not a valid regular expression"):
+        TopicFilter(None, "(", None)
 
 
 class SlowDisk(Writer):
@@ -137,7 +137,11 @@ def test_a_slow_disk_costs_the_oldest_messages_but_no_statics(participant, node,
     publisher = participant.publisher(node, "/words", STRING, QoS(depth=count))
     statics = participant.raw_publisher(node, "/tf_static", TF_MESSAGE.ROS_TYPE, QoS(depth=1, transient_local=True))
     recorder = Recorder(
-        SlowDisk(tmp_path / "run"), Wanted(None, None, None), domain=None, backlog=50 * size, on_topic=lambda *_: None
+        SlowDisk(tmp_path / "run"),
+        TopicFilter(None, None, None),
+        domain=None,
+        backlog=50 * size,
+        on_topic=lambda *_: None,
     )
     with recorder:
         eventually(lambda: publisher.matched and statics.matched)
@@ -157,9 +161,9 @@ def test_a_slow_disk_costs_the_oldest_messages_but_no_statics(participant, node,
 
 def test_what_cannot_be_started_leaves_nothing_behind(participant, tmp_path):
     (tmp_path / "run").mkdir()
-    with pytest.raises(coframe.RecordingError, match="is there already"):
+    with pytest.raises(coframe.RecordingError, match="already exists"):
         coframe.record(tmp_path / "run")
-    with pytest.raises(ValueError, match="no regular expression"):
+    with pytest.raises(ValueError, match="not a valid regular expression"):
         coframe.record(tmp_path / "other", regex="[")
     with pytest.raises(coframe.WireError):
         coframe.record(tmp_path / "third", domain=1000)

@@ -25,7 +25,7 @@ def mimic(whom, multiplier=1.0, offset=0.0):
 
 
 def told(states):
-    told = states.told()
+    told = states.fields()
     return dict(zip(told.names, told.positions, strict=True))
 
 
@@ -47,29 +47,29 @@ def test_joints_rest_and_followers_follow_in_any_order():
 
 def test_dependent_joints_win_over_mimic_tags():
     states = JointStates(robot(**ARM), dependent={"near": ("spin", 2.0, 1.0), "gone": ("spin", 1.0, 0.0)})
-    states.take(["spin"], [0.25])
+    states.update(["spin"], [0.25])
     assert told(states) == pytest.approx({"spin": 0.25, "lift": 0.4, "near": 1.5, "far": -2.5})
 
 
 def test_sources_win_over_rest_but_not_over_followers():
     states = JointStates(robot(**ARM), positions=False)
-    assert states.told() == (["spin", "lift", "far", "near"], [], [], [])
-    states.take(["lift", "near", "unknown"], [0.5, 7.0, 8.0], [0.1, 7.0, 8.0], [2.0, 7.0, 8.0])
-    names, positions, velocities, efforts = states.told()
+    assert states.fields() == (["spin", "lift", "far", "near"], [], [], [])
+    states.update(["lift", "near", "unknown"], [0.5, 7.0, 8.0], [0.1, 7.0, 8.0], [2.0, 7.0, 8.0])
+    names, positions, velocities, efforts = states.fields()
     assert dict(zip(names, positions, strict=True)) == pytest.approx({"spin": 0, "lift": 0.5, "near": 1.6, "far": -2.7})
     assert dict(zip(names, velocities, strict=True)) == pytest.approx(
         {"spin": 0, "lift": 0.1, "near": 0.3, "far": -0.6}
     )
     assert dict(zip(names, efforts, strict=True)) == pytest.approx({"spin": 0, "lift": 2, "near": 2, "far": 2})
-    states.take(["spin"], [], [0.5])  # a source may tell of velocities alone
+    states.update(["spin"], [], [0.5])  # a source may tell of velocities alone
     assert told(states)["spin"] == 0.0
     for wrong in ([1.0, 2.0], [float("nan")]):
         with pytest.raises(ValueError, match=r"values|not finite"):
-            states.take(["spin"], wrong)
+            states.update(["spin"], wrong)
 
 
 def test_defaults_of_velocities_and_efforts():
-    assert JointStates(robot(**ARM), velocities=True, efforts=True).told()[2:] == ([0.0] * 4, [0.0] * 4)
+    assert JointStates(robot(**ARM), velocities=True, efforts=True).fields()[2:] == ([0.0] * 4, [0.0] * 4)
 
 
 def test_a_safety_controller_narrows_the_limits():
@@ -100,7 +100,7 @@ def test_joints_go_to_and_fro_or_round():
         ({"spin": ("near", 1.0, 0.0), "lift": ("spin", 1.0, 0.0)}, r"infinite recursive mimic chain: \['spin', 'near'"),
         ({"spin": ("spin", 1.0, 0.0)}, "infinite recursive mimic chain"),
         ({"spin": ("nobody", 1.0, 0.0)}, "joint 'spin' depends on 'nobody'"),
-        ({"spin": ("free", 1.0, 0.0)}, "joint 'spin' depends on 'free', which is no joint with one position"),
+        ({"spin": ("free", 1.0, 0.0)}, "joint 'spin' depends on 'free', which is not a revolute"),
     ],
 )
 def test_followers_that_get_nowhere_are_refused(dependent, reason):

@@ -204,13 +204,13 @@ def test_the_jacobian_is_the_derivative():
 @pytest.mark.parametrize(
     ("positions", "reason"),
     [
-        ({"trun": 1.0}, "no joint 'trun': did you mean 'turn'?"),
+        ({"trun": 1.0}, "No joint named 'trun'. Did you mean 'turn'?"),
         ({"stay": 1.0}, "'stay' is fixed"),
         ({"turn": float("nan")}, "position of joint 'turn' is not finite"),
         ({"turn": [0.0] * 100 + [float("inf")]}, "position of joint 'turn' is not finite"),
         ({"turn": 10**400}, "'turn': int too large"),
         ({"turn": "fast"}, "could not convert"),
-        ({"push": [1.0, 2.0]}, "'push' is planar"),
+        ({"push": [1.0, 2.0]}, "position of planar joint 'push'"),
         ({"turn": np.zeros((2, 2))}, "one batch axis"),
         ({"turn": np.zeros(2), "spin": np.zeros(3)}, "shape mismatch"),
     ],

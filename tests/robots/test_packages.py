@@ -1,4 +1,4 @@
-"""Files of packages, with and without ROS."""
+"""The search for packages and their files, with and without ROS."""
 
 import os
 
@@ -22,7 +22,7 @@ def make_package(folder, name=None):
     return folder
 
 
-def test_packages_are_found_in_every_place(tmp_path, monkeypatch):
+def test_packages_are_found_in_all_search_paths(tmp_path, monkeypatch):
     own = make_package(tmp_path / "ws" / "src" / "own")
     make_package(tmp_path / "ws" / "src" / "neighbour")
     make_package(tmp_path / "listed" / "deep" / "folder_of_another_name", "by_manifest")
@@ -40,7 +40,7 @@ def test_packages_are_found_in_every_place(tmp_path, monkeypatch):
     assert Packages(renamed / "urdf" / "robot.urdf").find("folder-name") == renamed
     (own / "urdf").mkdir()
     assert packages.resolve("../meshes/hand.stl").is_file()
-    with pytest.raises(PackageError, match="no package 'folder_of_another'") as caught:
+    with pytest.raises(PackageError, match="no package named 'folder_of_another'") as caught:
         packages.find("folder_of_another")
     assert "COFRAME_PACKAGE_PATH" in caught.value.hint
 
@@ -68,7 +68,7 @@ def test_packages_are_found_in_every_place(tmp_path, monkeypatch):
         "/etc/hostname",
     ],
 )
-def test_nothing_leads_out_of_a_package(tmp_path, url):
+def test_files_outside_a_package_are_not_resolved(tmp_path, url):
     own = make_package(tmp_path / "own")
     (tmp_path / "secret").write_text("secret")
     (own / "link_out").symlink_to(tmp_path / "secret")
@@ -103,7 +103,7 @@ def test_xacro_is_expanded_and_finds_packages_without_ros(tmp_path, monkeypatch)
     (tmp_path / "somewhere" / "parts").mkdir(parents=True)
     (tmp_path / "somewhere" / "parts" / "parts.xacro").write_text(PARTS)
     (tmp_path / "arm.urdf.xacro").write_text(XACRO)
-    with pytest.raises(RobotDescriptionError, match=r"arm.urdf.xacro: xacro: .*no package 'parts'"):
+    with pytest.raises(RobotDescriptionError, match=r"arm.urdf.xacro: xacro: .*no package named 'parts'"):
         load(tmp_path / "arm.urdf.xacro")
     monkeypatch.setenv("COFRAME_PACKAGE_PATH", str(tmp_path / "somewhere"))
     robot = load(tmp_path / "arm.urdf.xacro", arguments={"tool": "gripper"})
@@ -111,7 +111,7 @@ def test_xacro_is_expanded_and_finds_packages_without_ros(tmp_path, monkeypatch)
     assert robot.frames()["gripper"].translation.tolist() == [0.5, 0, 0]
 
 
-def test_what_cannot_be_loaded_is_named(tmp_path):
+def test_load_errors_contain_the_file_and_the_line(tmp_path):
     with pytest.raises(RobotDescriptionError, match=r"gone.urdf: cannot be read: No such file"):
         load(tmp_path / "gone.urdf")
     (tmp_path / "bad.urdf").write_text("<robot name='r'>\n<link/></robot>")

@@ -1,4 +1,4 @@
-"""The parser of robot descriptions: what it takes, and what it says of what it does not take."""
+"""The parser of robot descriptions: valid documents, and the errors for invalid ones."""
 
 import random
 import time
@@ -42,7 +42,7 @@ ARM = """<?xml version="1.0"?>
 
 
 def robot_of(*parts, links="abc"):
-    """The text of a robot with these links, one a line, and then these parts, one a line."""
+    """Return the text of a robot with one line for each link, then one for each part."""
     lines = ["<robot name='r'>", *(f"<link name='{name}'/>" for name in links), *parts, "</robot>"]
     return "\n".join(lines)
 
@@ -56,15 +56,15 @@ TREE = [joint("ab", "a", "b", LIMIT, "revolute"), joint("bc", "b", "c", LIMIT, "
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "iso-8859-1"])
-def test_what_is_kept_can_be_read_again_whatever_the_file_was_encoded_in(encoding):
+def test_the_stored_text_can_be_parsed_again_for_every_encoding(encoding):
     text = f"<?xml version='1.0' encoding='{encoding}'?><robot name='Käfer'><link name='/Fühler'/></robot>"
     robot = parse_urdf(text.encode(encoding))
     again = parse_urdf(robot.text.encode())
     assert (robot.name, list(robot.links)) == (again.name, list(again.links)) == ("Käfer", ["/Fühler"])
-    assert robot.warnings == ("line 1: link '/Fühler' begins with a slash, which tf2 leaves off",)
+    assert robot.warnings == ("line 1: link '/Fühler' begins with a slash, which tf2 removes",)
 
 
-def test_everything_that_is_described_is_kept():
+def test_all_parts_of_a_description_are_parsed():
     robot = parse_urdf(ARM)
     assert (robot.name, robot.root, list(robot.links)) == ("arm", "base", ["base", "upper", "lower"])
     assert (robot.text, robot.warnings) == (ARM, ())
@@ -86,7 +86,7 @@ def test_everything_that_is_described_is_kept():
     assert robot.limits["elbow"].lower == 0.2
 
 
-def test_materials_are_found_wherever_they_are_defined():
+def test_materials_can_be_defined_at_the_top_level_or_in_links():
     visual = "<visual><geometry><sphere radius='1'/></geometry><material name='{}'>{}</material></visual>"
     robot = parse_urdf(
         "<robot name='r'><link name='a'>"
@@ -101,10 +101,10 @@ def test_materials_are_found_wherever_they_are_defined():
     assert robot.warnings == ("line 1: material 'lost' is not defined",)
 
 
-def test_a_locked_joint_that_mimics_is_a_warning():
+def test_a_mimic_tag_of_a_fixed_joint_is_a_warning():
     robot = parse_urdf(robot_of(joint("ab", "a", "b", "<mimic joint='bc'/>"), TREE[1]))
     assert robot.joints["ab"].mimic is None
-    assert robot.warnings == ("line 5: joint 'ab' is fixed and mimics nothing",)
+    assert robot.warnings == ("line 5: joint 'ab' is fixed, so its <mimic> has no effect",)
 
 
 @pytest.mark.parametrize(
@@ -124,13 +124,13 @@ def test_a_locked_joint_that_mimics_is_a_warning():
         (robot_of(*TREE, joint("ab", "a", "b")), 7, "second joint 'ab'"),
         (robot_of(*TREE, joint("ac", "a", "c")), 7, "link 'c' has two parents: 'b' by joint 'bc', and 'a'"),
         (robot_of(TREE[0]), 1, "2 links have no parent: 'a', 'c'"),
-        (robot_of(joint("ab", "a", "b"), joint("bb", "b", "b")), 6, "ties the link 'b' to itself"),
+        (robot_of(joint("ab", "a", "b"), joint("bb", "b", "b")), 6, "connects the link 'b' to itself"),
         (robot_of(joint("bc", "b", "c"), joint("cb", "c", "b")), 5, "form a loop"),
         (robot_of(joint("ab", "a", "b"), joint("bc", "b", "c"), joint("ca", "c", "a")), 5, "form a loop"),
         (robot_of(TREE[0], joint("bd", "b", "d")), 6, "has the child 'd', which is not a link"),
         (robot_of(TREE[0], joint("db", "d", "c")), 6, "has the parent 'd', which is not a link"),
         (robot_of(TREE[0], "<joint name='bc' type='fixed'><parent link='b'/></joint>"), 6, "<joint> has no <child>"),
-        (robot_of(TREE[0], joint("bc", "b", "c", "", "screw")), 6, "has the type 'screw'"),
+        (robot_of(TREE[0], joint("bc", "b", "c", "", "screw")), 6, "has the unknown type 'screw'"),
         (robot_of(TREE[0], joint("bc", "b", "c", "", "revolute")), 6, "is revolute and has no <limit>"),
         (robot_of(TREE[0], joint("bc", "b", "c", "", "prismatic")), 6, "is prismatic and has no <limit>"),
         (
@@ -141,7 +141,7 @@ def test_a_locked_joint_that_mimics_is_a_warning():
         (robot_of(TREE[0], joint("bc", "b", "c", "<origin xyz='0 nan 0'/>")), 6, "'nan' is not a finite number"),
         (robot_of(TREE[0], joint("bc", "b", "c", "<origin xyz='0 1e999 0'/>")), 6, "not a finite number"),
         (robot_of(TREE[0], joint("bc", "b", "c", "<origin xyz='0 1_0 0'/>")), 6, "not a finite number"),
-        (robot_of(TREE[0], joint("bc", "b", "c", "<origin xyz='0 0'/>")), 6, "is not 3 numbers"),
+        (robot_of(TREE[0], joint("bc", "b", "c", "<origin xyz='0 0'/>")), 6, "expected 3 numbers"),
         (robot_of(TREE[0], joint("bc", "b", "c", "<origin xyz='0 0 0,1'/>")), 6, "'0,1' is not a finite number"),
         (robot_of(TREE[0], joint("bc", "b", "c", "<origin/><origin/>")), 6, "a second <origin> in one <joint>"),
         (
@@ -158,7 +158,7 @@ def test_a_locked_joint_that_mimics_is_a_warning():
             "joint 'bc' mimics 'ab', but 'ab' is floating",
         ),
         (robot_of("<link name='d'><visual/></link>", *TREE), 5, "<visual> has no <geometry>"),
-        (robot_of("<link name='d'><visual><geometry><cone/></geometry></visual></link>"), 5, "<cone> is no shape"),
+        (robot_of("<link name='d'><visual><geometry><cone/></geometry></visual></link>"), 5, "<cone> is not a shape"),
         (robot_of("<link name='d'><inertial><mass value='1'/></inertial></link>"), 5, "<inertial> has no <inertia>"),
         (b"<?xml version='1.0' encoding='klingon'?><robot name='r'/>", 1, "unknown encoding 'klingon'"),
         (b"<?xml version='1.0' encoding='punycode'?><robot name='r'/>", 1, "unknown encoding 'punycode'"),
@@ -166,7 +166,7 @@ def test_a_locked_joint_that_mimics_is_a_warning():
         ("<robot name='\ud800'/>", None, "cannot be decoded"),
     ],
 )
-def test_what_contradicts_itself_is_refused_in_a_sentence_with_its_line(text, line, reason):
+def test_invalid_documents_raise_an_error_with_the_line(text, line, reason):
     with pytest.raises(RobotDescriptionError) as caught:
         parse_urdf(text)
     assert reason in str(caught.value)
@@ -184,7 +184,7 @@ def test_mimics_in_a_circle_of_three():
         parse_urdf(robot_of(*followers, links="abcd"))
 
 
-def test_a_chain_of_three_thousand_links_is_read_in_time():
+def test_a_chain_of_three_thousand_links_is_parsed_quickly():
     count = 3000
     links = [f"<link name='l{i}'/>" for i in range(count)]
     joints = [
@@ -197,7 +197,7 @@ def test_a_chain_of_three_thousand_links_is_read_in_time():
     assert time.monotonic() - started < 10
 
 
-def test_mutated_descriptions_are_read_or_refused():
+def test_mutated_descriptions_are_parsed_or_raise_an_error():
     rng = random.Random(3)
     refused = 0
     for _ in range(1500):

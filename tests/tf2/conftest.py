@@ -1,4 +1,4 @@
-"""Transforms to test with."""
+"""Transforms for the tests."""
 
 from collections.abc import Callable
 
@@ -27,5 +27,5 @@ def _stamped(
 
 @pytest.fixture
 def stamped() -> Callable[..., TransformStamped]:
-    """Makes a TransformStamped: stamped(parent, child, time in seconds, translation, rotation)."""
+    """Return a function stamped(parent, child, time in seconds, translation, rotation)."""
     return _stamped

@@ -1,4 +1,4 @@
-"""Finding packages."""
+"""Search for packages."""
 
 import pytest
 
@@ -13,7 +13,7 @@ from ament_index_python.packages import (
 
 @pytest.fixture
 def places(tmp_path, monkeypatch):
-    """An installed package `arm` and, in a source tree, `rover`; both have a `shared` one."""
+    """Create an installed package `arm`, a source package `rover`, and a package `shared` in both places."""
     prefix, sources = tmp_path / "install", tmp_path / "src"
     index = prefix / "share" / "ament_index" / "resource_index" / "packages"
     index.mkdir(parents=True)
@@ -37,7 +37,7 @@ def test_installed_packages_and_source_trees(places):
     assert get_packages_with_prefixes() == {"arm": str(prefix), "shared": str(prefix), "rover": str(sources)}
 
 
-def test_a_missing_package_says_where_it_was_looked_for(places):
+def test_error_for_a_missing_package_lists_the_searched_directories(places):
     with pytest.raises(PackageNotFoundError) as caught:
         get_package_share_directory("gripper")
     assert str(caught.value).startswith(f"package 'gripper' not found, searching: ['{places[0]}', '{places[1]}']")
@@ -46,6 +46,6 @@ def test_a_missing_package_says_where_it_was_looked_for(places):
 
 @pytest.mark.parametrize("name", ["", "../etc", "a/b", "1st"])
 @pytest.mark.usefixtures("places")
-def test_names_that_are_no_package_names(name):
+def test_invalid_package_names(name):
     with pytest.raises(ValueError, match="is not a valid package name"):
         get_package_share_directory(name)

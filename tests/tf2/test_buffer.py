@@ -1,4 +1,4 @@
-"""tf2_ros.Buffer without a graph: waiting, futures, transform()."""
+"""tf2_ros.Buffer without a graph: timeouts, futures and transform()."""
 
 import gc
 import threading
@@ -15,7 +15,7 @@ from rclpy.time import Time
 
 
 def insert_later(buffer, message, started):
-    """A thread that inserts once the main thread is about to wait."""
+    """Return a function that inserts in a thread once the main thread waits."""
 
     def insert():
         started.wait()
@@ -43,14 +43,14 @@ def test_lookup_and_can_transform(buffer, stamped):
     assert isinstance(buffer, tf2_ros.BufferInterface)
 
 
-def test_the_cache_time_may_be_named(stamped):
+def test_cache_time_as_keyword(stamped):
     buffer = tf2_ros.Buffer(cache_time=Duration(seconds=1))
     for seconds in (10.0, 12.0, 14.0):
         buffer.set_transform(stamped("a", "b", seconds), "me")
     assert not buffer.can_transform("a", "b", Time(seconds=10))
 
 
-def test_a_lookup_waits_until_the_transform_is_there(buffer, stamped):
+def test_lookup_waits_until_the_transform_is_available(buffer, stamped):
     started = threading.Event()
     thread = insert_later(buffer, stamped("a", "b", 1.0), started)
     begin = time.monotonic()
@@ -68,7 +68,7 @@ def test_can_transform_waits_as_well(buffer, stamped):
     thread.join()
 
 
-def test_when_the_time_is_over_the_lookup_says_what_is_missing(buffer):
+def test_lookup_describes_what_is_missing_after_a_timeout(buffer):
     begin = time.monotonic()
     with pytest.raises(tf2_ros.LookupException, match='"a" passed to lookupTransform argument target_frame'):
         buffer.lookup_transform("a", "b", Time(), timeout=Duration(seconds=0.05))
@@ -78,12 +78,12 @@ def test_when_the_time_is_over_the_lookup_says_what_is_missing(buffer):
     assert "frame does not exist" in answer[1]
 
 
-def test_a_float_is_no_timeout(buffer):
+def test_float_timeout_is_rejected(buffer):
     with pytest.raises(TypeError):
         buffer.lookup_transform("a", "b", Time(), timeout=0.1)
 
 
-def test_a_coroutine_goes_on_after_set_transform(buffer, stamped):
+def test_coroutine_continues_after_set_transform(buffer, stamped):
     coroutine = buffer.lookup_transform_async("a", "b", Time(seconds=1))
     coroutine.send(None)
     buffer.set_transform(stamped("a", "b", 1.0, (7.0, 0.0, 0.0)), "me")
@@ -92,7 +92,7 @@ def test_a_coroutine_goes_on_after_set_transform(buffer, stamped):
     assert stop.value.value.transform.translation.x == 7.0
 
 
-def test_a_full_coroutine_goes_on_after_set_transform_static(buffer, stamped):
+def test_full_coroutine_continues_after_set_transform_static(buffer, stamped):
     coroutine = buffer.lookup_transform_full_async("a", Time(), "b", Time(), "a")
     coroutine.send(None)
     buffer.set_transform_static(stamped("a", "b"), "me")
@@ -101,7 +101,7 @@ def test_a_full_coroutine_goes_on_after_set_transform_static(buffer, stamped):
     assert stop.value.value.header.frame_id == "a"
 
 
-def test_a_future_completes_in_the_thread_that_inserts(buffer, stamped):
+def test_future_completes_in_the_inserting_thread(buffer, stamped):
     future = buffer.wait_for_transform_async("a", "b", Time(seconds=1))
     threads = []
     future.add_done_callback(lambda _: threads.append(threading.current_thread()))
@@ -113,23 +113,23 @@ def test_a_future_completes_in_the_thread_that_inserts(buffer, stamped):
     assert future.result().child_frame_id == "b"
 
 
-def test_a_future_of_a_known_transform_is_done_at_once(buffer, stamped):
+def test_future_of_an_available_transform_is_done(buffer, stamped):
     buffer.set_transform(stamped("a", "b", 1.0), "me")
     assert buffer.wait_for_transform_async("a", "b", Time()).result().child_frame_id == "b"
     assert buffer.wait_for_transform_full_async("a", Time(), "b", Time(), "a").done()
 
 
-def test_a_future_completes_when_data_come_in_natively(buffer):
+def test_future_completes_when_data_are_inserted_natively(buffer):
     future = buffer.wait_for_transform_async("a", "b", Time(seconds=1))
     done = _core.Event()
     future.add_done_callback(lambda _: done.set())
-    # Past everything of Python's, as a reader on the wire does.
+    # Insert without Python code, like a native subscription.
     buffer._coframe_buffer._set_values("a", "b", 1_000_000_000, *(0.0,) * 6, 1.0, False, "wire")
     assert done.wait(10_000_000_000)
     assert future.result().header.frame_id == "a"
 
 
-def test_an_async_timeout_raises_what_the_lookup_raises(buffer):
+def test_async_timeout_raises_the_exception_of_the_lookup(buffer):
     future = buffer.wait_for_transform_async("a", "b", Time(), timeout=Duration(seconds=0.02))
     done = _core.Event()
     future.add_done_callback(lambda _: done.set())
@@ -138,7 +138,7 @@ def test_an_async_timeout_raises_what_the_lookup_raises(buffer):
         future.result()
 
 
-def test_cancelled_futures_are_forgotten(buffer, stamped):
+def test_cancelled_futures_are_removed(buffer, stamped):
     future = buffer.wait_for_transform_async("a", "b", Time())
     future.cancel()
     buffer.set_transform(stamped("a", "b", 1.0), "me")
@@ -146,7 +146,7 @@ def test_cancelled_futures_are_forgotten(buffer, stamped):
     assert buffer._coframe_buffer._dispatcher.is_idle
 
 
-def test_the_waiting_thread_ends_with_the_waits(buffer, stamped):
+def test_dispatcher_thread_ends_after_the_last_wait(buffer, stamped):
     before = set(threading.enumerate())
     buffer.wait_for_transform_async("a", "b", Time())
     (watcher,) = set(threading.enumerate()) - before
@@ -156,7 +156,7 @@ def test_the_waiting_thread_ends_with_the_waits(buffer, stamped):
     assert not watcher.is_alive()
 
 
-def test_a_dropped_buffer_takes_its_thread_along():
+def test_thread_ends_when_the_buffer_is_deleted():
     before = set(threading.enumerate())
     buffer = tf2_ros.Buffer()
     buffer.wait_for_transform_async("a", "b", Time())
@@ -169,13 +169,13 @@ def test_a_dropped_buffer_takes_its_thread_along():
     assert not watcher.is_alive()
 
 
-def test_a_jump_back_in_time_clears(buffer, stamped):
+def test_backward_time_jump_clears_the_buffer(buffer, stamped):
     buffer.set_transform(stamped("a", "b", 1.0), "me")
     buffer.time_jump_callback(None)
     assert not buffer.can_transform("a", "b", Time())
 
 
-def test_transform_expresses_data_in_another_frame(buffer, stamped):
+def test_transform_of_stamped_data(buffer, stamped):
     buffer.set_transform(stamped("a", "b", 1.0, (1.0, 0.0, 0.0)), "me")
     buffer.set_transform(stamped("a", "b", 2.0, (2.0, 0.0, 0.0)), "me")
     point = PointStamped()
@@ -190,7 +190,7 @@ def test_transform_expresses_data_in_another_frame(buffer, stamped):
     assert buffer.transform(point, "a", new_type=PointStamped) == moved
 
 
-def test_a_type_nobody_registered(buffer):
+def test_unregistered_type(buffer):
     with pytest.raises(tf2_ros.TypeException) as caught:
         buffer.transform(Pose(), "a")
     assert caught.value.errstr == f"Type {Pose} is not loaded or supported"
@@ -213,7 +213,7 @@ def test_convert():
     assert tf2_ros.convert(Mine(), int) == 3
 
 
-def test_an_interface_without_a_buffer_answers_nothing():
+def test_buffer_interface_implements_no_lookup():
     with pytest.raises(tf2_ros.NotImplementedException):
         tf2_ros.BufferInterface().lookup_transform("a", "b", Time())
 
@@ -224,11 +224,11 @@ def test_stamped():
     assert (point.header.frame_id, point.header.stamp.sec) == ("a", 3)
 
 
-def test_numbers_for_times_are_refused_with_what_to_write_instead():
+def test_numbers_as_times_are_rejected_with_a_hint():
     buffer = tf2_ros.Buffer()
-    with pytest.raises(TypeError, match=r"timeout must be an rclpy Duration, not float: Duration\(seconds=0.5\)"):
+    with pytest.raises(TypeError, match=r"timeout must be an rclpy Duration, not float. Use Duration\(seconds=0.5\)"):
         buffer.lookup_transform("a", "b", Time(), 0.5)
     with pytest.raises(TypeError, match=r"timeout must be an rclpy Duration, not int"):
         buffer.wait_for_transform_async("a", "b", Time(), timeout=1)
-    with pytest.raises(TypeError, match=r"int does not: give rclpy's Time\(seconds=...\), or Time\(\) for the latest"):
+    with pytest.raises(TypeError, match=r"Got int. Use rclpy's Time\(seconds=...\), or Time\(\) for the latest"):
         buffer.lookup_transform("a", "b", 0)

@@ -1,4 +1,4 @@
-"""Looking up in the buffer of another node."""
+"""Lookups in the buffer of another node."""
 
 import asyncio
 import subprocess
@@ -50,7 +50,7 @@ def make_node(context):
 
 @pytest.fixture
 def spin(context):
-    """Spins a node in a thread until the test ends."""
+    """Return a function that spins a node in a thread until the test ends."""
     running = []
 
     def start(node, executor=SingleThreadedExecutor):
@@ -68,7 +68,7 @@ def spin(context):
 
 @pytest.fixture
 def buffer():
-    """What the server looks up in."""
+    """Return the buffer of the server."""
     return Buffer(cache_time=Duration(seconds=1000))
 
 
@@ -87,7 +87,7 @@ def client(make_node):
 
 @pytest.fixture
 def connected(request, client):
-    """The client, when it has found the server."""
+    """Return the client after it has found the server."""
     request.getfixturevalue("server")
     assert client.action_client.wait_for_server(timeout_sec=10)
     return client
@@ -124,7 +124,7 @@ def test_lookup_between_two_times(connected, buffer, stamped):
     assert connected.can_transform_full(*query[:4], "nowhere") is False
 
 
-def test_errors_are_those_of_a_buffer(connected, buffer, stamped):
+def test_errors_equal_those_of_a_buffer(connected, buffer, stamped):
     for parent, child in (("map", "robot"), ("other map", "other robot")):
         buffer.set_transform(stamped(parent, child, 10.0), "me")
     for query in (
@@ -179,9 +179,9 @@ def test_no_server(client):
     assert client.can_transform("map", "robot", Time()) is False
 
 
-def test_a_server_that_does_not_answer(make_node, client):
+def test_server_that_does_not_respond(make_node, client):
     client.timeout_padding = Duration(seconds=0.05)
-    BufferServer(Buffer(), make_node("server"), "tf2_buffer_server")  # nobody spins it
+    BufferServer(Buffer(), make_node("server"), "tf2_buffer_server")  # The node is not spinning.
     assert client.action_client.wait_for_server(timeout_sec=10)
     asked = time.monotonic()
     with pytest.raises(tf2_ros.TimeoutException, match="did not come back in the specified time"):
@@ -189,7 +189,7 @@ def test_a_server_that_does_not_answer(make_node, client):
     assert 0.05 <= time.monotonic() - asked < 5.0
 
 
-def test_a_server_that_dies_while_it_waits(server, connected):
+def test_server_destroyed_during_a_lookup(server, connected):
     connected.timeout_padding = Duration(seconds=0.05)
     raised = []
 
@@ -208,7 +208,7 @@ def test_a_server_that_dies_while_it_waits(server, connected):
     assert "did not come back in the specified time" in str(raised[0])
 
 
-def test_a_server_that_refuses(make_node, spin, client):
+def test_server_that_rejects_goals(make_node, spin, client):
     node = make_node("server")
     ActionServer(
         node, LookupTransform, "tf2_buffer_server", lambda _: None, goal_callback=lambda _: GoalResponse.REJECT
@@ -219,8 +219,8 @@ def test_a_server_that_refuses(make_node, spin, client):
         client.lookup_transform("map", "robot", Time())
 
 
-def test_an_aborted_goal_without_an_error_has_no_transform(make_node, spin, client):
-    """C++'s server says no more than that when a goal's time is over."""
+def test_aborted_goal_without_an_error_raises(make_node, spin, client):
+    """The C++ server aborts goals after their timeout without an error in the result."""
 
     def execute(goal_handle):
         goal_handle.abort()
@@ -230,13 +230,13 @@ def test_an_aborted_goal_without_an_error_has_no_transform(make_node, spin, clie
     ActionServer(node, LookupTransform, "tf2_buffer_server", execute)
     spin(node)
     assert client.action_client.wait_for_server(timeout_sec=10)
-    with pytest.raises(tf2_ros.TimeoutException, match="the transform did not come in time"):
+    with pytest.raises(tf2_ros.TimeoutException, match="not available within the timeout"):
         client.lookup_transform("map", "robot", Time())
 
 
 @pytest.mark.parametrize("executor", [SingleThreadedExecutor, MultiThreadedExecutor])
-def test_inside_a_callback(connected, server, buffer, stamped, context, executor):
-    """The transform arrives while the callback waits for it; the server's node is spun elsewhere."""
+def test_lookup_inside_a_callback(connected, server, buffer, stamped, context, executor):
+    """The transform is received while the callback waits. Another executor spins the server."""
     found = []
     group = MutuallyExclusiveCallbackGroup()
     guard = connected.node.create_guard_condition(
@@ -256,7 +256,7 @@ def test_inside_a_callback(connected, server, buffer, stamped, context, executor
 
 
 def test_server_and_client_in_one_node(make_node, spin, buffer, stamped):
-    """What only one executor spins works with several threads, or awaited."""
+    """With a single executor, lookups work with several threads or in coroutines."""
     node = make_node("both")
     BufferServer(buffer, node, "tf2_buffer_server")
     client = BufferClient(node, "tf2_buffer_server")
@@ -277,7 +277,7 @@ def test_server_and_client_in_one_node(make_node, spin, buffer, stamped):
 
 @pytest.fixture
 def error_of():
-    """What an asynchronous look-up of a client raises, while its node is spun."""
+    """Return the exception of an asynchronous lookup, while the node of the client is spinning."""
 
     def ask(client, timeout):
         raised = []
@@ -301,16 +301,16 @@ def test_async_errors(connected, spin, error_of, seconds):
     assert isinstance(error_of(connected, Duration(seconds=seconds)), tf2_ros.LookupException)
 
 
-def test_async_without_an_answer(make_node, spin, client, error_of):
+def test_async_lookup_without_a_response(make_node, spin, client, error_of):
     client.timeout_padding = Duration(seconds=0.05)
-    BufferServer(Buffer(), make_node("server"), "tf2_buffer_server")  # nobody spins it
+    BufferServer(Buffer(), make_node("server"), "tf2_buffer_server")  # The node is not spinning.
     assert client.action_client.wait_for_server(timeout_sec=10)
     spin(client.node)
     assert "did not come back in the specified time" in str(error_of(client, Duration()))
     wait_until(lambda: not list(client.node.timers))
 
 
-def test_in_asyncio(connected, spin, buffer, stamped):
+def test_lookup_in_asyncio(connected, spin, buffer, stamped):
     spin(connected.node)
     buffer.set_transform(stamped("map", "robot"), "me")
     found = asyncio.run(connected.lookup_transform_async("map", "robot", Time()))
@@ -327,7 +327,7 @@ def test_transforming_data(connected, buffer, stamped):
         assert connected.transform(point, "map").point.x == 1.0
 
 
-def test_mistakes(client):
+def test_invalid_arguments(client):
     with pytest.raises(TypeError, match=r"^Must pass a rclpy.time.Time object\.$"):
         client.lookup_transform("map", "robot", 0.0)
     with pytest.raises(TypeError, match="must be an rclpy Duration, not float"):
@@ -356,7 +356,7 @@ def test_cancel(server, make_node):
 
 @pytest.mark.usefixtures("server")
 def test_status_of_goals(make_node):
-    """A goal that fails at once succeeds with its error, one whose time is over is aborted; as with C++'s server."""
+    """A goal that fails immediately finishes as succeeded, and one that times out as aborted, as in C++."""
     client = ActionClient(make_node("client"), LookupTransform, "tf2_buffer_server")
     assert client.wait_for_server(timeout_sec=10)
     statuses = {}
@@ -370,7 +370,7 @@ def test_status_of_goals(make_node):
     assert statuses == {0.0: GoalStatus.STATUS_SUCCEEDED, 0.02: GoalStatus.STATUS_ABORTED}
 
 
-def test_a_thousand_goals_need_no_thousand_threads(server, make_node, buffer, stamped):
+def test_many_goals_do_not_need_many_threads(server, make_node, buffer, stamped):
     client = ActionClient(
         make_node("client"),
         LookupTransform,
@@ -393,8 +393,8 @@ def test_a_thousand_goals_need_no_thousand_threads(server, make_node, buffer, st
     assert {future.result().result.transform.child_frame_id for future in results} == {"robot"}
 
 
-def test_the_node(client, make_node, stamped):
-    """`python -m tf2_ros.buffer_server` listens to transforms and answers; here under another name."""
+def test_buffer_server_node(client, make_node, stamped):
+    """`python -m tf2_ros.buffer_server` receives transforms and responds, here with a remapped name."""
     command = [sys.executable, "-W", "error", "-m", "tf2_ros.buffer_server", "--ros-args", "-p", "buffer_size:=60.0"]
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
         try:

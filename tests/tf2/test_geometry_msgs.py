@@ -1,4 +1,4 @@
-"""tf2_geometry_msgs, with scipy as an independent answer."""
+"""tf2_geometry_msgs, compared with SciPy."""
 
 import copy
 
@@ -50,7 +50,7 @@ def test_point(transform):
     assert moved.header is transform.header
 
 
-def test_vector_is_rotated_only_and_the_transform_stays_as_it_was(transform):
+def test_vector_is_only_rotated_and_the_transform_is_not_modified(transform):
     before = copy.deepcopy(transform)
     vector = Vector3Stamped()
     fill(vector.vector, (1.0, 2.0, 3.0))
@@ -106,7 +106,7 @@ def test_polygon(transform):
     assert moved.header is transform.header
 
 
-def test_a_zero_quaternion_does_not_rotate(stamped):
+def test_zero_quaternion_is_the_identity(stamped):
     point = PointStamped()
     point.point.x = 1.0
     moved = tf2_geometry_msgs.do_transform_point(point, stamped("a", "b", rotation=(0.0, 0.0, 0.0, 0.0)))
@@ -122,7 +122,7 @@ def test_quaternion_and_matrix(seed):
     assert np.allclose(functions._get_quat_from_mat(matrix), quaternion, atol=1e-14)
 
 
-def test_affine_and_back():
+def test_affine_round_trip():
     quaternion = np.roll(ROTATION.as_quat(canonical=True), 1)
     translation, rotation = functions._decompose_affine(functions._build_affine(quaternion, TRANSLATION))
     assert np.allclose(translation, TRANSLATION)

@@ -24,7 +24,7 @@ ENOUGH = Duration(seconds=20)
 
 @pytest.fixture
 def make_node(domain_id: int) -> Iterator[Callable[..., Node]]:
-    """Makes nodes of one context; all end with the test."""
+    """Return a function that creates nodes in one context, which are destroyed after the test."""
     context = Context()
     rclpy.init(context=context, domain_id=domain_id)
     nodes: list[Node] = []
@@ -47,7 +47,7 @@ def executor(make_node) -> Iterator[SingleThreadedExecutor]:
 
 
 def until(condition: Callable[[], object], seconds: float = 20.0) -> bool:
-    """Waits for a condition that no event announces."""
+    """Wait for a condition by polling."""
     deadline = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > deadline:
@@ -65,7 +65,7 @@ def spin_until(executor: SingleThreadedExecutor, condition: Callable[[], object]
     return True
 
 
-def test_transforms_arrive_without_spinning(make_node, stamped):
+def test_transforms_are_received_without_spinning(make_node, stamped):
     buffer, talker = tf2_ros.Buffer(), make_node("talker")
     listener = tf2_ros.TransformListener(buffer, make_node("listener"))
     broadcaster = tf2_ros.TransformBroadcaster(talker)
@@ -76,8 +76,8 @@ def test_transforms_arrive_without_spinning(make_node, stamped):
     assert "broadcaster: 'default_authority'" in buffer.all_frames_as_yaml()
 
 
-def test_a_lookup_may_wait_inside_a_callback_of_a_single_threaded_executor(make_node, executor, stamped):
-    """Upstream, nothing would ever arrive there."""
+def test_lookup_with_timeout_inside_a_callback_of_a_single_threaded_executor(make_node, executor, stamped):
+    """With upstream's listener, the transform would not be received there."""
     node = make_node("listener")
     buffer = tf2_ros.Buffer()
     tf2_ros.TransformListener(buffer, node)
@@ -93,7 +93,7 @@ def test_a_lookup_may_wait_inside_a_callback_of_a_single_threaded_executor(make_
     assert spin_until(executor, lambda: found)
 
 
-def test_a_coroutine_callback_awaits_a_transform_from_the_wire(make_node, executor, stamped):
+def test_coroutine_callback_awaits_a_transform_from_the_wire(make_node, executor, stamped):
     node = make_node("listener")
     buffer = tf2_ros.Buffer()
     listener = tf2_ros.TransformListener(buffer, node)
@@ -114,7 +114,7 @@ def test_a_coroutine_callback_awaits_a_transform_from_the_wire(make_node, execut
     assert found[0].child_frame_id == "b"
 
 
-def test_nobody_needs_to_keep_the_listener(make_node, stamped):
+def test_listener_without_a_reference(make_node, stamped):
     buffer = tf2_ros.Buffer()
     tf2_ros.TransformListener(buffer, make_node("listener"))
     gc.collect()
@@ -122,7 +122,7 @@ def test_nobody_needs_to_keep_the_listener(make_node, stamped):
     assert buffer.can_transform("a", "b", Time(), ENOUGH)
 
 
-def test_unregistering_stops_listening(make_node, stamped):
+def test_unregister(make_node, stamped):
     buffer, other = tf2_ros.Buffer(), tf2_ros.Buffer()
     node = make_node("listener")
     listener = tf2_ros.TransformListener(buffer, node)
@@ -134,7 +134,7 @@ def test_unregistering_stops_listening(make_node, stamped):
     assert not buffer.can_transform("a", "b", Time())
 
 
-def test_the_node_takes_its_listeners_along(make_node, stamped):
+def test_destroying_the_node_stops_its_listeners(make_node, stamped):
     buffer, other = tf2_ros.Buffer(), tf2_ros.Buffer()
     node = make_node("listener")
     tf2_ros.TransformListener(buffer, node)
@@ -145,21 +145,21 @@ def test_the_node_takes_its_listeners_along(make_node, stamped):
     assert not buffer.can_transform("a", "b", Time())
 
 
-def test_another_buffer_may_be_put_in_place(make_node, stamped):
+def test_replacing_the_buffer(make_node, stamped):
     listener = tf2_ros.TransformListener(tf2_ros.Buffer(), make_node("listener"))
     listener.buffer = tf2_ros.Buffer()
     tf2_ros.StaticTransformBroadcaster(make_node("talker")).sendTransform(stamped("a", "b"))
     assert listener.buffer.can_transform("a", "b", Time(), ENOUGH)
 
 
-def test_callbacks_may_be_called_by_hand(make_node, stamped):
+def test_callbacks_can_be_called_directly(make_node, stamped):
     listener = tf2_ros.TransformListener(tf2_ros.Buffer(), make_node("listener"))
     listener.callback(TFMessage(transforms=[stamped("a", "b", 5.0)]))
     listener.static_callback(TFMessage(transforms=[stamped("b", "c")]))
     assert listener.buffer.can_transform("a", "c", Time(seconds=5))
 
 
-def test_an_own_callback_sees_every_message(make_node, executor, stamped):
+def test_overridden_callback_receives_every_message(make_node, executor, stamped):
     class Mine(tf2_ros.TransformListener):
         seen = 0
 
@@ -176,7 +176,7 @@ def test_an_own_callback_sees_every_message(make_node, executor, stamped):
     listener.unregister()
 
 
-def test_an_own_buffer_sees_every_transform(make_node, executor, stamped):
+def test_overridden_set_transform_receives_every_transform(make_node, executor, stamped):
     class Mine(tf2_ros.Buffer):
         def set_transform_static(self, transform, authority: str) -> None:
             transform.child_frame_id = "renamed"
@@ -190,7 +190,7 @@ def test_an_own_buffer_sees_every_transform(make_node, executor, stamped):
     assert spin_until(executor, lambda: buffer.can_transform("a", "renamed", Time()))
 
 
-def test_remaps_of_tf_hold(make_node, stamped):
+def test_remapped_tf_topics(make_node, stamped):
     remaps = ["--ros-args", "-r", "/tf:=tf", "-r", "/tf_static:=tf_static"]
     talker = make_node("talker", namespace="robot1", cli_args=remaps)
     buffer, elsewhere = tf2_ros.Buffer(), tf2_ros.Buffer()
@@ -203,7 +203,7 @@ def test_remaps_of_tf_hold(make_node, stamped):
     assert not elsewhere.can_transform("a", "b", Time())
 
 
-def test_topics_may_be_chosen(make_node, stamped):
+def test_tf_topics_as_arguments(make_node, stamped):
     node, talker = make_node("listener"), make_node("talker")
     buffers = {}
     for robot in ("avatar", "operator"):
@@ -217,7 +217,7 @@ def test_topics_may_be_chosen(make_node, stamped):
     assert tf2_ros.TransformBroadcaster(talker, tf_topic="/avatar/tf").pub_tf.topic_name == "/avatar/tf"
 
 
-def test_a_static_listener_leaves_tf_alone(make_node, stamped):
+def test_static_listener_does_not_subscribe_to_tf(make_node, stamped):
     buffer, talker = tf2_ros.Buffer(), make_node("talker")
     listener = tf2_ros.StaticTransformListener(buffer, make_node("listener"))
     tf2_ros.StaticTransformBroadcaster(talker).sendTransform(stamped("a", "b"))
@@ -226,7 +226,7 @@ def test_a_static_listener_leaves_tf_alone(make_node, stamped):
     assert talker.count_subscribers("/tf") == 0
 
 
-def test_late_listeners_hear_every_static_transform_of_a_process(make_node, stamped):
+def test_late_listeners_receive_all_static_transforms_of_a_process(make_node, stamped):
     first, second = make_node("first"), make_node("second")
     broadcasters = [tf2_ros.StaticTransformBroadcaster(node) for node in (first, first, second)]
     for number, broadcaster in enumerate(broadcasters):
@@ -247,7 +247,7 @@ def test_late_listeners_hear_every_static_transform_of_a_process(make_node, stam
     assert children == ["x0", "y0"]
 
 
-def test_a_static_broadcaster_with_a_quality_of_its_own(make_node, stamped):
+def test_static_broadcaster_with_a_qos_profile(make_node, stamped):
     qos = QoSProfile(depth=5, durability=DurabilityPolicy.TRANSIENT_LOCAL)
     broadcaster = tf2_ros.StaticTransformBroadcaster(make_node("talker"), qos)
     broadcaster.sendTransform(stamped("a", "b"))
@@ -257,7 +257,7 @@ def test_a_static_broadcaster_with_a_quality_of_its_own(make_node, stamped):
     assert buffer.can_transform("b", "c", Time(), ENOUGH)
 
 
-def test_several_transforms_go_in_one_message(make_node, executor, stamped):
+def test_several_transforms_are_sent_in_one_message(make_node, executor, stamped):
     node = make_node("listener")
     sizes = []
     node.create_subscription(TFMessage, "/tf", lambda message: sizes.append(len(message.transforms)), 10)
@@ -270,7 +270,7 @@ def test_several_transforms_go_in_one_message(make_node, executor, stamped):
     assert sizes == [3, 1]
 
 
-def test_a_thread_of_its_own_spins_the_node(make_node):
+def test_dedicated_thread_spins_the_node(make_node):
     node = make_node("listener")
     listener = tf2_ros.TransformListener(tf2_ros.Buffer(), node, spin_thread=True)
     ticked = threading.Event()
@@ -281,7 +281,7 @@ def test_a_thread_of_its_own_spins_the_node(make_node):
     assert not listener.dedicated_listener_thread.is_alive()
 
 
-def test_the_frames_service(make_node, executor, stamped):
+def test_frames_service(make_node, executor, stamped):
     node, asking = make_node("listener", namespace="robot1"), make_node("asking")
     buffer = tf2_ros.Buffer(node=node)
     buffer.set_transform_static(stamped("a", "b"), "me")
@@ -294,7 +294,7 @@ def test_the_frames_service(make_node, executor, stamped):
     assert answer.result().frame_yaml == buffer.all_frames_as_yaml()
 
 
-def test_simulated_time_clears_the_buffer(make_node, stamped):
+def test_change_to_simulated_time_clears_the_buffer(make_node, stamped):
     buffer, node = tf2_ros.Buffer(), make_node("listener")
     tf2_ros.TransformListener(buffer, node)
     buffer.set_transform(stamped("a", "b", 5.0), "me")
@@ -302,7 +302,7 @@ def test_simulated_time_clears_the_buffer(make_node, stamped):
     assert until(lambda: not buffer.can_transform("a", "b", Time()))
 
 
-def test_a_listener_without_a_node_has_one_of_its_own(domain_id, stamped):
+def test_listener_creates_a_node_if_none_is_given(domain_id, stamped):
     del domain_id
     rclpy.init()
     try:

@@ -51,7 +51,7 @@ def is_at(pose, x, y, z):
     )
 
 
-def test_odometry_moves_its_pose_and_keeps_its_twist(buffer):
+def test_odometry(buffer):
     factor = np.random.default_rng(1).normal(size=(6, 6))
     covariance = factor @ factor.T
     odometry = Odometry(child_frame_id="base_link")
@@ -81,7 +81,7 @@ def path_of(*frames):
     return path
 
 
-def test_a_path_moves_as_one_and_its_poses_keep_their_times(buffer):
+def test_path(buffer):
     path = path_of("odom", "", "odom")
     before = copy.deepcopy(path)
     moved = buffer.transform(path, "map")
@@ -92,12 +92,12 @@ def test_a_path_moves_as_one_and_its_poses_keep_their_times(buffer):
     assert path == before
 
 
-def test_a_pose_of_another_frame_in_a_path_is_told(transform):
-    with pytest.raises(tf2_ros.InvalidArgumentException, match=r"pose 1 of the path is in frame 'base_link'"):
+def test_path_with_a_pose_in_another_frame_is_rejected(transform):
+    with pytest.raises(tf2_ros.InvalidArgumentException, match=r"Pose 1 of the path is expressed in frame 'base_link'"):
         tf2_nav_msgs.do_transform_path(path_of("odom", "base_link"), transform)
 
 
-def test_a_marker_moves_its_pose_and_keeps_its_points(buffer):
+def test_marker(buffer):
     marker = Marker(type=Marker.LINE_STRIP, ns="lane", frame_locked=True, text="left")
     marker.header.frame_id, marker.header.stamp.sec = "odom", 9
     place(marker.pose, 1.0, 2.0, 3.0)
@@ -113,15 +113,15 @@ def test_a_marker_moves_its_pose_and_keeps_its_points(buffer):
     assert marker == before
 
 
-def test_a_marker_without_an_orientation_is_not_turned_by_itself(transform):
+def test_marker_without_an_orientation(transform):
     marker = Marker()
     marker.pose.orientation.w = 0.0
     q = tf2_visualization_msgs.do_transform_marker(marker, transform).pose.orientation
     assert np.allclose([q.x, q.y, q.z, q.w], ROTATION.as_quat(canonical=True))
 
 
-def test_they_stand_on_ros_names_only(tmp_path):
-    """So that they also work where a ROS is sourced, whose packages come first."""
+def test_packages_use_only_the_api_of_ros(tmp_path):
+    """The packages must also work with a sourced ROS installation, whose packages take precedence."""
     (tmp_path / "rclpy").mkdir()
     (tmp_path / "rclpy" / "__init__.py").touch()
     for package in ("tf2_ros", "tf2_geometry_msgs", "geometry_msgs", "nav_msgs", "std_msgs", "visualization_msgs"):

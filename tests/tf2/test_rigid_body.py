@@ -1,4 +1,4 @@
-"""Twists, wrenches, accelerations, inertias, orientations and arrays of poses, with scipy as an independent answer."""
+"""Twists, wrenches, accelerations, inertias, orientations and arrays of poses, compared with SciPy."""
 
 import copy
 
@@ -73,14 +73,14 @@ def test_twist_is_rotated(transform):
     assert moved.header is transform.header
 
 
-def test_twist_at_the_targets_origin(transform):
+def test_twist_at_the_origin_of_the_target(transform):
     moved = tf2_geometry_msgs.do_transform_twist_stamped(TwistStamped(twist=twist()), transform, at_target_origin=True)
-    told = np.concatenate((xyz(moved.twist.linear), xyz(moved.twist.angular)))
-    assert np.allclose(told, ADJOINT @ np.concatenate((FIRST, SECOND)), atol=1e-14)
+    result = np.concatenate((xyz(moved.twist.linear), xyz(moved.twist.angular)))
+    assert np.allclose(result, ADJOINT @ np.concatenate((FIRST, SECOND)), atol=1e-14)
 
 
-def test_a_sensor_ahead_of_a_turning_robot_moves_sideways(stamped):
-    """1 m ahead, turning left with 2 rad/s: the sensor moves with 2 m/s to its left."""
+def test_sensor_in_front_of_a_turning_robot_moves_sideways(stamped):
+    """A sensor 1 m ahead of a robot that turns left with 2 rad/s moves to the left with 2 m/s."""
     spinning = TwistStamped(twist=Twist(angular=Vector3(z=2.0)))
     to_sensor = stamped("sensor", "robot", translation=(-1.0, 0.0, 0.0))
     moved = tf2_geometry_msgs.do_transform_twist_stamped(spinning, to_sensor, at_target_origin=True)
@@ -109,12 +109,12 @@ def test_wrench_is_rotated(transform):
     assert np.allclose(xyz(moved.wrench.torque), ROTATION.apply(SECOND), atol=1e-14)
 
 
-def test_wrench_at_the_targets_origin_does_the_same_work(transform):
-    """The power of a wrench on a twist is the same wherever both are told."""
+def test_wrench_at_the_origin_of_the_target_has_the_same_power(transform):
+    """The power of a wrench and a twist does not depend on the frame."""
     message = WrenchStamped(wrench=Wrench(force=vector(FIRST), torque=vector(SECOND)))
     moved = tf2_geometry_msgs.do_transform_wrench_stamped(message, transform, at_target_origin=True)
-    told = np.concatenate((xyz(moved.wrench.force), xyz(moved.wrench.torque)))
-    assert np.allclose(told, np.linalg.inv(ADJOINT).T @ np.concatenate((FIRST, SECOND)), atol=1e-13)
+    result = np.concatenate((xyz(moved.wrench.force), xyz(moved.wrench.torque)))
+    assert np.allclose(result, np.linalg.inv(ADJOINT).T @ np.concatenate((FIRST, SECOND)), atol=1e-13)
 
 
 def test_acceleration_is_rotated(transform):
@@ -131,18 +131,20 @@ def test_acceleration_is_rotated(transform):
 
 
 def test_inertia_of_three_point_masses(transform):
-    """Told by the masses themselves, before and after."""
-    masses, places = np.array([1.0, 2.0, 4.0]), RANDOM.normal(size=(3, 3))
+    """Compare with the inertia of the transformed point masses."""
+    masses, positions = np.array([1.0, 2.0, 4.0]), RANDOM.normal(size=(3, 3))
 
-    def told(places):
-        com = masses @ places / masses.sum()
-        arms = places - com
+    def inertia_of(positions):
+        com = masses @ positions / masses.sum()
+        arms = positions - com
         tensor = sum(m * (arm @ arm * np.eye(3) - np.outer(arm, arm)) for m, arm in zip(masses, arms, strict=True))
         ixx, ixy, ixz, iyy, iyz, izz = tensor[np.triu_indices(3)].tolist()
         return Inertia(m=7.0, com=vector(com), ixx=ixx, ixy=ixy, ixz=ixz, iyy=iyy, iyz=iyz, izz=izz)
 
-    moved = tf2_geometry_msgs.do_transform_inertia_stamped(InertiaStamped(inertia=told(places)), transform).inertia
-    expected = told(ROTATION.apply(places) + TRANSLATION)
+    moved = tf2_geometry_msgs.do_transform_inertia_stamped(
+        InertiaStamped(inertia=inertia_of(positions)), transform
+    ).inertia
+    expected = inertia_of(ROTATION.apply(positions) + TRANSLATION)
     assert np.allclose(xyz(moved.com), xyz(expected.com), atol=1e-14)
     for entry in ("m", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"):
         assert getattr(moved, entry) == pytest.approx(getattr(expected, entry), abs=1e-13)
@@ -161,7 +163,7 @@ def test_orientation(transform):
     assert moved.header is transform.header
 
 
-def test_a_zero_quaternion_is_the_identity(transform):
+def test_zero_quaternion_is_the_identity(transform):
     message = QuaternionStamped(quaternion=Quaternion(x=0.0, y=0.0, z=0.0, w=0.0))
     moved = tf2_geometry_msgs.do_transform_quaternion_stamped(message, transform)
     assert np.allclose(xyzw(moved.quaternion), ROTATION.as_quat(canonical=True), atol=1e-14)
@@ -195,7 +197,7 @@ def test_pose_array(transform):
         WrenchStamped,
     ],
 )
-def test_buffers_transform_them_and_leave_the_arguments_alone(kind, stamped):
+def test_buffer_transform_does_not_modify_its_arguments(kind, stamped):
     buffer = tf2_ros.Buffer()
     buffer.set_transform_static(stamped("target", "source", 0.0, (1.0, 2.0, 3.0), (0.0, 0.0, 1.0, 0.0)), "me")
     message = kind()

@@ -1,4 +1,4 @@
-"""Laser scans and inertial measurements in tf2_sensor_msgs, with scipy as an independent answer."""
+"""Laser scans and IMU data in tf2_sensor_msgs, compared with SciPy."""
 
 import copy
 import math
@@ -46,10 +46,10 @@ def test_normals_are_rotated_with_their_points(transform):
     ]
     points = RANDOM.normal(size=(20, 7)).astype(np.float32)
     moved = do_transform_cloud(point_cloud2.create_cloud(header(), fields, points), transform)
-    told = point_cloud2.read_points_numpy(moved)
-    assert np.allclose(told[:, :3], ROTATION.apply(points[:, :3]) + TRANSLATION, atol=1e-6)
-    assert np.allclose(told[:, 3:6], ROTATION.apply(points[:, 3:6]), atol=1e-6)
-    assert np.array_equal(told[:, 6], points[:, 6])
+    result = point_cloud2.read_points_numpy(moved)
+    assert np.allclose(result[:, :3], ROTATION.apply(points[:, :3]) + TRANSLATION, atol=1e-6)
+    assert np.allclose(result[:, 3:6], ROTATION.apply(points[:, 3:6]), atol=1e-6)
+    assert np.array_equal(result[:, 6], points[:, 6])
 
 
 def scan_of(ranges, intensities=()):
@@ -64,7 +64,7 @@ def scan_of(ranges, intensities=()):
     )
 
 
-def test_a_scan_becomes_the_points_it_has_hit(buffer):
+def test_scan_is_converted_to_points(buffer):
     ranges = [2.0, INF, NAN, 0.05, 10.0, 11.0, -INF, 0.0, 5.0]
     scan = scan_of(ranges, [float(number) for number in range(9)])
     before = copy.deepcopy(scan)
@@ -81,12 +81,12 @@ def test_a_scan_becomes_the_points_it_has_hit(buffer):
     assert repr(scan) == repr(before)  # NaN is not equal to itself
 
 
-def test_the_nearest_range_counts_and_the_farthest_does_not():
+def test_range_min_is_inclusive_and_range_max_exclusive():
     points = point_cloud2.read_points(do_transform_laser_scan(scan_of([0.5, 10.0, 0.1, 0.1]), Transform()))
     assert points["index"].tolist() == [0, 2, 3]
 
 
-def test_a_scan_without_intensities_or_hits():
+def test_scan_without_intensities_or_valid_ranges():
     empty = do_transform_laser_scan(scan_of([INF] * 4), Transform())
     assert (empty.width, empty.header.frame_id) == (0, "sensor")
     assert [field.name for field in empty.fields] == ["x", "y", "z", "index"]
@@ -109,7 +109,7 @@ def xyz(vector):
 
 @pytest.fixture
 def imu():
-    """At rest in the world, where it measures gravity upwards; it turns about the world's vertical."""
+    """Return the data of an IMU at a fixed position that rotates about the vertical and measures gravity."""
     in_world = Rotation.random(random_state=8)
     imu = Imu(header=header(), orientation=quaternion(in_world))
     for name, vector in (("linear_acceleration", [0.0, 0.0, 9.81]), ("angular_velocity", [0.0, 0.0, 0.5])):
@@ -120,7 +120,7 @@ def imu():
     return imu
 
 
-def test_an_imu_is_still_the_same_in_the_world(imu, buffer):
+def test_imu_data_relative_to_the_world_do_not_change(imu, buffer):
     before = copy.deepcopy(imu)
     moved = buffer.transform(imu, "base_link")
     assert (moved.header.frame_id, moved.header.stamp.sec) == ("base_link", 9)
@@ -134,7 +134,7 @@ def test_an_imu_is_still_the_same_in_the_world(imu, buffer):
     assert imu == before
 
 
-def test_covariances_of_an_imu_follow_their_axes(imu, transform):
+def test_covariances_of_an_imu(imu, transform):
     moved = do_transform_imu(imu, transform)
     matrix = ROTATION.as_matrix()
     for seed, name in ((1, "angular_velocity"), (2, "linear_acceleration")):
@@ -143,14 +143,14 @@ def test_covariances_of_an_imu_follow_their_axes(imu, transform):
     assert np.array_equal(moved.orientation_covariance, imu.orientation_covariance), "it is in the world's axes"
 
 
-def test_an_orientation_of_zeros_is_none(imu, transform):
+def test_unset_orientation_of_an_imu(imu, transform):
     imu.orientation = Quaternion(w=0.0)
     moved = do_transform_imu(imu, transform)
     assert moved.orientation == imu.orientation
     assert moved.angular_velocity != imu.angular_velocity
 
 
-def test_what_an_imu_does_not_measure_stays_as_it_is(imu, transform):
+def test_quantities_that_an_imu_does_not_measure(imu, transform):
     imu.orientation_covariance[0] = imu.linear_acceleration_covariance[0] = -1.0
     imu.orientation = Quaternion(w=0.0)
     moved = do_transform_imu(imu, transform)

@@ -25,7 +25,7 @@ def field(name, offset, datatype=PointField.FLOAT32, count=1):
 
 
 XYZI = [field("x", 0), field("y", 4), field("z", 8), field("intensity", 12)]
-# With padding between and behind the fields, and numbers of several kinds.
+# Fields of several types with padding between and after them.
 MIXED = [
     field("ring", 0, PointField.UINT16),
     field("x", 4, PointField.FLOAT64),
@@ -44,7 +44,7 @@ def points_of(cloud):
     return np.asarray(point_cloud2.read_points_numpy(cloud, ["x", "y", "z"]), dtype=np.float64)
 
 
-def test_a_cloud_is_moved_and_everything_else_stays(transform):
+def test_cloud_is_transformed_and_other_fields_are_kept(transform):
     points = np.random.default_rng(1).normal(size=(50, 4)).astype(np.float32)
     header = Header(frame_id="source")
     header.stamp.sec = 9
@@ -58,7 +58,7 @@ def test_a_cloud_is_moved_and_everything_else_stays(transform):
     assert cloud == before
 
 
-def test_a_transform_without_a_header_leaves_the_frame(transform):
+def test_transform_without_a_header_keeps_the_frame(transform):
     cloud = point_cloud2.create_cloud_xyz32(Header(frame_id="source"), [(1.0, 2.0, 3.0)])
     moved = do_transform_cloud(cloud, transform.transform)
     assert moved.header.frame_id == "source"
@@ -90,14 +90,14 @@ def test_big_endian_clouds(transform):
     )
 
 
-def test_a_cloud_without_z_cannot_be_moved(transform):
+def test_cloud_without_z_is_rejected(transform):
     cloud = point_cloud2.create_cloud(Header(), XYZI[:2], [(1.0, 2.0)])
     text = "^Point cloud needs the fields x, y, and z for the transformation$"
     with pytest.raises(AssertionError, match=text):
         do_transform_cloud(cloud, transform)
 
 
-def test_an_empty_cloud(transform):
+def test_empty_cloud(transform):
     cloud = point_cloud2.create_cloud_xyz32(Header(frame_id="source"), [])
     assert do_transform_cloud(cloud, transform).width == 0
 
@@ -106,7 +106,7 @@ def test_transform_points():
     assert np.array_equal(transform_points(np.ones((2, 3)), Transform()), np.ones((2, 3)))
 
 
-def test_buffers_transform_clouds(transform):
+def test_buffer_transform(transform):
     buffer = tf2_ros.Buffer()
     buffer.set_transform_static(transform, "me")
     cloud = point_cloud2.create_cloud_xyz32(Header(frame_id="source"), [(0.0, 0.0, 0.0)])
@@ -137,7 +137,7 @@ def test_fields_of_different_types():
         point_cloud2.create_cloud(Header(), MIXED, np.zeros((1, 7)))
 
 
-def test_structured_arrays_make_clouds_and_come_back():
+def test_round_trip_of_structured_arrays():
     dtype = point_cloud2.dtype_from_fields(MIXED)
     points = np.zeros(3, dtype)
     points["ring"] = [1, 2, 3]
@@ -148,7 +148,7 @@ def test_structured_arrays_make_clouds_and_come_back():
         point_cloud2.create_cloud(Header(), XYZI, points)
 
 
-def test_organized_clouds_have_upstreams_shape():
+def test_shape_of_organized_clouds():
     points = np.arange(24, dtype=np.float32).reshape(2, 3, 4)
     cloud = point_cloud2.create_cloud(Header(), XYZI, points)
     assert (cloud.width, cloud.height) == (2, 3)
@@ -157,7 +157,7 @@ def test_organized_clouds_have_upstreams_shape():
     assert np.array_equal(structured_to_unstructured(shaped), points)
 
 
-def test_fields_that_make_no_sense():
+def test_invalid_fields():
     with pytest.raises(AssertionError, match="count = 0"):
         point_cloud2.dtype_from_fields([field("x", 0, count=0)])
     with pytest.raises(AssertionError, match="Duplicate"):

@@ -1,4 +1,4 @@
-"""tf_transformations, with scipy as an independent answer."""
+"""tf_transformations, compared with SciPy."""
 
 import math
 
@@ -23,7 +23,7 @@ def same_rotation(quaternion, expected):
 
 
 def oracle(angles, axes):
-    """scipy writes rotating axes in capitals."""
+    """Return SciPy's name of a convention, in which rotating axes are upper-case."""
     return Rotation.from_euler(axes[1:].upper() if axes[0] == "r" else axes[1:], angles)
 
 
@@ -49,10 +49,10 @@ def test_gimbal_lock(axes):
         assert again[2 if axes[0] == "s" else 0] == 0.0
 
 
-def test_there_are_24_conventions_and_no_others():
+def test_invalid_conventions():
     assert len(AXES) == 24
     for wrong in ("xyz", "sxxy", "qxyz", "sxy", "sxya", ""):
-        with pytest.raises(ValueError, match="expected 's' or 'r'"):
+        with pytest.raises(ValueError, match="Expected 's' or 'r'"):
             tft.quaternion_from_euler(0.0, 0.0, 0.0, wrong)
 
 
@@ -96,7 +96,7 @@ def test_slerp_at_the_ends():
     assert np.allclose(tft.quaternion_slerp(q, q, 0.5), q)
 
 
-def test_a_zero_quaternion_is_no_rotation():
+def test_zero_quaternion_is_the_identity():
     assert np.array_equal(tft.quaternion_matrix([0, 0, 0, 0]), np.eye(4))
 
 
@@ -127,7 +127,7 @@ def test_translation_and_products():
     assert np.allclose(tft.concatenate_matrices(move, turn, tft.inverse_matrix(move @ turn)), np.eye(4))
 
 
-def test_mirrors_and_scalings_come_back():
+def test_round_trip_of_reflections_and_scalings():
     mirror = tft.reflection_matrix([1.0, 2.0, 3.0], [0.0, 1.0, 1.0])
     assert np.allclose(mirror @ mirror, np.eye(4))
     assert tft.is_same_transform(mirror, tft.reflection_matrix(*tft.reflection_from_matrix(mirror)))

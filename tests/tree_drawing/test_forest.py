@@ -19,22 +19,22 @@ def moving(run, parent, child, seconds, start=0, rate=10):
     return run
 
 
-def test_frames_stand_below_their_parents_with_their_figures(forest):
+def test_frames_are_below_their_parents_with_their_figures(forest):
     base = forest.frames["base_link"]
     assert (base.parent, base.root, base.depth, base.silence) == ("odom", "odom", 1, None)
-    assert [round(link.rate) for link in base.links] == [50]
-    assert [link.parent for link in base.others] == ["elsewhere"]
+    assert [round(link.rate) for link in base.edges] == [50]
+    assert [link.parent for link in base.other_edges] == ["elsewhere"]
     assert "lidar" in base.children
     assert forest.frames["lidar"].static
-    assert forest.frames["lidar"].links[0][5:] == (None,) * 6, "what is static has neither rate nor delay nor age"
+    assert forest.frames["lidar"].edges[0][5:] == (*(None,) * 6, False), "a static edge has no rate, delay and age"
     assert list(forest.frames).index("base_link") < list(forest.frames).index("lidar")
 
 
-def test_several_roots_the_largest_tree_first(forest):
+def test_largest_tree_comes_first(forest):
     assert list(forest.trees.items()) == [("odom", 19), ("l1", 4), ("elsewhere", 1)]
 
 
-def test_a_loop_is_drawn_once(forest):
+def test_loop_is_drawn_once(forest):
     assert forest.loops == {"l1"}
     assert [(name, frame.depth) for name, frame in forest.frames.items() if frame.root == "l1"] == [
         ("l1", 0),
@@ -46,7 +46,7 @@ def test_a_loop_is_drawn_once(forest):
     assert forest.frames["l3"].children == ()
 
 
-def test_what_moved_and_is_silent_is_stale(plant):
+def test_silent_moving_edge_is_stale(plant):
     run = moving(moving(Run(), "odom", "base", 5), "base", "arm", 2)
     run.tf("base", "mount", START, static=True)
     frames = plant(run).frames
@@ -59,7 +59,7 @@ def test_what_moved_and_is_silent_is_stale(plant):
     assert frames["arm"].silence == pytest.approx(3 * SECOND, abs=SECOND // 10)
 
 
-def test_a_slow_link_is_not_stale(plant):
+def test_slow_edge_is_not_stale(plant):
     run = moving(Run(), "odom", "base", 10)
     for at in (0, 4, 8):
         run.tf("map", "odom", START + at * SECOND)
@@ -78,14 +78,14 @@ def test_changes(plant):
     run = moving(moving(moving(Run(), "odom", "base", 4), "base", "arm", 4), "odom", "new", 4)
     after = plant(run)
     assert [change.text for change in changes(before, after)] == [
-        "arm moved: it is below base now, and was below odom",
-        "new came, below odom",
+        "arm moved: below base, before below odom",
+        "new is new: below odom",
         "old is gone; it was below odom",
     ]
     assert not list(changes(after, after))
 
 
-def test_silence_and_its_end_are_changes(plant):
+def test_becoming_stale_and_fresh_are_changes(plant):
     fresh, stale = (plant(moving(moving(Run(), "odom", "base", 8), "base", "arm", seconds)) for seconds in (8, 4))
     assert [(change.kind, change.frame) for change in changes(fresh, stale)] == [("stale", "arm")]
     assert [(change.kind, change.frame) for change in changes(stale, fresh)] == [("fresh", "arm")]
@@ -99,7 +99,7 @@ def test_four_times_the_frames_take_about_four_times_as_long(shape, frames):
 
 
 def _drawing_takes(shape, frames):
-    """Processor seconds for so many frames."""
+    """Return the processor time in seconds for drawing this number of frames."""
     number = np.arange(1, frames)
     zeros = np.zeros(frames - 1, dtype=np.int64)
     parents = number - 1 if shape == "deep" else number // 1000

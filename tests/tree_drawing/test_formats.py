@@ -31,10 +31,10 @@ def test_json_comes_back_with_whole_names(forest, hostile):
     assert data["loops"] == ["l1"]
     base = frames["base_link"]
     assert (base["parent"], base["depth"], base["static"], base["silent_ns"]) == ("odom", 1, False, None)
-    assert base["links"][0]["delay_p99"] == 2_000_000
-    assert base["other_links"][0]["parent"] == "elsewhere"
+    assert base["edges"][0]["delay_p99"] == 2_000_000
+    assert base["other_edges"][0]["parent"] == "elsewhere"
     assert frames["odom"]["parent"] is None
-    assert frames["lidar"]["links"][0]["rate"] is None
+    assert frames["lidar"]["edges"][0]["rate"] is None
 
 
 def test_svg(forest, readable):

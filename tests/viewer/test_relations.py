@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import coframe
+from coframe.cli.static_arguments import parse
 
 SECOND = 1_000_000_000
 BEGIN = 1_700_000_000 * SECOND
@@ -38,10 +39,9 @@ def test_a_relation_in_every_notation(buffer, view, open_tab):
     assert told["chain"] == ["the lidar", "base", "map"]
     words = shlex.split(told["static_command"])
     assert words[:2] == ["coframe", "static"]
-    options = dict(word.removeprefix("--").split("=", 1) for word in words[2:])
-    assert (options["frame-id"], options["child-frame-id"]) == ("map", "the lidar")
-    values = [float(options[name]) for name in ("x", "y", "z", "qx", "qy", "qz", "qw")]
-    np.testing.assert_allclose(values, expected.values, atol=1e-6)
+    static = parse(words[2:])
+    assert (static.frame_id, static.child_frame_id) == ("map", "the lidar")
+    np.testing.assert_allclose(static.transform.values, expected.values, atol=1e-6)
 
 
 def test_a_relation_at_the_time_of_the_playhead(buffer, view, open_tab):

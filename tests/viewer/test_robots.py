@@ -185,7 +185,7 @@ def test_descriptions_come_from_the_topic_and_joint_states_go_back(domain_id, vi
             assert dict(zip(state.name, state.position, strict=True)) == {"turn": 1.0, "grip": -0.5}
         assert abs(state.header.stamp.sec - time.time()) < 10
         tab.send("joints", robot=robot["id"], positions={"elbow": 1.0}, publish=True)
-        assert "there is no joint 'elbow'" in tab.wait("problem")["text"]
+        assert "No joint named 'elbow'" in tab.wait("problem")["text"]
         tab.send("joints", robot=robot["id"], positions={"turn": float("nan")}, publish=True)
         assert "not finite" in tab.wait("problem")["text"]
         tab.send("joints", robot=robot["id"], positions={}, publish=False)

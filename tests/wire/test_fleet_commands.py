@@ -71,7 +71,7 @@ def test_a_fleet_of_which_one_dies(command, ros, eventually, own_topics):
     assert newest("robot2") < killed + 10**9
     code, text, errors = interrupted(demo)
     assert code == 0, errors
-    assert "robot2 has gone: its process ended with exit code -9, its frames are stale" in text
+    assert "robot2 stopped: its process ended with exit code -9; its frames are stale" in text
     states = dict(re.findall(r"^(robot\d) +(\w+) +9 ", text, re.MULTILINE))
     assert states == {"robot1": "live", "robot2": "stale"}, text
     assert ("relay: robot2" in text) == own_topics
@@ -93,7 +93,7 @@ def test_prefixes_and_a_relay_as_they_are_typed(command, ros, eventually):
         assert ros.buffer.lookup("map", f"{name}/odom").translation[0] == x
     out, errors = named.process.communicate(timeout=20)
     assert "- Translation: [2.000, 0.000, 0.000]" in out
-    assert "the prefix 'r1' makes 'r1base_link' of 'base_link': write 'r1/'" in errors
+    assert "the prefix 'r1' turns 'base_link' into 'r1base_link'; write 'r1/'" in errors
     row = relay.read()
     while "map -> robot1/odom" not in row:
         row = relay.read()
@@ -110,13 +110,13 @@ def test_prefixes_and_a_relay_as_they_are_typed(command, ros, eventually):
         (["relay"], "a relay needs robots"),
         (["relay", "--robots", "a", "--to", "/a/tf"], "/a/tf would be read and written"),
         (["demo", "--robots", "2", "--own-topics", "--tf-topic", "/robot1/tf"], "/robot1/tf would be read and written"),
-        (["relay", "--robots", "a", "--split", "--from", "/tf=a/"], "--split reads one topic"),
+        (["relay", "--robots", "a", "--split", "--from", "/tf=a/"], "--split reads a single --from topic"),
         (["relay", "--from", "/a/tf=/a/"], "the prefix '/a/' begins with a slash"),
         (["echo", "a", "b", "--prefix", "/robot1/"], "the prefix '/robot1/' begins with a slash"),
         (["relay", "--robots", "a", "--tf-static-topic", "a/tf_static"], "/a/tf_static would be read and written"),
         (["robot", ARM, "--prefx", "robot1/"], "No option or argument '--prefx'"),
         (["joints", ARM, "first_length:=0.5", "surplus"], "No option or argument 'surplus'"),
-        (["record", "--tf-topic", "/robot1/tf"], "say whose frames get the prefix"),
+        (["record", "--tf-topic", "/robot1/tf"], "--tf-topic and --tf-static-topic require --prefix"),
         (["static", "--frame-id", "a", "--child-frame-id", "b", "--prefix", "/r/"], "the prefix '/r/' begins"),
     ],
 )
@@ -159,7 +159,7 @@ def test_what_is_monitored_is_renamed(participant, node):
         "map",
     ]
     told = CliRunner().invoke(app, ["monitor", "--once", "--json", "--duration", "500ms", *robot1]).stdout
-    assert [(link["parent"], link["child"]) for link in json.loads(told)["links"]] == [
+    assert [(link["parent"], link["child"]) for link in json.loads(told)["edges"]] == [
         ("map", "robot1/odom"),
         ("robot1/odom", "robot1/base_link"),
     ]

@@ -195,7 +195,7 @@ def test_odd_names_are_told_of_once(participant: Participant, node, eventually):
         statics.send([to_transform_stamped(parent, child, coframe.Transform(), 0)])
     eventually(lambda: len(warned) >= 2)
     assert [text for text in warned if "'/map', with a slash in front" in text and "/talker on /tf_static" in text]
-    assert [text for text in warned if "half a prefix: 'robot1/odom' beside 'map'" in text]
+    assert [text for text in warned if "for only some of its frames: 'robot1/odom' and 'map'" in text]
     assert len(warned) == len(set(warned)) == 2
     assert all(reader.matched for reader in readers)
 

@@ -1,1 +1,1 @@
-"""Facts about a tree of transforms that every surface shares: its structure, liveness, clocks and missing edges."""
+"""Facts about trees of transforms that every surface shares: structure, liveness, clocks, missing edges, commands."""

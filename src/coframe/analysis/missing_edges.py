@@ -1,20 +1,21 @@
-"""The link that most likely is missing between two trees, by the names of their frames."""
+"""The edge that is most likely missing between two trees, by the names of their frames."""
 
 from __future__ import annotations
 
 import difflib
 import re
-import shlex
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.analysis.static_command import static_command
+
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
-__all__ = ["MissingEdge", "missing_edge", "tree_of", "unknown_mount"]
+__all__ = ["MissingEdge", "missing_edge", "unknown_mount"]
 
-_ALIKE = 0.8
-_COMPARED = 1_000  # names: each takes microseconds
-# Parents and children by REP-105 and by habit.
+_SIMILARITY = 0.8
+_MOST_COMPARED = 1_000  # names: comparing one takes microseconds
+# Usual pairs of parent and child, from REP-105 and common robots.
 _USUAL = (
     ("base_footprint", "base_link"),
     ("odom", "base_footprint"),
@@ -29,12 +30,12 @@ _USUAL = (
 
 
 class MissingEdge(NamedTuple):
-    """A link that would make one tree of two.
+    """An edge that would connect two trees.
 
     Attributes:
         parent: A frame of one tree.
-        child: The root of the other one.
-        misspelt: Whether the two are meant to be one frame, and one name is misspelt.
+        child: The root of the other tree.
+        misspelt: Whether the two names are probably meant to be one frame, one of them misspelt.
     """
 
     parent: str
@@ -43,19 +44,18 @@ class MissingEdge(NamedTuple):
 
     @property
     def text(self) -> str:
-        """What is likely, in a few words."""
+        """The probable cause, as a clause."""
         if self.misspelt:
-            return f"{self.child!r} looks like {self.parent!r} misspelt"
-        return f"most likely {self.parent} -> {self.child} is missing"
+            return f"{self.child!r} looks like a misspelling of {self.parent!r}"
+        return f"the transform {self.parent} -> {self.child} is probably missing"
 
     @property
     def fix(self) -> str:
-        """What to do, as a finding says it: the line to change, or the command to run."""
+        """What to do, for findings: the line of code to change, or the command to run."""
         if self.misspelt:
             return self.hint
-        names = f"--frame-id {shlex.quote(self.parent)} --child-frame-id {shlex.quote(self.child)}"
-        command = f"coframe static {names} --x ... --yaw ..."
-        return f"If {self.parent} -> {self.child} never moves: `{command}`; else start the node that publishes it."
+        edge, command = f"{self.parent} -> {self.child}", static_command(self.parent, self.child)
+        return f"If {edge} never moves, run `{command}`; otherwise start the node that publishes it."
 
     @property
     def hint(self) -> str:
@@ -73,38 +73,21 @@ class MissingEdge(NamedTuple):
 
 
 def unknown_mount(root: str) -> str:
-    """What to do about a tree whose root nobody tells of, where no link is more likely than others."""
+    """Return what to do about a tree with this root where no missing edge is more likely than others."""
     return (
-        f"Publish a transform with child_frame_id = {root!r}; if it never moves: "
-        f"coframe static --frame-id PARENT --child-frame-id {shlex.quote(root)} --x ... --yaw ..."
+        f"Publish a transform with child_frame_id = {root!r}; if it never moves, run "
+        f"`{static_command('PARENT', root)}`."
     )
 
 
-def tree_of(root: str, parents: Mapping[str, str]) -> list[str]:
-    """The frames of a tree, its root in front, from the parents of all frames; "" for those that have none.
-
-    Example:
-        >>> tree_of("odom", {"lidar": "base", "base": "odom", "odom": "", "map": ""})
-        ['odom', 'base', 'lidar']
-    """
-    below: dict[str, list[str]] = {}
-    for frame, parent in parents.items():
-        below.setdefault(parent, []).append(frame)
-    found = {root}
-    pending = [root]
-    while pending:
-        new = set(below.get(pending.pop(), ())) - found
-        found |= new
-        pending += new
-    return [root, *sorted(found - {root})]
-
-
 def missing_edge(first: Sequence[str], second: Sequence[str]) -> MissingEdge | None:
-    """The most likely link between two trees: a misspelt name, or what is usual; None if none is likely.
+    """Return the edge that is most likely missing between two trees, or None if none is likely.
+
+    Misspelt names are tried first, then the usual pairs of frames.
 
     Args:
-        first: The frames of the larger tree, its root in front.
-        second: Those of the other one, likewise.
+        first: The frames of the larger tree, its root first.
+        second: The frames of the smaller tree, its root first.
 
     Example:
         >>> missing_edge(["odom", "base_link"], ["base_lnk", "lidar"])
@@ -114,25 +97,25 @@ def missing_edge(first: Sequence[str], second: Sequence[str]) -> MissingEdge | N
     """
     sides = ((second[0], first), (first[0], second))
     for root, frames in sides:
-        alike = [
+        similar = [
             frame
-            for frame in difflib.get_close_matches(root, frames[:_COMPARED], n=3, cutoff=_ALIKE)
-            if _is_slip(root, frame)
+            for frame in difflib.get_close_matches(root, frames[:_MOST_COMPARED], n=3, cutoff=_SIMILARITY)
+            if _is_misspelling(root, frame)
         ]
-        if alike:
-            return MissingEdge(alike[0], root, misspelt=True)
+        if similar:
+            return MissingEdge(similar[0], root, misspelt=True)
     for parent, child in _USUAL:
         for root, frames in sides:
-            if _bare(root) != child:
+            if _without_prefix(root) != child:
                 continue
-            above = [frame for frame in frames if _bare(frame) == parent and _prefix(frame) == _prefix(root)]
+            above = [frame for frame in frames if _without_prefix(frame) == parent and _prefix(frame) == _prefix(root)]
             if above:
                 return MissingEdge(above[0], root, misspelt=False)
     return None
 
 
-def _is_slip(name: str, other: str) -> bool:
-    """Whether one may be meant for the other: wheel_left and wheel_right, link1 and link2 are two names."""
+def _is_misspelling(name: str, other: str) -> bool:
+    """Return whether one name may be meant for the other; not for pairs such as wheel_left and wheel_right."""
     return re.findall(r"\d+", name) == re.findall(r"\d+", other) and not (
         {"left", "right", "front", "rear", "back", "upper", "lower"} & (_words(name) ^ _words(other))
     )
@@ -142,7 +125,7 @@ def _words(name: str) -> set[str]:
     return set(re.split(r"[^a-z]+", name.lower()))
 
 
-def _bare(frame: str) -> str:
+def _without_prefix(frame: str) -> str:
     return frame.rpartition("/")[2]
 
 

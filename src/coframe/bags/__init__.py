@@ -1,16 +1,19 @@
 """Recordings without ROS: rosbag2 (MCAP, SQLite) and bags of ROS 1."""
 
-from coframe.bags.batch import Answer, answer, answer_all
+import warnings
+from typing import Any
+
+from coframe.bags.bag_repair import RepairReport, repair
+from coframe.bags.batch import QueryResult, query_recording, query_recordings
 from coframe.bags.cloud_files import CLOUD_FORMATS, write_clouds
 from coframe.bags.clouds import Cloud, Clouds
-from coframe.bags.instants import parse_instant
 from coframe.bags.mcap_writer import COMPRESSIONS
 from coframe.bags.offered_qos import OfferedQos, from_yaml
-from coframe.bags.questions import Question
 from coframe.bags.recording import RecordedMessage, Recording, Topic, open_bag
-from coframe.bags.repair import Mended, mend
 from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
+from coframe.bags.time_points import parse_time_point
 from coframe.bags.trajectories import FORMATS, format_of, write_trajectory
+from coframe.bags.trajectory_query import TrajectoryQuery
 from coframe.bags.writer import Writer
 from coframe.errors import RecordingError
 
@@ -18,29 +21,46 @@ __all__ = [
     "CLOUD_FORMATS",
     "COMPRESSIONS",
     "FORMATS",
-    "Answer",
     "Cloud",
     "Clouds",
     "EdgeSummary",
-    "Mended",
     "OfferedQos",
-    "Question",
+    "QueryResult",
     "RecordedMessage",
     "Recording",
     "RecordingError",
+    "RepairReport",
     "SensorSummary",
     "Summary",
     "Topic",
+    "TrajectoryQuery",
     "TreeSummary",
     "Writer",
-    "answer",
-    "answer_all",
     "format_of",
     "from_yaml",
-    "mend",
     "open_bag",
-    "parse_instant",
+    "parse_time_point",
+    "query_recording",
+    "query_recordings",
+    "repair",
     "summarize",
     "write_clouds",
     "write_trajectory",
 ]
+
+_OLD_NAMES = {
+    "Answer": "QueryResult",
+    "Mended": "RepairReport",
+    "Question": "TrajectoryQuery",
+    "answer": "query_recording",
+    "answer_all": "query_recordings",
+    "mend": "repair",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Return what an old name stands for, with a DeprecationWarning."""
+    if name not in _OLD_NAMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    warnings.warn(f"coframe.bags.{name} is now coframe.bags.{_OLD_NAMES[name]}", DeprecationWarning, stacklevel=2)
+    return globals()[_OLD_NAMES[name]]

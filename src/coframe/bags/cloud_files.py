@@ -1,4 +1,4 @@
-"""Clouds as files: PLY, PCD, numpy's npy and npz, a folder of them, or a new recording."""
+"""Point cloud files: PLY, PCD, NumPy's npy and npz, a folder of these, or a new recording."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, Protocol
 
 import numpy as np
 
+from coframe import time
 from coframe.bags.definitions import definition_of
 from coframe.bags.mcap_writer import McapWriter
 from coframe.errors import RecordingError
@@ -27,8 +28,8 @@ __all__ = ["CLOUD_FORMATS", "write_clouds"]
 
 CLOUD_FORMATS = ("ply", "pcd", "npz", "npy", "mcap")
 _TYPE = "sensor_msgs/msg/PointCloud2"
-_MOST_DIGITS = 20  # room for a count that is known in the end only
-_NPY_HEAD = 12  # bytes before the text of numpy's header
+_MAX_DIGITS = 20  # space in the header for the count, which is known at the end
+_NPY_HEAD = 12  # bytes before the text of NumPy's header
 
 
 def write_clouds(
@@ -39,24 +40,25 @@ def write_clouds(
     voxel: float | None = None,
     progress: Callable[[int], object] = lambda _count: None,
 ) -> int:
-    """Writes the points of all messages, as they are read: it takes no more memory for many messages than for one.
+    """Write the points of all messages while they are read; many messages need no more memory than one.
 
     Args:
-        clouds: What to write.
-        target: A file that ends with ``.ply``, ``.pcd``, ``.npz`` or ``.npy`` gets all points as one cloud, one that
-            ends with ``.mcap`` is a new recording with a PointCloud2 for each message; all else is a folder, which
-            gets a file for each message, named by its stamp.
-        format_: Of the files in a folder: ``"ply"`` (the default), ``"pcd"``, ``"npz"`` or ``"npy"``.
-        voxel: Keep the first point in each cube of so many metres; in one cloud, memory for the points that are left.
-        progress: Called with the number of messages that have been dealt with.
+        clouds: The clouds.
+        target: A file or a folder. A file that ends with ``.ply``, ``.pcd``, ``.npz`` or ``.npy`` contains all points
+            as one cloud. A file that ends with ``.mcap`` is a new recording with one PointCloud2 per message. Any other
+            name is a folder with one file per message, named by its stamp.
+        format_: Format of the files in a folder: ``"ply"`` (default), ``"pcd"``, ``"npz"`` or ``"npy"``.
+        voxel: Keep only the first point in each voxel with this edge length in metres. For one cloud, the kept points
+            are held in memory.
+        progress: Called with the number of messages read so far.
 
     Returns:
-        How many points were written.
+        The number of points written.
 
     Raises:
-        RecordingError: No message gave points; or a package is not installed.
-        ValueError: There is no such format, or the messages do not have the same fields.
-        OSError: It cannot be written.
+        RecordingError: No message could be transformed, or a package is not installed.
+        ValueError: The format is unknown, or the messages have different fields.
+        OSError: The file cannot be written.
     """
     path = Path(target)
     suffix = path.suffix.lower().removeprefix(".")
@@ -64,22 +66,22 @@ def write_clouds(
     kind = (format_ or "ply") if is_folder else suffix
     if is_folder and suffix and format_ is None and not path.is_dir():
         raise ValueError(
-            f"there is no format {suffix!r}: files end with one of {', '.join(CLOUD_FORMATS)}, folders with none"
+            f"No format named {suffix!r}. Known suffixes of files: {', '.join(CLOUD_FORMATS)}. A folder has no suffix."
         )
     if kind not in CLOUD_FORMATS or (is_folder and kind == "mcap"):
-        raise ValueError(f"there is no format {kind!r} for a folder: it is one of {', '.join(CLOUD_FORMATS[:-1])}")
-    told = _Told(clouds, progress)
+        raise ValueError(f"No format named {kind!r} for a folder. Known formats: {', '.join(CLOUD_FORMATS[:-1])}.")
+    source = _CloudSource(clouds, progress)
     if is_folder:
-        return _write_folder(told, path, kind, voxel)
+        return _write_folder(source, path, kind, voxel)
     if voxel is not None and kind != "mcap":
-        cloud = told.accumulated(voxel)
-        return _write_one(path, kind, [] if cloud is None else [cloud], told)
-    each = (c if voxel is None else c._replace(points=thinned(c.points, voxel)) for c in told)
-    return _write_one(path, kind, each, told)
+        cloud = source.accumulated(voxel)
+        return _write_one(path, kind, [] if cloud is None else [cloud], source)
+    each = (c if voxel is None else c._replace(points=thinned(c.points, voxel)) for c in source)
+    return _write_one(path, kind, each, source)
 
 
-class _Told:
-    """Clouds whose progress is told of."""
+class _CloudSource:
+    """Iterates over clouds and reports the progress."""
 
     def __init__(self, clouds: Clouds, progress: Callable[[int], object]) -> None:
         self.clouds = clouds
@@ -88,45 +90,45 @@ class _Told:
     def __iter__(self) -> Any:
         for cloud in self.clouds:
             yield cloud
-            self._progress(self.clouds.messages + sum(self.clouds.left_out.values()))
+            self._progress(self.clouds.messages + sum(self.clouds.skipped.values()))
 
     def accumulated(self, voxel: float) -> Cloud | None:
         return self.clouds.accumulated(voxel)
 
     def check_some(self) -> None:
-        """Raises where no message gave points."""
+        """Raise an error if no message could be transformed."""
         if self.clouds.messages == 0:
-            reasons = "; ".join(self.clouds.left_out) or "there is no message in that time"
+            reasons = "; ".join(self.clouds.skipped) or "there is no message in this time range"
             raise RecordingError(
-                f"nothing of {self.clouds.topic} could be seen from {self.clouds.frame}: {reasons}",
-                hint=self.clouds.hint or "`coframe bag info` tells which sensors can be transformed.",
+                f"No message on {self.clouds.topic} can be transformed into {self.clouds.frame}: {reasons}",
+                hint=self.clouds.hint or "coframe.bags.summarize() shows which sensor data can be transformed.",
             )
 
 
-def _write_folder(told: _Told, folder: Path, kind: str, voxel: float | None) -> int:
+def _write_folder(source: _CloudSource, folder: Path, kind: str, voxel: float | None) -> int:
     written = 0
-    name = told.clouds.topic.strip("/").replace("/", "_")
-    for cloud in told:
+    name = source.clouds.topic.strip("/").replace("/", "_")
+    for cloud in source:
         folder.mkdir(parents=True, exist_ok=True)
         one = cloud if voxel is None else cloud._replace(points=thinned(cloud.points, voxel))
         with (folder / f"{name}_{cloud.stamp}.{kind}").open("wb") as stream:
             written += _fill(_WRITERS[kind](stream), [one])
-    told.check_some()
+    source.check_some()
     return written
 
 
-def _write_one(path: Path, kind: str, clouds: Iterable[Cloud], told: _Told) -> int:
-    """All clouds in one file, which is there in the end only if it is whole."""
+def _write_one(path: Path, kind: str, clouds: Iterable[Cloud], source: _CloudSource) -> int:
+    """Write all clouds to one file, which exists at the end only if it is complete."""
     temporary = path.with_name(f".{path.name}.part")
-    temporary.unlink(missing_ok=True)  # of somebody who was killed
+    temporary.unlink(missing_ok=True)  # A process that was killed may have left it.
     try:
         if kind == "mcap":
             with closing(McapWriter(temporary)) as bag:
-                written = _fill(_NewBag(bag, told.clouds.topic), clouds)
+                written = _fill(_BagTopic(bag, source.clouds.topic), clouds)
         else:
             with temporary.open("wb") as stream:
                 written = _fill(_WRITERS[kind](stream), clouds)
-        told.check_some()
+        source.check_some()
         temporary.replace(path)
     finally:
         temporary.unlink(missing_ok=True)
@@ -148,7 +150,7 @@ def _fill(writer: _Writer, clouds: Iterable[Cloud]) -> int:
 
 
 class _Rows:
-    """Points in a row behind a header, which is written again with their number when that is known."""
+    """Points after a header, which is written again at the end with their number."""
 
     def __init__(self, stream: BinaryIO) -> None:
         self._stream = stream
@@ -156,66 +158,66 @@ class _Rows:
         self.count = 0
 
     def add(self, cloud: Cloud) -> None:
-        """More points, with the same fields."""
+        """Add points with the same fields."""
         points = self.rows(cloud.points)
         if self.dtype is None:
             self.dtype = points.dtype
             self._stream.write(self.header(self.dtype, 0))
         elif self.dtype != points.dtype:
             raise ValueError(
-                f"the messages have different fields, first {_fields(self.dtype)}, now {_fields(points.dtype)}: "
-                "name those to keep"
+                f"The messages have different fields: first {_fields(self.dtype)}, then {_fields(points.dtype)}. "
+                "Choose the fields to keep."
             )
         self._stream.write(points.tobytes())
         self.count += len(points)
 
     def finish(self) -> None:
-        """Writes the header as it must be."""
+        """Write the header with the final number of points."""
         if self.dtype is not None:
             self._stream.seek(0)
             self._stream.write(self.header(self.dtype, self.count))
 
     def rows(self, points: NDArray[Any]) -> NDArray[Any]:
-        """The points as the format has them."""
+        """Return the points with the types of the format."""
         return points
 
     def header(self, dtype: np.dtype[Any], count: int) -> bytes:
-        """For so many points; its length does not depend on the number."""
+        """Return the header for a number of points; its length does not depend on that number."""
         raise NotImplementedError
 
 
 class _Ply(_Rows):
-    """Coordinates stay float64."""
+    """PLY, with coordinates as float64."""
 
     def rows(self, points: NDArray[Any]) -> NDArray[Any]:
-        """PLY has no integers of 64 bits."""
+        """Return the points with 64-bit integers as float64, because PLY has no such integers."""
         return _cast(points, {"i8": "<f8", "u8": "<f8"})
 
     def header(self, dtype: np.dtype[Any], count: int) -> bytes:
-        """In ASCII; the comment fills up what the number leaves."""
+        """Return the header in ASCII; a comment pads it to a constant length."""
         kinds = {"i1": "char", "u1": "uchar", "i2": "short", "u2": "ushort", "i4": "int", "u4": "uint"}
         kinds |= {"f4": "float", "f8": "double"}
         digits = str(count)
-        lines = ["ply", "format binary_little_endian 1.0", f"comment {'.' * (_MOST_DIGITS - len(digits))}"]
+        lines = ["ply", "format binary_little_endian 1.0", f"comment {'.' * (_MAX_DIGITS - len(digits))}"]
         lines.append(f"element vertex {digits}")
         lines += [f"property {kinds[_kind(dtype, name)]} {name}" for name in dtype.names or ()]
         return "\n".join([*lines, "end_header", ""]).encode("ascii", "replace")
 
 
 class _Pcd(_Rows):
-    """Coordinates become float32, which is what PCL reads as points."""
+    """PCD, with coordinates as float32, which PCL requires."""
 
     def rows(self, points: NDArray[Any]) -> NDArray[Any]:
-        """With x, y, z as float32."""
+        """Return the points with x, y, z as float32."""
         return _cast(points, {}, xyz="<f4")
 
     def header(self, dtype: np.dtype[Any], count: int) -> bytes:
-        """Version 0.7; the comment fills up what the numbers leave."""
+        """Return the header of version 0.7; a comment pads it to a constant length."""
         names = dtype.names or ()
         kinds = [_kind(dtype, name) for name in names]
         digits = str(count)
         lines = [
-            f"# .PCD v0.7 {'.' * (2 * (_MOST_DIGITS - len(digits)))}",
+            f"# .PCD v0.7 {'.' * (2 * (_MAX_DIGITS - len(digits)))}",
             "VERSION 0.7",
             f"FIELDS {' '.join(names)}",
             f"SIZE {' '.join(kind[1] for kind in kinds)}",
@@ -232,18 +234,21 @@ class _Pcd(_Rows):
 
 
 class _Npy(_Rows):
-    """A structured array."""
+    """NumPy's npy, a structured array."""
 
     def header(self, dtype: np.dtype[Any], count: int) -> bytes:
-        """Version 2.0 of the format, filled up with blanks."""
+        """Return the header of version 2.0, padded with spaces to a constant length."""
         text = repr({"descr": dtype.descr, "fortran_order": False, "shape": (count,)})
-        longest = _NPY_HEAD + len(text) - len(str(count)) + _MOST_DIGITS + 1
+        longest = _NPY_HEAD + len(text) - len(str(count)) + _MAX_DIGITS + 1
         size = -(-longest // 64) * 64 - _NPY_HEAD  # the points begin at a multiple of 64
         return b"\x93NUMPY\x02\x00" + size.to_bytes(4, "little") + f"{text:<{size - 1}}\n".encode("ascii", "replace")
 
 
 class _Npz:
-    """An array for each field, by way of a file of all of them: only one is in memory at a time."""
+    """NumPy's npz, with one array per field.
+
+    All fields are first written to a temporary file, so that only one of them is in memory at a time.
+    """
 
     def __init__(self, stream: BinaryIO) -> None:
         self._stream = stream
@@ -251,11 +256,11 @@ class _Npz:
         self._npy = _Npy(self._rows)
 
     def add(self, cloud: Cloud) -> None:
-        """More points, with the same fields."""
+        """Add points with the same fields."""
         self._npy.add(cloud)
 
     def finish(self) -> None:
-        """Writes the arrays."""
+        """Write the arrays."""
         self._npy.finish()
         with self._rows as rows:
             dtype, count = self._npy.dtype, self._npy.count
@@ -265,11 +270,11 @@ class _Npz:
             if count:
                 points = np.memmap(rows, dtype, "r", len(self._npy.header(dtype, count)), (count,))
             np.savez(self._stream, **{name: points[name] for name in dtype.names or ()})
-            del points  # lets go of the file
+            del points  # Closes the memory map.
 
 
-class _NewBag:
-    """A topic of PointCloud2 in a new recording, which is somebody else's to close."""
+class _BagTopic:
+    """A topic of PointCloud2 messages in a new recording; the caller closes the recording."""
 
     def __init__(self, writer: McapWriter, topic: str) -> None:
         self._writer = writer
@@ -279,28 +284,28 @@ class _NewBag:
             encoding="cdr",
             definition=definition_of(_TYPE),
             definition_format="ros2msg",
-            about={},
+            metadata={},
         )
 
     def add(self, cloud: Cloud) -> None:
-        """One message, received at its own stamp, and a chunk of its own: clouds are large."""
+        """Write one message, with its stamp as time of receipt, and in its own chunk because clouds are large."""
         self._writer.write(self._channel, serialize(message_of(cloud)), cloud.stamp, cloud.stamp)
         self._writer.flush()
 
     def finish(self) -> None:
-        """There is nothing left to write."""
+        """Do nothing; all messages have been written."""
 
 
-# By their names in numpy.
+# PointField's constants by NumPy's names of the types.
 _DATATYPES = {"i1": 1, "u1": 2, "i2": 3, "u2": 4, "i4": 5, "u4": 6, "f4": 7, "f8": 8}
 
 
 def message_of(cloud: Cloud) -> Any:
-    """A PointCloud2 with the coordinates as float32, which is what others read."""
+    """Return a PointCloud2 with float32 coordinates, which other tools expect."""
     points = _cast(cloud.points, {"i8": "<f8", "u8": "<f8"}, xyz="<f4")
     message, field = find(_TYPE)(), find("sensor_msgs/msg/PointField")
     message.header.frame_id = cloud.frame
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(cloud.stamp, 1_000_000_000)
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(cloud.stamp, time.SECOND)
     message.height, message.width = 1, len(points)
     for name in points.dtype.names or ():
         kind, offset = points.dtype.fields[name][:2]  # type: ignore[index]
@@ -320,7 +325,7 @@ def _fields(dtype: np.dtype[Any]) -> str:
 
 
 def _cast(points: NDArray[Any], kinds: dict[str, str], *, xyz: str = "<f8") -> NDArray[Any]:
-    """With other types, and names that a header in ASCII can hold."""
+    """Return the points with other types, and with names that an ASCII header can contain."""
     dtype = np.dtype(
         [
             ("".join(c if c.isascii() and c.isprintable() and c != " " else "_" for c in name), kind)

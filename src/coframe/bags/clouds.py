@@ -1,7 +1,8 @@
-"""The points that a topic of a recording has measured, each message at its own time, in one frame."""
+"""The points of a recorded topic (point clouds or laser scans), transformed into one frame and deskewed."""
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
@@ -24,19 +25,19 @@ if TYPE_CHECKING:
 __all__ = ["Cloud", "Clouds"]
 
 _CLOUD, _SCAN = "sensor_msgs/msg/PointCloud2", "sensor_msgs/msg/LaserScan"
-_OF_SCANS = {"intensity", "index"}
-_LEAST_PENDING = 1_000_000  # points that are gathered before they are thinned
+_SCAN_FIELDS = {"intensity", "index"}
+_MIN_PENDING = 1_000_000  # points to gather before they are thinned
 
 
 class Cloud(NamedTuple):
     """The points of one message.
 
     Attributes:
-        stamp: Its header's, in nanoseconds.
-        frame: What the points are told in.
-        points: A structured array, (N,): ``x``, ``y``, ``z`` as float64 metres, all of them finite, and the other
-            fields of the message as they are there.
-        deskewed: Whether each point was moved by its own time.
+        stamp: Stamp of the message in nanoseconds.
+        frame: The frame in which the points are expressed.
+        points: A structured array, (N,): ``x``, ``y``, ``z`` in metres as float64, all finite, and the other fields of
+            the message with their types.
+        deskewed: Whether each point was transformed at its own time.
     """
 
     stamp: int
@@ -46,34 +47,36 @@ class Cloud(NamedTuple):
 
 
 class Clouds:
-    """A topic's clouds or scans, one after the other, seen from a frame; may be gone through again and again.
+    """An iterable over the point clouds or laser scans of a topic, transformed into one frame.
+
+    It can be iterated several times. The attributes below describe the last iteration.
 
     Args:
-        recording: Where they are.
-        topic: Of PointCloud2 or LaserScan.
-        frame: What the points shall be told in.
-        start: Only messages whose stamps are at or after this.
-        stop: Only those before this.
-        at: Only the newest message that is no newer than this.
-        deskew: ``"auto"`` moves each point by its own time where the message tells it (a field such as ``t``, ``time``
-            or ``timestamp``; a scan's ``time_increment``), ``"off"`` all by the message's stamp.
-        point_times: The field of a cloud that tells each point's time, and its unit (s, ms, us, ns) behind a colon:
-            ``"time:us"``. Without a unit, or without both, that is guessed from the values: see ``times_read``.
-        fixed: A frame that stands still during a sweep, where ``frame`` moves with the sensor.
-        fields: The fields to keep besides x, y, z; None: all that have one number a point.
+        recording: The recording.
+        topic: A topic of PointCloud2 or LaserScan messages.
+        frame: The frame into which the points are transformed.
+        start: The first stamp; earlier messages are skipped.
+        stop: The end; messages with this or a later stamp are skipped.
+        at: Read only the newest message with at most this stamp.
+        deskew: ``"auto"`` transforms each point at its own time if the message contains it (a field such as ``t``,
+            ``time`` or ``timestamp``, or the ``time_increment`` of a scan). ``"off"`` uses the stamp of the message.
+        point_times: The field with the times of the points, and its unit (s, ms, us or ns) after a colon:
+            ``"time:us"``. Without a unit, or without this argument, they are guessed; see ``times_read``.
+        fixed: A frame that does not move during a sweep, if ``frame`` moves with the sensor.
+        fields: The fields to keep besides x, y, z; None: all fields with one number per point.
 
     Attributes:
-        total: How many messages there are to go through.
-        messages: How many of them gave points the last time, also if it was none.
-        points: How many points.
-        left_out: Messages that could not be transformed or read, by the reason.
-        points_left_out: Single points that could not, by the reason.
+        total: Number of messages to read.
+        messages: Number of messages that were transformed, including empty ones.
+        points: Number of points.
+        skipped: Number of skipped messages by reason.
+        points_skipped: Number of skipped points by reason.
         hint: What to do about the first message that could not be transformed; "" if there is none.
-        times_read: In how many messages points were moved by their own times, by how these were taken.
+        times_read: Number of deskewed messages by the interpretation of their times.
 
     Raises:
-        RecordingError: There is no such topic, or it has other messages.
-        ValueError: ``deskew``, ``point_times`` or the fields of a scan are not among what they may be.
+        RecordingError: The topic does not exist or has another type.
+        ValueError: ``deskew``, ``point_times`` or ``fields`` has an invalid value.
     """
 
     def __init__(
@@ -93,14 +96,14 @@ class Clouds:
         if deskew not in {"auto", "off"}:
             raise ValueError(f'deskew must be "auto" or "off", not {deskew!r}')
         self._recording = recording
-        self._stamps = recording.stamps(topic)  # raises where there is no such topic
+        self._stamps = recording.stamps(topic)  # Raises if the topic does not exist.
         self.topic = topic if topic in recording.topics else f"/{topic}"
         self._type = recording.topics[self.topic].type
         if self._type not in {_CLOUD, _SCAN}:
             others = [name for name, other in recording.topics.items() if other.type in {_CLOUD, _SCAN}]
             raise RecordingError(
-                f"{self.topic} has messages of the type {self._type}, which are no points",
-                hint=f"PointCloud2 and LaserScan are on {', '.join(others) or 'no topic of this recording'}.",
+                f"{self.topic} has type {self._type}, not PointCloud2 or LaserScan",
+                hint=f"Topics with points: {', '.join(others) or 'none'}.",
             )
         self.frame = frame
         self._start, self._stop, self._at = start, stop, at
@@ -108,21 +111,22 @@ class Clouds:
         self._time_field, self._time_unit = _field_and_unit(point_times)
         self._fixed = fixed
         self._fields = None if fields is None else [name for name in fields if name not in {"x", "y", "z"}]
-        if self._type == _SCAN and (unknown := set(self._fields or ()) - _OF_SCANS):
-            raise ValueError(f"scans have no field {', '.join(sorted(unknown))}, only {', '.join(sorted(_OF_SCANS))}")
+        if self._type == _SCAN and (unknown := set(self._fields or ()) - _SCAN_FIELDS):
+            known = ", ".join(sorted(_SCAN_FIELDS))
+            raise ValueError(f"Scans have no field named {', '.join(sorted(unknown))}. Known fields: {known}.")
         self._reset()
 
     def _reset(self) -> None:
         self.messages = self.points = 0
-        self.left_out: dict[str, int] = {}
-        self.points_left_out: dict[str, int] = {}
+        self.skipped: dict[str, int] = {}
+        self.points_skipped: dict[str, int] = {}
         self.times_read: dict[str, int] = {}
         self.hint = ""
         self._reasons: dict[tuple[Any, ...], str] = {}
 
     @property
     def total(self) -> int:
-        """How many messages there are to go through."""
+        """Number of messages to read."""
         if self._at is not None:
             return 1
         chosen = np.ones(len(self._stamps), dtype=bool)
@@ -131,6 +135,18 @@ class Clouds:
         if self._stop is not None:
             chosen &= self._stamps < time.stamp_ns(self._stop)
         return int(np.count_nonzero(chosen))
+
+    @property
+    def left_out(self) -> dict[str, int]:
+        """The old name of :attr:`skipped`."""
+        warnings.warn("Clouds.left_out is now Clouds.skipped", DeprecationWarning, stacklevel=2)
+        return self.skipped
+
+    @property
+    def points_left_out(self) -> dict[str, int]:
+        """The old name of :attr:`points_skipped`."""
+        warnings.warn("Clouds.points_left_out is now Clouds.points_skipped", DeprecationWarning, stacklevel=2)
+        return self.points_skipped
 
     def __iter__(self) -> Iterator[Cloud]:
         self._reset()
@@ -142,26 +158,26 @@ class Clouds:
                 yield cloud
 
     def accumulated(self, voxel: float) -> Cloud | None:
-        """All points in one cloud, the first one of each cube; it takes memory for the points that are left.
+        """Return one cloud with the first point in each voxel; only these points are kept in memory.
 
         Args:
-            voxel: The cubes' edge in metres.
+            voxel: Edge length of the voxels in metres.
 
         Returns:
-            With the last message's stamp; None where there was no message.
+            A cloud with the stamp of the last message; None if there are no messages.
 
         Raises:
-            ValueError: As :func:`coframe.sensors.thinning.thinned`; or messages do not have the same fields.
+            ValueError: The edge length is invalid, or the messages have different fields.
         """
         kept: list[NDArray[Any]] = []
-        last, pending, least = None, 0, _LEAST_PENDING
+        last, pending, least = None, 0, _MIN_PENDING
         for cloud in self:
             last = cloud
             kept.append(thinned(cloud.points, voxel))
             pending += len(kept[-1])
             if pending > least:
                 kept = [thinned(_joined(kept), voxel)]
-                pending, least = 0, max(_LEAST_PENDING, len(kept[0]))
+                pending, least = 0, max(_MIN_PENDING, len(kept[0]))
         return None if last is None else last._replace(points=thinned(_joined(kept), voxel))
 
     def _recorded(self) -> Iterator[RecordedMessage]:
@@ -176,22 +192,22 @@ class Clouds:
             frame = self._recording.frame(str(message.header.frame_id))
             points, times = self._scan(message) if self._type == _SCAN else self._points(message, recorded.stamp)
             finite = np.isfinite(points["x"]) & np.isfinite(points["y"]) & np.isfinite(points["z"])
-            self._note(self.points_left_out, "measured nothing (not a number)", np.count_nonzero(~finite))
+            self._count(self.points_skipped, "have no finite coordinates", np.count_nonzero(~finite))
             points, times = points[finite], times[finite] if times is not None else None
             deskewed = self._move(points, times, frame, recorded.stamp)
         except TransformException as error:
             self.hint = self.hint or error.hint
-            self._note(self.left_out, self._reason(error))
+            self._count(self.skipped, self._reason(error))
         except (DecodeError, ValueError, AttributeError) as error:
-            self._note(self.left_out, f"cannot be read: {error}")
+            self._count(self.skipped, f"cannot be read: {error}")
         else:
-            there = np.isfinite(points["x"])
-            self._note(self.points_left_out, "have no transform at their own time", np.count_nonzero(~there))
-            return Cloud(recorded.stamp, self.frame, points[there], deskewed)
+            transformed = np.isfinite(points["x"])
+            self._count(self.points_skipped, "have no transform at their own time", np.count_nonzero(~transformed))
+            return Cloud(recorded.stamp, self.frame, points[transformed], deskewed)
         return None
 
     def _move(self, points: NDArray[Any], times: NDArray[np.int64] | None, frame: str, stamp: int) -> bool:
-        """Brings points into the frame, in place; whether each by its own time."""
+        """Transform points in place; return whether each was transformed at its own time."""
         buffer = self._recording.buffer
         if frame == self.frame and self._fixed is None:
             return False
@@ -214,8 +230,8 @@ class Clouds:
         points = _structured(columns)
         times = times_in(points, stamp, self._time_field, self._time_unit) if self._deskews else None
         if times is not None:
-            since = "as stamps" if times.absolute else "from the message's stamp"
-            self._note(self.times_read, f"the field {times.field}, taken for {times.unit} {since}")
+            reference = "as stamps" if times.absolute else "relative to the message's stamp"
+            self._count(self.times_read, f"the field {times.field}, interpreted in {times.unit} {reference}")
         if self._fields is not None and names != self._fields:
             points = _structured({name: points[name] for name in ("x", "y", "z", *self._fields)})
         return points, None if times is None else times.times
@@ -225,30 +241,30 @@ class Clouds:
         columns: dict[str, NDArray[Any]] = dict(zip("xyz", hits.points.T, strict=True))
         others = {"intensity": hits.intensities, "index": hits.beams}
         columns |= {n: v for n, v in others.items() if v is not None and (self._fields is None or n in self._fields)}
-        self._note(self.points_left_out, "measured nothing (out of range)", len(message.ranges) - len(hits.points))
+        self._count(self.points_skipped, "are out of range", len(message.ranges) - len(hits.points))
         return _structured(columns), hits.times if self._deskews and message.time_increment != 0 else None
 
     def _reason(self, error: TransformException) -> str:
-        """The first text of errors that differ in their times only."""
+        """Return the text of the first error that differs from this one only in its times."""
         key = (type(error), error.target, error.source, error.edge)
         return self._reasons.setdefault(key, f"{type(error).__name__}: {error}")
 
     @staticmethod
-    def _note(counts: dict[str, int], reason: str, times: int | np.integer[Any] = 1) -> None:
+    def _count(counts: dict[str, int], reason: str, times: int | np.integer[Any] = 1) -> None:
         if times:
             counts[reason] = counts.get(reason, 0) + int(times)
 
 
 def _field_and_unit(text: str | None) -> tuple[str | None, str | None]:
-    """Of ``FIELD:UNIT`` or ``FIELD``."""
+    """Split ``FIELD:UNIT`` or ``FIELD``."""
     field, colon, unit = (text or "").partition(":")
     if (text is not None and not field) or (colon and unit not in UNITS):
-        raise ValueError(f"{text!r} is no field with a unit: write time:us, with one of {', '.join(UNITS)}")
+        raise ValueError(f"{text!r} is not a field with a unit: write for example time:us. Units: {', '.join(UNITS)}.")
     return field or None, unit or None
 
 
 def _structured(columns: dict[str, NDArray[Any]]) -> NDArray[Any]:
-    """A packed little-endian array; coordinates as float64, so that those far from the origin stay exact."""
+    """Return a packed little-endian array, with coordinates as float64 so that they stay exact far from the origin."""
     kinds = [(n, "<f8" if n in {"x", "y", "z"} else v.dtype.newbyteorder("<")) for n, v in columns.items()]
     points = np.empty(len(columns["x"]), dtype=kinds)
     for name, values in columns.items():
@@ -258,5 +274,5 @@ def _structured(columns: dict[str, NDArray[Any]]) -> NDArray[Any]:
 
 def _joined(parts: list[NDArray[Any]]) -> NDArray[Any]:
     if any(part.dtype != parts[0].dtype for part in parts):
-        raise ValueError("the messages do not have the same fields: name those to keep")
+        raise ValueError("The messages have different fields: choose the fields to keep.")
     return np.concatenate(parts)

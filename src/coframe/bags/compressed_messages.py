@@ -1,4 +1,4 @@
-"""Recordings whose messages were compressed one by one."""
+"""Recordings whose messages are compressed one by one (rosbag2's compression mode "message")."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ __all__ = ["UnpackedMessages"]
 
 
 class UnpackedMessages(Storage):
-    """Another storage, with its messages unpacked."""
+    """Wraps another storage and unpacks its messages."""
 
     def __init__(self, packed: Storage, compression: str) -> None:
         super().__init__(packed.path, packed.problems)
@@ -27,27 +27,27 @@ class UnpackedMessages(Storage):
         self._compression = compression
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
-        """Those of the other storage, unpacked."""
+        """Yield the batches of the wrapped storage with unpacked messages."""
         for batch in self._packed.batches(wanted, progress):
             if batch.messages is None:
                 yield batch
                 continue
             unpacked = [self._unpack(batch.channel, message) for message in batch.messages.each()]
-            there = np.array([message is not None for message in unpacked], dtype=bool)
+            readable = np.array([message is not None for message in unpacked], dtype=bool)
             messages = Slices.join([message for message in unpacked if message is not None])
-            yield Batch(batch.channel, batch.received[there], batch.positions[there], messages)
+            yield Batch(batch.channel, batch.received[readable], batch.positions[readable], messages)
 
     def _unpack(self, channel: Channel, message: memoryview) -> bytes | None:
         try:
             return unpack(self._compression, message, LARGEST)
         except DamagedError as error:
-            self.problem(f"messages on {channel.topic} that cannot be unpacked: {error}")
+            self.add_problem(f"messages on {channel.topic} cannot be unpacked: {error}")
             return None
 
     def read(self, position: int) -> bytes:
-        """One message's bytes, unpacked."""
+        """Return the unpacked bytes of one message."""
         return unpack(self._compression, self._packed.read(position), LARGEST)
 
     def close(self) -> None:
-        """Lets go of the file."""
+        """Close the file."""
         self._packed.close()

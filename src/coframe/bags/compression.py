@@ -1,4 +1,4 @@
-"""Unpacking with a limit, and as far as damaged data allow."""
+"""Decompression with a size limit that recovers the undamaged beginning of damaged data."""
 
 from __future__ import annotations
 
@@ -15,52 +15,51 @@ if TYPE_CHECKING:
 
 __all__ = ["LARGEST", "DamagedError", "unpack"]
 
-LARGEST = 512 << 20  # bytes: no chunk or message that anybody writes is as large
+LARGEST = 512 << 20  # bytes: real chunks and messages are smaller
 
 
 class DamagedError(CoframeError):
-    """A piece of a file that cannot be read; the text says why."""
+    """Part of a file cannot be read; the text says why."""
 
 
 def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
-    """What was compressed, or the part of it before the first damage.
+    """Unpack compressed data, or the part of it before the first damage.
 
     Args:
         compression: ``""`` or ``"none"``, ``"zstd"``, ``"lz4"`` (frames) or ``"bz2"``.
-        data: The packed bytes.
-        size: How large the file says that they are unpacked.
+        data: The compressed bytes.
+        size: The unpacked size in bytes, as the file states it.
 
     Raises:
-        DamagedError: Nothing of it can be unpacked, it says that it is larger than anything is, or nobody knows that
-            compression.
-        RecordingError: The package that knows it is not installed.
+        DamagedError: No data can be unpacked, the stated size is above :data:`LARGEST`, or the compression is unknown.
+        RecordingError: The package for this compression is not installed.
     """
     if compression in {"", "none"}:
         return bytes(data)
     if compression not in _OPENERS:
-        raise DamagedError(f"compressed by {compression[:20]!r}, which is none of {', '.join(_OPENERS)}")
+        raise DamagedError(f"unknown compression {compression[:20]!r}, known are {', '.join(_OPENERS)}")
     if size > LARGEST:
-        raise DamagedError(f"a chunk that claims to be {size} bytes")
+        raise DamagedError(f"the stated size of a chunk is {size} bytes")
     open_ = _OPENERS[compression]()
     try:
-        whole: bytes = open_(data).read(size)
+        unpacked: bytes = open_(data).read(size)
     except Exception as error:  # noqa: BLE001 - each library has exceptions of its own
-        whole = _undamaged(open_(data), size)
-        if not whole:
-            raise DamagedError(f"{compression} says: {error}") from None
-    return whole
+        unpacked = _undamaged(open_(data), size)
+        if not unpacked:
+            raise DamagedError(f"{compression} reports: {error}") from None
+    return unpacked
 
 
 def _undamaged(reader: Any, size: int) -> bytes:
-    """What comes before the damage."""
-    whole = bytearray()
+    """Return the data before the damage."""
+    unpacked = bytearray()
     with contextlib.suppress(Exception):
-        while len(whole) < size and (piece := reader.read(min(_PIECE, size - len(whole)))):
-            whole += piece
-    return bytes(whole)
+        while len(unpacked) < size and (piece := reader.read(min(_PIECE, size - len(unpacked)))):
+            unpacked += piece
+    return bytes(unpacked)
 
 
-_PIECE = 4096
+_PIECE = 4096  # bytes
 
 
 def _zstd() -> Callable[[Any], Any]:
@@ -77,7 +76,8 @@ def _bz2() -> Callable[[Any], Any]:
     return lambda data: bz2.open(io.BytesIO(data))
 
 
-# By name: what gives a function that makes a file of packed bytes, or says what is missing.
+# By compression: a factory for the function that opens compressed bytes as a file. The factory raises if the package is
+# not installed.
 _OPENERS: dict[str, Callable[[], Callable[[Any], Any]]] = {"zstd": _zstd, "lz4": _lz4, "bz2": _bz2}
 
 
@@ -86,6 +86,6 @@ def _module(name: str) -> Any:
         return importlib.import_module(name)
     except ModuleNotFoundError:
         raise RecordingError(
-            f"this recording is compressed, and the package {name.partition('.')[0]} is not installed",
+            f"the recording is compressed, and the package {name.partition('.')[0]} is not installed",
             hint="pip install 'coframe[bags]'",
         ) from None

@@ -1,4 +1,4 @@
-"""Recorded bytes to messages: by coframe's classes where they fit, else by what the recording says of its types."""
+"""Decodes recorded messages: with coframe's classes if they match, else by the definitions in the recording."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ __all__ = ["UnknownTypeError", "decoder", "fits_humble", "humble_store", "messag
 
 _TYPE_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*/msg/[A-Za-z][A-Za-z0-9_]*", re.ASCII)
 _LONGEST_DEFINITION = 1 << 20
-# Other names for types that we have.
+# Names of ROS 1 for types with another name in ROS 2.
 _ALIASES = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
 
 
 def message_class(ros_type: str) -> Any:
-    """The class that coframe has for a type, or None."""
+    """Return coframe's class for a type; None if there is none."""
     try:
         return find(ros2_name(ros_type))
     except LookupError:
@@ -33,35 +33,35 @@ def message_class(ros_type: str) -> Any:
 
 
 def ros2_name(ros_type: str) -> str:
-    """What ROS 2 calls a type that ROS 1 may call differently."""
+    """Return the ROS 2 name of a type that may have another name in ROS 1."""
     return _ALIASES.get(ros_type, ros_type)
 
 
 def decoder(channel: Channel, problems: Problems) -> Callable[[bytes], Any]:
-    """What turns a channel's bytes into messages.
+    """Return the function that decodes the messages of a channel.
 
-    Messages of types that coframe has, as the recording describes them, are coframe's; others are classes that are
-    made from the recording's definitions, those of protobuf included; JSON is what ``json`` makes of it. Bytes stay
-    bytes where nothing says what they mean; then there is a problem more.
+    Messages become instances of coframe's class if the definition in the recording matches it, else instances of a
+    class made from that definition (of ROS or protobuf). JSON becomes what :func:`json.loads` returns. Messages of
+    unknown types are returned as bytes, which is added to the problems.
 
-    Raises:
-        DecodeError: (What is returned, when it is called.) The bytes are damaged.
+    Returns:
+        A function that raises a DecodeError if the bytes are damaged.
     """
     if channel.encoding == "json":
         return functools.partial(_guarded, json.loads, channel.type)
     makers = {"cdr": _ros_decoder, "ros1": _ros_decoder, "protobuf": _protobuf_decoder}
     if channel.encoding not in makers:
-        problems.add(f"{channel.topic}: messages encoded as {channel.encoding!r} are given as bytes")
+        problems.add(f"{channel.topic}: messages with the encoding {channel.encoding!r} are returned as bytes")
         return bytes
     try:
         return makers[channel.encoding](channel)
     except UnknownTypeError as error:
-        problems.add(f"{channel.topic}: messages of the type {channel.type} are given as bytes: {error}")
+        problems.add(f"{channel.topic}: messages of type {channel.type} are returned as bytes: {error}")
         return bytes
 
 
 class UnknownTypeError(CoframeError):
-    """Nobody says how messages of a type are to be read."""
+    """The definition of a type is not available."""
 
 
 def _ros_decoder(channel: Channel) -> Callable[[bytes], Any]:
@@ -80,26 +80,30 @@ def _ros_decoder(channel: Channel) -> Callable[[bytes], Any]:
 
 
 def _protobuf_decoder(channel: Channel) -> Callable[[bytes], Any]:
-    """By the descriptions of messages (a FileDescriptorSet) that the recording has."""
+    """Return a decoder for the descriptors of messages (a FileDescriptorSet) in the recording."""
     try:
         from google.protobuf import descriptor_pb2, descriptor_pool, message_factory  # noqa: PLC0415 - optional
     except ModuleNotFoundError:
         raise UnknownTypeError("the package protobuf is not installed (pip install 'coframe[protobuf]')") from None
     if not channel.definition or len(channel.definition) > _LONGEST_DEFINITION:
-        raise UnknownTypeError("the recording does not say what they are made of, or takes too long to say it")
+        raise UnknownTypeError(
+            "the recording contains no definition"
+            if not channel.definition
+            else f"the definition is longer than {_LONGEST_DEFINITION} bytes"
+        )
     pool = descriptor_pool.DescriptorPool()
     try:
         found = descriptor_pb2.FileDescriptorSet.FromString(channel.definition).file
         _add_all({file.name: file for file in found}, pool)
         kind = message_factory.GetMessageClass(pool.FindMessageTypeByName(channel.type))
-    except Exception as error:  # noqa: BLE001 - the library has several ways to say that a description is damaged
+    except Exception as error:  # noqa: BLE001 - protobuf raises errors of several kinds for damaged descriptors
         reason = " ".join(str(error).split())[:200]
         raise UnknownTypeError(f"its definition cannot be used ({reason or type(error).__name__})") from None
     return functools.partial(_guarded, kind.FromString, channel.type)
 
 
 def _add_all(files: dict[str, Any], pool: Any) -> None:
-    """Adds descriptions to a pool, each after those that it builds upon."""
+    """Add descriptors to a pool, each after those that it depends on."""
 
     def add(name: str) -> None:
         if (file := files.pop(name, None)) is not None:
@@ -112,22 +116,22 @@ def _add_all(files: dict[str, Any], pool: Any) -> None:
 
 
 def _guarded(decode: Callable[[bytes], Any], name: str, data: bytes) -> Any:
-    """The libraries have many ways to say that bytes are damaged."""
+    """Decode a message, and turn any error of the libraries into a DecodeError."""
     try:
         return decode(data)
     except Exception as error:  # noqa: BLE001
         raise DecodeError(
             f"{name}: {str(error) or type(error).__name__}",
-            hint="The bytes are cut short, damaged, or of another type.",
+            hint="The bytes are truncated, damaged or of another type.",
         ) from None
 
 
 @functools.lru_cache(maxsize=256)
 def store_for(name: str, definition: bytes, definition_format: str) -> Any:
-    """A type store of rosbags in which the type is known.
+    """Return a type store of rosbags that contains the type.
 
     Raises:
-        UnknownTypeError: It is not.
+        UnknownTypeError: There is no usable definition of the type.
     """
     try:
         from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore  # noqa: PLC0415
@@ -137,28 +141,32 @@ def store_for(name: str, definition: bytes, definition_format: str) -> Any:
         known = get_typestore(Stores.LATEST)
         if name in known.types:
             return known
-        raise UnknownTypeError("the recording does not say what they are made of")
+        raise UnknownTypeError("the recording contains no definition")
     if not _TYPE_NAME.fullmatch(name) or len(definition) > _LONGEST_DEFINITION:
-        raise UnknownTypeError("that cannot be the name of a type, or its definition is too long")
+        raise UnknownTypeError(
+            f"{name[:60]!r} is not the name of a message type"
+            if not _TYPE_NAME.fullmatch(name)
+            else f"the definition is longer than {_LONGEST_DEFINITION} bytes"
+        )
     text = definition.decode("utf-8", "replace")
     store = get_typestore(Stores.EMPTY)
     try:
         store.register(get_types_from_idl(text) if definition_format == "ros2idl" else get_types_from_msg(text, name))
         store.get_msgdef(name)
-    except Exception as error:  # noqa: BLE001 - of the parser, of its code, of ours that it makes
+    except Exception as error:  # noqa: BLE001 - the parser raises errors of many kinds for damaged definitions
         reason = str(error).partition("\n")[0] or type(error).__name__
         raise UnknownTypeError(f"its definition cannot be used ({reason[:200]})") from None
     return store
 
 
 def _fits(store: Any) -> bool:
-    """Whether all types in there are made of the same fields as ours, which are those of ROS 2 Humble."""
+    """Return whether all types in a store have the same fields as in ROS 2 Humble."""
     humble = _humble()
     return all(_layout(name, fields) == humble[name] for name, (_, fields) in store.fielddefs.items() if name in humble)
 
 
 def fits_humble(name: str, definition: bytes) -> bool:
-    """Whether a type of ROS 1, as a recording describes it, is one of ROS 2 Humble."""
+    """Return whether a type of ROS 1, as a recording defines it, matches a type of ROS 2 Humble."""
     try:
         return _fits(store_for(name, definition, "ros1msg")) and ros2_name(name) in _humble()
     except UnknownTypeError:
@@ -167,7 +175,7 @@ def fits_humble(name: str, definition: bytes) -> bool:
 
 @functools.cache
 def humble_store() -> Any:
-    """A type store of rosbags with the types of ROS 2 Humble."""
+    """Return a type store of rosbags with the types of ROS 2 Humble."""
     from rosbags.typesys import Stores, get_typestore  # noqa: PLC0415
 
     return get_typestore(Stores.ROS2_HUMBLE)
@@ -179,12 +187,15 @@ def _humble() -> dict[str, Any]:
 
 
 def _deserialize_ros1(data: bytes, name: str) -> Any:
-    """By way of CDR, which differs in its padding and leaves the numbers of headers out."""
+    """Decode a message of ROS 1 through CDR, which has padding and no sequence numbers in headers."""
     name = ros2_name(name)
     return deserialize(humble_store().ros1_to_cdr(data, name), find(name))
 
 
 def _layout(name: str, fields: Any) -> list[Any]:
-    """Names in lower case and without ROS 1's numbers of headers: what is left tells how the bytes are laid out."""
+    """Return the fields that decide the layout of the bytes.
+
+    Names are in lower case, and the sequence number in ROS 1 headers is skipped.
+    """
     skipped = {"seq"} if name == "std_msgs/msg/Header" else set()
     return [(field.lower(), type_) for field, type_ in fields if field not in skipped]

@@ -1,4 +1,4 @@
-"""What types are made of, as text that stands in a recording and makes it readable without ROS."""
+"""Definitions of message types as text; stored in a recording, they make it readable without ROS."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ __all__ = ["definition_of"]
 
 @functools.cache
 def definition_of(ros_type: str) -> str:
-    """The definition of a type and of all types in it, as ``ros2msg``; "" where coframe does not know the type.
+    """Return the definition of a type and of all types it contains, as ``ros2msg``; "" if the type is unknown.
 
-    Known are the packages that come with ROS 2 Humble, if rosbags is installed.
+    The types of the packages of ROS 2 Humble are known if the package rosbags is installed.
     """
     try:
         from rosbags.typesys import Stores, get_typestore  # noqa: PLC0415 - optional, and slow to import

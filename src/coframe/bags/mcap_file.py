@@ -1,4 +1,4 @@
-"""MCAP files, chunked or not, whole or not; the format is described at https://mcap.dev/spec."""
+"""Reader for MCAP files, including damaged and unfinished ones; the format is described at https://mcap.dev/spec."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ __all__ = ["MAGIC", "McapStorage"]
 MAGIC = b"\x89MCAP0\r\n"
 
 _FOOTER, _SCHEMA, _CHANNEL, _MESSAGE, _CHUNK, _CHUNK_INDEX, _DATA_END = 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x0F
-_LAST_OPCODE = 0x0F  # those from 0x80 on are somebody's own
+_LAST_OPCODE = 0x0F  # opcodes from 0x80 are reserved for applications
 _RECORD = struct.Struct("<BQ")  # opcode, length
 _MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log time, publish time
 _CHUNK_HEAD = struct.Struct("<QQQI")  # first and last log time, unpacked size, its CRC or 0
-_BLOCK = 4 << 20  # bytes of records that are in no chunk are read together
+_BLOCK = 4 << 20  # bytes to read at once of records outside chunks
 _FOOTER_RECORD = struct.Struct("<BQQQI")  # opcode, length, start of the summary, of its offsets, CRC
-_CRC_AND_MAGIC = 4 + len(MAGIC)  # bytes behind what the CRC is of
+_CRC_AND_MAGIC = 4 + len(MAGIC)  # bytes at the end of the file that the CRC of the summary does not cover
 
 
 class McapStorage(ChunkedStorage):
@@ -42,8 +42,8 @@ class McapStorage(ChunkedStorage):
         self._channels: dict[int, Channel] = {}
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
-        """All messages, in the order in which they lie in the file."""
-        del wanted  # all data lie together
+        """Yield all messages in file order; the bytes of unwanted ones are included because chunks contain both."""
+        del wanted
         done = 0
         for offset, opcode, end in self._walk(self._read_summary()):
             if opcode == _CHUNK:
@@ -51,7 +51,7 @@ class McapStorage(ChunkedStorage):
                 progress(end)
             elif opcode in {_SCHEMA, _CHANNEL, _MESSAGE} and offset >= done:
                 if end - offset > LARGEST:
-                    self.problem(f"the record at byte {offset} claims to be {end - offset} bytes")
+                    self.add_problem(f"the record at byte {offset} has a stated size of {end - offset} bytes")
                     continue
                 data = self.bytes_at(offset, max(end - offset, _BLOCK))
                 done = offset + (yield from self._inner(data, offset))
@@ -59,27 +59,28 @@ class McapStorage(ChunkedStorage):
         progress(self.size)
 
     def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, int]]:
-        """Offset, opcode and end of every record of the data; from a damaged one on to the next of the known chunks."""
+        """Yield offset, opcode and end of each record of the data section; continue at the next chunk after damage."""
         offset = len(MAGIC)
         while (head := self.bytes_at(offset, _RECORD.size)) and len(head) == _RECORD.size:
             opcode, length = _RECORD.unpack(head)
             end = offset + _RECORD.size + length
-            whole = _is_record(opcode) and end <= self.size
-            if whole and opcode in {_DATA_END, _FOOTER}:
+            is_intact = _is_record(opcode) and end <= self.size
+            if is_intact and opcode in {_DATA_END, _FOOTER}:
                 return
-            later = [] if whole else [chunk for chunk in chunks if chunk > offset]
+            later = [] if is_intact else [chunk for chunk in chunks if chunk > offset]
             if later:
-                self.problem(f"bytes {offset} to {later[0]} are damaged")
+                self.add_problem(f"bytes {offset} to {later[0]} are damaged")
                 end = later[0]
-            elif whole or opcode == _CHUNK:
+            elif is_intact or opcode == _CHUNK:
                 yield offset, opcode, min(end, self.size)
             else:
                 break
             offset = end
-        self.problem(f"it breaks off at byte {min(offset, self.size)} of {self.size}: was the recorder stopped hard?")
+        end = min(offset, self.size)
+        self.add_problem(f"truncated at byte {end} of {self.size}; the recorder may have been killed")
 
     def _read_summary(self) -> list[int]:
-        """Takes in the channels that the summary at the end describes; gives where it says that chunks begin."""
+        """Read the channels in the summary at the end of the file; return the offsets of the chunks it lists."""
         tail = self.bytes_at(self.size - _FOOTER_RECORD.size - len(MAGIC), _FOOTER_RECORD.size)
         if len(tail) < _FOOTER_RECORD.size:
             return []
@@ -87,7 +88,7 @@ class McapStorage(ChunkedStorage):
         if opcode != _FOOTER or not 0 < start < self.size or self.size - start > LARGEST:
             return []
         summary = self.bytes_at(start, self.size - start)
-        if crc and zlib.crc32(summary[:-_CRC_AND_MAGIC]) != crc:  # a recorder was killed as it wrote over it, perhaps
+        if crc and zlib.crc32(summary[:-_CRC_AND_MAGIC]) != crc:  # A recorder may have been killed while writing it.
             return []
         chunks, position = [], 0
         while position + _RECORD.size <= len(summary):
@@ -105,14 +106,14 @@ class McapStorage(ChunkedStorage):
         try:
             data = self.unpack_chunk(offset)
         except DamagedError as error:
-            self.problem(f"the chunk at byte {offset} cannot be unpacked: {error}")
+            self.add_problem(f"the chunk at byte {offset} cannot be unpacked: {error}")
             return
         done = yield from self._inner(data, base)
         if done < len(data):
-            self.problem(f"{len(data) - done} bytes are damaged or cut off inside a chunk")
+            self.add_problem(f"{len(data) - done} bytes inside a chunk are damaged or missing")
 
     def unpack_chunk(self, offset: int) -> bytes:
-        """The records of the chunk at this offset of the file."""
+        """Return the records of the chunk at an offset of the file."""
         opcode, length = _RECORD.unpack(self.bytes_at(offset, _RECORD.size))
         assert opcode == _CHUNK
         chunk = memoryview(self.bytes_at(offset + _RECORD.size, min(length, self.size - offset - _RECORD.size)))
@@ -120,15 +121,20 @@ class McapStorage(ChunkedStorage):
             _, _, size, crc = _CHUNK_HEAD.unpack_from(chunk)
             compression, start = _text(chunk, _CHUNK_HEAD.size)
         except (struct.error, ValueError):
-            raise DamagedError("its first bytes are damaged or cut off") from None
+            raise DamagedError("its header is damaged or truncated") from None
         packed = chunk[start + 8 :]
         data = unpack(compression, packed, size)
         if crc and zlib.crc32(data) != crc:
-            self.problem(f"the chunk at byte {offset} is damaged: its checksum differs")
+            self.add_problem(f"the chunk at byte {offset} is damaged: its checksum does not match")
         return data
 
     def _inner(self, data: bytes, base: int) -> Generator[Batch, None, int]:
-        """The messages among records, whose positions are offsets in ``data`` plus ``base``; returns where it ended."""
+        """Yield the messages in a sequence of records; return the number of bytes that were read.
+
+        Args:
+            data: The records.
+            base: Added to an offset in ``data`` to get a position.
+        """
         *columns, definitions, done = _core.mcap_records(data)
         for opcode, start, end in definitions:
             self._define(opcode, data[start:end])
@@ -136,18 +142,18 @@ class McapStorage(ChunkedStorage):
         times, records, starts, ends = (np.frombuffer(column, dtype=np.uint64) for column in columns[1:])
         for number in np.unique(channels).tolist():
             channel = self._channels.get(number)
-            mine = (channels == number) & (times < _TOO_LATE)
+            rows = (channels == number) & (times < _TOO_LATE)
             if channel is None:
-                self.problem(f"messages of channel {number}, which nothing describes", int(np.count_nonzero(mine)))
+                self.add_problem(f"messages of channel {number}, which is not defined", int(np.count_nonzero(rows)))
             else:
-                messages = Slices(data, starts[mine], ends[mine])
-                yield Batch(channel, times[mine].astype(np.int64), records[mine] + np.uint64(base), messages)
+                messages = Slices(data, starts[rows], ends[rows])
+                yield Batch(channel, times[rows].astype(np.int64), records[rows] + np.uint64(base), messages)
         if (times >= _TOO_LATE).any():
-            self.problem("messages with times that are none", int(np.count_nonzero(times >= _TOO_LATE)))
+            self.add_problem("messages with an invalid time of receipt", int(np.count_nonzero(times >= _TOO_LATE)))
         return done
 
     def payload(self, source: bytes | None, offset: int) -> bytes | memoryview:
-        """The message in the record at this offset."""
+        """Return the message in the record at an offset."""
         if source is None:
             source, start = self.bytes_at(offset, _RECORD.size), 0
             if len(source) == _RECORD.size:
@@ -155,7 +161,7 @@ class McapStorage(ChunkedStorage):
         else:
             start = offset
         if len(source) < start + _MESSAGE_RECORD.size:
-            raise DamagedError("the message is gone")
+            raise DamagedError("the message no longer exists")
         return memoryview(source)[
             start + _MESSAGE_RECORD.size : start + _RECORD.size + _RECORD.unpack_from(source, start)[1]
         ]
@@ -173,7 +179,7 @@ class McapStorage(ChunkedStorage):
             encoding, position = _text(data, position)
             offered_qos = _entry(data, position, "offered_qos_profiles")
         except (struct.error, ValueError, IndexError):
-            self.problem("a damaged description of a channel")
+            self.add_problem("the definition of a channel is damaged")
             return
         if number not in self._channels:
             name, kind, definition = self._schemas.get(schema, ("", "", b""))
@@ -188,7 +194,7 @@ def _is_record(opcode: int) -> bool:
 
 
 def _entry(data: bytes, position: int, wanted: str) -> str:
-    """A value of the map of texts that begins there; "" where it has none."""
+    """Return a value of the map of strings at a position; "" if the key is missing."""
     end = min(position + 4 + int.from_bytes(data[position : position + 4], "little"), len(data))
     position += 4
     while position < end:
@@ -200,9 +206,9 @@ def _entry(data: bytes, position: int, wanted: str) -> str:
 
 
 def _text(data: bytes | memoryview, position: int) -> tuple[str, int]:
-    """A string behind its length, and where it ends."""
+    """Return the string at a position, which follows its length, and the offset of its end."""
     (length,) = struct.unpack_from("<I", data, position)
     end = position + 4 + length
     if end > len(data):
-        raise ValueError("a text is longer than what it is in")
+        raise ValueError("a string is longer than its record")
     return bytes(data[position + 4 : end]).decode("utf-8", "replace"), end

@@ -1,8 +1,8 @@
-"""One MCAP file that is whole at any moment; the format is described at https://mcap.dev/spec.
+"""Writer for one MCAP file that is valid at any moment; the format is described at https://mcap.dev/spec.
 
-What was written is followed by a file's end, and each next chunk goes over that end and brings its own. So a recorder
-that is killed leaves a file that any reader opens. The end has the index of all chunks as long as that is small, since
-there are readers that want one (Rerun's); then only `close` writes it.
+Each flush writes a chunk and, after it, the end of the file. The next flush overwrites that end. So a recorder that is
+killed leaves a file that any reader opens. While the index of all chunks is small, the end contains it, because some
+readers (Rerun's) require an index. Once it is large, only `close` writes it.
 """
 
 from __future__ import annotations
@@ -32,59 +32,60 @@ _RECORD = struct.Struct("<BQ")  # opcode, length
 _MESSAGE_RECORD = struct.Struct("<BQHIQQ")  # opcode, length, channel, sequence, log time, publish time
 _MESSAGE = 0x05
 _MESSAGE_HEAD = _MESSAGE_RECORD.size - _RECORD.size
-_LARGEST_INDEX = 1 << 20  # bytes that are written with each chunk: those of half an hour or more
-_ZSTD_LEVEL = 1  # a recorder is to be light: level 3 takes half as long again for some percent
+_LARGEST_INDEX = 1 << 20  # bytes to write with each chunk: enough for half an hour or more
+_ZSTD_LEVEL = 1  # level 3 takes half as long again, and the files are only a few percent smaller
 
 
 class McapWriter:
-    """Writes one file; not for several threads at once.
+    """Writes one MCAP file; not thread-safe.
 
     Args:
-        path: The file, which must not be there yet.
+        path: The file, which must not exist.
         compression: One of `COMPRESSIONS`.
 
     Attributes:
-        size: Bytes of the file so far, and of what waits for the next flush.
-        counts: Messages that were flushed, by channel.
-        start: Their first log time, in nanoseconds; 0 before there is one.
-        end: Their last log time.
+        size: Bytes of the file, including those that the next flush writes.
+        counts: Number of flushed messages by channel.
+        start: First log time of the flushed messages, in nanoseconds; 0 if there are none.
+        end: Last log time of the flushed messages, in nanoseconds; 0 if there are none.
 
     Raises:
-        OSError: It cannot be made.
-        RecordingError: The package for that compression is not installed.
+        OSError: The file cannot be created.
+        RecordingError: The package for the compression is not installed.
     """
 
     def __init__(self, path: Path, compression: str = "zstd") -> None:
         self._compress = compressor(compression)
         self._compression = _text("" if compression == "none" else compression)
         self._file = path.open("xb", buffering=0)
-        self._definitions = bytearray()  # schemas and channels, which are said again at the end
+        self._definitions = bytearray()  # schemas and channels, which the summary repeats
         self._schemas: dict[tuple[str, str, str], int] = {}
-        self._sequences: list[int] = []  # messages by channel, which are numbered from 0
+        self._sequences: list[int] = []  # the next sequence number by channel
         self._pending = bytearray()
         self._index: dict[int, array[int]] = {}  # by channel: log time and offset of each pending message
-        self._first, self._last = 0, 0  # log times of what is pending
-        self._chunks: list[bytes] = []
-        self._end = 0  # where the next chunk goes
-        self._tail = _END  # what follows there
-        self._index_size = 0  # bytes of the chunks' indices
+        self._first, self._last = 0, 0  # log times of the pending messages
+        self._chunks: list[bytes] = []  # the chunk index records
+        self._end = 0  # offset of the next chunk
+        self._tail = _END  # the end of the file, at that offset
+        self._index_size = 0  # bytes of the chunk index records
         self.counts: list[int] = []
         self.start = 0
         self.end = 0
         self._append(_MAGIC + _record(_HEADER, _text("ros2") + _text("coframe")), _END)
 
     @property
-    def size(self) -> int:  # noqa: D102 - described above
+    def size(self) -> int:
+        """Bytes of the file, including those that the next flush writes."""
         return self._end + len(self._pending)
 
     @property
     def count(self) -> int:
-        """Messages that were flushed."""
+        """Number of flushed messages."""
         return sum(self.counts)
 
     @property
     def pending(self) -> int:
-        """Bytes that wait for the next flush."""
+        """Bytes that the next flush writes, before compression."""
         return len(self._pending)
 
     def add_channel(
@@ -95,9 +96,9 @@ class McapWriter:
         encoding: str,
         definition: str,
         definition_format: str,
-        about: Mapping[str, str],
+        metadata: Mapping[str, str],
     ) -> int:
-        """A channel for messages of a type on a topic: its number."""
+        """Add a channel for messages of a type on a topic; return its number."""
         key = (ros_type, definition_format, definition)
         if key not in self._schemas:
             self._schemas[key] = len(self._schemas) + 1
@@ -108,13 +109,13 @@ class McapWriter:
         number = len(self.counts)
         self.counts.append(0)
         self._sequences.append(0)
-        metadata = b"".join(_text(part) for pair in about.items() for part in pair)
+        pairs = b"".join(_text(part) for pair in metadata.items() for part in pair)
         head = struct.pack("<HH", number, self._schemas[key]) + _text(topic) + _text(encoding)
-        self._define(_record(_CHANNEL, head + struct.pack("<I", len(metadata)) + metadata))
+        self._define(_record(_CHANNEL, head + struct.pack("<I", len(pairs)) + pairs))
         return number
 
     def write(self, channel: int, data: bytes, log_time: int, publish_time: int) -> None:
-        """A message, which is on the disk after the next flush. Times are nanoseconds."""
+        """Add a message, which the next flush writes to the file. Times are in nanoseconds."""
         if channel not in self._index:
             self._index[channel] = array("Q")
         self._index[channel].extend((log_time, len(self._pending)))
@@ -128,10 +129,10 @@ class McapWriter:
         self._sequences[channel] += 1
 
     def flush(self) -> None:
-        """Gives what is pending to the operating system, as one chunk: it survives the end of this process.
+        """Write the pending messages to the file as one chunk; they survive the end of this process.
 
         Raises:
-            OSError: The disk is full, for example. The file is then as it was before, and what was pending is lost.
+            OSError: The disk is full, for example. The file is unchanged, and the pending messages are lost.
         """
         if not self._index:
             return
@@ -140,23 +141,24 @@ class McapWriter:
         head = times + struct.pack("<QI", len(self._pending), zlib.crc32(self._pending)) + self._compression
         chunk = _record(_CHUNK, head + struct.pack("<Q", len(packed)) + packed)
         indices, offsets = self._message_indices(self._end + len(chunk))
-        about = times + struct.pack("<QQI", self._end, len(chunk), len(offsets)) + offsets
-        about += (
+        index = times + struct.pack("<QQI", self._end, len(chunk), len(offsets)) + offsets
+        index += (
             struct.pack("<Q", len(indices)) + self._compression + struct.pack("<QQ", len(packed), len(self._pending))
         )
-        before = self._noted()
-        self._note(_record(_CHUNK_INDEX, about))
+        statistics = (self.start, self.end, self.counts.copy())
+        self._count_pending(_record(_CHUNK_INDEX, index))
         try:
             self._append(chunk + indices, self._tail_at(self._end + len(chunk) + len(indices)))
         except OSError:
-            self._forget(before)
+            self.start, self.end, self.counts = statistics
+            self._index_size -= len(self._chunks.pop())
             raise
 
     def close(self) -> None:
-        """Writes the rest and the index, and waits until the disk has it all.
+        """Write the pending messages and the index, and wait until all is on the disk.
 
         Raises:
-            OSError: The disk is full, for example. The file is then whole, but has no index.
+            OSError: The disk is full, for example. The file is valid, but has no index.
         """
         try:
             self.flush()
@@ -168,8 +170,8 @@ class McapWriter:
         finally:
             self._file.close()
 
-    def _note(self, chunk_index: bytes) -> None:
-        """Counts what is pending as written."""
+    def _count_pending(self, chunk_index: bytes) -> None:
+        """Count the pending messages as flushed."""
         self.start = min(self.start, self._first) if self.count else self._first
         self.end = max(self.end, self._last)
         for channel, entries in self._index.items():
@@ -179,25 +181,17 @@ class McapWriter:
         self._index = {}
         self._pending.clear()
 
-    def _noted(self) -> tuple[int, int, list[int]]:
-        return self.start, self.end, self.counts.copy()
-
-    def _forget(self, before: tuple[int, int, list[int]]) -> None:
-        """Undoes the last `_note`."""
-        self.start, self.end, self.counts = before
-        self._index_size -= len(self._chunks.pop())
-
     def _tail_at(self, offset: int) -> bytes:
-        """The end of the file behind a chunk that ends there."""
-        small = self._index_size + len(self._definitions) <= _LARGEST_INDEX
-        return self._summary(offset) if small else _END
+        """Return the end of the file after a chunk that ends at an offset."""
+        is_small = self._index_size + len(self._definitions) <= _LARGEST_INDEX
+        return self._summary(offset) if is_small else _END
 
     def _define(self, record: bytes) -> None:
         self._definitions += record
         self._pending += record
 
     def _message_indices(self, offset: int) -> tuple[bytes, bytes]:
-        """The records that follow a chunk, and where each of them is."""
+        """Return the message index records that follow a chunk, and the offset of each of them."""
         records, offsets = bytearray(), bytearray()
         for channel, entries in self._index.items():
             offsets += struct.pack("<HQ", channel, offset + len(records))
@@ -206,7 +200,7 @@ class McapWriter:
         return bytes(records), bytes(offsets)
 
     def _summary(self, offset: int) -> bytes:
-        """The end of a file with an index, which begins there."""
+        """Return the end of the file with a summary, for the offset at which it begins."""
         counts = b"".join(struct.pack("<HQ", *pair) for pair in enumerate(self.counts))
         statistics = struct.pack(
             "<QHIIIIQQ",
@@ -219,15 +213,15 @@ class McapWriter:
         summary, offsets = bytearray(), bytearray()
         for opcode, records in groups:
             if records:
-                place = struct.pack("<BQQ", opcode, start + len(summary), len(records))
-                offsets += _record(_SUMMARY_OFFSET, place)
+                group = struct.pack("<BQQ", opcode, start + len(summary), len(records))
+                offsets += _record(_SUMMARY_OFFSET, group)
                 summary += records
         footer = _RECORD.pack(_FOOTER, 20) + struct.pack("<QQ", start, start + len(summary))
         checksum = zlib.crc32(summary + offsets + footer)
         return data_end + bytes(summary + offsets) + footer + struct.pack("<I", checksum) + _MAGIC
 
     def _definition_groups(self) -> list[tuple[int, bytes]]:
-        """The schemas, then the channels."""
+        """Return the schemas and the channels, as two groups."""
         groups = {_SCHEMA: bytearray(), _CHANNEL: bytearray()}
         position = 0
         while position < len(self._definitions):
@@ -238,12 +232,12 @@ class McapWriter:
         return [(opcode, bytes(records)) for opcode, records in groups.items()]
 
     def _append(self, data: bytes, tail: bytes) -> None:
-        """Puts data and an end of the file behind what is there, or leaves the file as it was."""
+        """Append data and an end of the file; restore the previous end if that fails."""
         try:
             self._write_at(self._end, data + tail)
             self._file.truncate()
         except OSError:
-            for old in (self._tail, _END):  # somebody else may have taken the room meanwhile
+            for old in (self._tail, _END):  # If the disk is full, only the short end may fit.
                 with suppress(OSError):
                     self._file.truncate(self._end)
                     self._write_at(self._end, old)
@@ -268,19 +262,19 @@ def _text(text: str) -> bytes:
     return struct.pack("<I", len(encoded)) + encoded
 
 
-# The end of a file without an index.
+# The end of a file without a summary.
 _END = _record(_DATA_END, bytes(4)) + _record(_FOOTER, bytes(20)) + _MAGIC
 
 
 def compressor(name: str) -> Callable[[bytes], bytes]:
-    """What compresses a chunk.
+    """Return the function that compresses a chunk.
 
     Raises:
-        ValueError: There is no such compression.
-        RecordingError: The package for it is not installed.
+        ValueError: The compression is unknown.
+        RecordingError: The package for the compression is not installed.
     """
     if name not in COMPRESSIONS:
-        raise ValueError(f"there is no compression {name!r}: it is one of {', '.join(COMPRESSIONS)}")
+        raise ValueError(f"No compression named {name!r}. Known compressions: {', '.join(COMPRESSIONS)}.")
     if name == "none":
         return bytes
     module: Any
@@ -288,7 +282,7 @@ def compressor(name: str) -> Callable[[bytes], bytes]:
         module = importlib.import_module("zstandard" if name == "zstd" else "lz4.frame")
     except ModuleNotFoundError as error:
         raise RecordingError(
-            f"compressing by {name} needs the package {str(error.name).partition('.')[0]}, which is not installed",
+            f"compression with {name} needs the package {str(error.name).partition('.')[0]}, which is not installed",
             hint="pip install 'coframe[bags]', or choose no compression.",
         ) from None
     compress: Callable[[bytes], bytes] = (

@@ -1,4 +1,4 @@
-"""Names of frames in messages of any type: found by what the type is made of, changed in place."""
+"""Frame names in messages of any type: finds them by the definition of the type and replaces them."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ __all__ = ["FrameNames"]
 _FIELDS = {"frame_id", "child_frame_id"}
 _BASE, _NAME, _ARRAY = 1, 2, 3  # kinds of fields, as rosbags numbers them; a sequence is 4
 
-# What is in a message: fields that are names of frames (None), and fields with such fields in them.
+# The fields of a type that are frame names (None), and those that contain such fields.
 _Plan = dict[str, "_Plan | None"]
 
 
 class FrameNames:
-    """The names of frames in the messages of one type.
+    """Replaces the frame names in the messages of one type.
 
     Args:
-        store: A type store of rosbags.
+        store: A type store of rosbags that contains the type.
         ros_type: The type.
     """
 
@@ -36,7 +36,7 @@ class FrameNames:
 
     @classmethod
     def of(cls, channel: Channel, ros_type: str) -> FrameNames | None:
-        """Of a channel's messages as CDR; None where nobody says what they are made of."""
+        """Return the frame names for a channel's messages in CDR; None if the type is unknown."""
         is_described = channel.encoding == "cdr" and channel.definition
         if not is_described and definition_of(ros_type):
             return cls(humble_store(), ros_type)
@@ -46,16 +46,19 @@ class FrameNames:
             return None
 
     @property
-    def are_there(self) -> bool:
-        """Whether messages of this type have any."""
+    def exist(self) -> bool:
+        """Whether messages of this type contain frame names."""
         return bool(self._plan)
 
-    def renamed(self, data: bytes, rename: Callable[[str], str]) -> tuple[bytes, int]:
-        """A message with its names changed, and how many were.
+    def rename(self, data: bytes, rename: Callable[[str], str]) -> tuple[bytes, int]:
+        """Replace the frame names in a message.
 
         Args:
-            data: CDR.
-            rename: The new name for a name.
+            data: The message in CDR.
+            rename: Maps a name to its new name.
+
+        Returns:
+            The new message, and the number of names that changed.
 
         Raises:
             Exception: The bytes are damaged.
@@ -73,7 +76,7 @@ def _plan(store: Any, ros_type: str, above: tuple[str, ...]) -> _Plan:
         if name in _FIELDS and (kind, detail) == (_BASE, ("string", 0)):
             plan[name] = None
         if kind >= _ARRAY:
-            kind, detail = detail[0]  # noqa: PLW2901 - of what it is an array
+            kind, detail = detail[0]  # noqa: PLW2901 - the type of the elements
         if kind == _NAME and (inner := _plan(store, detail, (*above, ros_type))):
             plan[name] = inner
     return plan

@@ -1,4 +1,4 @@
-"""Quality of service as rosbag2 writes it down: what the publishers of a topic offered."""
+"""Quality of service that the publishers of a topic offered, in the YAML of rosbag2."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ if TYPE_CHECKING:
 
 __all__ = ["OfferedQos", "from_yaml", "to_yaml"]
 
-_LONGEST = 1 << 20
-# rmw's numbers, and the words that rosbag2 writes from version 9 of its metadata on.
+_MAX_LENGTH = 1 << 20
+# The numbers of rmw, and the words that rosbag2 writes since version 9 of its metadata.
 _KEEP_LAST, _KEEP_ALL = 1, 2
 _RELIABLE, _BEST_EFFORT = 1, 2
 _TRANSIENT_LOCAL, _VOLATILE = 1, 2
@@ -31,13 +31,13 @@ _PROFILE = """\
 
 
 class OfferedQos(NamedTuple):
-    """What one publisher offered.
+    """Quality of service that one publisher offered.
 
     Attributes:
-        depth: How many messages it kept.
-        reliable: Lost messages were sent again.
-        transient_local: Late joiners got the last messages.
-        keep_all: It kept every message.
+        depth: History depth in messages.
+        reliable: Reliable, as opposed to best effort.
+        transient_local: Late joiners receive the last messages.
+        keep_all: The history keeps all messages, regardless of its depth.
     """
 
     depth: int = 10
@@ -47,7 +47,7 @@ class OfferedQos(NamedTuple):
 
 
 def to_yaml(profiles: Iterable[OfferedQos]) -> str:
-    """As the versions 4 to 8 of rosbag2's metadata have it, which later versions read, too."""
+    """Return the YAML of metadata versions 4 to 8, which later versions of rosbag2 read, too."""
     return "".join(
         _PROFILE.format(
             history=_KEEP_ALL if profile.keep_all else _KEEP_LAST,
@@ -61,14 +61,14 @@ def to_yaml(profiles: Iterable[OfferedQos]) -> str:
 
 
 def from_yaml(text: str) -> tuple[OfferedQos, ...]:
-    """Of any version; nothing where it cannot be read."""
-    if not text or len(text) > _LONGEST:
+    """Return the profiles in YAML of any metadata version; empty if it cannot be read."""
+    if not text or len(text) > _MAX_LENGTH:
         return ()
     try:
         yaml: Any = importlib.import_module("yaml")
         profiles = yaml.load(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
         return tuple(_profile(profile) for profile in profiles)
-    except Exception:  # noqa: BLE001 - no PyYAML, no YAML, or not what it should be: it is as if nothing had been offered
+    except Exception:  # noqa: BLE001 - without PyYAML or with damaged YAML, the offer is unknown
         return ()
 
 

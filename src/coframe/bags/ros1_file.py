@@ -1,4 +1,4 @@
-"""Bags of ROS 1, version 2.0 (described at http://wiki.ros.org/Bags/Format/2.0), with or without their index."""
+"""Reader for bags of ROS 1 (http://wiki.ros.org/Bags/Format/2.0), with or without an index."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe import time
 from coframe.bags.compression import LARGEST, DamagedError, unpack
 from coframe.bags.offered_qos import OfferedQos, to_yaml
 from coframe.bags.storage import Batch, Channel, ChunkedStorage
@@ -37,14 +38,14 @@ class Ros1Storage(ChunkedStorage):
         self._channels: dict[int, Channel] = {}
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
-        """All messages, in the order in which they lie in the file."""
-        del wanted  # all data lie together
+        """Yield all messages in file order; the bytes of unwanted ones are included because chunks contain both."""
+        del wanted
         for offset, opcode, header, start, end in self._walk(self._read_index()):
             if opcode == _CHUNK:
                 yield from self._chunk_batches(offset)
                 progress(min(end, self.size))
             elif end - offset > LARGEST:
-                self.problem(f"the record at byte {offset} claims to be {end - offset} bytes")
+                self.add_problem(f"the record at byte {offset} has a stated size of {end - offset} bytes")
             elif opcode == _CONNECTION:
                 self._connect(header, self.bytes_at(start, end - start))
             elif opcode == _MESSAGE:
@@ -52,24 +53,24 @@ class Ros1Storage(ChunkedStorage):
         progress(self.size)
 
     def _walk(self, chunks: list[int]) -> Iterator[tuple[int, int, dict[bytes, bytes], int, int]]:
-        """Offset, opcode, header, start and end of every record; from a damaged one on to the next known chunk."""
+        """Yield offset, opcode, header, start and end of each record; continue at the next chunk after damage."""
         offset = len(MAGIC)
         while offset < self.size:
             later = [chunk for chunk in chunks if chunk > offset]
             try:
-                header, start, end = self._record(offset, may_be_cut_off=not later)
+                header, start, end = self._record(offset, may_be_truncated=not later)
             except DamagedError as error:
                 if not later:
-                    self.problem(f"it breaks off at byte {offset} of {self.size}: {error}")
+                    self.add_problem(f"truncated at byte {offset} of {self.size}: {error}")
                     return
-                self.problem(f"bytes {offset} to {later[0]} are damaged")
+                self.add_problem(f"bytes {offset} to {later[0]} are damaged")
                 offset = later[0]
                 continue
             yield offset, _opcode(header), header, start, end
             offset = end
 
     def _read_index(self) -> list[int]:
-        """Takes in the connections that the index at the end describes; gives where it says that chunks begin."""
+        """Read the connections in the index at the end of the file; return the offsets of the chunks it lists."""
         chunks: list[int] = []
         try:
             header, _, _ = self._record(len(MAGIC))
@@ -82,27 +83,27 @@ class Ros1Storage(ChunkedStorage):
                     chunks.append(int.from_bytes(header.get(b"chunk_pos", b"")[:8], "little"))
                 offset = end
         except DamagedError:
-            pass  # there may be no index: a recorder that is stopped hard leaves none
+            pass  # A recorder that is killed leaves a bag without an index.
         return sorted(chunk for chunk in chunks if len(MAGIC) < chunk < self.size)
 
-    def _record(self, offset: int, *, may_be_cut_off: bool = True) -> tuple[dict[bytes, bytes], int, int]:
-        """The header of a record of the file, and where its data begin and end; of a chunk the end may be missing."""
+    def _record(self, offset: int, *, may_be_truncated: bool = True) -> tuple[dict[bytes, bytes], int, int]:
+        """Return the header of a record of the file and the start and end of its data; a chunk may be truncated."""
         length = self._length(offset)
         if length > _LONGEST_HEADER:
-            raise DamagedError("a damaged header")
+            raise DamagedError("the header of the record is damaged")
         header = _fields(self.bytes_at(offset + 4, length))
         if _opcode(header) not in _KNOWN:
-            raise DamagedError("a damaged header")
+            raise DamagedError("the header of the record is damaged")
         start = offset + 8 + length
         end = start + self._length(start - 4)
-        if end > self.size and not (may_be_cut_off and _opcode(header) == _CHUNK):
-            raise DamagedError("it is cut off")
+        if end > self.size and not (may_be_truncated and _opcode(header) == _CHUNK):
+            raise DamagedError("the record is truncated")
         return header, start, end
 
     def _length(self, offset: int) -> int:
         data = self.bytes_at(offset, _LENGTH.size)
         if len(data) < _LENGTH.size:
-            raise DamagedError("it is cut off")
+            raise DamagedError("the record is truncated")
         return int(_LENGTH.unpack(data)[0])
 
     def _chunk_batches(self, offset: int) -> Iterator[Batch]:
@@ -110,50 +111,50 @@ class Ros1Storage(ChunkedStorage):
         try:
             data = self.unpack_chunk(offset)
         except DamagedError as error:
-            self.problem(f"the chunk at byte {offset} cannot be unpacked: {error}")
+            self.add_problem(f"the chunk at byte {offset} cannot be unpacked: {error}")
             return
         yield from self._inner(data, base)
 
     def unpack_chunk(self, offset: int) -> bytes:
-        """The records of the chunk at this offset of the file."""
+        """Return the records of the chunk at an offset of the file."""
         header, start, end = self._record(offset)
         compression = header.get(b"compression", b"none").decode("ascii", "replace")
         size = int.from_bytes(header.get(b"size", b"")[:4], "little")
         data = unpack(compression, self.bytes_at(start, min(end, self.size) - start), size)
         if end > self.size:
-            self.problem(f"it ends inside the chunk at byte {offset}")
+            self.add_problem(f"truncated inside the chunk at byte {offset}")
         elif len(data) < size:
-            self.problem(f"the chunk at byte {offset} is damaged from its byte {len(data)} on")
+            self.add_problem(f"the chunk at byte {offset} is damaged; only its first {len(data)} bytes were read")
         return data
 
     def _inner(self, data: bytes, base: int) -> Iterator[Batch]:
-        """The messages among records; their positions are offsets in ``data`` plus ``base``."""
+        """Yield the messages in a sequence of records; ``base`` plus an offset in ``data`` is a position."""
         found: dict[int, list[tuple[int, int, int, int]]] = {}
         position = 0
         while position < len(data):
             try:
                 header, start, end = _record_in(data, position)
             except DamagedError:
-                self.problem(f"{len(data) - position} bytes are damaged or cut off inside a chunk")
+                self.add_problem(f"{len(data) - position} bytes inside a chunk are damaged or missing")
                 break
             opcode = _opcode(header)
             if opcode == _CONNECTION:
                 self._connect(header, data[start:end])
             elif opcode == _MESSAGE:
                 seconds, nanoseconds = _TIME.unpack(header.get(b"time", b"").ljust(8, b"\0")[:8])
-                row = (seconds * 1_000_000_000 + nanoseconds, base + position, start, end)
+                row = (seconds * time.SECOND + nanoseconds, base + position, start, end)
                 found.setdefault(_number(header), []).append(row)
             position = end
         for number, rows in found.items():
             channel = self._channels.get(number)
             if channel is None:
-                self.problem("messages of a connection that nothing describes", len(rows))
+                self.add_problem("messages of a connection that is not defined", len(rows))
                 continue
             received, positions, starts, ends = np.array(rows, dtype=np.uint64).T.copy()
             yield Batch(channel, received.astype(np.int64), positions, Slices(data, starts, ends))
 
     def payload(self, source: bytes | None, offset: int) -> bytes | memoryview:
-        """The message in the record at this offset."""
+        """Return the message in the record at an offset."""
         if source is None:
             _, start, end = self._record(offset)
             return self.bytes_at(start, end - start)
@@ -165,31 +166,31 @@ class Ros1Storage(ChunkedStorage):
         if number in self._channels:
             return
         try:
-            about = _fields(data)
-        except DamagedError as error:
-            self.problem(f"the description of a connection: {error}")
+            fields = _fields(data)
+        except DamagedError:
+            self.add_problem("the definition of a connection is damaged")
             return
-        package, _, name = about.get(b"type", b"").decode("utf-8", "replace").rpartition("/")
+        package, _, name = fields.get(b"type", b"").decode("utf-8", "replace").rpartition("/")
         self._channels[number] = Channel(
-            topic=(header.get(b"topic") or about.get(b"topic", b"")).decode("utf-8", "replace"),
+            topic=(header.get(b"topic") or fields.get(b"topic", b"")).decode("utf-8", "replace"),
             type=f"{package}/msg/{name}" if package else name,
             encoding="ros1",
-            definition=about.get(b"message_definition", b""),
+            definition=fields.get(b"message_definition", b""),
             definition_format="ros1msg",
-            offered_qos=to_yaml([OfferedQos(1, transient_local=True)]) if about.get(b"latching") == b"1" else "",
+            offered_qos=to_yaml([OfferedQos(1, transient_local=True)]) if fields.get(b"latching") == b"1" else "",
         )
 
 
 def _record_in(data: bytes, position: int) -> tuple[dict[bytes, bytes], int, int]:
-    """The header of a record of a chunk, and where its data begin and end."""
+    """Return the header of a record of a chunk and the start and end of its data."""
     try:
         (length,) = _LENGTH.unpack_from(data, position)
         start = position + 8 + length
         (size,) = _LENGTH.unpack_from(data, start - 4)
     except struct.error:
-        raise DamagedError("it is cut off") from None
+        raise DamagedError("the record is truncated") from None
     if start + size > len(data):
-        raise DamagedError("it is cut off")
+        raise DamagedError("the record is truncated")
     return _fields(data[position + 4 : start - 4]), start, start + size
 
 
@@ -200,7 +201,7 @@ def _fields(header: bytes) -> dict[bytes, bytes]:
         position += _LENGTH.size
         name, separator, value = header[position : position + length].partition(b"=")
         if not separator or position + length > len(header):
-            raise DamagedError("a damaged header")
+            raise DamagedError("the header of the record is damaged")
         fields[name] = value
         position += length
     return fields

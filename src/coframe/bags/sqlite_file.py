@@ -1,4 +1,4 @@
-"""rosbag2's SQLite files, of every schema version."""
+"""Reader for rosbag2's SQLite files of all schema versions."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ __all__ = ["MAGIC", "SqliteStorage"]
 
 MAGIC = b"SQLite format 3\0"
 
-# SQLite quotes what is damaged, and that need not be text.
+# SQLite's error texts quote damaged data, which may not be UTF-8.
 _DAMAGE = (sqlite3.Error, UnicodeDecodeError)
-_STEP = 2000  # messages between two reports of progress
+_BATCH_SIZE = 2000  # rows
 
 
 class SqliteStorage(Storage):
-    """A ``.db3`` file; a position is a row's id."""
+    """A ``.db3`` file; the position of a message is the id of its row."""
 
     def __init__(self, path: Path, problems: Problems) -> None:
         super().__init__(path, problems)
@@ -37,60 +37,61 @@ class SqliteStorage(Storage):
         self._channels: dict[int, Channel] = {}
 
     def _open(self) -> sqlite3.Connection:
-        # With a journal beside it the recorder was stopped: SQLite mends that, unless the folder is read-only.
+        # A journal next to the file means that the recorder was killed. SQLite recovers the data from it, which fails
+        # in a read-only folder.
         journals = [self.path.with_name(f"{self.path.name}-{kind}") for kind in ("wal", "journal")]
         if any(journal.exists() for journal in journals):
-            mended = sqlite3.connect(f"{self.path.absolute().as_uri()}?mode=ro", uri=True, check_same_thread=False)
+            recovered = sqlite3.connect(f"{self.path.absolute().as_uri()}?mode=ro", uri=True, check_same_thread=False)
             try:
-                mended.execute("SELECT count(*) FROM sqlite_master").fetchone()
+                recovered.execute("SELECT count(*) FROM sqlite_master").fetchone()
             except _DAMAGE as error:
-                mended.close()
-                self.problem(f"the journal beside it cannot be used ({error}): what was written last is missing")
+                recovered.close()
+                self.add_problem(f"the journal of the database cannot be read ({error}); the last messages are missing")
             else:
-                return mended
+                return recovered
         uri = f"{self.path.absolute().as_uri()}?mode=ro&immutable=1"
         return sqlite3.connect(uri, uri=True, check_same_thread=False)
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
-        """Those of the wanted channels with their data, then the others without."""
+        """Yield the messages of the wanted channels with their bytes, then the others without."""
         try:
             self._database.text_factory = lambda text: text.decode("utf-8", "replace")
             self._database.execute("PRAGMA trusted_schema = OFF")
             self._channels = self._read_channels()
             (total,) = self._database.execute("SELECT max(id) FROM messages").fetchone()
         except (*_DAMAGE, TypeError) as error:
-            self.problem(f"the database cannot be read: {error}")
+            self.add_problem(f"the database cannot be read: {error}")
             return
         if not isinstance(total, int):
             return
-        whole = [number for number, channel in self._channels.items() if wanted(channel)]
-        rest = [number for number in self._channels if number not in whole]
-        for numbers, column in ((whole, "data"), (rest, "NULL")):
+        with_data = [number for number, channel in self._channels.items() if wanted(channel)]
+        without_data = [number for number in self._channels if number not in with_data]
+        for numbers, column in ((with_data, "data"), (without_data, "NULL")):
             yield from self._rows(numbers, column, lambda row: progress(self.size * row // max(total, 1)))
         progress(self.size)
 
     def _rows(self, numbers: list[int], column: str, progress: Callable[[int], object]) -> Iterator[Batch]:
         if not numbers:
             return
-        # All that goes into the text are integers and our own words.
+        # Safe from SQL injection: the query contains only integers and column names of this module.
         query = (
             f"SELECT topic_id, id, timestamp, {column} FROM messages "  # noqa: S608
             f"WHERE topic_id IN ({', '.join(map(str, numbers))}) ORDER BY id"
         )
         try:
             cursor = self._database.execute(query)
-            while rows := cursor.fetchmany(_STEP):
+            while rows := cursor.fetchmany(_BATCH_SIZE):
                 progress(rows[-1][1])
                 yield from self._grouped(rows, with_data=column == "data")
         except _DAMAGE as error:
-            self.problem(f"the database is damaged, and not all of it was read: {error}")
+            self.add_problem(f"the database is damaged and was read only in part: {error}")
 
     def _grouped(self, rows: list[tuple[Any, ...]], *, with_data: bool) -> Iterator[Batch]:
-        """The rows of each topic; those that are not what they should be are left out."""
+        """Yield one batch per topic; rows with a time or data of the wrong type are skipped."""
         topics, _, times, data = zip(*rows, strict=True)
         if set(map(type, times)) != {int} or (with_data and set(map(type, data)) != {bytes}):
             good = [row for row in rows if isinstance(row[2], int) and (isinstance(row[3], bytes) or not with_data)]
-            self.problem("rows whose time or data are not what they should be", len(rows) - len(good))
+            self.add_problem("rows with a time or data of the wrong type", len(rows) - len(good))
             rows = good
         numbers = set(topics)
         for number in numbers:
@@ -108,7 +109,7 @@ class SqliteStorage(Storage):
         tables = dict(self._query("SELECT name, sql FROM sqlite_master WHERE type = 'table'"))
         for name in ("topics", "messages"):
             if not str(tables.get(name)).upper().startswith("CREATE TABLE"):
-                raise sqlite3.DatabaseError(f"there is no table {name}: it is no recording of rosbag2")
+                raise sqlite3.DatabaseError(f"no table {name}: the file is not a recording of rosbag2")
         definitions = {}
         if "message_definitions" in tables:
             for type_, kind, text in self._query(
@@ -119,7 +120,7 @@ class SqliteStorage(Storage):
         return {
             number: Channel(str(topic), str(type_), str(encoding), *definitions.get(type_, (b"", "")), str(offered))
             for number, topic, type_, encoding, offered in self._query(
-                f"SELECT id, name, type, serialization_format, {qos} FROM topics"  # noqa: S608 - one of our own words
+                f"SELECT id, name, type, serialization_format, {qos} FROM topics"  # noqa: S608 - a column name of this module
             )
             if isinstance(number, int)
         }
@@ -128,18 +129,18 @@ class SqliteStorage(Storage):
         return self._database.execute(query).fetchall()
 
     def read(self, position: int) -> bytes:
-        """The data of the row with this id."""
+        """Return the data of a row."""
         try:
             with self._lock:
                 row = self._database.execute("SELECT data FROM messages WHERE id = ?", (_row(position),)).fetchone()
         except _DAMAGE as error:
             raise DamagedError(f"the database is damaged: {error}") from None
         if row is None or not isinstance(row[0], bytes):
-            raise DamagedError("the message is gone")
+            raise DamagedError("the message no longer exists")
         return bytes(row[0])
 
     def head(self, position: int, size: int) -> bytes:
-        """The first bytes of the row with this id; the rest, of an image perhaps, is not read."""
+        """Return the first bytes of the data of a row, without reading the rest."""
         if not hasattr(self._database, "blobopen"):  # before Python 3.11
             return super().head(position, size)
         try:
@@ -149,10 +150,10 @@ class SqliteStorage(Storage):
             raise DamagedError(f"the database is damaged: {error}") from None
 
     def close(self) -> None:
-        """Lets go of the file."""
+        """Close the file."""
         self._database.close()
 
 
 def _row(position: int) -> int:
-    """Rows may have negative numbers."""
+    """Return the id of a row, which may be negative, for a position, which is unsigned."""
     return position - (1 << 64) if position >= 1 << 63 else position

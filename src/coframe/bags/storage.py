@@ -1,4 +1,4 @@
-"""What all kinds of files have in common: channels of messages, read once in a row and then at will."""
+"""Interface of the readers for the file formats: all messages once in file order, then single messages by position."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ __all__ = ["Batch", "Channel", "ChunkedStorage", "Storage"]
 
 @dataclass(frozen=True, eq=False)
 class Channel:
-    """Messages of one type on one topic, in one file.
+    """The messages of one type on one topic in one file.
 
     Attributes:
-        topic: Its name.
-        type: As ROS 2 names types, ``sensor_msgs/msg/Imu``; of other systems as they do.
-        encoding: Of the messages: ``cdr``, ``ros1``, ``protobuf``, ``json``, ...
-        definition: What the file says of the type; may be empty.
+        topic: Name of the topic.
+        type: Name of the type, such as ``sensor_msgs/msg/Imu`` for ROS.
+        encoding: Encoding of the messages: ``cdr``, ``ros1``, ``protobuf``, ``json``, ...
+        definition: Definition of the type; may be empty.
         definition_format: ``ros2msg``, ``ros2idl``, ``ros1msg``, ``protobuf``, ``jsonschema`` or empty.
-        offered_qos: What the publishers offered, as rosbag2 writes it: YAML; may be empty.
+        offered_qos: QoS that the publishers offered, in rosbag2's YAML; may be empty.
     """
 
     topic: str
@@ -45,13 +45,13 @@ class Channel:
 
 
 class Batch(NamedTuple):
-    """Messages of one channel, in the order in which they lie in a file.
+    """Messages of one channel, in file order.
 
     Attributes:
-        channel: Where they belong.
-        received: When they were written down, (N,) int64 nanoseconds.
-        positions: What :meth:`Storage.read` finds them by, (N,) uint64.
-        messages: Their bytes, or None where these were not wanted and would have taken time.
+        channel: The channel.
+        received: Times of receipt, (N,) int64 nanoseconds.
+        positions: Arguments for :meth:`Storage.read`, (N,) uint64.
+        messages: The bytes; None if they are not wanted and reading them takes time.
     """
 
     channel: Channel
@@ -61,7 +61,7 @@ class Batch(NamedTuple):
 
 
 class Storage(ABC):
-    """One file of a recording. Any thread may read."""
+    """A file of a recording. Reading is thread-safe."""
 
     def __init__(self, path: Path, problems: Problems) -> None:
         self.path = path
@@ -70,95 +70,95 @@ class Storage(ABC):
 
     @abstractmethod
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
-        """All messages that can be read, once; what cannot be is among the problems.
+        """Yield all messages that can be read; damage is added to the problems.
 
         Args:
-            wanted: For which channels their bytes must be there.
-            progress: Told now and then how many bytes of the file have been dealt with.
+            wanted: Returns whether the bytes of a channel's messages are required.
+            progress: Called regularly with the number of bytes of the file that have been read.
         """
 
     @abstractmethod
     def read(self, position: int) -> bytes:
-        """One message's bytes.
+        """Return the bytes of one message.
 
         Raises:
-            DamagedError: They are no longer there.
+            DamagedError: The message no longer exists.
         """
 
     def head(self, position: int, size: int) -> bytes:
-        """The first bytes of one message.
+        """Return the first bytes of one message.
 
         Raises:
-            DamagedError: They are no longer there.
+            DamagedError: The message no longer exists.
         """
         return self.read(position)[:size]
 
     @abstractmethod
     def close(self) -> None:
-        """Lets go of the file."""
+        """Close the file."""
 
-    def problem(self, sentence: str, times: int = 1) -> None:
-        """Notes what could not be read of this file."""
+    def add_problem(self, sentence: str, times: int = 1) -> None:
+        """Add a problem of this file."""
         self.problems.add(f"{self.path.name}: {sentence}", times)
 
 
 _OFFSET_BITS = 40
-_CACHED = 64 << 20  # bytes of unpacked chunks
+_CACHE_SIZE = 64 << 20  # bytes of unpacked chunks
 
 
 class ChunkedStorage(Storage):
-    """A file of records, some of them chunks: compressed records in a row.
+    """A file of records, some of which are chunks of compressed records.
 
-    A position is an offset in the file, or the number of a chunk, from 1 on, and the offset inside it.
+    A position is an offset in the file, or the number of a chunk (from 1) and the offset inside it.
     """
 
     def __init__(self, path: Path, problems: Problems) -> None:
         super().__init__(path, problems)
         self._file: BinaryIO = path.open("rb")
         self._lock = threading.Lock()
-        self._chunks: list[int] = []  # where they begin in the file
+        self._chunks: list[int] = []  # offsets in the file
         self._unpacked: OrderedDict[int, bytes] = OrderedDict()
 
     @abstractmethod
     def unpack_chunk(self, offset: int) -> bytes:
-        """The records of the chunk at this offset of the file.
+        """Return the records of the chunk at an offset of the file.
 
         Raises:
-            DamagedError: Nothing of it can be read.
+            DamagedError: No data of the chunk can be read.
         """
 
     @abstractmethod
     def payload(self, source: bytes | None, offset: int) -> bytes | memoryview:
-        """The message in the record at an offset of a chunk, or of the file where ``source`` is None.
+        """Return the message in the record at an offset of a chunk, or of the file if ``source`` is None.
 
         Raises:
-            DamagedError: There is none.
+            DamagedError: There is no such record.
         """
 
     def bytes_at(self, offset: int, size: int) -> bytes:
-        """Bytes of the file; fewer at its end."""
+        """Return bytes of the file; fewer at its end."""
         if not 0 <= offset < self.size:
             return b""
         if size > LARGEST:
-            raise DamagedError(f"a record of {size} bytes")
+            raise DamagedError(f"the stated size of a record is {size} bytes")
         with self._lock:
             self._file.seek(offset)
             return self._file.read(size)
 
     def add_chunk(self, offset: int) -> int:
-        """What is added to offsets in this chunk to make them positions."""
+        """Register a chunk; return the number to add to an offset inside it to get a position."""
         self._chunks.append(offset)
         return len(self._chunks) << _OFFSET_BITS
 
     def read(self, position: int) -> bytes:
-        """One message's bytes, of a chunk that is unpacked or kept from before."""
+        """Return the bytes of one message, from a cached chunk if possible."""
         number, offset = divmod(position, 1 << _OFFSET_BITS)
         if number == 0:
             return bytes(self.payload(None, offset))
         return bytes(self.payload(self._chunk(number), offset))
 
     def close(self) -> None:
-        """Lets go of the file."""
+        """Close the file."""
         self._file.close()
         self._unpacked.clear()
 
@@ -170,6 +170,6 @@ class ChunkedStorage(Storage):
         data = self.unpack_chunk(self._chunks[number - 1])
         with self._lock:
             self._unpacked[number] = data
-            while len(self._unpacked) > 1 and sum(map(len, self._unpacked.values())) > _CACHED:
+            while len(self._unpacked) > 1 and sum(map(len, self._unpacked.values())) > _CACHE_SIZE:
                 self._unpacked.popitem(last=False)
         return data

@@ -1,4 +1,4 @@
-"""What a recording holds, in numbers."""
+"""Summary of a recording: its topics, trees and edges, and which sensor data can be transformed."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from coframe.analysis.tree import FrameTrees
 from coframe.errors import DecodeError, TransformException
 
 if TYPE_CHECKING:
@@ -16,7 +17,7 @@ __all__ = ["EdgeSummary", "SensorSummary", "Summary", "TreeSummary", "summarize"
 
 
 class EdgeSummary(NamedTuple):
-    """What is told of one edge. Times are nanoseconds, ``rate`` is Hz."""
+    """The samples of one edge. Times are in nanoseconds, ``rate`` is in Hz."""
 
     parent: str
     child: str
@@ -29,22 +30,22 @@ class EdgeSummary(NamedTuple):
 
 
 class TreeSummary(NamedTuple):
-    """A root, and of how many frames it is one, itself included."""
+    """A tree: its root, and its number of frames including the root."""
 
     root: str
     size: int
 
 
 class SensorSummary(NamedTuple):
-    """Whether a topic's messages can be brought into the root of their tree.
+    """Whether the messages of a topic can be transformed into the root of their tree.
 
     Attributes:
-        topic: The topic.
-        frame: What its first message says that it is told in.
-        messages: How many there are.
-        root: The root of that frame's tree; "" if no transform tells of the frame.
-        possible: For how many stamps there is a transform.
-        why_not: Of the first one without.
+        topic: Name of the topic.
+        frame: The frame_id of its first message.
+        messages: Number of messages.
+        root: Root of the tree of that frame; "" if no transform contains the frame.
+        possible: Number of messages for whose stamps there is a transform.
+        why_not: The error for the first stamp without a transform.
     """
 
     topic: str
@@ -56,18 +57,18 @@ class SensorSummary(NamedTuple):
 
 
 class Summary(NamedTuple):
-    """What :func:`summarize` gives. Times are nanoseconds.
+    """The result of :func:`summarize`. Times are in nanoseconds.
 
     Attributes:
-        path: The recording.
-        start: When the first message was received.
-        end: When the last one was.
-        span: The first and the last stamp of transforms.
+        path: Path of the recording.
+        start: Time of receipt of the first message.
+        end: Time of receipt of the last message.
+        span: First and last stamp of the transforms.
         topics: All topics.
-        trees: The largest first.
-        edges: All links between frames.
-        sensors: The topics whose messages have a header with a frame, other than transforms.
-        problems: What could not be read.
+        trees: All trees, the largest first.
+        edges: All edges.
+        sensors: The topics whose messages have a header with a frame, except transforms.
+        problems: Problems of the recording, one sentence each.
     """
 
     path: str
@@ -82,18 +83,18 @@ class Summary(NamedTuple):
 
 
 def summarize(recording: Recording) -> Summary:
-    """What a recording holds: topics, trees, edges with their gaps, and which sensors could be transformed."""
+    """Summarize a recording: topics, trees, edges with their gaps, and which sensor data can be transformed."""
     edges = [edge for edge in recording.buffer.edges() if edge.parent]
-    roots = _roots(edges)
-    sensors = [_sensor(recording, topic, roots) for topic in recording.topics.values()]
-    sizes = {root: 1 + sum(other == root for frame, other in roots.items() if frame != root) for root in roots.values()}
+    trees = FrameTrees.from_parents({edge.child: edge.parent for edge in edges})
+    sensors = [_sensor(recording, topic, trees) for topic in recording.topics.values()]
+    sizes = [TreeSummary(trees.root(members[0]), len(members)) for members in trees.members]
     return Summary(
         path=str(recording.path),
         start=recording.start,
         end=recording.end,
         span=recording.span,
         topics=list(recording.topics.values()),
-        trees=sorted((TreeSummary(*pair) for pair in sizes.items()), key=lambda tree: (-tree.size, tree.root)),
+        trees=sorted(sizes, key=lambda tree: (-tree.size, tree.root)),
         edges=[_edge(edge) for edge in edges],
         sensors=[sensor for sensor in sensors if sensor is not None],
         problems=recording.problems,
@@ -105,22 +106,8 @@ def _edge(edge: EdgeInfo) -> EdgeSummary:
     return EdgeSummary(edge.parent, edge.child, edge.static, *facts)
 
 
-def _roots(edges: list[EdgeInfo]) -> dict[str, str]:
-    """By frame: the root of its tree."""
-    parents = {edge.child: edge.parent for edge in edges}
-    roots: dict[str, str] = {}
-    for frame in [*parents, *parents.values()]:
-        seen = {frame}
-        root = frame
-        while root in parents and parents[root] not in seen:
-            root = parents[root]
-            seen.add(root)
-        roots[frame] = root
-    return roots
-
-
-def _sensor(recording: Recording, topic: Topic, roots: dict[str, str]) -> SensorSummary | None:
-    """None for messages that name no frame, or cannot be decoded."""
+def _sensor(recording: Recording, topic: Topic, trees: FrameTrees) -> SensorSummary | None:
+    """Return the summary of a sensor topic; None if its messages have no frame or cannot be decoded."""
     try:
         first: Any = next(recording.messages(topic.name)).message
         frame = recording.frame(str(first.header.frame_id))
@@ -128,9 +115,11 @@ def _sensor(recording: Recording, topic: Topic, roots: dict[str, str]) -> Sensor
         return None
     if not frame:
         return None
-    root = roots.get(frame)
-    if root is None:
-        return SensorSummary(topic.name, frame, topic.messages, "", 0, f"no transform tells of {frame!r}")
+    if frame not in trees.index:
+        return SensorSummary(
+            topic.name, frame, topic.messages, "", 0, f"No frame named {frame!r}: no transform contains it."
+        )
+    root = trees.root(frame)
     possible, why = _possible(recording.buffer, root, frame, recording.stamps(topic.name))
     return SensorSummary(topic.name, frame, topic.messages, root, possible, why)
 

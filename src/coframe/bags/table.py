@@ -1,4 +1,4 @@
-"""Every transform of a recording as one table, for the tools that work on tables."""
+"""All transforms of a recording as one table, for pyarrow and pandas."""
 
 from __future__ import annotations
 
@@ -22,52 +22,57 @@ __all__ = ["POSE_COLUMNS", "edge_table"]
 POSE_COLUMNS = ("x", "y", "z", "qx", "qy", "qz", "qw")
 
 
-class _Names:
-    """A column of few different names: numbers, and what they stand for."""
+class _NameColumn:
+    """A dictionary-encoded column of names: one code per row, and the name for each code."""
 
     def __init__(self, rows: int) -> None:
         self.codes = np.empty(rows, dtype=np.int32)
         self._numbers: dict[str, int] = {}
 
     def code(self, name: str) -> int:
-        """The number of a name, a new one if need be."""
+        """Return the code of a name, and assign one to a new name."""
         return self._numbers.setdefault(name, len(self._numbers))
 
     @property
     def names(self) -> list[str]:
-        """By their numbers."""
+        """The names in the order of their codes."""
         return list(self._numbers)
 
 
 class _Columns(NamedTuple):
-    """All samples, one edge after the other."""
+    """The columns of the table, one edge after the other."""
 
     stamps: NDArray[np.int64]
-    parent: _Names
-    child: _Names
+    parent: _NameColumn
+    child: _NameColumn
     poses: NDArray[np.float64]  # (7, N)
     static: NDArray[np.bool_]
-    topic: _Names
+    topic: _NameColumn
 
 
 def edge_table(buffers: Iterable[Buffer], format_: str = "arrow") -> Any:
-    """Every sample of every edge: ``stamp_ns``, ``parent``, ``child``, x to qw, ``static``, ``topic``.
+    """Return every sample of every edge as a table.
 
     Args:
-        buffers: What to take them from.
+        buffers: The buffers that contain the samples.
         format_: ``"arrow"`` for a ``pyarrow.Table``, ``"pandas"`` for a ``DataFrame``.
+
+    Returns:
+        A table with the columns ``stamp_ns``, ``parent``, ``child``, ``x`` ... ``qw``, ``static`` and ``topic``.
 
     Raises:
         RecordingError: The package is not installed.
-        ValueError: There is no such format.
+        ValueError: The format is unknown.
     """
     if format_ not in _FORMATS:
-        raise ValueError(f"there is no format {format_!r}: it is one of {', '.join(_FORMATS)}")
+        raise ValueError(f"No format named {format_!r}. Known formats: {', '.join(_FORMATS)}.")
     package, extra = _PACKAGES[format_]
     try:
         module = importlib.import_module(package)
     except ModuleNotFoundError:
-        raise RecordingError(f"this table needs the package {package}", hint=f"pip install {extra}") from None
+        raise RecordingError(
+            f"the table needs the package {package}, which is not installed", hint=f"pip install {extra}"
+        ) from None
     return _FORMATS[format_](module, _columns([buffer.snapshot() for buffer in buffers]))
 
 
@@ -76,11 +81,11 @@ def _columns(buffers: list[Buffer]) -> _Columns:
     rows = sum(edge.samples for _, edge in edges)
     columns = _Columns(
         np.empty(rows, dtype=np.int64),
-        _Names(rows),
-        _Names(rows),
+        _NameColumn(rows),
+        _NameColumn(rows),
         np.empty((len(POSE_COLUMNS), rows)),
         np.empty(rows, dtype=np.bool_),
-        _Names(rows),
+        _NameColumn(rows),
     )
     start = 0
     for buffer, edge in edges:
@@ -101,19 +106,19 @@ def _fill(columns: _Columns, rows: slice, buffer: Buffer, edge: EdgeInfo) -> Non
 
 
 def _arrow(pyarrow: Any, columns: _Columns) -> Any:
-    return pyarrow.table(_named(columns, lambda of: pyarrow.DictionaryArray.from_arrays(of.codes, of.names)))
+    return pyarrow.table(_named(columns, lambda names: pyarrow.DictionaryArray.from_arrays(names.codes, names.names)))
 
 
 def _pandas(pandas: Any, columns: _Columns) -> Any:
-    return pandas.DataFrame(_named(columns, lambda of: pandas.Categorical.from_codes(of.codes, of.names)))
+    return pandas.DataFrame(_named(columns, lambda names: pandas.Categorical.from_codes(names.codes, names.names)))
 
 
-def _named(columns: _Columns, names: Callable[[_Names], Any]) -> dict[str, Any]:
+def _named(columns: _Columns, names: Callable[[_NameColumn], Any]) -> dict[str, Any]:
     poses = dict(zip(POSE_COLUMNS, columns.poses, strict=True))
-    told = {"parent": names(columns.parent), "child": names(columns.child)}
     return {
         "stamp_ns": columns.stamps,
-        **told,
+        "parent": names(columns.parent),
+        "child": names(columns.child),
         **poses,
         "static": columns.static,
         "topic": names(columns.topic),

@@ -1,4 +1,4 @@
-"""Trajectories as files: TUM, KITTI, CSV, Parquet and numpy's npz."""
+"""Trajectory files: TUM, KITTI, CSV, Parquet and NumPy's npz."""
 
 from __future__ import annotations
 
@@ -29,41 +29,46 @@ FORMATS = ("tum", "kitti", "csv", "parquet", "npz")
 
 
 def format_of(path: str | os.PathLike[str]) -> str:
-    """The format that a file's name stands for.
+    """Return the format for a file name.
 
     Raises:
-        ValueError: It stands for none.
+        ValueError: The suffix does not belong to a known format.
     """
     suffix = Path(path).suffix.lower()
     if suffix not in _SUFFIXES:
-        raise ValueError(f"{str(path)!r} does not say which format: end it with one of {', '.join(_SUFFIXES)}")
+        raise ValueError(f"Unknown suffix of {str(path)!r}. Known suffixes: {', '.join(_SUFFIXES)}.")
     return _SUFFIXES[suffix]
 
 
 def write_trajectory(poses: Transform, target: str | os.PathLike[str] | TextIO, format_: str | None = None) -> None:
-    """Writes a batch of poses with stamps, as :meth:`coframe.Buffer.trajectory` and ``lookup_many`` give it.
+    """Write a batch of stamped poses to a file.
 
     Args:
-        poses: Shape (N,), with stamps. Rows without an answer (NaN) are to be left out before.
-        target: A file's name, or a stream of text for the formats of text.
-        format_: ``tum`` (seconds x y z qx qy qz qw), ``kitti`` (the upper three rows of the matrix, no times), ``csv``
-            (with the nanoseconds), ``parquet`` or ``npz``; None: as the name ends.
+        poses: Transforms of shape (N,) with stamps, as returned by :meth:`coframe.Buffer.trajectory` and
+            ``lookup_many``. Remove rows without a result (NaN) first.
+        target: A file name, or a text stream for the text formats.
+        format_: ``tum`` (seconds x y z qx qy qz qw), ``kitti`` (upper three rows of the matrix, no times), ``csv``
+            (stamps in nanoseconds), ``parquet`` or ``npz``; None: by the suffix of the file name, or ``tum`` for a
+            stream.
 
     Raises:
-        ValueError: There is no such format, or it is none of text and ``target`` is a stream, or there are no stamps.
+        ValueError: The format is unknown or not a text format although ``target`` is a stream, or there are no stamps.
         RecordingError: pyarrow is not installed.
     """
     kind = format_ or (format_of(target) if not hasattr(target, "write") else "tum")
     if kind not in FORMATS:
-        raise ValueError(f"there is no format {kind!r}: it is one of {', '.join(FORMATS)}")
+        raise ValueError(f"No format named {kind!r}. Known formats: {', '.join(FORMATS)}.")
     if poses.stamps is None or len(poses.shape) != 1:
-        raise ValueError("a trajectory is a batch of shape (N,) with stamps")
+        stamps = "no stamps" if poses.stamps is None else "stamps"
+        raise ValueError(
+            f"A trajectory must have shape (N,) and stamps; this one has shape {poses.shape} and {stamps}."
+        )
     values = np.concatenate([poses.translation, poses.quaternion], axis=1)
     if kind in _TEXT:
         with _stream(target) as stream:
             stream.writelines(f"{line}\n" for line in _TEXT[kind](poses.stamps, values, poses))
     elif hasattr(target, "write"):
-        raise ValueError(f"{kind} is no text: name a file")
+        raise ValueError(f"{kind} is not a text format and cannot be written to a text stream: give a file name.")
     elif kind == "npz":
         with Path(target).open("wb") as file:
             np.savez(
@@ -102,9 +107,9 @@ _TEXT = {"tum": _tum, "kitti": _kitti, "csv": _csv}
 
 
 def _seconds(stamp: int) -> str:
-    """All nine digits: a float of seconds would lose some."""
-    sign, size = ("-", -stamp) if stamp < 0 else ("", stamp)
-    return f"{sign}{size // time.SECOND}.{size % time.SECOND:09d}"
+    """Format nanoseconds as seconds with nine decimals, which a float would round."""
+    sign, absolute = ("-", -stamp) if stamp < 0 else ("", stamp)
+    return f"{sign}{absolute // time.SECOND}.{absolute % time.SECOND:09d}"
 
 
 def _write_parquet(poses: Transform, stamps: NDArray[np.int64], values: NDArray[np.float64], path: Path) -> None:
@@ -112,7 +117,9 @@ def _write_parquet(poses: Transform, stamps: NDArray[np.int64], values: NDArray[
         arrow: Any = importlib.import_module("pyarrow")
         parquet: Any = importlib.import_module("pyarrow.parquet")
     except ModuleNotFoundError:
-        raise RecordingError("Parquet needs the package pyarrow", hint="pip install 'coframe[parquet]'") from None
+        raise RecordingError(
+            "Parquet needs the package pyarrow, which is not installed", hint="pip install 'coframe[parquet]'"
+        ) from None
     columns = {name: values[:, i] for i, name in enumerate(POSE_COLUMNS)}
     table = arrow.table({"stamp_ns": stamps, **columns})
     about = {"target": poses.target or "", "source": poses.source or ""}

@@ -1,4 +1,4 @@
-"""Recorded transforms into a buffer: TFMessage as bytes, others decoded here."""
+"""Ingests recorded transforms into a buffer: TFMessages as bytes, other types decoded here."""
 
 from __future__ import annotations
 
@@ -21,9 +21,10 @@ if TYPE_CHECKING:
 
 __all__ = ["Ingest", "ingest_for", "is_static"]
 
-# Behind the count, the stamp and the name's length, and in ROS 1 the number, in CDR the header.
+# Offset of the first parent's name in a TFMessage: after the count, the stamp, the length of the name, and the
+# encapsulation (CDR) or the sequence number (ROS 1).
 _FIRST_PARENT = 20
-# What damaged bytes make the functions below raise.
+# The exceptions that the decoding functions below raise for damaged bytes.
 _DAMAGE = (struct.error, ValueError, TypeError, KeyError, IndexError, AttributeError, OverflowError, RecursionError)
 
 
@@ -37,13 +38,13 @@ class _Stamped(NamedTuple):
 
 
 class Ingest:
-    """Takes messages of one channel into a buffer.
+    """Ingests the messages of one channel into a buffer.
 
     Args:
-        decode: From bytes to transforms; or the encoding of TFMessages, which the buffer reads itself.
-        static: Valid for all time.
-        authority: Who says so.
-        renaming: What the frames are called in the buffer; None: as they come.
+        decode: Decodes a message; or the encoding of TFMessages, which the buffer decodes itself.
+        static: Whether the transforms are static.
+        authority: The authority of the transforms in the buffer.
+        renaming: Maps frame names to their names in the buffer; None: the names stay.
     """
 
     def __init__(
@@ -59,16 +60,19 @@ class Ingest:
         self._renaming = renaming
 
     def names_begin_with_slash(self, messages: Slices) -> bool:
-        """Whether the first parent in one of them does; of messages of ROS."""
+        """Return whether the first parent in any TFMessage begins with a slash; False for other types."""
         if not isinstance(self._decode, str):
             return False
-        places = (messages.starts + np.uint64(_FIRST_PARENT))[
-            messages.starts + np.uint64(_FIRST_PARENT) < messages.ends
-        ]
-        return bool((np.frombuffer(messages.data, dtype=np.uint8)[places] == ord("/")).any())
+        offsets = messages.starts + np.uint64(_FIRST_PARENT)
+        offsets = offsets[offsets < messages.ends]
+        return bool((np.frombuffer(messages.data, dtype=np.uint8)[offsets] == ord("/")).any())
 
     def __call__(self, buffer: Buffer, messages: Slices) -> tuple[int, str]:
-        """Takes messages in, each whole or not at all; how many are damaged, and what is wrong with the first."""
+        """Ingest messages, each completely or not at all.
+
+        Returns:
+            The number of damaged messages, and what is wrong with the first of them.
+        """
         if isinstance(self._decode, str):
             slices = (messages.data, messages.starts, messages.ends)
             return _core.ingest_slices(buffer, *slices, self.static, self._authority, self._decode, self._renaming)
@@ -82,7 +86,7 @@ class Ingest:
         return damaged, reason
 
     def columns(self, messages: Slices) -> TransformColumns:
-        """The same messages as columns."""
+        """Return the transforms of messages as columns."""
         if isinstance(self._decode, str):
             return tf_columns(messages, self._decode)
         rows: list[tuple[int, _Stamped]] = []
@@ -112,12 +116,12 @@ class Ingest:
 
 
 def is_static(topic: str) -> bool:
-    """Whether the transforms of a topic are valid for all time."""
+    """Return whether a topic contains static transforms."""
     return topic.rpartition("/")[2] == "tf_static"
 
 
 def ingest_for(channel: Channel, renaming: _core.Renaming | None = None) -> Ingest | None:
-    """What takes in a channel's messages; None if they are no transforms."""
+    """Return the ingest for a channel's messages; None if they are not transforms."""
     kind = (channel.encoding, channel.type.replace("/msg/", "/"))
     if kind not in _DECODINGS:
         return None
@@ -125,10 +129,10 @@ def ingest_for(channel: Channel, renaming: _core.Renaming | None = None) -> Inge
 
 
 def _foxglove_cdr(data: bytes | memoryview) -> Iterator[_Stamped]:
-    """foxglove_msgs/FrameTransform: one transform, without the count that a TFMessage begins with."""
+    """Decode a foxglove_msgs/FrameTransform, which has no count at the beginning, unlike a TFMessage."""
     order = byte_order(data)
     if order is None:
-        raise ValueError("the header does not say plain CDR (00 01 or 00 00)")
+        raise ValueError("the encapsulation is not plain CDR (00 01 or 00 00)")
     body = data[HEADER_SIZE:]
     seconds, nanoseconds = struct.unpack_from(order + "iI", body)
     position, names = 8, []
@@ -136,7 +140,7 @@ def _foxglove_cdr(data: bytes | memoryview) -> Iterator[_Stamped]:
         position = (position + 3) & ~3
         (length,) = struct.unpack_from(order + "I", body, position)
         if position + 4 + length > len(body):
-            raise ValueError("a text is longer than the message")
+            raise ValueError("a string is longer than the message")
         names.append(str(body[position + 4 : position + 4 + length], "utf-8").removesuffix("\0"))
         position += 4 + length
     values = struct.unpack_from(order + "7d", body, (position + 7) & ~7)
@@ -152,7 +156,7 @@ def _json_many(data: bytes | memoryview) -> Iterator[_Stamped]:
 
 
 def _from_object(transform: Any) -> _Stamped:
-    """Foxglove's FrameTransform as JSON; what is left out is zero."""
+    """Convert a Foxglove FrameTransform in JSON; missing fields are zero."""
     stamp, t, q = (transform.get(name, {}) for name in ("timestamp", "translation", "rotation"))
     values = [t.get(axis, 0.0) for axis in "xyz"] + [q.get(axis, 0.0) for axis in "xyzw"]
     x, y, z, qx, qy, qz, qw = map(float, values)
@@ -161,14 +165,14 @@ def _from_object(transform: Any) -> _Stamped:
 
 
 def _protobuf_many(data: bytes | memoryview) -> Iterator[_Stamped]:
-    """foxglove.FrameTransforms: field 1, repeated."""
+    """Decode foxglove.FrameTransforms: field 1 is repeated."""
     for number, value in _fields(data):
         if number == 1:
             yield from _protobuf_one(value)
 
 
 def _protobuf_one(data: bytes | memoryview) -> Iterator[_Stamped]:
-    """foxglove.FrameTransform: timestamp, parent, child, translation, rotation are the fields 1 to 5."""
+    """Decode foxglove.FrameTransform: fields 1 to 5 are timestamp, parent, child, translation and rotation."""
     parts = dict(_fields(data))
     stamp = dict(_fields(parts.get(1, b"")))
     t, q = (dict(_fields(parts.get(number, b""))) for number in (4, 5))
@@ -186,7 +190,7 @@ def _double(value: Any) -> float:
 
 
 def _fields(data: Any) -> Iterator[tuple[int, Any]]:
-    """A protobuf message's fields: integers, or the bytes of anything else."""
+    """Yield number and value of each field of a protobuf message: integers, or bytes for other types."""
     position = 0
     while position < len(data):
         key, position = _varint(data, position)
@@ -213,7 +217,7 @@ def _varint(data: Any, position: int) -> tuple[int, int]:
     raise ValueError("an integer of more than 64 bits")
 
 
-# By encoding and type. Foxglove's CDR of many transforms is laid out as a TFMessage.
+# By encoding and type. In CDR, foxglove_msgs/FrameTransforms has the layout of a TFMessage.
 _DECODINGS: dict[tuple[str, str], Callable[[bytes | memoryview], Iterator[_Stamped]] | str] = {
     ("cdr", "tf2_msgs/TFMessage"): "cdr",
     ("cdr", "foxglove_msgs/FrameTransforms"): "cdr",

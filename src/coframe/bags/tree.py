@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from coframe.analysis.clocks import group_by_clock
 from coframe.bags.transforms import ingest_for
 from coframe.buffer import Buffer
 
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
     from coframe.messages.slices import Slices
 
 __all__ = ["Transforms", "Wanted", "namespace_of", "report", "span"]
-
-_HOUR = 3_600_000_000_000
 
 
 class Wanted:
@@ -166,15 +165,10 @@ def _moving(buffer: Buffer) -> list[EdgeInfo]:
 
 
 def _clocks(buffer: Buffer) -> list[list[EdgeInfo]]:
-    """Edges whose stamps are within an hour of each other's, the most talkative clock first."""
-    clocks: list[list[EdgeInfo]] = []
-    latest = 0
-    for edge in sorted(_moving(buffer), key=lambda edge: edge.oldest):
-        if not clocks or edge.oldest > latest + _HOUR:
-            clocks.append([])
-            latest = edge.newest
-        clocks[-1].append(edge)
-        latest = max(latest, edge.newest)
+    """Return the moving edges by the clock of their stamps, the clock with the most samples first."""
+    moving = _moving(buffer)
+    groups = group_by_clock([(edge.oldest, edge.newest) for edge in moving])
+    clocks = [[moving[position] for position in group] for group in groups]
     return sorted(clocks, key=lambda clock: -sum(edge.samples for edge in clock))
 
 

@@ -1,4 +1,4 @@
-"""Writer: a recording as rosbag2 makes it, a folder of MCAP files and a metadata.yaml."""
+"""Writer for recordings in rosbag2's format: a folder with MCAP files and a metadata.yaml."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from coframe import time
 from coframe.bags.definitions import definition_of
-from coframe.bags.latched import Latched
+from coframe.bags.latched_messages import LatchedMessages
 from coframe.bags.mcap_writer import McapWriter, compressor
 from coframe.bags.offered_qos import OfferedQos, to_yaml
 from coframe.bags.transforms import is_static
@@ -25,16 +25,16 @@ if TYPE_CHECKING:
 
 __all__ = ["Writer"]
 
-_MOST_TOPICS = 65_000  # channels have numbers of 16 bits
-_TOO_LATE = 1 << 63
+_MAX_TOPICS = 65_000  # channels have numbers of 16 bits
+_MAX_TIME = 1 << 63
 _LARGEST_CHUNK = 4 << 20  # bytes before compression
 T = TypeVar("T")
-_VERSION = 5  # of the metadata: what Humble writes, and all later ones read
+_VERSION = 5  # of the metadata: Humble writes it, and later versions of rosbag2 read it
 
 
 @dataclass
 class _Topic:
-    """One topic of the recording."""
+    """A topic of the recording."""
 
     name: str
     type: str
@@ -42,14 +42,14 @@ class _Topic:
     definition: str
     definition_format: str
     offered_qos: str
-    latched: Latched | None
-    before: int = 0  # messages in finished files
-    channel: int | None = None  # in the file that is being written
+    latched: LatchedMessages | None
+    before: int = 0  # number of messages in finished files
+    channel: int | None = None  # number of the channel in the current file
 
 
 @dataclass
 class _File:
-    """What the metadata says of one file."""
+    """The metadata of one file."""
 
     name: str
     start: int = 0
@@ -58,31 +58,33 @@ class _File:
 
 
 @dataclass
-class _Facts:
-    """What the metadata says of the whole."""
+class _Contents:
+    """The files and topics of the recording."""
 
     files: list[_File] = field(default_factory=list)
     topics: list[_Topic] = field(default_factory=list)
 
 
 class Writer:
-    """Writes a recording that rosbag2, Foxglove and others open; usable as a context manager, by one thread at a time.
+    """Writes a recording that rosbag2, Foxglove and other tools open.
 
-    Every file begins with the latched messages that hold: static transforms, and what other publishers keep for late
-    joiners. What was flushed survives the end of this process, and the files are whole after every flush.
+    A context manager; not thread-safe. Each file begins with the latched (transient-local) messages that are valid at
+    that time, such as static transforms. Flushed messages survive the end of the process, and the files are valid after
+    each flush.
 
     Args:
-        path: The folder, which must not be there yet.
-        compression: Of the chunks: ``zstd``, ``lz4`` or ``none``.
-        max_size: Bytes after which the next file begins; None: never.
-        max_duration: Time after which the next file begins, as "10min", a timedelta or nanoseconds; None: never.
+        path: The folder, which must not exist.
+        compression: Compression of the chunks: ``zstd``, ``lz4`` or ``none``.
+        max_size: Size in bytes at which a new file begins; None: never.
+        max_duration: Duration after which a new file begins, as "10min", a timedelta or nanoseconds; None: never.
 
     Attributes:
         path: The folder.
-        undescribed: Types of which nobody here knows what they are made of: readers will need to know it themselves.
+        undescribed: Types whose definitions coframe does not have. Readers of the recording need to have them.
 
     Raises:
-        RecordingError: The folder is there already or cannot be made, or a package is missing.
+        RecordingError: The folder exists or cannot be created, or a package is not installed.
+        ValueError: The compression is unknown, or ``max_size`` is below 1.
 
     Example:
         >>> with Writer("run") as writer:                                            # doctest: +SKIP
@@ -99,15 +101,15 @@ class Writer:
         max_duration: str | int | timedelta | None = None,
     ) -> None:
         if max_size is not None and max_size < 1:
-            raise ValueError(f"a file of at most {max_size} bytes cannot be written")
+            raise ValueError(f"max_size must be at least 1 byte, not {max_size}")
         self.path = Path(path)
         self.undescribed: list[str] = []
         self._compression = compression
         self._max_size = max_size
         self._max_duration = None if max_duration is None else time.duration_ns(max_duration)
         self._dump = _yaml_dump()
-        compressor(compression)  # is there, or there will be no folder
-        self._facts = _Facts()
+        compressor(compression)  # Raises before the folder is created.
+        self._contents = _Contents()
         self._numbers: dict[tuple[str, str], int] = {}
         self._closed = 0  # bytes of finished files
         self._first_size = 0  # bytes of the file before its own messages
@@ -116,11 +118,12 @@ class Writer:
             self.path.mkdir(parents=True)
         except FileExistsError:
             raise RecordingError(
-                f"{self.path} is there already, and nothing is overwritten", hint="Choose another folder."
+                f"{self.path} already exists and is not overwritten", hint="Choose another folder."
             ) from None
         except OSError as error:
             raise RecordingError(
-                f"{self.path} cannot be made: {error.strerror or error}", hint="Name a folder where you may write."
+                f"{self.path} cannot be created: {error.strerror or error}",
+                hint="Choose a folder with write permission.",
             ) from None
         self._mcap = self._writing(self._open)
         self._write_metadata()
@@ -135,29 +138,31 @@ class Writer:
         definition: str | None = None,
         definition_format: str = "ros2msg",
     ) -> int:
-        """A topic to write messages on: its number. Asked again for the same name and type it is the same one.
+        """Add a topic; return its number, which is the same for the same name and type.
 
         Args:
-            name: With its slash: "/tf".
-            ros_type: Of the messages: "tf2_msgs/msg/TFMessage".
-            offered_qos: What its publishers offered; a topic that one of them keeps messages of is latched.
-            encoding: Of the messages.
-            definition: What the type is made of; None: as coframe knows it.
-            definition_format: Of that text.
+            name: The name with its slash, such as "/tf".
+            ros_type: The type of the messages, such as "tf2_msgs/msg/TFMessage".
+            offered_qos: The QoS that its publishers offer. The topic is latched if one of them is transient local.
+            encoding: The encoding of the messages.
+            definition: The definition of the type; None: the definition in coframe.
+            definition_format: The format of the definition.
 
         Raises:
             RecordingError: There are more topics than an MCAP file can have.
         """
         key = (name, ros_type)
         if key not in self._numbers:
-            if len(self._numbers) >= _MOST_TOPICS:
-                raise RecordingError(f"{self.path} cannot have more than {_MOST_TOPICS} topics", hint="Choose some.")
+            if len(self._numbers) >= _MAX_TOPICS:
+                raise RecordingError(
+                    f"{self.path} cannot have more than {_MAX_TOPICS} topics", hint="Record a selection of topics."
+                )
             known = definition_of(ros_type) if definition is None else definition
             if not known and ros_type not in self.undescribed:
                 self.undescribed.append(ros_type)
             latched = is_static(name) or any(qos.transient_local for qos in offered_qos)
-            self._numbers[key] = len(self._facts.topics)
-            self._facts.topics.append(
+            self._numbers[key] = len(self._contents.topics)
+            self._contents.topics.append(
                 _Topic(
                     name,
                     ros_type,
@@ -165,7 +170,7 @@ class Writer:
                     known,
                     definition_format if known else "",
                     to_yaml(offered_qos or ([OfferedQos(1, transient_local=True)] if latched else [])),
-                    Latched(name, ros_type) if latched else None,
+                    LatchedMessages(name, ros_type) if latched else None,
                 )
             )
         return self._numbers[key]
@@ -173,36 +178,36 @@ class Writer:
     def write(
         self, topic: int, data: bytes, received: int, *, published: int | None = None, publisher: Hashable = None
     ) -> None:
-        """Takes a message in; it is on the disk after the next flush, which large amounts bring about by themselves.
+        """Write a message. It reaches the file with the next flush, which happens automatically after some megabytes.
 
         Args:
-            topic: Its number.
+            topic: The number of the topic.
             data: The serialised message.
-            received: When it was received, in nanoseconds.
-            published: When it was sent; None, or a time that is none: when it was received.
-            publisher: Whose it is, of several publishers of a latched topic.
+            received: Time of receipt in nanoseconds.
+            published: Time of publication in nanoseconds; None or an invalid time: the time of receipt.
+            publisher: Distinguishes the publishers of a latched topic.
 
         Raises:
-            RecordingError: The disk is full, or what else the operating system says.
+            RecordingError: The operating system reports an error, such as a full disk.
         """
         if self._is_full(received):
             self._writing(self._next_file)
             self._begin_file(received)
         elif self._first_time is None:
             self._first_time = received
-        published = received if published is None or not 0 <= published < _TOO_LATE else published
-        facts = self._facts.topics[topic]
-        self._put(facts, data, received, published)
-        if facts.latched is not None:
-            facts.latched.add(data, published, publisher)
+        published = received if published is None or not 0 <= published < _MAX_TIME else published
+        entry = self._contents.topics[topic]
+        self._put(entry, data, received, published)
+        if entry.latched is not None:
+            entry.latched.add(data, published, publisher)
         if self._mcap.pending >= _LARGEST_CHUNK:
             self.flush()
 
     def flush(self) -> None:
-        """Gives everything to the operating system: it survives the end of this process, not that of the machine.
+        """Pass all messages to the operating system; they survive the end of the process, but not a power failure.
 
         Raises:
-            RecordingError: The disk is full, or what else the operating system says.
+            RecordingError: The operating system reports an error, such as a full disk.
         """
         if self._mcap.pending:
             self._writing(self._mcap.flush)
@@ -210,24 +215,24 @@ class Writer:
 
     @property
     def size(self) -> int:
-        """Bytes of all files so far."""
+        """Size of all files in bytes."""
         return self._closed + self._mcap.size
 
     @property
     def messages(self) -> int:
-        """How many messages were flushed."""
-        return sum(map(self._count, self._facts.topics))
+        """Number of flushed messages."""
+        return sum(map(self._count, self._contents.topics))
 
     @property
     def files(self) -> int:
-        """How many files there are so far."""
-        return len(self._facts.files)
+        """Number of files."""
+        return len(self._contents.files)
 
     def close(self) -> None:
-        """Ends the files with their index and the metadata, and waits until the disk has them.
+        """Write the index and the metadata, and wait until all is on the disk.
 
         Raises:
-            RecordingError: The disk is full, or what else the operating system says.
+            RecordingError: The operating system reports an error, such as a full disk.
         """
         try:
             self._writing(self._mcap.close)
@@ -248,7 +253,7 @@ class Writer:
                 encoding=topic.encoding,
                 definition=topic.definition,
                 definition_format=topic.definition_format,
-                about={"offered_qos_profiles": topic.offered_qos},
+                metadata={"offered_qos_profiles": topic.offered_qos},
             )
         self._mcap.write(topic.channel, data, received, published)
 
@@ -266,20 +271,20 @@ class Writer:
         self._mcap.close()
         self._note_file()
         self._closed += self._mcap.size
-        for topic in self._facts.topics:
+        for topic in self._contents.topics:
             topic.before, topic.channel = self._count(topic), None
         self._mcap = self._open()
 
     def _begin_file(self, received: int) -> None:
-        """With the latched messages, as if they had been received now: each file can be read for itself."""
-        for topic in self._facts.topics:
+        """Write the latched messages with the current time of receipt, so that each file can be read by itself."""
+        for topic in self._contents.topics:
             for message in topic.latched.messages if topic.latched else []:
                 self._put(topic, message.data, received, message.published)
         self._first_time, self._first_size = received, self._mcap.size
 
     def _open(self) -> McapWriter:
-        name = f"{self.path.name}_{len(self._facts.files)}.mcap"
-        self._facts.files.append(_File(name))
+        name = f"{self.path.name}_{len(self._contents.files)}.mcap"
+        self._contents.files.append(_File(name))
         return McapWriter(self.path / name, self._compression)
 
     def _writing(self, write: Callable[[], T]) -> T:
@@ -291,15 +296,15 @@ class Writer:
     def _cannot_write(self, error: OSError) -> RecordingError:
         return RecordingError(
             f"{self.path} cannot be written: {error.strerror or error}",
-            hint="Is there room on the disk, and may you write there? What was written before can be read.",
+            hint="Check the free space and the write permission. The messages written before this error can be read.",
         )
 
     def _note_file(self) -> None:
-        file = self._facts.files[-1]
+        file = self._contents.files[-1]
         file.start, file.end, file.count = self._mcap.start, self._mcap.end, self._mcap.count
 
     def _write_metadata(self) -> None:
-        """Where the disk is full, the metadata stay as they were, and are a little behind the files."""
+        """Write metadata.yaml; if the disk is full, the previous version stays."""
         self._note_file()
         text = self._dump({"rosbag2_bagfile_information": self._metadata()})
         new = self.path / "metadata.yaml.new"
@@ -311,7 +316,7 @@ class Writer:
                 new.unlink(missing_ok=True)
 
     def _metadata(self) -> dict[str, Any]:
-        files = [file for file in self._facts.files if file.count] or self._facts.files[:1]
+        files = [file for file in self._contents.files if file.count] or self._contents.files[:1]
         start, end = min(file.start for file in files), max(file.end for file in files)
         return {
             "version": _VERSION,
@@ -329,11 +334,11 @@ class Writer:
                     },
                     "message_count": self._count(topic),
                 }
-                for topic in self._facts.topics
+                for topic in self._contents.topics
             ],
             "compression_format": "",
             "compression_mode": "",
-            "relative_file_paths": [file.name for file in self._facts.files],
+            "relative_file_paths": [file.name for file in self._contents.files],
             "files": [
                 {
                     "path": file.name,
@@ -341,7 +346,7 @@ class Writer:
                     "duration": {"nanoseconds": file.end - file.start},
                     "message_count": file.count,
                 }
-                for file in self._facts.files
+                for file in self._contents.files
             ],
         }
 

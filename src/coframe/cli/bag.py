@@ -1,4 +1,4 @@
-"""``coframe bag info``: what a recording holds; ``coframe bag fix``: the recording once more, whole."""
+"""``coframe bag info``: shows what a recording contains; ``coframe bag fix``: writes a repaired copy."""
 
 from __future__ import annotations
 
@@ -8,11 +8,10 @@ from pathlib import Path  # noqa: TC003 - typer reads the annotations
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from coframe.bags import COMPRESSIONS, mend, summarize
+from coframe.bags import COMPRESSIONS, repair, summarize
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
@@ -27,7 +26,7 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import fail, printable
+from coframe.cli.output import count, fail, printable, report_console
 from coframe.cli.progress import task_progress
 from coframe.cli.recordings import open_recording
 from coframe.formatting import seconds
@@ -59,9 +58,11 @@ def info(
     tf_static_topic: RecordedTfStaticTopicOption = None,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
-    as_json: Annotated[bool, typer.Option("--json", help="As JSON, with all digits.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print JSON in full precision; times are in nanoseconds.")
+    ] = False,
 ) -> None:
-    """Tell what the recording BAG holds: topics, trees of frames, gaps, and which sensors could be transformed.
+    """Show what the recording BAG contains: topics, transform trees, gaps, and which sensor data can be transformed.
 
     Example: coframe bag info run.mcap
     """
@@ -76,30 +77,33 @@ def info(
 @bag.command(cls=PlainCommand, short_help="Write a repaired copy of a recording.")
 def fix(
     bag: BagArgument,
-    output: Annotated[Path, typer.Argument(metavar="OUT", help="The new folder, which must not be there yet.")],
+    output: Annotated[Path, typer.Argument(metavar="OUT", help="Folder of the copy; it must not exist yet.")],
     statics: Annotated[
-        Path | None, typer.Option(help="A recording whose static transforms are added where BAG has none.")
+        Path | None,
+        typer.Option(metavar="BAG2", help="Recording from which static transforms that BAG lacks are added."),
     ] = None,
     tf_topic: TfTopicOption = TF_TOPIC,
     tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
-    compression: Annotated[str, typer.Option(help="none, zstd or lz4.")] = "zstd",
+    compression: Annotated[
+        str, typer.Option(metavar="METHOD", help="Compression of the copy: none, zstd or lz4.")
+    ] = "zstd",
 ) -> None:
-    """Write the recording BAG anew into the folder OUT, as far as it can be read, and tell what was mended.
+    """Write a repaired copy of the recording BAG to the folder OUT, and list what was repaired.
 
-    OUT has an index, metadata, its static transforms in front and no names that begin with a slash; BAG stays as it is.
-    --prefix goes in front of the frames that any message names; with --tf-topic /robot1/tf, any of the topics in
-    /robot1.
+    The copy contains everything that can be read, an index, metadata, the static transforms at its start, and no frame
+    names with a leading slash. BAG is not changed. --prefix applies to the frame names in all messages; with --tf-topic
+    /robot1/tf, to those of the topics in /robot1.
 
-    Example: coframe bag fix broken.mcap mended
+    Example: coframe bag fix broken.mcap repaired
     """
     if compression not in COMPRESSIONS:
-        fail(f"--compression: there is no {compression!r}: it is one of {', '.join(COMPRESSIONS)}", code=2)
+        fail(f"--compression: unknown method {compression!r}. Methods: {', '.join(COMPRESSIONS)}", code=2)
     with run_to_completion():
         robot: dict[str, str] = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
         with task_progress() as progress:
-            mended = mend(
+            report = repair(
                 bag,
                 output,
                 statics=statics,
@@ -109,17 +113,18 @@ def fix(
                 compression=compression,
                 progress=progress,
             )
-        for title, sentences in (("found", mended.found), ("mended", mended.done), ("still odd", mended.left)):
+        for title, sentences in (
+            ("found", report.problems),
+            ("fixed", report.changes),
+            ("remaining", report.remaining),
+        ):
             for sentence in sentences:
                 print(printable(f"{title}: {sentence}"))
-        print(f"{mended.path}: {mended.messages} messages")
+        print(f"{report.path}: {count(report.messages, 'message')}")
 
 
 def _print(summary: Summary) -> None:
-    # What is written to a file or another program is not cut to the width of a terminal that is not there.
-    console = Console()
-    if not console.is_terminal:
-        console = Console(width=200)
+    console = report_console()
     console.print(_text(summary.path, style="bold"))
     console.print(f"received  {_when(summary.start)} to {_when(summary.end)}, {seconds(summary.end - summary.start)} s")
     console.print(f"stamps    {seconds(summary.span[0])} to {seconds(summary.span[1])}")
@@ -128,14 +133,14 @@ def _print(summary: Summary) -> None:
         topics.add_row(_text(topic.name), _text(topic.type), str(topic.messages), f"{topic.rate:.1f}")
     console.print(topics)
     for tree in summary.trees:
-        console.print(_text(f"tree of {tree.root}: {tree.size} frames", style="bold"))
+        console.print(_text(f"tree with root {tree.root}: {count(tree.size, 'frame')}", style="bold"))
     edges = _table("parent", "child", "samples", "Hz", "longest gap", "from", "to")
     for edge in summary.edges:
         moving = (f"{edge.rate:.1f}", f"{edge.longest_gap / SECOND:.3f} s", seconds(edge.oldest), seconds(edge.newest))
         cells: tuple[Any, ...] = ("static", "", "", "") if edge.static else moving
         edges.add_row(_text(edge.parent), _text(edge.child), str(edge.samples), *cells)
     console.print(edges)
-    sensors = _table("sensor", "frame", "could be transformed", "why not")
+    sensors = _table("sensor", "frame", "transformable", "reason")
     for sensor in summary.sensors:
         share = f"{sensor.possible} of {sensor.messages} into {sensor.root}" if sensor.root else "none"
         sensors.add_row(_text(sensor.topic), _text(sensor.frame), _text(share), _text(sensor.why_not))
@@ -148,7 +153,7 @@ def _text(text: str, style: str = "") -> Text:
 
 
 def _plain(value: Any) -> Any:
-    """Named tuples by their names."""
+    """Return named tuples as dictionaries, also inside lists and tuples."""
     if isinstance(value, (list, tuple)):
         parts = [_plain(part) for part in value]
         return dict(zip(value._fields, parts, strict=True)) if hasattr(value, "_fields") else parts

@@ -1,16 +1,14 @@
-"""``coframe batch``: one question to many recordings."""
+"""``coframe batch``: writes trajectories from many recordings as one dataset."""
 
 from __future__ import annotations
 
-import sys
+import itertools
 from pathlib import Path  # noqa: TC003 - typer reads the annotations
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from coframe.bags import Question, answer_all
+from coframe.bags import TrajectoryQuery, query_recordings
 from coframe.bags.batch import ENGINES
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
@@ -21,73 +19,83 @@ from coframe.cli.options import (
     RecordedTfTopicOption,
     recorded_tf_topics,
 )
-from coframe.cli.output import fail, printable
+from coframe.cli.output import count, fail, printable, warn
+from coframe.cli.progress import item_progress
 
 if TYPE_CHECKING:
-    from coframe.bags import Answer
+    from coframe.bags import QueryResult
 
 __all__ = ["batch"]
 
 
 def batch(
-    target: Annotated[str, typer.Argument(help="The frame the poses are told in.")],
-    source: Annotated[str, typer.Argument(help="The frame that moves.")],
-    bags: Annotated[list[Path], typer.Argument(metavar="BAG...", help="Recordings: files or rosbag2 folders.")],
-    output: Annotated[Path, typer.Option("--output", "-o", help="The dataset: a folder of Parquet files.")],
+    target: Annotated[str, typer.Argument(metavar="TARGET", help="Frame in which the poses are expressed.")],
+    source: Annotated[str, typer.Argument(metavar="SOURCE", help="Frame whose poses are written.")],
+    bags: Annotated[
+        list[Path], typer.Argument(metavar="BAG...", help="Recordings: .mcap, .db3 or .bag files, or rosbag2 folders.")
+    ],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="FOLDER", help="Dataset: a folder of Parquet files.")
+    ],
     rate: Annotated[
-        float | None, typer.Option("--rate", "-r", help="So many poses a second, not those of the samples.")
+        float | None,
+        typer.Option("--rate", "-r", metavar="HZ", help="Poses per second. [default: one per recorded transform]"),
     ] = None,
-    stamps_of: Annotated[str | None, typer.Option(help="At the stamps of this topic's messages.")] = None,
-    start: Annotated[str | None, typer.Option(help="From when on in each, as --at of coframe lookup.")] = None,
-    stop: Annotated[str | None, typer.Option(help="Until when.")] = None,
-    on: Annotated[str, typer.Option(help=f"What runs it: {', '.join(ENGINES)}.")] = "processes",
-    workers: Annotated[int | None, typer.Option("--workers", "-j", min=1, help="How many at once.")] = None,
+    stamps_of: Annotated[
+        str | None, typer.Option(metavar="TOPIC", help="Write a pose at the stamp of each message of this topic.")
+    ] = None,
+    start: Annotated[
+        str | None, typer.Option(metavar="TIME", help="First time in each recording, written like --at of lookup.")
+    ] = None,
+    stop: Annotated[str | None, typer.Option(metavar="TIME", help="Last time, written like --start.")] = None,
+    on: Annotated[str, typer.Option(metavar="ENGINE", help=f"Where to run: {', '.join(ENGINES)}.")] = "processes",
+    workers: Annotated[
+        int | None,
+        typer.Option("--workers", "-j", metavar="N", min=1, help="Recordings read in parallel. [default: CPU cores]"),
+    ] = None,
     namespace: NamespaceOption = None,
     tf_topic: RecordedTfTopicOption = None,
     tf_static_topic: RecordedTfStaticTopicOption = None,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
-    """Write where SOURCE went, seen from TARGET, in many recordings at once, as one Parquet dataset.
+    """Write the trajectories of SOURCE relative to TARGET in many recordings as one Parquet dataset.
 
-    What is there from an earlier run is kept, and recordings that cannot be read are listed in the end.
+    Results of an earlier run are reused. Recordings that cannot be read are listed on standard error.
 
     Example: coframe batch map base_link runs/*.mcap -o poses
     """
     try:
         topics = recorded_tf_topics(tf_topic, tf_static_topic)
-        question = Question(target, source, rate, stamps_of, start, stop, namespace, topics, prefix, keep)
+        query = TrajectoryQuery(target, source, rate, stamps_of, start, stop, namespace, topics, prefix, keep)
     except ValueError as error:
         fail(str(error), code=2)
     if on not in ENGINES:
-        fail(f"--on is one of {', '.join(ENGINES)}, not {on!r}", code=2)
+        fail(f"--on: unknown engine {on!r}. Engines: {', '.join(ENGINES)}", code=2)
     with run_to_completion():
-        answers = _ask(bags, question, output, on, workers)
+        answers = _run(bags, query, output, on, workers)
         bad = [one for one in answers if one.error]
         for one in answers:
-            _tell(one)
+            _print_problems(one)
         kept = sum(one.kept for one in answers)
-        again = f", {kept} of them kept from before" if kept else ""
+        reused = f", {kept} of them from an earlier run" if kept else ""
         good = len(answers) - len(bad)
         poses = sum(one.poses for one in answers)
-        print(f"{printable(str(output))}: {poses} poses of {good} recordings{again}")
+        print(f"{printable(str(output))}: {count(poses, 'pose')} from {count(good, 'recording')}{reused}")
         if bad:
-            fail(f"{len(bad)} of {len(answers)} recordings have no answer: see above")
+            fail(f"{len(bad)} of {count(len(answers), 'recording')} failed, for the reasons above")
 
 
-def _ask(bags: list[Path], question: Question, output: Path, on: str, workers: int | None) -> list[Answer]:
-    console = Console(stderr=True)
-    columns = (TextColumn("recordings"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
-        task = bar.add_task("recordings", total=len(bags))
-        return answer_all(bags, question, output, on=on, workers=workers, progress=lambda _: bar.advance(task))
+def _run(bags: list[Path], query: TrajectoryQuery, output: Path, on: str, workers: int | None) -> list[QueryResult]:
+    done = itertools.count(1)
+    with item_progress("recordings", len(bags)) as show:
+        return query_recordings(bags, query, output, on=on, workers=workers, progress=lambda _: show(next(done)))
 
 
-def _tell(one: Answer) -> None:
+def _print_problems(one: QueryResult) -> None:
     if one.error:
-        whose = "" if one.bag in one.error else f"{one.bag}: "
-        print(f"coframe: {printable(whose + one.error)}", file=sys.stderr)
+        warn(one.error if one.bag in one.error else f"{one.bag}: {one.error}")
     if one.missing:
-        print(f"coframe: {printable(one.bag)}: {one.missing} times have no transform, left out", file=sys.stderr)
+        warn(f"{one.bag}: no transform at {count(one.missing, 'time')}; omitted")
     for problem in one.problems:
-        print(f"coframe: {printable(one.bag)}: {printable(problem)}", file=sys.stderr)
+        warn(f"{one.bag}: {problem}")

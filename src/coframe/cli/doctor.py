@@ -1,4 +1,4 @@
-"""``coframe doctor``: what is wrong with the transforms, on the wire or in a recording."""
+"""``coframe doctor``: finds problems with transforms, live or in a recording."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import difflib
 import json
 import time
 from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 from rich.console import Console, Group
@@ -42,21 +42,30 @@ if TYPE_CHECKING:
 __all__ = ["doctor"]
 
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan", "good": "green", "dim": "dim", "plain": ""}
-# A running verdict takes at most this part of a processor.
-_SHARE = 0.006
+# --watch uses at most this fraction of a CPU core for its diagnoses.
+_CPU_SHARE = 0.006
 
 
 def doctor(
     bag: Annotated[
-        Path | None, typer.Argument(metavar="[BAG]", help="A recording; without one it listens.", show_default=False)
+        Path | None,
+        typer.Argument(metavar="[BAG]", help="Recording; without it, the live ROS graph.", show_default=False),
     ] = None,
-    watch: Annotated[bool, typer.Option("--watch", help="Listen on, with a running verdict.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="JSON on standard output, and nothing else there.")] = False,
-    sarif: Annotated[bool, typer.Option("--sarif", help="SARIF 2.1.0, likewise.")] = False,
-    ignore: Annotated[list[str] | None, typer.Option(metavar="CODE", help="Leave a check out; again for more.")] = None,
-    explain: Annotated[str | None, typer.Option(metavar="CODE", help="Print the page of a code.")] = None,
-    duration: Annotated[str, typer.Option(help="How long to listen; the window of --watch.")] = "10s",
-    cache: Annotated[str, typer.Option(help="How far back the listeners' buffers reach.")] = "10s",
+    watch: Annotated[bool, typer.Option("--watch", help="Keep listening, and update the findings.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON; times are in nanoseconds.")] = False,
+    sarif: Annotated[bool, typer.Option("--sarif", help="Print SARIF 2.1.0.")] = False,
+    ignore: Annotated[
+        list[str] | None, typer.Option(metavar="CODE", help="Skip the check with this code; repeatable.")
+    ] = None,
+    explain: Annotated[
+        str | None, typer.Option(metavar="CODE", help="Print the page about this code and exit.")
+    ] = None,
+    duration: Annotated[
+        str, typer.Option(metavar="DURATION", help="Time to listen; with --watch, the window of the findings.")
+    ] = "10s",
+    cache: Annotated[
+        str, typer.Option(metavar="DURATION", help="Cache length of the nodes that use the transforms.")
+    ] = "10s",
     namespace: NamespaceOption = None,
     domain: DomainOption = None,
     tf_topic: RecordedTfTopicOption = None,
@@ -64,19 +73,19 @@ def doctor(
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
-    """Tell what is wrong with the transforms, why it matters, and what to do: live, or in the recording BAG.
+    """Find problems with the transforms, live or in the recording BAG: what is wrong, why, and what to do.
 
-    Exit code 0: healthy; 1: findings of the level of a warning or above. Notes do not count.
+    The exit code is 0 if there are no errors or warnings, and 1 otherwise. Notes do not count.
 
     Example: coframe doctor run.mcap --ignore TF018
     """
     if explain is not None:
         _explain(explain)
         return
-    unwanted = _codes(ignore or [])
+    ignored = _known_codes(ignore or [])
     window, buffers = positive_duration("--duration", duration), positive_duration("--cache", cache)
     if (as_json and sarif) or (watch and (sarif or bag is not None)):
-        fail("--json and --sarif, --watch and --sarif, and --watch and a recording exclude each other", code=2)
+        _fail_for_conflict(as_json=as_json, sarif=sarif, watch=watch)
     shared: Any = {"cache": buffers, "prefix": prefix, "keep": keep}
     if bag is None:
         reject_namespace_of_live_graph(namespace)
@@ -85,56 +94,63 @@ def doctor(
             topics = recorded_tf_topics(tf_topic, tf_static_topic)
             with reading_progress() as progress:
                 seen = observe_recording(bag, namespace=namespace, tf_topics=topics, progress=progress, **shared)
-            reports = {name: diagnose(one, ignore=unwanted) for name, one in seen.items()}
-            _finish(reports, as_json, sarif, bag)
+            reports = {name: diagnose(one, ignore=ignored) for name, one in seen.items()}
+            _print_and_exit(reports, as_json, sarif, bag)
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
         shared |= {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
         with LiveObserver(domain, window=window if watch else None, **shared) as listening:
             if watch:
-                _watch(listening, unwanted, as_json)
+                _watch(listening, ignored, as_json)
                 return
             if Console(stderr=True).is_terminal:
                 typer.echo(f"listening for {duration} ...", err=True)
             listening.listen(window / SECOND)
-            report = diagnose(listening.observe(), ignore=unwanted)
-        _finish({"": report}, as_json, sarif, None)
+            report = diagnose(listening.observe(), ignore=ignored)
+        _print_and_exit({"": report}, as_json, sarif, None)
+
+
+def _fail_for_conflict(*, as_json: bool, sarif: bool, watch: bool) -> NoReturn:
+    if as_json and sarif:
+        fail("--json cannot be combined with --sarif", code=2)
+    assert watch
+    fail(f"--watch cannot be combined with {'--sarif' if sarif else 'a recording'}", code=2)
 
 
 def _explain(code: str) -> None:
     try:
         text = page(code).text
     except KeyError:
-        fail(f"there is no page for {code!r}", _nearest(code), code=2)
+        fail(f"--explain: unknown code {code!r}", _similar_codes(code), code=2)
     console = Console()
     if console.is_terminal:
-        from rich.markdown import Markdown  # noqa: PLC0415 - a twentieth of a second, for this alone
+        from rich.markdown import Markdown  # noqa: PLC0415 - slow import
 
         console.print(Markdown(text))
     else:
         print(text, end="")
 
 
-def _codes(wanted: list[str]) -> list[str]:
-    every = [code.strip().upper() for option in wanted for code in option.split(",")]
+def _known_codes(options: list[str]) -> list[str]:
+    every = [code.strip().upper() for option in options for code in option.split(",")]
     for code in every:
         if code not in codes():
-            fail(f"--ignore: there is no check {code!r}", _nearest(code), code=2)
+            fail(f"--ignore: unknown code {code!r}", _similar_codes(code), code=2)
     return every
 
 
-def _nearest(code: str) -> str:
-    """What may have been meant, by the code or by the words of a title; else which codes there are."""
+def _similar_codes(code: str) -> str:
+    """Suggest codes that are spelled similarly or whose title contains the word; otherwise give the range of codes."""
     words = code.lower()
     by_title = [known for known in codes() if len(words) > 2 and words in page(known).title.lower()]
     near = by_title or difflib.get_close_matches(code.upper(), codes(), n=3, cutoff=0.8)
     if not near:
-        return f"There are {codes()[0]} to {codes()[-1]}."
+        return f"The codes are {codes()[0]} to {codes()[-1]}."
     return f"Did you mean {' or '.join(f'{known} ({page(known).title})' for known in near)}?"
 
 
-def _finish(reports: dict[str, Report], as_json: bool, sarif: bool, bag: Path | None) -> None:
-    """Prints, and ends with the verdict as exit code."""
+def _print_and_exit(reports: dict[str, Report], as_json: bool, sarif: bool, bag: Path | None) -> None:
+    """Print the reports, and end the command with exit code 0 if all are healthy, otherwise 1."""
     if sarif:
         print(json.dumps(as_sarif(reports, bag), indent=2))
     elif as_json:
@@ -152,12 +168,12 @@ def _finish(reports: dict[str, Report], as_json: bool, sarif: bool, bag: Path | 
 
 def _texts(report: Report) -> list[Text]:
     every = [Text(printable(line), style=_STYLES[style]) for style, line in lines(report)]
-    every += [Text(f"of the recording: {printable(problem)}", style="dim") for problem in report.observation.unread]
+    every += [Text(f"recording: {printable(problem)}", style="dim") for problem in report.observation.unread]
     return every
 
 
 def _watch(listening: LiveObserver, ignore: list[str], as_json: bool) -> None:
-    """A verdict a second, or less often where it takes long; until Ctrl-C."""
+    """Update the report every second, or less often if the diagnosis takes long, until Ctrl-C."""
     console = Console(highlight=False)
     with Live(console=console, auto_refresh=False, screen=False, transient=False) as live:
         while True:
@@ -167,4 +183,4 @@ def _watch(listening: LiveObserver, ignore: list[str], as_json: bool) -> None:
                 print(json.dumps(as_data(report)), flush=True)
             else:
                 live.update(Group(*_texts(report)), refresh=True)
-            listening.listen(max(1.0, (time.process_time() - begun) / _SHARE))
+            listening.listen(max(1.0, (time.process_time() - begun) / _CPU_SHARE))

@@ -1,4 +1,4 @@
-"""``coframe echo``: tf2_echo, with both option styles and its output."""
+"""``coframe echo``: prints a live transform repeatedly, with the options and the output of tf2_echo."""
 
 from __future__ import annotations
 
@@ -30,45 +30,60 @@ if TYPE_CHECKING:
 __all__ = ["echo"]
 
 NODE = "tf2_echo"
-FASTEST = 10_000.0  # Hz: quicker than any terminal
-LONGEST = 4e9  # seconds: stamps of more than 126 years leave int64 nanoseconds when they are added up
-MOST_DIGITS = 17  # what a float64 has
+MAX_RATE = 10_000.0  # Hz; no terminal is faster
+MAX_SECONDS = 4e9  # 126 years: the sum of two such times still fits into int64 nanoseconds
+MAX_DIGITS = 17  # significant digits of a float64
 
 
 def echo(
-    source_frame: Annotated[str, typer.Argument(help="The frame the answer is told in (tf2_echo calls it source).")],
-    target_frame: Annotated[str, typer.Argument(help="The frame that is asked about.")],
+    source_frame: Annotated[
+        str,
+        typer.Argument(
+            metavar="SOURCE_FRAME", help="Frame in which the pose is expressed (tf2_echo calls it the source)."
+        ),
+    ],
+    target_frame: Annotated[str, typer.Argument(metavar="TARGET_FRAME", help="Frame whose pose is printed.")],
     echo_rate: Annotated[
-        str | None, typer.Argument(metavar="[RATE]", help="How often, in Hz.", show_default="1.0")
+        str | None, typer.Argument(metavar="[RATE]", help="Lookups per second, in Hz. [default: 1]")
     ] = None,
     rate: Annotated[
-        float | None, typer.Option("--rate", "-r", help="The same as an option.", show_default="1.0")
+        float | None, typer.Option("--rate", "-r", metavar="HZ", help="The same as RATE.", show_default=False)
     ] = None,
-    cache_time: Annotated[float, typer.Option("--cache-time", "-c", help="Seconds to keep transforms for.")] = 10.0,
+    cache_time: Annotated[
+        float, typer.Option("--cache-time", "-c", metavar="SECONDS", help="How long transforms are kept.")
+    ] = 10.0,
     offset: Annotated[
-        float | None, typer.Option("--offset", "-o", help="Seconds to add to now; negative is the past.")
+        float | None,
+        typer.Option("--offset", "-o", metavar="SECONDS", help="Look up at the current time plus this offset."),
     ] = None,
-    at: Annotated[float | None, typer.Option("--time", "-t", help="A fixed time, in seconds; beats --offset.")] = None,
-    limit: Annotated[int | None, typer.Option("--limit", "-l", help="Leave after so many answers.")] = None,
-    precision: Annotated[int, typer.Option("--precision", "-p", help="Digits after the point.")] = 3,
+    at: Annotated[
+        float | None,
+        typer.Option("--time", "-t", metavar="SECONDS", help="Look up at this fixed time; overrides --offset."),
+    ] = None,
+    limit: Annotated[int | None, typer.Option("--limit", "-l", metavar="N", help="Exit after N transforms.")] = None,
+    precision: Annotated[
+        int, typer.Option("--precision", "-p", metavar="DIGITS", help="Digits after the decimal point.")
+    ] = 3,
     domain: DomainOption = None,
     tf_topic: TfTopicOption = TF_TOPIC,
     tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
-    """Print where TARGET_FRAME is, seen from SOURCE_FRAME, again and again, as ROS 2's tf2_echo does.
+    """Print the pose of TARGET_FRAME relative to SOURCE_FRAME repeatedly, like ROS 2's tf2_echo.
+
+    The latest transform is printed, unless --offset or --time is given.
 
     Example: coframe echo base_link camera_link 2
     """
-    hertz = _positive("Rate", rate if rate is not None else _positional_rate(echo_rate), FASTEST)
-    _positive("Period", 1.0 / hertz, LONGEST)
-    _positive("Cache time", cache_time, LONGEST)
+    hertz = _positive("Rate", rate if rate is not None else _positional_rate(echo_rate), MAX_RATE)
+    _positive("Period", 1.0 / hertz, MAX_SECONDS)
+    _positive("Cache time", cache_time, MAX_SECONDS)
     _positive("Limit", 1 if limit is None else limit)
-    _positive("Precision", precision, MOST_DIGITS)
+    _positive("Precision", precision, MAX_DIGITS)
     for option, value in (("--time", at), ("--offset", offset)):
-        if value is not None and not abs(value) <= LONGEST:
-            fail(f"{option} must be a number of seconds from {-LONGEST:.0e} to {LONGEST:.0e}, not {value}")
+        if value is not None and not abs(value) <= MAX_SECONDS:
+            fail(f"{option} must be a number of seconds from {-MAX_SECONDS:.0e} to {MAX_SECONDS:.0e}, not {value}")
     with (
         run_until_interrupted(),
         coframe.connect(
@@ -86,7 +101,7 @@ def echo(
         due = time.monotonic_ns()
         answers = 0
         while limit is None or answers < limit:
-            answers += _print_answer(ros.buffer, source_frame, target_frame, _wanted(at, offset), precision)
+            answers += _print_answer(ros.buffer, source_frame, target_frame, _lookup_time(at, offset), precision)
             due += period
             time.sleep(max(0, due - time.monotonic_ns()) / SECOND)
 
@@ -97,7 +112,7 @@ def _positional_rate(text: str | None) -> float:
     try:
         return float(text)
     except ValueError:
-        # tf2_echo tells "no number" (2) from "a number and something behind it" (3)
+        # The exit codes are tf2_echo's: 2 for no number, 3 for a number followed by other characters.
         starts_with_number = text[:1].isdigit()
         fail(
             f"Failed to convert rate argument '{text}' to a floating-point number", code=3 if starts_with_number else 2
@@ -112,31 +127,31 @@ def _positive(what: str, value: float, most: float = math.inf) -> float:
     return value
 
 
-def _wanted(at: float | None, offset: float | None) -> int:
-    """The time to ask for, in nanoseconds; 0 is the latest."""
+def _lookup_time(at: float | None, offset: float | None) -> int:
+    """Return the time to look up, in nanoseconds; 0 is the latest."""
     if at is not None:
         return round(at * SECOND)
     return 0 if offset is None else time.time_ns() + round(offset * SECOND)
 
 
 def _wait_until_possible(buffer: Buffer, source: str, target: str, period: int) -> None:
-    told_at = told = None
+    logged_at = logged_hint = None
     while True:
         try:
             buffer.lookup(source, target, timeout=min(period, SECOND))
         except TransformException as error:
-            if told_at is None or time.monotonic() - told_at >= 1.0:
-                told_at = time.monotonic()
+            if logged_at is None or time.monotonic() - logged_at >= 1.0:
+                logged_at = time.monotonic()
                 log("INFO", NODE, f"Waiting for transform {source} ->  {target}: {buffer._why_not(source, target)}")
-                if error.hint != told:  # the reason is repeated every second, the advice when it is news
-                    told = error.hint
+                if error.hint != logged_hint:  # The reason is repeated every second, the hint only when it changes.
+                    logged_hint = error.hint
                     log("INFO", NODE, with_doctor_command(error.hint))
         else:
             return
 
 
 def _print_answer(buffer: Buffer, source: str, target: str, stamp: int, precision: int) -> int:
-    """Prints one answer (returns 1) or why there is none (returns 0)."""
+    """Print the transform and return 1, or print why there is none and return 0."""
     try:
         transform = buffer.lookup(source, target, stamp)
     except TransformException as error:
@@ -149,7 +164,7 @@ def _print_answer(buffer: Buffer, source: str, target: str, stamp: int, precisio
 
 
 def format_transform(transform: Transform, precision: int = 3) -> str:
-    """A transform as tf2_echo prints it; unlike there, the nanoseconds are padded, so that the time is right."""
+    """Format a transform like tf2_echo, but with the nanoseconds padded to nine digits, so that the time is right."""
     stamp = transform.stamp or 0
     rpy = transform.rpy
 

@@ -1,4 +1,4 @@
-"""``coframe demo --robots``: a fleet, each robot in a process of its own, in one view."""
+"""``coframe demo --robots``: several simulated robots, each in its own process, in one view."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rich.text import Text
 import coframe
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.output import fail, printable
-from coframe.cli.view import viewer_beside
+from coframe.cli.view import optional_viewer
 from coframe.errors import TransformException
 from coframe.frame_names import renaming
 from coframe.lab.launcher import Launcher, NodeCommand
@@ -30,16 +30,16 @@ if TYPE_CHECKING:
     from coframe.tf_publishers import TfPublisher
     from coframe.tf_relay import Relay
 
-__all__ = ["fleet"]
+__all__ = ["show_robots"]
 
 REFRESH = 0.2  # seconds
 START_TIMEOUT = 30.0
 SHARED = ("world", "map")
-# Of the lab's tree, whose node has a parameter for the name of each.
+# The frames of one robot; the node complete_tf_tree has a parameter for the name of each.
 FRAMES = ("odom", "base", "link1", "link2", "end_effector", "imu", "lidar", "camera", "gripper")
 
 
-def fleet(
+def show_robots(
     count: int,
     duration: float | None,
     *,
@@ -52,20 +52,20 @@ def fleet(
     prefix: str,
     keep: str,
 ) -> None:
-    """Starts robot1, robot2, ... and shows them till Ctrl-C; one that ends leaves the others alone.
+    """Start robot1, robot2, ... and show them until Ctrl-C; the end of one does not stop the others.
 
     Args:
-        count: How many.
-        duration: So many seconds, or None.
-        own_topics: Each robot sends plain names on topics of its own, and a relay brings them together; else all send
-            names with a prefix on the same topics.
-        port: Of the viewer.
-        browser: Whether it is opened.
-        domain: The ROS domain.
-        tf_topic: Where all are in the end.
-        tf_static_topic: Likewise.
-        prefix: In front of all names, as they are shown.
-        keep: The frames that it is not put before.
+        count: Number of robots.
+        duration: Seconds after which the demo stops; None: on Ctrl-C.
+        own_topics: Whether each robot publishes names without a prefix on its own topics, which a relay merges. If
+            False, all robots publish names with a prefix on the same topics.
+        port: Port of the viewer; see :func:`coframe.show`.
+        browser: Whether to open a browser.
+        domain: ROS domain ID; None: the default.
+        tf_topic: Common topic of the transforms.
+        tf_static_topic: Common topic of the static transforms.
+        prefix: Prefix for all frame names as they are shown.
+        keep: Frames that get no prefix.
     """
     names = [f"robot{number}" for number in range(1, count + 1)]
     shown = renaming(prefix, keep) or str
@@ -76,33 +76,34 @@ def fleet(
     with (
         run_until_interrupted(),
         coframe.connect("coframe_demo", domain=domain, **listening) as ros,
-        _relay(names, tf_topic, tf_static_topic, domain, warnings.append, wanted=own_topics) as relay,
+        _optional_relay(names, tf_topic, tf_static_topic, domain, warnings.append, needed=own_topics) as relay,
         Launcher(commands, domain=domain) as nodes,
-        viewer_beside(ros, port, browser=browser),
+        optional_viewer(ros, port, browser=browser),
     ):
         view = _View(names, ros, relay, nodes, shown)
         start = time.monotonic()
 
-        def picture() -> Group:
-            state = f"{time.monotonic() - start:.0f} s, Ctrl-C to leave; {len(names)} robots, a process each"
-            said = [*view.sentences(), *(f"relay: {warning}" for warning in warnings[-5:])]
-            lines = (Text(printable(sentence), style="red") for sentence in said)
+        def screen() -> Group:
+            robots = "1 robot" if len(names) == 1 else f"{len(names)} robots"
+            state = f"{time.monotonic() - start:.0f} s, Ctrl-C to stop; {robots}, each in its own process"
+            problems = [*view.problems(), *(f"relay: {warning}" for warning in warnings[-5:])]
+            lines = (Text(printable(problem), style="red") for problem in problems)
             return Group(view.table(), *lines, Text(state, style="dim"))
 
-        with Live(get_renderable=picture, console=Console(), refresh_per_second=1 / REFRESH, transient=False):
+        with Live(get_renderable=screen, console=Console(), refresh_per_second=1 / REFRESH, transient=False):
             _watch(view, nodes, start, duration)
 
 
-def _relay(
+def _optional_relay(
     names: list[str],
     common: str,
     common_static: str,
     domain: int | None,
     warn: Callable[[str], None],
     *,
-    wanted: bool,
+    needed: bool,
 ) -> contextlib.AbstractContextManager[Relay | None]:
-    if not wanted:
+    if not needed:
         return contextlib.nullcontext()
     try:
         return coframe.relay(
@@ -113,7 +114,7 @@ def _relay(
 
 
 def _command(name: str, number: int, count: int, topics: tuple[str, str] | None) -> NodeCommand:
-    """A robot that starts on a circle, with its back to the middle; on topics of its own, or with its own names."""
+    """Return the command that starts a robot on a circle, facing outwards, with its own topics or frame names."""
     angle = 2 * math.pi * number / count
     radius = 0.0 if count == 1 else max(1.0, 0.3 * count)
     parameters = {
@@ -136,7 +137,7 @@ def _link(frame: str) -> str:
 
 
 class _Row(NamedTuple):
-    """What there is to say of a robot."""
+    """The state of a robot, for a row of the table."""
 
     name: str
     state: str
@@ -145,17 +146,17 @@ class _Row(NamedTuple):
 
     @property
     def problem(self) -> str:
-        """A sentence; "" where all is well."""
+        """A sentence about the problem of this robot; "" if there is none."""
         if self.ended is not None:
             code = self.ended.exit_code
-            return f"{self.name} has gone: its process ended with exit code {code}, its frames are stale"
+            return f"{self.name} stopped: its process ended with exit code {code}; its frames are stale"
         if self.state in {"gone", "stale"}:
-            return f"{self.name} is {self.state}: its frames are stale"
-        return next((f"{self.name}: {told}" for each in self.publishers if (told := each.clock_problem())), "")
+            return f"{self.name} stopped publishing; its frames are stale"
+        return next((f"{self.name}: {problem}" for each in self.publishers if (problem := each.clock_problem())), "")
 
 
 class _View:
-    """The robots as the terminal shows them."""
+    """The table of robots in the terminal."""
 
     def __init__(
         self,
@@ -172,26 +173,28 @@ class _View:
         self._shown = shown
 
     def rows(self) -> list[_Row]:
-        """All robots."""
+        """Return a row for each robot."""
         ended = {node.name: node for node in self._nodes.ended()}
         if self._relay is not None:
-            heard = {robot.name: robot.publishers for robot in self._relay.robots}
+            publishers = {robot.name: robot.publishers for robot in self._relay.robots}
         else:
-            everyone = self._ros.publishers()
-            heard = {name: [one for one in everyone if one.node.startswith(f"/{name}/")] for name in self._names}
-        return [_Row(name, publisher_state(heard[name]), heard[name], ended.get(name)) for name in self._names]
+            every = self._ros.publishers()
+            publishers = {name: [one for one in every if one.node.startswith(f"/{name}/")] for name in self._names}
+        return [
+            _Row(name, publisher_state(publishers[name]), publishers[name], ended.get(name)) for name in self._names
+        ]
 
     def missing(self) -> list[str]:
-        """The robots whose frames have not come."""
+        """Return the robots whose frames have not been received."""
         return [name for name in self._names if self._frame(name, "base_link") not in self._ros.buffer]
 
-    def sentences(self) -> list[str]:
-        """What is wrong."""
+    def problems(self) -> list[str]:
+        """Return a sentence about each robot that has a problem."""
         return [row.problem for row in self.rows() if row.problem]
 
     def table(self) -> Table:
-        """A line a robot."""
-        title = f"{len(self._names)} robots, seen from {self._shown('map')} (metres, degrees)"
+        """Return the table with one row for each robot."""
+        title = f"{len(self._names)} robots, poses relative to {self._shown('map')} (metres, degrees)"
         table = Table(title=title, title_justify="left", box=None, padding=(0, 2, 0, 0), pad_edge=False)
         for column in ("robot", "state", "frames", "rate Hz", "age ms", "clock ms", "x", "y", "yaw"):
             table.add_column(column, justify="left" if column in {"robot", "state"} else "right", no_wrap=True)
@@ -231,11 +234,11 @@ def _watch(view: _View, nodes: Launcher, start: float, duration: float | None) -
     while duration is None or time.monotonic() - start < duration:
         ended = list(nodes.ended())
         if len(ended) == len(nodes.names):
-            fail(f"all robots have ended, {ended[0].name} with exit code {ended[0].exit_code}:\n{ended[0].last_lines}")
+            fail(f"all robots stopped, {ended[0].name} with exit code {ended[0].exit_code}:\n{ended[0].last_lines}")
         gone = {node.name for node in ended}
         if time.monotonic() - start > START_TIMEOUT and (missing := set(view.missing()) - gone):
             fail(
-                f"after {START_TIMEOUT:.0f} s nothing has come from {', '.join(sorted(missing))}",
-                "Can DDS use the loopback interface here? `ip link show lo` should say UP.",
+                f"no transforms received from {', '.join(sorted(missing))} after {START_TIMEOUT:.0f} s",
+                "Check that DDS can use the loopback interface: `ip link show lo` should print UP.",
             )
         pause.wait(REFRESH)

@@ -1,4 +1,4 @@
-"""``coframe frames``: the transform trees with their figures, in the terminal or as a picture (view_frames)."""
+"""``coframe frames``: shows the transform trees with their figures, or writes a diagram, like view_frames."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from coframe.cli.options import (
     recorded_tf_topics,
     reject_namespace_of_live_graph,
 )
-from coframe.cli.output import fail, printable
+from coframe.cli.output import fail, printable, report_console, warn
 from coframe.cli.progress import reading_progress
 from coframe.doctor import observe_recording
 from coframe.time import SECOND
@@ -45,7 +45,7 @@ __all__ = ["frames"]
 
 
 def _pdf(forest: Forest, title: str) -> bytes:
-    from coframe.tree_drawing.pdf import as_pdf  # noqa: PLC0415 - its library is an extra
+    from coframe.tree_drawing.pdf import as_pdf  # noqa: PLC0415 - needs an extra package
 
     return as_pdf(forest, title)
 
@@ -63,15 +63,20 @@ _FORMATS: dict[str, Callable[[Forest, str], str | bytes]] = {
 
 def frames(
     bag: Annotated[
-        Path | None, typer.Argument(metavar="[BAG]", help="A recording; without one it listens.", show_default=False)
+        Path | None,
+        typer.Argument(metavar="[BAG]", help="Recording; without it, the live ROS graph.", show_default=False),
     ] = None,
     output: Annotated[
         list[Path] | None,
-        typer.Option("--output", "-o", metavar="FILE", help=f"Write a picture: {', '.join(_FORMATS)}; again for more."),
+        typer.Option(
+            "--output", "-o", metavar="FILE", help=f"Write a diagram or data: {', '.join(_FORMATS)}; repeatable."
+        ),
     ] = None,
-    watching: Annotated[bool, typer.Option("--watch", help="Listen on; what has changed is highlighted.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="JSON on standard output; times in nanoseconds.")] = False,
-    duration: Annotated[str, typer.Option(help="How long to listen; the window of --watch.")] = "5s",
+    watching: Annotated[bool, typer.Option("--watch", help="Keep listening, and highlight changes.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON; times are in nanoseconds.")] = False,
+    duration: Annotated[
+        str, typer.Option(metavar="DURATION", help="Time to listen; with --watch, the window of the figures.")
+    ] = "5s",
     namespace: NamespaceOption = None,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
@@ -79,14 +84,14 @@ def frames(
     tf_topic: RecordedTfTopicOption = None,
     tf_static_topic: RecordedTfStaticTopicOption = None,
 ) -> None:
-    """Show the transform trees with the figures of each link: live, or in the recording BAG.
+    """Show the transform trees with the rate, delay and age of each edge, live or in the recording BAG.
 
     Example: coframe frames run.mcap -o frames.svg
     """
-    files = [_known(path) for path in output or []]
+    files = [_checked_output(path) for path in output or []]
     window = positive_duration("--duration", duration)
     if watching and (files or bag is not None):
-        fail("--watch excludes a recording and --output", code=2)
+        fail(f"--watch cannot be combined with {'--output' if files else 'a recording'}", code=2)
     names: dict[str, Any] = {"prefix": prefix, "keep": keep}
     if bag is None:
         reject_namespace_of_live_graph(namespace)
@@ -97,8 +102,8 @@ def frames(
                 seen = observe_recording(bag, namespace=namespace, tf_topics=topics, progress=progress, **names)
             forests = {name: grow(one) for name, one in seen.items()}
             for problem in dict.fromkeys(problem for one in seen.values() for problem in one.unread):
-                typer.echo(f"coframe: {printable(problem)}", err=True)
-            _finish(forests, files, as_json, bag.resolve().name)
+                warn(problem)
+            _write_or_print(forests, files, as_json, bag.resolve().name)
             return
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
@@ -111,28 +116,31 @@ def frames(
                 typer.echo(f"listening for {duration} ...", err=True)
             listening.listen(window / SECOND)
             seen_live = grow(listening.observe())
-        _finish({"": seen_live}, files, as_json, f"live on {names['tf_topic']}")
+        _write_or_print({"": seen_live}, files, as_json, f"live on {names['tf_topic']}")
 
 
-def _known(path: Path) -> Path:
-    """A file that can be written, as far as its name and the installed packages tell."""
+def _checked_output(path: Path) -> Path:
+    """Return the path, if its suffix is known and the package for its format is installed."""
     if path.suffix.lower() not in _FORMATS:
-        fail(f"{path} names no known format", f"Let it end in {', '.join(_FORMATS)}.", code=2)
+        fail(f"--output {path}: unknown suffix {path.suffix!r}. Suffixes: {', '.join(_FORMATS)}", code=2)
     if path.suffix.lower() == ".pdf":
         try:
             import pydyf  # noqa: F401, PLC0415 - an extra
         except ModuleNotFoundError:
-            fail("PDF needs the package pydyf: pip install 'coframe[pdf]'", "An .svg needs nothing.")
+            fail(
+                "PDF needs the package pydyf: pip install 'coframe[pdf]'",
+                "Or write an .svg file, which needs no package.",
+            )
     return path
 
 
-def _finish(forests: dict[str, Forest], files: list[Path], as_json: bool, title: str) -> None:
-    """Writes the files, and prints what is left to print."""
+def _write_or_print(forests: dict[str, Forest], files: list[Path], as_json: bool, title: str) -> None:
+    """Write the files; without any, print the trees."""
     if not any(forest.frames for forest in forests.values()):
-        fail("no transforms came", "Is a broadcaster running, in the same ROS domain?")
+        fail("no transforms received", "Check that a broadcaster is running in the same ROS domain.")
     if files and len(forests) > 1:
         names = ", ".join(name or "/" for name in forests)
-        fail("each of several namespaces has trees of its own", f"Choose one by --namespace: {names}", code=2)
+        fail(f"the recording has trees in several namespaces: {names}", "Choose one with --namespace.", code=2)
     for path in files:
         (forest,) = forests.values()
         _write(path, forest, title)
@@ -144,21 +152,18 @@ def _finish(forests: dict[str, Forest], files: list[Path], as_json: bool, title:
 
 
 def _write(path: Path, forest: Forest, title: str) -> None:
-    picture = _FORMATS[path.suffix.lower()](forest, title)
+    content = _FORMATS[path.suffix.lower()](forest, title)
     try:
-        path.write_bytes(picture if isinstance(picture, bytes) else picture.encode(errors="backslashreplace"))
+        path.write_bytes(content if isinstance(content, bytes) else content.encode(errors="backslashreplace"))
     except OSError as error:
-        fail(f"{path} cannot be written: {error.strerror}")
+        fail(f"{path} cannot be written: {error.strerror}", "Check that the folder exists and is writable.")
     typer.echo(f"{path}: {summary(forest)}", err=True)
     if path.suffix.lower() in {".mmd", ".md"} and len(forest.frames) > MOST_LINKS:
-        typer.echo(f"coframe: Mermaid draws no more than {MOST_LINKS} links unless its maxEdges is raised", err=True)
+        warn(f"Mermaid draws at most {MOST_LINKS} edges, unless its option maxEdges is increased")
 
 
 def _print(forests: dict[str, Forest]) -> None:
-    # What is written to a file or another program is not cut to the width of a terminal that is not there.
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        console = Console(highlight=False, width=200)
+    console = report_console()
     for name, forest in forests.items():
         if len(forests) > 1:
             console.print(Text(printable(f"{name or '/'}:"), style="bold"))

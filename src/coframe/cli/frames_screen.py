@@ -1,4 +1,4 @@
-"""The transform trees on a terminal: once, or again and again with what has changed."""
+"""The transform trees in a terminal, printed once or updated with changes highlighted."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
+from coframe.cli.output import count
 from coframe.tree_drawing import changes, grow
 from coframe.tree_drawing.labels import summary
 from coframe.tree_drawing.plain import as_data
@@ -24,46 +25,46 @@ if TYPE_CHECKING:
 
 __all__ = ["tree", "watch"]
 
-_KINDS = {"root": "bold", "moving": "cyan", "static": "", "stale": "red", "other": "red"}
-_STYLES = {"came": "green", "moved": "yellow", "stale": "red", "fresh": "green", "gone": "red"}
-_PUBLISHER = 1  # which of the columns
-_HIGHLIGHTED = 5.0  # seconds
-_REMEMBERED = 1000  # changes
-_NAMED = 8  # of them, below the tree
-_STEP = 1.0
+_KIND_STYLES = {"root": "bold", "moving": "cyan", "static": "", "stale": "red", "other": "red"}
+_CHANGE_STYLES = {"came": "green", "moved": "yellow", "stale": "red", "fresh": "green", "gone": "red"}
+_PUBLISHER = 1  # index of the column
+_HIGHLIGHT_TIME = 5.0  # seconds
+_MAX_CHANGES = 1000  # kept for highlighting
+_LISTED_CHANGES = 8  # below the tree
+_PERIOD = 1.0  # seconds
 
 
 def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None = None) -> Group:
-    """All trees, or of more than so many rows the first ones, and what is to be said of the whole.
+    """Return a table of the trees, followed by a summary.
 
     Args:
-        forest: What to show.
-        changed: Frames to highlight, by what happened to them.
-        most: Rows; None: all.
+        forest: The trees to show.
+        changed: The kind of change of each frame to highlight.
+        most: Maximum number of rows; None: no limit.
     """
     every = list(rows(forest))
     cut = every if most is None or len(every) <= most else every[: most - 1]
-    told = [column for column in range(len(COLUMNS) - 1) if any(row.cells[column] for row in every)]
+    used = [column for column in range(len(COLUMNS) - 1) if any(row.cells[column] for row in every)]
     table = Table(box=None, pad_edge=False, padding=(0, 1, 0, 0), header_style="dim")
-    for number in (0, *(column + 1 for column in told)):
-        # On a narrow screen publishers are cut first: rich takes room from columns that may wrap, which no cell does.
+    for number in (0, *(column + 1 for column in used)):
+        # In a narrow terminal publishers are cut first: rich shrinks the columns that may wrap, although no cell does.
         wraps = number == _PUBLISHER
         table.add_column(COLUMNS[number], justify="left" if number <= _PUBLISHER else "right", no_wrap=not wraps)
     for row in cut:
         kind = (changed or {}).get(row.frame)
-        style = f"reverse {_STYLES[kind]}" if kind else _KINDS[row.kind]
+        style = f"reverse {_CHANGE_STYLES[kind]}" if kind else _KIND_STYLES[row.kind]
         name = Text.assemble((row.branches, "dim"), (row.name, style), no_wrap=True, overflow="ellipsis")
         rest = "red" if row.kind == "stale" else ""
-        cells = (Text(row.cells[column], style=rest, no_wrap=True, overflow="ellipsis") for column in told)
+        cells = (Text(row.cells[column], style=rest, no_wrap=True, overflow="ellipsis") for column in used)
         table.add_row(name, *cells)
     left = len(every) - len(cut)
-    more = [Text(f"... and {left} more rows, which `coframe frames` prints", style="dim")] if left else []
+    more = [Text(f"... and {count(left, 'more row')}; `coframe frames` prints all", style="dim")] if left else []
     style = "yellow" if len(forest.trees) > 1 or forest.loops else "green"
     return Group(table, *more, Text(summary(forest), style=style))
 
 
 def watch(listening: LiveObserver, as_json: bool) -> None:
-    """Shows the trees until Ctrl-C; where nobody looks at a screen a line a change, or with JSON a line each second."""
+    """Show the trees until Ctrl-C; without a terminal, print a line for each change, or a line of JSON every second."""
     console = Console(highlight=False)
     if as_json:
         for forest, news in _steps(listening):
@@ -71,14 +72,14 @@ def watch(listening: LiveObserver, as_json: bool) -> None:
     elif console.is_terminal:
         _show(console, _steps(listening))
     else:
-        _tell(_steps(listening))
+        _print_changes(_steps(listening))
 
 
 def _steps(listening: LiveObserver) -> Iterator[tuple[Forest, list[Change]]]:
-    """The forest of each second, and how it differs from the one before."""
+    """Yield the trees every second, and how they differ from those of the second before."""
     before: Forest | None = None
     while True:
-        listening.listen(_STEP)
+        listening.listen(_PERIOD)
         forest = grow(listening.observe())
         yield forest, [] if before is None else list(changes(before, forest))
         before = forest
@@ -89,14 +90,16 @@ def _show(console: Console, steps: Iterator[tuple[Forest, list[Change]]]) -> Non
     with Live(console=console, auto_refresh=False) as live:
         for forest, news in steps:
             now = time.monotonic()
-            log = [*log, *((now, _line(change), change) for change in news)][-_REMEMBERED:]
-            changed = {change.frame: change.kind for at, _, change in log if now - at < _HIGHLIGHTED}
-            named = [line for _, line, _ in log[-_NAMED:]]
-            room = console.height - len(named) - 4  # the table's head, the summary, a cut, and one to spare
+            log = [*log, *((now, _line(change), change) for change in news)][-_MAX_CHANGES:]
+            changed = {change.frame: change.kind for at, _, change in log if now - at < _HIGHLIGHT_TIME}
+            named = [line for _, line, _ in log[-_LISTED_CHANGES:]]
+            room = (
+                console.height - len(named) - 4
+            )  # the header, the summary, the line about more rows, and one to spare
             live.update(Group(tree(forest, changed, max(room, 2)), *named), refresh=True)
 
 
-def _tell(steps: Iterator[tuple[Forest, list[Change]]]) -> None:
+def _print_changes(steps: Iterator[tuple[Forest, list[Change]]]) -> None:
     for number, (forest, news) in enumerate(steps):
         if number == 0:
             print(summary(forest), flush=True)
@@ -105,4 +108,4 @@ def _tell(steps: Iterator[tuple[Forest, list[Change]]]) -> None:
 
 
 def _line(change: Change) -> Text:
-    return Text(f"{time.strftime('%H:%M:%S')} {change.text}", style=_STYLES[change.kind])
+    return Text(f"{time.strftime('%H:%M:%S')} {change.text}", style=_CHANGE_STYLES[change.kind])

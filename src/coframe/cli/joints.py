@@ -1,4 +1,4 @@
-"""``coframe joints``: joint_state_publisher for a file, with a slider for each joint."""
+"""``coframe joints``: publishes joint states, like joint_state_publisher, with a slider for each joint."""
 
 from __future__ import annotations
 
@@ -41,29 +41,38 @@ if TYPE_CHECKING:
 __all__ = ["joints"]
 
 REFRESH = 0.1  # seconds
-# Where the viewer's sliders send to: the node takes them as a source, and is the only one to tell of the joints.
+# The viewer publishes its slider positions on this topic; the node reads it as a source, so that /joint_states has
+# a single publisher.
 SLIDERS = "/coframe_joints/sliders"
 
 
 def joints(
     context: typer.Context,
-    file: Annotated[Path, typer.Argument(help="URDF, or xacro.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Robot description: a URDF or xacro file.")],
     rate: Annotated[
-        float | None, typer.Option(min=0.001, max=1000.0, help="How often a second to publish.", show_default="10.0")
+        float | None,
+        typer.Option(
+            metavar="HZ", min=0.001, max=1000.0, help="Publishing rate in Hz. [default: 10]", show_default=False
+        ),
     ] = None,
     source: Annotated[
         list[str] | None,
-        typer.Option(metavar="TOPIC", help="Take joint states from there, too; may be given several times."),
+        typer.Option(metavar="TOPIC", help="Also read joint states from TOPIC; repeatable."),
     ] = None,
     zero: Annotated[
         list[str] | None,
-        typer.Option(metavar="JOINT=VALUE", help="Where a joint rests; may be given several times."),
+        typer.Option(metavar="JOINT=VALUE", help="Rest position of a joint, in radians or metres; repeatable."),
     ] = None,
     delta: Annotated[
         float | None,
-        typer.Option(min=0.0, help="Move all joints to and fro, by so much each time.", show_default="0.0"),
+        typer.Option(
+            metavar="STEP",
+            min=0.0,
+            help="Move all joints back and forth by STEP per message. [default: 0]",
+            show_default=False,
+        ),
     ] = None,
-    gui: Annotated[bool, typer.Option("--gui", help="The sliders of the viewer instead of the terminal's.")] = False,
+    gui: Annotated[bool, typer.Option("--gui", help="Show the sliders in the viewer, not in the terminal.")] = False,
     port: PortOption = None,
     no_browser: NoBrowserOption = False,
     domain: DomainOption = None,
@@ -72,20 +81,19 @@ def joints(
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
-    """Publish the joint states of the robot in FILE on /joint_states, as joint_state_publisher does.
+    """Publish the joint states of the robot in FILE on /joint_states, like ROS 2's joint_state_publisher.
 
-    Each joint that moves by itself has a slider: up and down choose, left and right move. Where standard input is no
-    terminal, it only publishes. What follows --ros-args is the node's, such as -p dependent_joints.b.parent:=a.
-    Joint states name no frames: --tf-topic, --tf-static-topic, --prefix and --keep are for what the viewer of --gui
-    listens to.
+    The terminal shows a slider for each movable joint: up and down select a joint, left and right move it. Arguments
+    of a xacro file are written as NAME:=VALUE. Arguments after --ros-args are passed to the node. --tf-topic,
+    --tf-static-topic, --prefix and --keep apply to the viewer that --gui opens.
 
     Example: coframe joints arm.urdf.xacro --zero joint1=0.5 --rate 30
     """
     with run_until_interrupted():
         robot = load(file, arguments=xacro_arguments(context.args))
-        from rclpy.parameter import Parameter  # noqa: PLC0415 - a file that cannot be read needs no graph
+        from rclpy.parameter import Parameter  # noqa: PLC0415 - not needed if the file cannot be read
 
-        # What is not given is left to the node's own parameters, of -p and --params-file.
+        # Options that are not given do not override the parameters of -p and --params-file.
         given = {"rate": rate, "delta": delta}
         values: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
         values |= _zeros(robot, zero or [])
@@ -93,35 +101,39 @@ def joints(
         if sources:
             values["source_list"] = sources
         overrides = [Parameter(name, value=value) for name, value in values.items()]
-        with reported_node_errors(), _running(["coframe", *context.args], robot, domain, overrides) as running:
+        with reported_node_errors(), _running_node(["coframe", *context.args], robot, domain, overrides) as running:
             if gui:
                 listening = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
                 with coframe.connect("coframe_joints", domain=domain, **listening) as ros:
-                    _show(running, robot, ros, port, browser=not no_browser)
+                    _show_in_viewer(running, robot, ros, port, browser=not no_browser)
             elif sys.stdin.isatty() and sys.stdout.isatty():
-                _slide(running)
+                _show_in_terminal(running)
             else:
                 print("publishing on /joint_states", flush=True)
                 running.wait()
 
 
 def _zeros(robot: Robot, words: list[str]) -> dict[str, float]:
-    """The node's parameters from `joint=value`."""
+    """Return the parameters of the node for the words JOINT=VALUE."""
     found = {}
     for word in words:
         joint, _, text = word.rpartition("=")
         if joint not in robot.joints:
             known = ", ".join(name for name, each in robot.joints.items() if each.size == 1)
-            fail(f"--zero {word}: there is no joint {joint!r}", f"Write JOINT=VALUE; there are {known}.", code=2)
+            fail(f"--zero {word}: no joint named {joint!r}. Movable joints: {known}.", "Write JOINT=VALUE.", code=2)
         try:
             found[f"zeros.{joint}"] = float(text)
         except ValueError:
-            fail(f"--zero {word}: {text!r} is no number", "Write radians, or metres for what slides.", code=2)
+            fail(
+                f"--zero {word}: {text!r} is not a number.",
+                "Give the position in radians, or in metres for a prismatic joint.",
+                code=2,
+            )
     return found
 
 
-class Running:
-    """A node that spins in a thread of its own."""
+class RunningNode:
+    """A node that spins in its own thread."""
 
     def __init__(self, node: JointStatePublisher, spin: Callable[[], None]) -> None:
         self.node = node
@@ -131,18 +143,18 @@ class Running:
         self.thread.start()
 
     def check(self) -> None:
-        """Raises what ended the node, if something did.
+        """Raise the error that ended the node, if there was one.
 
         Raises:
-            RobotDescriptionError: It was told of a robot whose joints make no sense.
+            RobotDescriptionError: The node received a robot description whose joints are invalid.
         """
         if self._failure is not None:
             raise self._failure
 
     def wait(self) -> None:
-        """Waits until the node ends, or Ctrl-C; see :meth:`check`."""
+        """Wait until the node ends, then raise as :meth:`check` does."""
         while self.thread.is_alive():
-            self.thread.join(1.0)  # an endless wait would not hear Ctrl-C everywhere
+            self.thread.join(1.0)  # On some platforms Ctrl-C does not interrupt a join without a timeout.
         self.check()
 
     def _run(self) -> None:
@@ -153,8 +165,10 @@ class Running:
 
 
 @contextlib.contextmanager
-def _running(args: list[str], robot: Robot, domain: int | None, overrides: list[Parameter[Any]]) -> Iterator[Running]:
-    import rclpy  # noqa: PLC0415 - a file that cannot be read needs no graph
+def _running_node(
+    args: list[str], robot: Robot, domain: int | None, overrides: list[Parameter[Any]]
+) -> Iterator[RunningNode]:
+    import rclpy  # noqa: PLC0415 - not needed if the file cannot be read
     from joint_state_publisher import JointStatePublisher  # noqa: PLC0415
     from rclpy.executors import SingleThreadedExecutor  # noqa: PLC0415
 
@@ -165,7 +179,7 @@ def _running(args: list[str], robot: Robot, domain: int | None, overrides: list[
             fail(str(error))
         executor = SingleThreadedExecutor()
         executor.add_node(node)
-        running = Running(node, executor.spin)
+        running = RunningNode(node, executor.spin)
         try:
             yield running
         finally:
@@ -174,18 +188,18 @@ def _running(args: list[str], robot: Robot, domain: int | None, overrides: list[
             node.destroy_node()
 
 
-def _slide(running: Running) -> None:
+def _show_in_terminal(running: RunningNode) -> None:
     console = Console()
     sliders = Sliders()
     node = running.node
 
-    def picture() -> Group:
+    def screen() -> Group:
         with node.lock:
             assert node.states is not None
             table = sliders.table(node.states, max(console.height - 4, 3))
         return Group(table, Text(HELP, style="dim", no_wrap=True, overflow="ellipsis"))
 
-    with keys() as pressed, Live(get_renderable=picture, console=console, auto_refresh=False) as live:
+    with keys() as pressed, Live(get_renderable=screen, console=console, auto_refresh=False) as live:
         going = True
         while going:
             running.check()
@@ -197,7 +211,9 @@ def _slide(running: Running) -> None:
             live.refresh()
 
 
-def _show(running: Running, robot: Robot, ros: coframe.Connection, port: int | None, *, browser: bool) -> None:
+def _show_in_viewer(
+    running: RunningNode, robot: Robot, ros: coframe.Connection, port: int | None, *, browser: bool
+) -> None:
     with coframe.show(ros, robot=robot, port=port, joint_states=SLIDERS) as viewer:
         announce(viewer, browser=browser)
         running.wait()

@@ -1,4 +1,4 @@
-"""Single keys of the terminal, as they are pressed."""
+"""Single key presses in a terminal."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _NAMES = {
     "\x1bOD": "left",
     "\x1b[5~": "page up",
     "\x1b[6~": "page down",
-    # What Windows gives for them.
+    # The same keys on Windows.
     "\xe0H": "up",
     "\xe0P": "down",
     "\xe0M": "right",
@@ -36,15 +36,15 @@ _NAMES = {
 
 
 class Keys:
-    """Reads keys while :func:`keys` is open."""
+    """A reader of key presses, made by :func:`keys`."""
 
     def read(self, timeout: float) -> str | None:
-        """The next key: its character, or `up`, `down`, `left`, `right`, `page up`, `page down`; None: none in time."""
+        """Return the next key, a character or a name such as `up` or `page down`; None if none was pressed in time."""
         raise NotImplementedError
 
 
 class _NoKeys(Keys):
-    """Where standard input is no terminal."""
+    """The reader for a standard input that is not a terminal: no key is ever pressed."""
 
     def read(self, timeout: float) -> None:
         time.sleep(timeout)
@@ -60,7 +60,7 @@ class _PosixKeys(Keys):
             if not select.select([self._descriptor], [], [], timeout)[0]:
                 return None
             self._waiting = os.read(self._descriptor, 1024).decode(errors="replace")
-            if not self._waiting:  # the terminal is gone
+            if not self._waiting:  # The terminal was closed.
                 raise KeyboardInterrupt
         for sequence, name in _NAMES.items():
             if self._waiting.startswith(sequence):
@@ -72,7 +72,7 @@ class _PosixKeys(Keys):
 
 class _WindowsKeys(Keys):
     def read(self, timeout: float) -> str | None:
-        import msvcrt  # noqa: PLC0415 - Windows has it
+        import msvcrt  # noqa: PLC0415 - exists on Windows only
 
         end = time.monotonic() + timeout
         while not msvcrt.kbhit():  # type: ignore[attr-defined,unused-ignore]
@@ -87,12 +87,12 @@ class _WindowsKeys(Keys):
 
 @contextlib.contextmanager
 def keys() -> Iterator[Keys]:
-    """Keys come one by one and are not shown; where standard input is no terminal, none ever comes."""
+    """Read single keys without echoing them; restore the terminal at the end."""
     if not sys.stdin.isatty():
         yield _NoKeys()
         return
     try:
-        import termios  # noqa: PLC0415 - Windows has none
+        import termios  # noqa: PLC0415 - not on Windows
         import tty  # noqa: PLC0415
     except ModuleNotFoundError:
         yield _WindowsKeys()

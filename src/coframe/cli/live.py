@@ -1,4 +1,4 @@
-"""The tree as a table that moves: frame, parent, rate, age, pose."""
+"""The transform tree of a live buffer as a table: frame, parent, rate, age and pose."""
 
 from __future__ import annotations
 
@@ -9,63 +9,52 @@ import numpy as np
 from rich.table import Table
 from rich.text import Text
 
+from coframe.analysis.tree import FrameTrees
 from coframe.errors import TransformException
 from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from coframe import Buffer, FrameInfo
+    from coframe.analysis.liveness import LivenessTracker
 
 __all__ = ["tree_table"]
 
-# A dynamic frame that was not heard of for so long, in seconds, is shown as stale.
-STALE_AFTER = 1.0
 
-
-def tree_table(buffer: Buffer, reference: str, *, wide: bool = True) -> Table:
-    """Every frame below its parent; poses are seen from ``reference``, in metres and degrees.
+def tree_table(buffer: Buffer, reference: str, liveness: LivenessTracker, *, wide: bool = True) -> Table:
+    """Return a table with each frame below its parent, and poses in metres and degrees.
 
     Args:
-        buffer: Where the frames are.
-        reference: The frame that poses are told in.
-        wide: Whether there is room for millimetres: about 100 columns.
+        buffer: The buffer that contains the frames.
+        reference: The frame in which poses are expressed.
+        liveness: Decides which frames are stale; the table updates it.
+        wide: Whether the terminal has at least 100 columns, enough to show millimetres.
     """
-    title = f"transform tree, poses seen from {reference} (metres, degrees)"
+    title = f"transform tree, poses relative to {reference} (metres, degrees)"
     table = Table(title=title, title_justify="left", box=None, padding=(0, 1, 0, 0), pad_edge=False)
     for column in ("frame", "parent"):
         table.add_column(column, no_wrap=True)
     decimals = 3 if wide else 2
-    position, angles = decimals + 3, decimals + 2  # characters a number
+    position, angles = decimals + 3, decimals + 2  # characters per number
     axes = " ".join(f"{axis:>{position}}" for axis in "xyz")
     turns = " ".join(f"{turn:>{angles}}" for turn in ("roll", "pit", "yaw"))
     for column in ("rate Hz", "age ms", axes, turns):
         table.add_column(column, justify="right", no_wrap=True)
     now = time.time_ns()
-    for depth, frame in _in_tree_order(buffer.frames()):
+    frames = buffer.frames()
+    liveness.update(frames)
+    rows = dict(zip((frame.name for frame in frames), zip(frames, liveness.stale().tolist(), strict=True), strict=True))
+    trees = FrameTrees.from_parents({frame.name: frame.parent for frame in frames}, sorted(rows))
+    for number in trees.order:
+        frame, stale = rows[trees.names[number]]
         age = (now - frame.newest) / SECOND
-        stale = bool(frame.parent) and not frame.static and age > STALE_AFTER
         table.add_row(
-            Text(" " * depth + frame.name, style="dim" if stale else "bold"),
+            Text(" " * trees.depths[number] + frame.name, style="dim" if stale else "bold"),
             frame.parent,
             Text(_rate(frame), style="dim" if frame.static else "cyan"),
             Text(_age(frame, age), style="red" if stale else ""),
             *_pose(buffer, reference, frame.name, decimals),
         )
     return table
-
-
-def _in_tree_order(frames: list[FrameInfo]) -> list[tuple[int, FrameInfo]]:
-    """Each frame with its depth: roots by name, children below their parent, by name."""
-    children: dict[str, list[FrameInfo]] = {}
-    for frame in sorted(frames):
-        children.setdefault(frame.parent, []).append(frame)
-    ordered: list[tuple[int, FrameInfo]] = []
-    waiting = [(0, root) for root in reversed(children.pop("", []))]
-    while waiting:
-        depth, frame = waiting.pop()
-        ordered.append((depth, frame))
-        waiting += [(depth + 1, child) for child in reversed(children.pop(frame.name, []))]
-    ordered += [(0, frame) for loop in children.values() for frame in loop]
-    return ordered
 
 
 def _rate(frame: FrameInfo) -> str:

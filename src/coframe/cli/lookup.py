@@ -1,4 +1,4 @@
-"""``coframe lookup``: where a frame was, in a recording."""
+"""``coframe lookup``: prints a transform from a recording."""
 
 from __future__ import annotations
 
@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from coframe.cli.echo import MOST_DIGITS, format_transform
+from coframe.cli.echo import MAX_DIGITS, format_transform
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
+    TIMES,
     BagArgument,
     KeepOption,
     NamespaceOption,
@@ -28,37 +29,51 @@ if TYPE_CHECKING:
 
 __all__ = ["lookup"]
 
-_ALWAYS = (0, 0)  # when static transforms hold
-_WHEN = "1666859837.363141536, 10s (from the start), -2s (from the end), 2022-10-27T08:43:57Z, start or end."
+_ALWAYS = (0, 0)  # the span of static transforms
 
 
 def lookup(
     bag: BagArgument,
-    target: Annotated[str, typer.Argument(help="The frame the answer is told in.")],
-    source: Annotated[str, typer.Argument(help="The frame that is asked about.")],
+    target: Annotated[str, typer.Argument(metavar="TARGET", help="Frame in which the pose is expressed.")],
+    source: Annotated[str, typer.Argument(metavar="SOURCE", help="Frame whose pose is looked up.")],
     at: Annotated[
-        str | None, typer.Option("--at", "-t", help=f"When: {_WHEN}", show_default="the latest possible")
+        str | None,
+        typer.Option(
+            "--at",
+            "-t",
+            metavar="TIME",
+            help=f"Time of the lookup: {TIMES}. [default: the latest common time]",
+            show_default=False,
+        ),
     ] = None,
     fixed: Annotated[
-        str | None, typer.Option(help="Time travel: the frame that does not move meanwhile.", show_default=False)
+        str | None,
+        typer.Option(metavar="FRAME", help="Time travel: frame that does not move between --source-time and --at."),
     ] = None,
     source_time: Annotated[
-        str | None, typer.Option(help="Time travel: the source as it was then, told in the target as of --at.")
+        str | None,
+        typer.Option(metavar="TIME", help="Time travel: time of SOURCE; --at is the time of TARGET."),
     ] = None,
     namespace: NamespaceOption = None,
     tf_topic: RecordedTfTopicOption = None,
     tf_static_topic: RecordedTfStaticTopicOption = None,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
-    precision: Annotated[int, typer.Option("--precision", "-p", min=0, max=MOST_DIGITS, help="Digits.")] = 6,
-    as_json: Annotated[bool, typer.Option("--json", help="One line of JSON with all digits.")] = False,
+    precision: Annotated[
+        int,
+        typer.Option(
+            "--precision", "-p", metavar="DIGITS", min=0, max=MAX_DIGITS, help="Digits after the decimal point."
+        ),
+    ] = 6,
+    as_json: Annotated[bool, typer.Option("--json", help="Print one line of JSON in full precision.")] = False,
 ) -> None:
-    """Print where SOURCE was, seen from TARGET, at a time of the recording BAG.
+    """Print the pose of SOURCE relative to TARGET at a time of the recording BAG.
 
     Example: coframe lookup run.mcap map base_link --at 10s
     """
     if (fixed is None) != (source_time is None):
-        fail("time travel takes both --fixed and --source-time", code=2)
+        given, missing = ("--fixed", "--source-time") if source_time is None else ("--source-time", "--fixed")
+        fail(f"{given} requires {missing}", "Time travel needs both options.", code=2)
     with run_to_completion(), open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         when = 0 if at is None else parse_time("--at", at, recording)
         buffer = recording.buffer
@@ -69,13 +84,13 @@ def lookup(
                 then = parse_time("--source-time", source_time, recording)
                 found = buffer._lookup_full(target, when, source, then, fixed)
         except ExtrapolationException as error:
-            what = _what_there_is(recording, {target, source, fixed or source})
-            fail(str(error), what or buffer.why(target, source, when).hint)
+            available = _available_span(recording, {target, source, fixed or source})
+            fail(str(error), available or buffer.why(target, source, when).hint)
         print(_json(found) if as_json else format_transform(found, precision))
 
 
-def _what_there_is(recording: Recording, frames: set[str]) -> str:
-    """From when to when the recording tells how frames lie to each other; "" where there is no such time."""
+def _available_span(recording: Recording, frames: set[str]) -> str:
+    """Describe when the recording has transforms between all these frames; "" if it never has."""
     one, *others = sorted(frames)
     try:
         spans = [span for other in others if (span := recording.buffer.span(one, other)) != _ALWAYS]
@@ -86,8 +101,8 @@ def _what_there_is(recording: Recording, frames: set[str]) -> str:
     first, last = max(first for first, _ in spans), min(last for _, last in spans)
     offsets = [seconds(stamp - recording.span[0]).rstrip("0").rstrip(".") + "s" for stamp in (first, last)]
     return (
-        f"The recording tells of {', '.join([one, *others])} from {seconds(first)} to {seconds(last)}, "
-        f"which is {offsets[0]} to {offsets[1]}."
+        f"The recording has transforms between {', '.join([one, *others])} from {seconds(first)} to {seconds(last)}, "
+        f"i.e. --at {offsets[0]} to {offsets[1]}."
     )
 
 

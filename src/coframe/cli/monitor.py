@@ -1,4 +1,4 @@
-"""``coframe monitor``: tf2_monitor's figures, by publisher and right."""
+"""``coframe monitor``: shows the figures of tf2_monitor for each edge and publisher."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import sys
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
-from rich.console import Console, Group
+from rich.console import Group
 from rich.live import Live
 from rich.table import Table
 from rich.text import Text
@@ -23,7 +23,7 @@ from coframe.cli.options import (
     TfTopicOption,
     positive_duration,
 )
-from coframe.cli.output import fail, printable
+from coframe.cli.output import fail, printable, report_console
 from coframe.doctor.figures import chain_figures, edge_figures, publisher_figures
 from coframe.time import MILLISECOND, SECOND
 
@@ -43,30 +43,34 @@ _BROADCASTERS = "\nAll Broadcasters:"
 
 
 def monitor(
-    target: Annotated[str | None, typer.Argument(help="With SOURCE: the way between two frames.")] = None,
-    source: Annotated[str | None, typer.Argument(help="The other frame.")] = None,
-    once: Annotated[bool, typer.Option("--once", help="One report after --duration, and leave.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="One line of JSON a report; times in nanoseconds.")] = False,
-    classic: Annotated[bool, typer.Option("--classic", help="In the format of ROS 2's tf2_monitor.")] = False,
-    duration: Annotated[str, typer.Option(help="Over how much time the figures are taken.")] = "10s",
+    target: Annotated[
+        str | None, typer.Argument(metavar="[TARGET", help="With SOURCE: show the chain between two frames.")
+    ] = None,
+    source: Annotated[str | None, typer.Argument(metavar="SOURCE]", help="The other frame.")] = None,
+    once: Annotated[bool, typer.Option("--once", help="Print one report after --duration and exit.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one line of JSON per report; times are in nanoseconds.")
+    ] = False,
+    classic: Annotated[bool, typer.Option("--classic", help="Print in the format of ROS 2's tf2_monitor.")] = False,
+    duration: Annotated[str, typer.Option(metavar="DURATION", help="Time window of the figures.")] = "10s",
     domain: DomainOption = None,
     tf_topic: TfTopicOption = TF_TOPIC,
     tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
-    """Tell of each link and publisher its rate, jitter, delay and age; of two frames, which link limits them.
+    """Show the rate, jitter, delay and age of each edge and publisher, and which edge delays a chain.
 
     Example: coframe monitor map base_link --once
     """
     if (target is None) != (source is None):
-        fail("give two frames, or none", code=2)
+        fail("SOURCE is missing", "Give two frames, TARGET and SOURCE, or none.", code=2)
     if as_json and classic:
-        fail("--json and --classic exclude each other", code=2)
+        fail("--json cannot be combined with --classic", code=2)
     window = positive_duration("--duration", duration)
     pair = (target, source) if target is not None and source is not None else None
     with run_until_interrupted():
-        from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - 100 ms
+        from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - slow import
 
         with LiveObserver(
             domain,
@@ -90,55 +94,50 @@ def _printer(as_json: bool, classic: bool) -> Callable[[Observation, Pair], None
         return lambda seen, pair: print(json.dumps(_data(seen, pair)), flush=True)
     if classic:
         return _print_classic
-    return lambda seen, pair: _console().print(_picture(seen, pair))
+    return lambda seen, pair: report_console().print(_tables(seen, pair))
 
 
 def _report(
     listening: LiveObserver, pair: Pair, seconds: float, printer: Callable[[Observation, Pair], None], *, once: bool
 ) -> None:
-    """Reports one after the other, or one."""
+    """Print a report after each time window, or only one."""
     while True:
         listening.listen(seconds)
         seen = listening.observe()
         if once and not len(seen.transforms):
-            fail("no transforms came", "Is a broadcaster running, in the same ROS domain?")
+            fail("no transforms received", "Check that a broadcaster is running in the same ROS domain.")
         printer(seen, pair)
         if once:
             return
 
 
-def _console() -> Console:
-    # What is written to a file or another program is not cut to the width of a terminal that is not there.
-    console = Console(highlight=False)
-    return console if console.is_terminal else Console(highlight=False, width=200)
-
-
 def _watch(listening: LiveObserver, pair: Pair) -> NoReturn:
-    with Live(console=_console(), auto_refresh=False) as live:
+    with Live(console=report_console(), auto_refresh=False) as live:
         while True:
-            live.update(_picture(listening.observe(), pair), refresh=True)
+            live.update(_tables(listening.observe(), pair), refresh=True)
             listening.listen(1.0)
 
 
-def _picture(seen: Observation, pair: Pair) -> Group:
-    links = _table("link", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms", "count")
+def _tables(seen: Observation, pair: Pair) -> Group:
+    edges = _table("edge", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms", "count")
     for row in edge_figures(seen):
         figures = (row.jitter, row.delay, row.delay_p99, row.age)
-        shown = ("static", "", "", "", "") if row.static else (_hertz(row.rate), *map(_ms, figures))
-        links.add_row(*_texts(f"{row.parent} -> {row.child}", row.publisher or "unknown", *shown, str(row.transforms)))
+        rate = "static" if row.static else "stale" if row.stale else _hertz(row.rate)
+        cells = (f"{row.parent} -> {row.child}", row.publisher or "unknown", rate, *map(_ms, figures))
+        edges.add_row(*_texts(*cells, str(row.transforms)), style="red" if row.stale else "")
     publishers = _table("publisher", "messages/s", "delay ms", "p99 ms")
     for node in publisher_figures(seen):
         delays = (_ms(node.delay), _ms(node.delay_p99))
         publishers.add_row(*_texts(node.publisher or "unknown", _hertz(node.rate), *delays))
-    return Group(*([Text(printable(_chain(chain_figures(seen, *pair), pair)))] if pair else []), links, publishers)
+    return Group(*([Text(printable(_chain(chain_figures(seen, *pair), pair)))] if pair else []), edges, publishers)
 
 
 def _chain(figures: ChainFigures | None, pair: tuple[str, str]) -> str:
     if figures is None:
-        return f"there is no way between {pair[0]} and {pair[1]} yet"
+        return f"no transforms connect {pair[0]} and {pair[1]} yet"
     chain = f"chain: {' -> '.join(figures.frames)}"
     if figures.limit is None:
-        return f"{chain}\nnothing on it moves, or not every link has been told of yet"
+        return f"{chain}\nall edges are static, or not every edge has been received yet"
     return (
         f"{chain}\nnet delay: mean {_ms(figures.delay)} ms, p99 {_ms(figures.delay_p99)} ms; limited by "
         f"{' -> '.join(figures.limit)} for {figures.limit_share:.0%} of the time"
@@ -149,7 +148,7 @@ def _data(seen: Observation, pair: Pair) -> dict[str, Any]:
     data: dict[str, Any] = {
         "start_ns": seen.start,
         "end_ns": seen.end,
-        "links": [row._asdict() for row in edge_figures(seen)],
+        "edges": [row._asdict() for row in edge_figures(seen)],
         "publishers": [row._asdict() for row in publisher_figures(seen)],
     }
     if pair is not None:
@@ -160,14 +159,14 @@ def _data(seen: Observation, pair: Pair) -> dict[str, Any]:
 
 def _print_classic(seen: Observation, pair: Pair) -> None:
     for line in _classic(seen, pair):
-        # So does tf2_monitor with this line alone.
+        # tf2_monitor prints this line alone on stderr.
         print(line, file=sys.stderr if line == _BROADCASTERS else sys.stdout, flush=True)
 
 
 def _classic(seen: Observation, pair: Pair) -> Iterator[str]:
-    """As tf2_monitor prints it, with the publishers' names in the place of ``<no authority available>``.
+    """Yield the lines of tf2_monitor, with the names of publishers instead of ``<no authority available>``.
 
-    What is static has no delay: 0 is printed, where tf2_monitor prints the age of the transform.
+    The delay of a static transform is printed as 0; tf2_monitor prints the age of the transform.
     """
     yield "\n\n"
     if pair is not None:
@@ -190,7 +189,7 @@ def _classic(seen: Observation, pair: Pair) -> Iterator[str]:
 
 
 def _g(nanoseconds: float | None) -> str:
-    """Seconds with six digits, as C++ prints them."""
+    """Format seconds with six significant digits, as C++ streams do."""
     return f"{(nanoseconds or 0.0) / SECOND:g}"
 
 
@@ -209,7 +208,7 @@ def _texts(*cells: str) -> list[Text]:
 def _table(*columns: str) -> Table:
     table = Table(box=None, pad_edge=False, header_style="dim")
     for column in columns:
-        # On a narrow screen names are cut first: rich takes room from columns that may wrap, which no cell does.
-        is_name = column in {"link", "publisher"}
+        # In a narrow terminal names are cut first: rich shrinks the columns that may wrap, although no cell does.
+        is_name = column in {"edge", "publisher"}
         table.add_column(column, justify="left" if is_name else "right", no_wrap=not is_name)
     return table

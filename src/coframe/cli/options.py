@@ -69,7 +69,11 @@ NamespaceOption = Annotated[
 DomainOption = Annotated[
     int | None,
     typer.Option(
-        metavar="ID", min=0, max=232, help="ROS domain ID. [default: $ROS_DOMAIN_ID, or 0]", show_default=False
+        metavar="ID",
+        min=0,
+        max=232,
+        help="ROS domain ID, 0 to 232. [default: $ROS_DOMAIN_ID, or 0]",
+        show_default=False,
     ),
 ]
 TfTopicOption = Annotated[

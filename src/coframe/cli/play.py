@@ -1,4 +1,4 @@
-"""``coframe play``: a recording said again on the graph."""
+"""``coframe play``: replays a recording."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import fail, printable
+from coframe.cli.output import count, fail, warn
 from coframe.recorder import FASTEST
 from coframe.recorder import play as start_playing
 from coframe.time import SECOND
@@ -36,14 +36,15 @@ if TYPE_CHECKING:
 __all__ = ["PlayCommand", "play"]
 
 _REFRESH = 0.1  # seconds
-_CLOCK_RATE = "40"  # Hz, as rosbag2's
-_HELP = "space: pause, right: the next message, up and down: faster and slower, Ctrl-C: leave"
+_CLOCK_RATE = "40"  # Hz, as in rosbag2
+_HELP = "space: pause, right: next message, up/down: faster/slower, Ctrl-C: stop"
 
 
 class PlayCommand(PlainCommand):
-    """``--clock`` may stand alone, as rosbag2's does."""
+    """The command ``play``, whose option ``--clock`` may have no value, as in rosbag2."""
 
-    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:  # noqa: D102 - see the class
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Insert the default rate after a ``--clock`` without a value, then parse as usual."""
         for i, argument in enumerate(args):
             if argument == "--clock" and not _is_number(args[i + 1 : i + 2]):
                 args = [*args[: i + 1], _CLOCK_RATE, *args[i + 1 :]]
@@ -60,33 +61,42 @@ def _is_number(following: list[str]) -> bool:
 
 def play(
     bag: BagArgument,
-    topics: Annotated[list[str] | None, typer.Option("--topics", "-t", help="Only this one; may be repeated.")] = None,
-    remap: Annotated[
-        list[str] | None, typer.Option("--remap", "-m", metavar="OLD:=NEW", help="Another name; may be repeated.")
+    topics: Annotated[
+        list[str] | None, typer.Option("--topics", "-t", metavar="TOPIC", help="Play only this topic; repeatable.")
     ] = None,
-    rate: Annotated[float, typer.Option("--rate", "-r", help="Seconds of the recording in a second.")] = 1.0,
-    loop: Annotated[bool, typer.Option("--loop", "-l", help="Again and again.")] = False,
+    remap: Annotated[
+        list[str] | None,
+        typer.Option("--remap", "-m", metavar="OLD:=NEW", help="Publish the topic OLD as NEW; repeatable."),
+    ] = None,
+    rate: Annotated[
+        float, typer.Option("--rate", "-r", metavar="FACTOR", help="Playback speed; 2 is twice as fast.")
+    ] = 1.0,
+    loop: Annotated[bool, typer.Option("--loop", "-l", help="Start again at the end.")] = False,
     start_offset: Annotated[
-        str, typer.Option(help="How far from its beginning it starts: 10s, 2min, or seconds.")
+        str, typer.Option(metavar="DURATION", help="Skip this much at the start, e.g. 10s, 2min, or seconds.")
     ] = "0s",
-    start_paused: Annotated[bool, typer.Option("--start-paused", "-p", help="Stand still at first.")] = False,
+    start_paused: Annotated[bool, typer.Option("--start-paused", "-p", help="Start paused.")] = False,
     clock: Annotated[
         float | None,
         typer.Option(
-            metavar="[HZ]", help="Tell /clock so often, 40 times if nothing is said.", show_default="as recorded"
+            metavar="[HZ]",
+            help="Publish /clock at this rate; without a value, at 40 Hz. [default: /clock as recorded]",
+            show_default=False,
         ),
     ] = None,
-    delay: Annotated[str, typer.Option(help="How long to wait for subscribers at first.")] = "1s",
+    delay: Annotated[
+        str, typer.Option(metavar="DURATION", help="Time to wait for subscribers before the start.")
+    ] = "1s",
     domain: DomainOption = None,
     tf_topic: TfTopicOption = TF_TOPIC,
     tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
-    """Say the recording BAG again on the graph, in its order and at its pace. Static transforms come first.
+    """Replay the recording BAG: publish its messages in order and at their original rate, static transforms first.
 
-    In a terminal, space pauses, right says the next message, up and down change the rate. --prefix goes in front of the
-    frames that any message names, sensors' too; --tf-topic is where what was recorded on /tf goes.
+    In a terminal, space pauses, right publishes the next message, and up and down change the speed. --prefix applies to
+    the frame names in all messages. Messages recorded on /tf are published on --tf-topic.
 
     Example: coframe play run --rate 2 --clock
     """
@@ -95,7 +105,11 @@ def play(
             player = start_playing(
                 bag,
                 topics=topics or None,
-                remap={TF_TOPIC: tf_topic, TF_STATIC_TOPIC: tf_static_topic, **dict(map(_renaming, remap or []))},
+                remap={
+                    TF_TOPIC: tf_topic,
+                    TF_STATIC_TOPIC: tf_static_topic,
+                    **dict(map(_parsed_remapping, remap or [])),
+                },
                 rate=rate,
                 loop=loop,
                 start_offset=f"{start_offset}s" if _is_number([start_offset]) else start_offset,
@@ -114,34 +128,34 @@ def play(
             _watch(player)
 
 
-def _renaming(text: str) -> tuple[str, str]:
+def _parsed_remapping(text: str) -> tuple[str, str]:
     old, sign, new = text.partition(":=")
     if not (old and sign and new):
-        fail(f"--remap: {text!r} is no renaming: write /tf:=/robot1/tf", code=2)
+        fail(f"--remap: {text!r} is not OLD:=NEW. Write, for example, /tf:=/robot1/tf.", code=2)
     return old, new
 
 
 def _watch(player: Player) -> None:
-    told: set[str] = set()
+    printed: set[str] = set()
     console = Console(stderr=True)
     print(
         f"playing {player.recording.path}" + (f"; {_HELP}" if sys.stdin.isatty() else ""), file=sys.stderr, flush=True
     )
 
-    def picture() -> Text:
+    def screen() -> Text:
         return _line(player)
 
-    live = Live(get_renderable=picture, console=console, refresh_per_second=1 / _REFRESH, transient=True)
+    live = Live(get_renderable=screen, console=console, refresh_per_second=1 / _REFRESH, transient=True)
     with keys() as pressed, live if console.is_terminal else contextlib.nullcontext():
         while not player.wait(0.0):
-            _obey(player, pressed.read(_REFRESH))
-            for problem in [problem for problem in player.problems if problem not in told]:
-                told.add(problem)
-                print(f"coframe: {printable(problem)}", file=sys.stderr)
-    print(f"played {player.played} messages")
+            _handle_key(player, pressed.read(_REFRESH))
+            for problem in [problem for problem in player.problems if problem not in printed]:
+                printed.add(problem)
+                warn(problem)
+    print(f"played {count(player.played, 'message')}")
 
 
-def _obey(player: Player, key: str | None) -> None:
+def _handle_key(player: Player, key: str | None) -> None:
     if key == " ":
         player.resume() if player.clock.paused else player.pause()
     elif key == "right":
@@ -155,4 +169,4 @@ def _line(player: Player) -> Text:
     recording = player.recording
     passed, whole = (player.position - recording.start) / SECOND, recording.duration / SECOND
     state = "paused" if player.clock.paused else f"rate {player.clock.rate:.3g}"
-    return Text(f"{passed:.1f} of {whole:.1f} s, {player.played} messages, {state}")
+    return Text(f"{passed:.1f} of {whole:.1f} s, {count(player.played, 'message')}, {state}")

@@ -1,4 +1,4 @@
-"""``coframe record``: what is said on the graph, into a folder as rosbag2 makes it."""
+"""``coframe record``: records topics in the folder layout of rosbag2."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import fail, printable
+from coframe.cli.output import count, fail, printable, warn
 from coframe.recorder import record as start_recording
 
 if TYPE_CHECKING:
@@ -38,35 +38,60 @@ _UNITS = {"": 1, "k": 1000, "m": 1000**2, "g": 1000**3}
 
 
 def record(
-    topics: Annotated[list[str] | None, typer.Argument(help="By name; all, if none is given.")] = None,
-    output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="The folder.", show_default="rosbag2_ and the time")
+    topics: Annotated[
+        list[str] | None, typer.Argument(metavar="[TOPIC]...", help="Topics to record. [default: all]")
     ] = None,
-    everything: Annotated[bool, typer.Option("--all", "-a", help="All topics that are not hidden.")] = False,
-    regex: Annotated[str | None, typer.Option("--regex", "-e", help="Topics whose whole name this matches.")] = None,
-    exclude: Annotated[str | None, typer.Option("--exclude", "-x", help="But none that this matches.")] = None,
-    compression: Annotated[str, typer.Option(help="none, zstd or lz4.")] = "zstd",
-    max_size: Annotated[str | None, typer.Option(help="Begin the next file after so much: 500MB, 2GB.")] = None,
-    max_duration: Annotated[str | None, typer.Option(help="Begin the next file after so long: 30s, 10min.")] = None,
-    duration: Annotated[float | None, typer.Option(min=0.0, help="Leave after so many seconds.")] = None,
-    backlog: Annotated[str, typer.Option(help="How much may wait for a slow disk.")] = "128MB",
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FOLDER",
+            help="Folder of the recording. [default: rosbag2_ and the date and time]",
+            show_default=False,
+        ),
+    ] = None,
+    everything: Annotated[bool, typer.Option("--all", "-a", help="Record all topics that are not hidden.")] = False,
+    regex: Annotated[
+        str | None, typer.Option("--regex", "-e", metavar="REGEX", help="Record topics whose full name matches.")
+    ] = None,
+    exclude: Annotated[
+        str | None, typer.Option("--exclude", "-x", metavar="REGEX", help="Do not record topics that match.")
+    ] = None,
+    compression: Annotated[str, typer.Option(metavar="METHOD", help="Compression: none, zstd or lz4.")] = "zstd",
+    max_size: Annotated[
+        str | None, typer.Option(metavar="SIZE", help="Start a new file at this size, e.g. 500MB or 2GB.")
+    ] = None,
+    max_duration: Annotated[
+        str | None, typer.Option(metavar="DURATION", help="Start a new file after this duration, e.g. 30s or 10min.")
+    ] = None,
+    duration: Annotated[
+        float | None, typer.Option(metavar="SECONDS", min=0.0, help="Stop after this time. [default: on Ctrl-C]")
+    ] = None,
+    backlog: Annotated[
+        str, typer.Option(metavar="SIZE", help="Memory for messages that wait to be written; more are dropped.")
+    ] = "128MB",
     domain: DomainOption = None,
     tf_topic: TfTopicOption = TF_TOPIC,
     tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
-    """Record TOPICS, or all of them, as MCAP in the layout of rosbag2. Ctrl-C ends it.
+    """Record topics as MCAP files in the layout of rosbag2, until Ctrl-C.
 
-    Topics that appear later are recorded, too. If it is killed, at most the last second is missing. --prefix goes in
-    front of the frames that any message names, sensors' too; with --tf-topic /robot1/tf, any of the topics in /robot1.
+    Topics that appear later are recorded as well. If the process is killed, at most the last second is lost. --prefix
+    applies to the frame names in all messages; with --tf-topic /robot1/tf, to those of the topics in /robot1.
 
     Example: coframe record -o run --max-duration 10min
     """
     if not prefix and (tf_topic, tf_static_topic) != (TF_TOPIC, TF_STATIC_TOPIC):
-        fail("--tf-topic and --tf-static-topic say whose frames get the prefix", "Give --prefix, or TOPICS.", code=2)
+        fail(
+            "--tf-topic and --tf-static-topic require --prefix",
+            "They choose the frames that get the prefix. To choose topics to record, name them.",
+            code=2,
+        )
     if everything and (topics or regex):
-        fail("--all and a choice of topics exclude each other", code=2)
+        fail("--all cannot be combined with TOPIC or --regex", code=2)
     with run_until_interrupted():
         try:
             recorder = start_recording(
@@ -79,7 +104,7 @@ def record(
                 max_size=None if max_size is None else _bytes("--max-size", max_size),
                 max_duration=max_duration,
                 backlog=_bytes("--backlog", backlog),
-                on_topic=_tell_topic,
+                on_topic=_print_topic,
                 tf_topic=tf_topic,
                 tf_static_topic=tf_static_topic,
                 prefix=prefix,
@@ -97,13 +122,13 @@ def record(
             _finish(recorder)
 
 
-def _tell_topic(topic: str, ros_type: str) -> None:
+def _print_topic(topic: str, ros_type: str) -> None:
     print(printable(f"recording {topic} [{ros_type}]"), file=sys.stderr, flush=True)
 
 
 def _watch(recorder: Recorder, duration: float | None) -> None:
-    """A line that moves, until the end."""
-    print(f"to {recorder.writer.path}; Ctrl-C ends it", file=sys.stderr, flush=True)
+    """Show the progress in a terminal, until the recording ends."""
+    print(f"recording to {recorder.writer.path}; Ctrl-C to stop", file=sys.stderr, flush=True)
     console = Console(stderr=True)
     progress = _Progress(recorder)
     end = None if duration is None else time.monotonic() + duration
@@ -122,7 +147,7 @@ def _wait(recorder: Recorder, end: float | None) -> None:
 
 
 class _Progress:
-    """How it is going, in a line."""
+    """The line that shows the progress of a recording."""
 
     def __init__(self, recorder: Recorder) -> None:
         self._recorder = recorder
@@ -130,51 +155,53 @@ class _Progress:
         self._rate = 0.0
 
     def __call__(self) -> Text:
-        now, told = time.monotonic(), self._recorder.statistics
+        now, statistics = time.monotonic(), self._recorder.statistics
         since, messages = self._before
         if now - since >= 1.0:
-            self._rate = (told.messages - messages) / (now - since)
-            self._before = (now, told.messages)
-        parts = [f"{told.messages} messages", f"{self._rate:.0f} a second", f"{told.size / 1e6:.1f} MB"]
-        if told.waiting > 1_000_000:
-            parts.append(f"{told.waiting / 1e6:.0f} MB wait for the disk")
+            self._rate = (statistics.messages - messages) / (now - since)
+            self._before = (now, statistics.messages)
+        parts = [
+            count(statistics.messages, "message"),
+            f"{self._rate:.0f} per second",
+            f"{statistics.size / 1e6:.1f} MB",
+        ]
+        if statistics.waiting > 1_000_000:
+            parts.append(f"{statistics.waiting / 1e6:.0f} MB waiting to be written")
         line = Text(", ".join(parts))
-        if told.dropped:
-            line.append(f", {sum(told.dropped.values())} dropped", style="red")
-        if told.missing:
-            line.append(f", waiting for {', '.join(told.missing)}", style="yellow")
+        if statistics.dropped:
+            line.append(f", {sum(statistics.dropped.values())} dropped", style="red")
+        if statistics.missing:
+            line.append(f", waiting for {', '.join(statistics.missing)}", style="yellow")
         return line
 
 
 def _finish(recorder: Recorder) -> None:
-    """Ends the files, and tells what is in them and what is not."""
+    """Close the files, and print what was recorded and what was not."""
     try:
         recorder.close()
     finally:
-        told = recorder.statistics
-        files = "1 file" if recorder.writer.files == 1 else f"{recorder.writer.files} files"
-        path = recorder.writer.path
-        print(f"{path}: {told.messages} messages of {told.topics} topics, {told.size / 1e6:.1f} MB in {files}")
-        for topic, count in sorted(told.dropped.items()):
-            _warn(f"{topic}: {count} messages were dropped: the disk was too slow for them")
-        if told.missing:
-            _warn(f"nobody published on {', '.join(told.missing)}")
-        if told.refused:
-            _warn(f"not recorded, because they are not ROS's or there are too many: {', '.join(told.refused)}")
-        if told.not_renamed:
-            _warn(f"frames keep their names, because the types are not known: {', '.join(told.not_renamed)}")
+        statistics = recorder.statistics
+        amounts = f"{count(statistics.messages, 'message')} on {count(statistics.topics, 'topic')}"
+        files = f"{statistics.size / 1e6:.1f} MB in {count(recorder.writer.files, 'file')}"
+        print(f"{recorder.writer.path}: {amounts}, {files}")
+        for topic, number in sorted(statistics.dropped.items()):
+            warn(f"{topic}: dropped {count(number, 'message')}, because the disk was too slow; see --backlog")
+        if statistics.missing:
+            warn(f"no message was received on {', '.join(statistics.missing)}")
+        if statistics.refused:
+            warn(
+                f"not recorded, because they are not ROS topics or there are too many: {', '.join(statistics.refused)}"
+            )
+        if statistics.not_renamed:
+            warn(f"no prefix is added on topics whose types are unknown: {', '.join(statistics.not_renamed)}")
         if recorder.writer.undescribed:
             types = ", ".join(recorder.writer.undescribed)
-            _warn(f"recorded without a description, which readers will need: {types}")
-
-
-def _warn(text: str) -> None:
-    print(f"coframe: {printable(text)}", file=sys.stderr)
+            warn(f"recorded without message definitions, so that other programs cannot decode them: {types}")
 
 
 def _bytes(option: str, text: str) -> int:
     match = _SIZE.fullmatch(text.strip())
     size = 0 if match is None else int(float(match[1]) * _UNITS[match[2].lower()])
     if size < 1:
-        fail(f"{option}: {text!r} is no amount of bytes: write 500MB, or 2GB", code=2)
+        fail(f"{option}: {text!r} is not a size. Write, for example, 500MB or 2GB.", code=2)
     return size

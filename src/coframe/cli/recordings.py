@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from coframe.bags import open_bag, parse_instant
+from coframe.bags import open_bag, parse_time_point
 from coframe.cli.options import recorded_tf_topics
 from coframe.cli.output import fail, warn
 from coframe.cli.progress import reading_progress
@@ -33,7 +33,7 @@ def open_recording(
     topics = recorded_tf_topics(tf_topic, tf_static_topic)
     with reading_progress() as progress:
         chosen: dict[str, Any] = {"namespace": namespace, "tf_topics": topics, "prefix": prefix, "keep": keep}
-        recording = open_bag(path, **chosen, progress=progress, heard=heard)
+        recording = open_bag(path, **chosen, progress=progress, on_transforms=heard)
     with recording:
         printed = recording.problems
         for problem in printed:
@@ -49,6 +49,6 @@ def open_recording(
 def parse_time(option: str, text: str, recording: Recording) -> int:
     """Return the time that an option gives, in nanoseconds; end the command if it is not a time."""
     try:
-        return parse_instant(text, recording.span)
+        return parse_time_point(text, recording.span)
     except ValueError as error:
         fail(f"{option}: {error}", code=2)

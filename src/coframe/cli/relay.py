@@ -1,4 +1,4 @@
-"""``coframe relay``: the trees of many robots into one, or one into many."""
+"""``coframe relay``: merges the transforms of several robots on one topic, or splits them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rich.text import Text
 import coframe
 from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.options import TF_TOPIC, DomainOption, KeepOption, PrefixOption, checked_prefix, with_leading_slash
-from coframe.cli.output import fail, log, printable
+from coframe.cli.output import fail, log, printable, report_console
 
 if TYPE_CHECKING:
     from coframe.tf_relay import Relay, RelayedEdge
@@ -28,45 +28,59 @@ REFRESH = 1.0  # seconds
 
 
 def relay(
-    robots: Annotated[str, typer.Option(help="Their names, such as robot1,robot2: on /robot1/tf, /robot2/tf.")] = "",
+    robots: Annotated[
+        str,
+        typer.Option(metavar="NAMES", help="Names of the robots, e.g. robot1,robot2 for /robot1/tf and /robot2/tf."),
+    ] = "",
     sources: Annotated[
         list[str] | None,
         typer.Option(
             "--from",
             metavar="TOPIC[=PREFIX]",
-            help="A robot's topic, or with --split the one where all are; the static ones are on TOPIC_static.",
+            help="Topic of one robot, or with --split the common topic; repeatable. Static transforms: TOPIC_static.",
         ),
     ] = None,
     tf_topic: Annotated[
         str,
         typer.Option(
-            "--to", "--tf-topic", help="Where all are written, or read with --split.", callback=with_leading_slash
+            "--to",
+            "--tf-topic",
+            metavar="TOPIC",
+            help="Common topic: written, or read with --split.",
+            callback=with_leading_slash,
         ),
     ] = TF_TOPIC,
     tf_static_topic: Annotated[
         str | None,
         typer.Option(
-            help="The static ones likewise.", callback=with_leading_slash, show_default="as --to, with _static"
+            metavar="TOPIC",
+            help="Common topic of the static transforms. [default: that of --to with _static]",
+            callback=with_leading_slash,
+            show_default=False,
         ),
     ] = None,
     prefix: PrefixOption = "",
     prefix_each: Annotated[
-        bool, typer.Option("--prefix-each", help="Put each robot's name and a slash in front of its frames.")
+        bool, typer.Option("--prefix-each", help="Prefix the frames of each robot with its name and a slash.")
     ] = False,
     keep: KeepOption = "",
     rate: Annotated[
-        float | None, typer.Option(help="So many transforms of each edge a second at most.", show_default="all")
+        float | None,
+        typer.Option(metavar="HZ", help="Maximum rate of each edge, in Hz. [default: all transforms]"),
     ] = None,
     split: Annotated[
-        bool, typer.Option("--split", help="The way back: what begins with robot1/ to /robot1/tf, without that.")
+        bool,
+        typer.Option(
+            "--split", help="Reverse: relay frames with the prefix robot1/ to /robot1/tf, without the prefix."
+        ),
     ] = False,
-    status: Annotated[bool, typer.Option("--status", help="Show every edge and where it comes from.")] = False,
+    status: Annotated[bool, typer.Option("--status", help="Show each edge with its source, rate and age.")] = False,
     domain: DomainOption = None,
 ) -> None:
-    """Read the transforms of many robots and write them to one topic, or split them up again.
+    """Relay the transforms of several robots to one topic, or split one topic into one for each robot.
 
-    What is wrong is told as it comes up: a robot that has gone, a clock that is off, a frame that two robots tell of,
-    slashes in front of names, half a prefix.
+    A warning is printed for each problem: a robot that stops publishing, a clock that is wrong, a frame that two robots
+    publish, a frame name with a leading slash, or a frame with an incomplete prefix.
 
     Example: coframe relay --robots robot1,robot2 --prefix-each --keep map,world
     """
@@ -75,7 +89,7 @@ def relay(
     if split:
         common = next(iter(prefixes), tf_topic)
         if len(prefixes) > 1 or any(prefixes.values()):
-            fail("--split reads one topic, and names the robots by --robots", code=2)
+            fail("--split reads a single --from topic without a prefix", "Name the robots with --robots.", code=2)
         prefixes = {}
     with run_until_interrupted(), contextlib.ExitStack() as stack:
         try:
@@ -94,7 +108,7 @@ def relay(
                 warn=lambda text: log("WARN", NODE, printable(text)),
             )
         except ValueError as error:
-            fail(str(error), "See `coframe relay --help` for an example.", code=2)
+            fail(str(error), "coframe relay --help shows an example.", code=2)
         stack.enter_context(running)
         for line in running.routes:
             log("INFO", NODE, printable(line))
@@ -104,13 +118,13 @@ def relay(
 
 
 def _prefixes(sources: list[str]) -> dict[str, str]:
-    """By topic."""
+    """Return the prefix of each topic, from the words TOPIC=PREFIX."""
     pairs = [source.partition("=") for source in sources]
     return {topic: checked_prefix(prefix) for topic, _, prefix in pairs}
 
 
 def _show(running: Relay) -> None:
-    """Until Ctrl-C; where nobody looks at it, a table when there is something and then no more."""
+    """Show the table until Ctrl-C; if the output is not a terminal, print it once when there are edges."""
     console = Console()
     rates = _Rates()
     if console.is_terminal:
@@ -121,18 +135,18 @@ def _show(running: Relay) -> None:
     while not running.edges():
         time.sleep(REFRESH)
     time.sleep(REFRESH)
-    Console(width=200).print(_table(running, rates))
+    report_console().print(_table(running, rates))
 
 
 class _Rates:
-    """How many transforms of each edge pass a second, from one look to the next."""
+    """The rate of each edge between two updates of the table."""
 
     def __init__(self) -> None:
         self._seen: dict[tuple[str, str, str], int] = {}
         self._at = 0.0
 
-    def take(self, edges: list[RelayedEdge]) -> dict[tuple[str, str, str], float]:
-        """By target, parent and child."""
+    def update(self, edges: list[RelayedEdge]) -> dict[tuple[str, str, str], float]:
+        """Return the rates in Hz by target, parent and child."""
         now = time.monotonic()
         seen = {(edge.target, edge.parent, edge.child): edge.forwarded for edge in edges}
         elapsed = max(now - self._at, 1e-9)
@@ -147,11 +161,12 @@ def _table(running: Relay, rates: _Rates) -> Table:
         table.add_column(column, justify="right" if column in {"Hz", "age s"} else "left")
     states = {robot.name: robot.state for robot in running.robots}
     edges = sorted(running.edges(), key=lambda edge: (edge.target, edge.robot, edge.parent, edge.child))
-    each = rates.take(edges)
+    each = rates.update(edges)
     for edge in edges:
-        note = f"also told of by {edge.conflicting_robot}, which is left out" if edge.conflicting_robot else ""
+        note = f"also published by {edge.conflicting_robot}, which is ignored" if edge.conflicting_robot else ""
         if states[edge.robot] in {"gone", "stale"}:
-            note = f"{edge.robot} {'has gone' if states[edge.robot] == 'gone' else 'is stale'}"
+            has_left = states[edge.robot] == "gone"
+            note = f"stale: {edge.robot} {'is no longer there' if has_left else 'stopped publishing'}"
         hertz = each.get((edge.target, edge.parent, edge.child))
         cells = [
             f"{edge.parent} -> {edge.child}",

@@ -1,4 +1,4 @@
-"""``coframe robot``: robot_state_publisher for a file."""
+"""``coframe robot``: publishes the transforms of a robot description, like robot_state_publisher."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = ["robot"]
 
 def robot(
     context: typer.Context,
-    file: Annotated[Path, typer.Argument(help="URDF, or xacro.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Robot description: a URDF or xacro file.")],
     prefix: PrefixOption = "",
     keep: KeepOption = "",
     frequency: Annotated[
@@ -35,22 +35,26 @@ def robot(
             "-f",
             min=0.0,
             max=1000.0,
-            help="How often at most a joint is told of, in Hz.",
-            show_default="20.0",
+            metavar="HZ",
+            help="Maximum publishing rate of each joint, in Hz. [default: 20]",
+            show_default=False,
         ),
     ] = None,
     ignore_timestamp: Annotated[
-        bool, typer.Option("--ignore-timestamp", help="Tell of every joint state, however close together.")
+        bool,
+        typer.Option(
+            "--ignore-timestamp", help="Publish for every joint state, regardless of its stamp and of --frequency."
+        ),
     ] = False,
     domain: DomainOption = None,
     tf_topic: TfTopicOption = TF_TOPIC,
     tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
 ) -> None:
-    """Publish the transforms of the robot in FILE from its joint states, as robot_state_publisher does.
+    """Publish the transforms of the robot in FILE from its joint states, like ROS 2's robot_state_publisher.
 
-    NAME:=VALUE gives a xacro file its arguments; what follows --ros-args is the node's.
+    Arguments of a xacro file are written as NAME:=VALUE. Arguments after --ros-args are passed to the node.
 
-    Example: coframe robot arm.urdf.xacro --prefix robot1/ --ros-args -r joint_states:=arm/joint_states
+    Example: coframe robot arm.urdf.xacro reach:=2 --prefix robot1/
     """
     with run_until_interrupted():
         description = load(file, arguments=xacro_arguments(context.args)).text
@@ -60,9 +64,9 @@ def robot(
             "publish_frequency": frequency,
             "ignore_timestamp": ignore_timestamp or None,
         }
-        # What was not given is left to the node's own parameters, of -p and --params-file.
+        # Options that are not given do not override the parameters of -p and --params-file.
         parameters = {"robot_description": description} | {n: value for n, value in given.items() if value is not None}
-        from rclpy.parameter import Parameter  # noqa: PLC0415 - a file that cannot be read needs no graph
+        from rclpy.parameter import Parameter  # noqa: PLC0415 - not needed if the file cannot be read
         from robot_state_publisher import run  # noqa: PLC0415
 
         overrides = [Parameter(name, value=value) for name, value in parameters.items()]

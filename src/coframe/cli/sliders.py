@@ -1,4 +1,4 @@
-"""A slider in the terminal for each joint: arrows choose and move."""
+"""Sliders for joints in the terminal, controlled by the arrow keys."""
 
 from __future__ import annotations
 
@@ -13,32 +13,32 @@ if TYPE_CHECKING:
 
 __all__ = ["HELP", "Sliders"]
 
-HELP = "arrows choose and move, page up/down far; 0 rest, a all rest, r random, q end"
+HELP = "arrows: select, move; page up/down: big steps; 0: reset; a: reset all; r: random; q: quit"
 _WIDTH = 31
-_STEPS = {"left": -0.01, "right": 0.01, "page down": -0.1, "page up": 0.1}  # shares of the way
+_STEPS = {"left": -0.01, "right": 0.01, "page down": -0.1, "page up": 0.1}  # fractions of the joint's range
 
 
 class Sliders:
-    """The free joints of a robot, one of which is chosen."""
+    """The free joints of a robot, one of which is selected."""
 
     def __init__(self) -> None:
-        self.chosen = 0
+        self.selected = 0
 
     def press(self, key: str, states: JointStates) -> bool:
-        """Does what a key is for.
+        """Handle a key.
 
         Returns:
-            Whether to go on.
+            False if the key ends the program.
         """
         joints = list(states.free.values())
         if key == "q":
             return False
         if not joints:
             return True
-        self.chosen = min(self.chosen, len(joints) - 1)
-        joint = joints[self.chosen]
+        self.selected = min(self.selected, len(joints) - 1)
+        joint = joints[self.selected]
         if key in {"up", "down"}:
-            self.chosen = (self.chosen + (1 if key == "down" else -1)) % len(joints)
+            self.selected = (self.selected + (1 if key == "down" else -1)) % len(joints)
         elif key in _STEPS:
             position = _position(joint) + _STEPS[key] * (joint.upper - joint.lower)
             joint.position = min(max(position, joint.lower), joint.upper)
@@ -49,23 +49,23 @@ class Sliders:
                 each.position = each.zero
         elif key == "r":
             for each in joints:
-                each.position = random.uniform(each.lower, each.upper)  # noqa: S311 - a pose, no secret
+                each.position = random.uniform(each.lower, each.upper)  # noqa: S311 - not a secret
         return True
 
     def table(self, states: JointStates, height: int) -> Table:
-        """The joints around the chosen one, as many as there is room for."""
+        """Return a table of at most ``height`` joints around the selected one."""
         names = list(states.free)
-        self.chosen = min(self.chosen, max(len(names) - 1, 0))
-        first = max(0, min(self.chosen - height // 2, len(names) - height))
+        self.selected = min(self.selected, max(len(names) - 1, 0))
+        first = max(0, min(self.selected - height // 2, len(names) - height))
         table = Table(box=None, padding=(0, 1, 0, 0), pad_edge=False, show_header=False)
         for name in names[first : first + height]:
             joint = states.free[name]
-            is_chosen = name == names[self.chosen]
+            is_selected = name == names[self.selected]
             table.add_row(
-                Text(">" if is_chosen else " "),
-                Text(name, style="bold" if is_chosen else "", no_wrap=True),
+                Text(">" if is_selected else " "),
+                Text(name, style="bold" if is_selected else "", no_wrap=True),
                 Text(f"{joint.lower:8.3f}", style="dim"),
-                Text(_bar(joint), style="cyan" if is_chosen else ""),
+                Text(_bar(joint), style="cyan" if is_selected else ""),
                 Text(f"{joint.upper:.3f}", style="dim"),
                 Text(f"{_position(joint):8.3f}"),
             )
@@ -77,7 +77,7 @@ def _position(joint: FreeJoint) -> float:
 
 
 def _bar(joint: FreeJoint) -> str:
-    way = joint.upper - joint.lower
-    share = (_position(joint) - joint.lower) / way if way > 0.0 else 0.0
-    place = round(min(max(share, 0.0), 1.0) * (_WIDTH - 1))
-    return "─" * place + "●" + "─" * (_WIDTH - 1 - place)
+    extent = joint.upper - joint.lower
+    fraction = (_position(joint) - joint.lower) / extent if extent > 0.0 else 0.0
+    column = round(min(max(fraction, 0.0), 1.0) * (_WIDTH - 1))
+    return "─" * column + "●" + "─" * (_WIDTH - 1 - column)

@@ -1,4 +1,4 @@
-"""``coframe static``: static_transform_publisher, with both argument styles."""
+"""``coframe static``: publishes a static transform, with both argument styles of static_transform_publisher."""
 
 from __future__ import annotations
 
@@ -20,22 +20,40 @@ from coframe.wire import Participant
 __all__ = ["static"]
 
 USAGE = """\
-Usage: coframe static [--x X] [--y Y] [--z Z] [--qx QX --qy QY --qz QZ --qw QW | --roll R --pitch P --yaw Y]
-                      --frame-id FRAME --child-frame-id CHILD [--domain ID] [--tf-static-topic TOPIC]
-                      [--prefix robot1/] [--keep map,world]   (--tf-topic is taken, too: nothing is sent there)
-       coframe static X Y Z YAW PITCH ROLL FRAME CHILD      (the old order)
-       coframe static X Y Z QX QY QZ QW FRAME CHILD         (the old order)
+Usage: coframe static [OPTIONS] --frame-id FRAME --child-frame-id CHILD
+       coframe static X Y Z YAW PITCH ROLL FRAME CHILD   (deprecated)
+       coframe static X Y Z QX QY QZ QW FRAME CHILD      (deprecated)
 
-Publishes a static transform until stopped: where CHILD is, seen from FRAME. Metres and radians.
+  Publish a static transform, the pose of the frame CHILD relative to FRAME,
+  until stopped, like ROS 2's static_transform_publisher.
 
-Example: coframe static --z 0.5 --frame-id base_link --child-frame-id lidar_link
+  Example: coframe static --z 0.5 --frame-id base_link --child-frame-id lidar
+
+Options:
+  --frame-id FRAME         Parent frame.
+  --child-frame-id CHILD   Child frame.
+  --x X, --y Y, --z Z      Translation in metres. [default: 0]
+  --roll ROLL, --pitch PITCH, --yaw YAW
+                           Rotation as angles in radians about the fixed axes
+                           x, y and z. [default: 0]
+  --qx QX, --qy QY, --qz QZ, --qw QW
+                           Rotation as a quaternion, instead of angles.
+  --domain ID              ROS domain ID, 0 to 232. [default: $ROS_DOMAIN_ID,
+                           or 0]
+  --tf-static-topic TOPIC  Topic of the static transforms, e.g.
+                           /robot1/tf_static. [default: /tf_static]
+  --tf-topic TOPIC         Accepted for uniformity; nothing is published there.
+  --prefix PREFIX          Prefix for all frame names, with its slash, e.g.
+                           robot1/.
+  --keep FRAMES            Shared frames that get no prefix, e.g. map,world.
+  --help                   Show this message and exit.
 """
 
 
 def static(context: typer.Context) -> None:
-    """Publish a transform that never changes, as ROS 2's static_transform_publisher does.
+    """Publish a static transform until stopped, like ROS 2's static_transform_publisher.
 
-    Example: coframe static --z 0.5 --frame-id base_link --child-frame-id lidar_link
+    Example: coframe static --z 0.5 --frame-id base_link --child-frame-id lidar
     """
     if not context.args or {"-h", "--help"} & set(context.args):
         typer.echo(USAGE, nl=False)
@@ -51,13 +69,16 @@ def static(context: typer.Context) -> None:
         log("WARN", node, "Old-style arguments are deprecated; see --help for new-style arguments")
     if arguments.frame_id == arguments.child_frame_id:
         names = f"from '{arguments.frame_id}' to '{arguments.child_frame_id}'"
-        fail(f"cannot publish static transform {names}, exiting", "A frame cannot be told in itself.")
-    _rename(arguments)
+        fail(
+            f"cannot publish static transform {names}, exiting",
+            "A frame cannot be its own parent: give two different frames.",
+        )
+    _add_prefix(arguments)
     with run_until_interrupted():
         _publish_until_stopped(arguments, node)
 
 
-def _rename(arguments: StaticArguments) -> None:
+def _add_prefix(arguments: StaticArguments) -> None:
     checked_prefix(arguments.prefix)
     names = renaming(arguments.prefix, arguments.keep)
     if names is not None:

@@ -1,4 +1,4 @@
-"""The arguments of static_transform_publisher: flags by name, or the old order of numbers."""
+"""The arguments of static_transform_publisher: named options, or the deprecated positional numbers."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ NAMES = ("--frame-id", "--child-frame-id", "--domain", "--tf-topic", "--tf-stati
 
 
 class ArgumentError(ValueError):
-    """The arguments make no transform; the text is static_transform_publisher's."""
+    """Invalid arguments; the texts are those of static_transform_publisher where it has one."""
 
 
 @dataclass
 class StaticArguments:
-    """A static transform, as asked for on the command line."""
+    """The static transform that the command line describes, and where to publish it."""
 
     frame_id: str
     child_frame_id: str
@@ -46,10 +46,10 @@ class _Flags:
 
 
 def parse(words: Sequence[str]) -> StaticArguments:
-    """Reads ``--x 1 --frame-id a ...``, or ``x y z yaw pitch roll frame child``, or ``x y z qx qy qz qw frame child``.
+    """Parse ``--x 1 --frame-id a ...``, ``x y z yaw pitch roll frame child`` or ``x y z qx qy qz qw frame child``.
 
     Raises:
-        ArgumentError: They are incomplete, contradict each other, or are no numbers.
+        ArgumentError: An argument is missing, unknown or not a number, or two of them contradict each other.
     """
     flags = _flags(words)
     arguments = _transform(flags)
@@ -107,7 +107,7 @@ def _domain(text: str | None) -> int | None:
     if text is None:
         return None
     if not text.isdecimal() or int(text) > 232:
-        raise ArgumentError(f"--domain must be a whole number from 0 to 232, not {text!r}")
+        raise ArgumentError(f"--domain must be an integer from 0 to 232, not {text!r}")
     return int(text)
 
 
@@ -133,7 +133,7 @@ def _old_style(positional: list[str]) -> StaticArguments:
     labels = ("x", "y", "z", "yaw", "pitch", "roll") if len(texts) == 6 else ("x", "y", "z", "qx", "qy", "qz", "qw")
     numbers = [_number(text, label) for text, label in zip(texts, labels, strict=True)]
     if len(numbers) == 6:
-        transform = Transform.from_rpy(numbers[:3], numbers[:2:-1])  # the old order is yaw, pitch, roll
+        transform = Transform.from_rpy(numbers[:3], numbers[:2:-1])  # The positional order is yaw, pitch, roll.
     else:
         transform = _from_quaternion(numbers[:3], numbers[3:])
     _check_names(frame_id, child_frame_id)
@@ -155,4 +155,4 @@ def _check_names(frame_id: str, child_frame_id: str) -> None:
         try:
             name.encode()
         except UnicodeEncodeError:
-            raise ArgumentError(f"Frame ids are UTF-8 texts, which {name!r} is not") from None
+            raise ArgumentError(f"Frame ids must be valid UTF-8, not {name!r}") from None

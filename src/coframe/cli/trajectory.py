@@ -1,4 +1,4 @@
-"""``coframe trajectory``: where a frame went, in a recording."""
+"""``coframe trajectory``: writes the trajectory of a frame from a recording."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from coframe.bags import FORMATS, Question, format_of, write_trajectory
+from coframe.bags import FORMATS, TrajectoryQuery, format_of, write_trajectory
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     BagArgument,
@@ -18,7 +18,7 @@ from coframe.cli.options import (
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
 )
-from coframe.cli.output import fail
+from coframe.cli.output import count, fail, warn
 from coframe.cli.recordings import open_recording, parse_time
 from coframe.formatting import seconds
 
@@ -27,44 +27,52 @@ __all__ = ["trajectory"]
 
 def trajectory(
     bag: BagArgument,
-    target: Annotated[str, typer.Argument(help="The frame the poses are told in.")],
-    source: Annotated[str, typer.Argument(help="The frame that moves.")],
+    target: Annotated[str, typer.Argument(metavar="TARGET", help="Frame in which the poses are expressed.")],
+    source: Annotated[str, typer.Argument(metavar="SOURCE", help="Frame whose poses are written.")],
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="The file; its end says the format.", show_default="stdout")
+        Path | None,
+        typer.Option("--output", "-o", metavar="FILE", help="Output file. [default: standard output]"),
     ] = None,
     format_: Annotated[
-        str | None, typer.Option("--format", "-f", help=f"{', '.join(FORMATS)}.", show_default="as the name ends")
+        str | None,
+        typer.Option(
+            "--format",
+            "-f",
+            metavar="FORMAT",
+            help=f"Format: {', '.join(FORMATS)}. [default: by the suffix of FILE, or tum]",
+            show_default=False,
+        ),
     ] = None,
     rate: Annotated[
-        float | None, typer.Option("--rate", "-r", help="So many poses a second, not those of the samples.")
+        float | None,
+        typer.Option("--rate", "-r", metavar="HZ", help="Poses per second. [default: one per recorded transform]"),
     ] = None,
     stamps_of: Annotated[
-        str | None, typer.Option(help="At the stamps of this topic's messages, not those of the samples.")
+        str | None, typer.Option(metavar="TOPIC", help="Write a pose at the stamp of each message of this topic.")
     ] = None,
-    start: Annotated[str | None, typer.Option(help="From when on, as --at of coframe lookup.")] = None,
-    stop: Annotated[str | None, typer.Option(help="Until when.")] = None,
+    start: Annotated[str | None, typer.Option(metavar="TIME", help="First time, written like --at of lookup.")] = None,
+    stop: Annotated[str | None, typer.Option(metavar="TIME", help="Last time, written like --start.")] = None,
     namespace: NamespaceOption = None,
     tf_topic: RecordedTfTopicOption = None,
     tf_static_topic: RecordedTfStaticTopicOption = None,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
-    """Write where SOURCE went, seen from TARGET, in the recording BAG.
+    """Write the trajectory of SOURCE relative to TARGET in the recording BAG.
 
     Example: coframe trajectory run.mcap map base_link -o run.tum
     """
     kind = _format(output, format_)
     try:
-        question = Question(target, source, rate, stamps_of, start, stop)
+        query = TrajectoryQuery(target, source, rate, stamps_of, start, stop)
     except ValueError as error:
         fail(str(error), code=2)
     with run_to_completion(), open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         for text in filter(None, (start, stop)):
             parse_time("--start/--stop", text, recording)
-        poses, missing = question.ask(recording)
+        poses, missing = query.run(recording)
         if missing:
-            times = f"{missing} of {missing + len(poses)} times have no transform and were left out"
-            print(f"coframe: {times}", file=sys.stderr)
+            warn(f"no transform at {missing} of {count(missing + len(poses), 'time')}; those are omitted")
         try:
             write_trajectory(poses, sys.stdout if output is None else output, kind)
         except OSError as error:
@@ -72,20 +80,20 @@ def trajectory(
                 raise
             fail(
                 f"{output} cannot be written: {error.strerror or error}",
-                "Does the folder exist, and may you write there?",
+                "Check that the folder exists and is writable.",
             )
         if output is not None and poses.stamps is not None:
             first, last = int(poses.stamps[0]), int(poses.stamps[-1])
-            print(f"{output}: {len(poses)} poses from {seconds(first)} to {seconds(last)}")
+            print(f"{output}: {count(len(poses), 'pose')} from {seconds(first)} to {seconds(last)}")
 
 
-def _format(output: Path | None, wanted: str | None) -> str:
+def _format(output: Path | None, requested: str | None) -> str:
     try:
-        kind = wanted or ("tum" if output is None else format_of(output))
+        kind = requested or ("tum" if output is None else format_of(output))
     except ValueError as error:
         fail(str(error), code=2)
     if kind not in FORMATS:
-        fail(f"there is no format {kind!r}: it is one of {', '.join(FORMATS)}", code=2)
+        fail(f"--format: unknown format {kind!r}. Formats: {', '.join(FORMATS)}", code=2)
     if output is None and kind in {"parquet", "npz"}:
-        fail(f"{kind} is no text: name a file with -o", code=2)
+        fail(f"{kind} is a binary format and cannot be printed", "Give a file: -o FILE", code=2)
     return kind

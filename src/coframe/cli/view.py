@@ -1,4 +1,4 @@
-"""``coframe view``: the viewer in a browser tab."""
+"""``coframe view``: opens the viewer in a browser tab."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ from coframe.cli.options import (
     RecordedTfTopicOption,
     recorded_tf_topics,
 )
+from coframe.cli.output import warn
 from coframe.viewer import expect
 from coframe.wire import dds
 
@@ -33,28 +34,54 @@ if TYPE_CHECKING:
     from coframe.viewer import Viewer
     from coframe.viewer.sources.recorded import RecordedSource
 
-__all__ = ["announce", "view", "viewer_beside"]
+__all__ = ["announce", "optional_viewer", "view"]
 
-HostOption = Annotated[str, typer.Option(help="The address to listen on; others than this machine's let others in.")]
+HostOption = Annotated[
+    str,
+    typer.Option(
+        metavar="ADDRESS",
+        help="Address to listen on; 0.0.0.0 lets other machines connect.",
+    ),
+]
 PortOption = Annotated[
     int | None,
-    typer.Option(min=0, max=65535, help="The port; 0 is any.", show_default="7676, or any other where it is taken"),
+    typer.Option(
+        metavar="PORT",
+        min=0,
+        max=65535,
+        help="Port of the viewer; 0 chooses a free one. [default: 7676 or, if it is in use, a free one]",
+        show_default=False,
+    ),
 ]
-NoBrowserOption = Annotated[bool, typer.Option("--no-browser", help="Print the address only.")]
+NoBrowserOption = Annotated[bool, typer.Option("--no-browser", help="Print the address without opening a browser.")]
 
 
 def view(
-    bag: Annotated[str, typer.Argument(metavar="[BAG|live]", help="A recording, or the ROS graph as it is.")] = "live",
-    rviz: Annotated[Path | None, typer.Option("--display-config", "-d", help="A .rviz file of RViz 2 or 1.")] = None,
-    fixed: Annotated[str, typer.Option(help="The frame that everything is seen from.", show_default="")] = "",
+    bag: Annotated[
+        str, typer.Argument(metavar="[BAG]", help="Recording; without it, or with 'live', the live ROS graph.")
+    ] = "live",
+    rviz: Annotated[
+        Path | None,
+        typer.Option("--display-config", "-d", metavar="FILE", help="RViz configuration, a .rviz file of RViz 2 or 1."),
+    ] = None,
+    fixed: Annotated[
+        str,
+        typer.Option(
+            metavar="FRAME",
+            help="Fixed frame, in which everything is shown. [default: the root of the tree]",
+            show_default=False,
+        ),
+    ] = "",
     port: PortOption = None,
     host: HostOption = "127.0.0.1",
     no_browser: NoBrowserOption = False,
     robot: Annotated[
-        Path | None, typer.Option(help="A robot's URDF or xacro file, besides what /robot_description tells.")
+        Path | None,
+        typer.Option(metavar="FILE", help="URDF or xacro file of a robot to show, in addition to /robot_description."),
     ] = None,
     mesh_root: Annotated[
-        list[Path] | None, typer.Option(help="A folder below which meshes may lie; may be given several times.")
+        list[Path] | None,
+        typer.Option(metavar="FOLDER", help="Folder from which meshes may be loaded; repeatable."),
     ] = None,
     domain: DomainOption = None,
     tf_topic: RecordedTfTopicOption = None,
@@ -62,7 +89,7 @@ def view(
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
-    """See all frames and the data in them in a browser tab, live or from a recording, at any time of it.
+    """Show all frames and the data in them in a browser tab, live or from the recording BAG at any time.
 
     Example: coframe view run.mcap -d lab.rviz
     """
@@ -81,24 +108,24 @@ def view(
             mesh_roots=mesh_root or [],
         )
         with viewer:
-            # The browser starts meanwhile.
+            # The browser starts while the graph is joined or the recording is read.
             if live:
                 announce(viewer, browser=not no_browser)
                 topics = {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
                 node = coframe.connect("coframe_view", domain=domain, **topics, prefix=prefix, keep=keep)
-                from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415 - who reads a recording needs no graph
+                from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415 - recordings need no DDS
 
                 viewer.show(LiveSource(node, own=True))
             else:
-                reading = _Reading(viewer, browser=not no_browser)
+                progress = _ReadingProgress(viewer, browser=not no_browser)
                 chosen = recorded_tf_topics(tf_topic, tf_static_topic)
-                viewer.show(_read(Path(bag), reading, tf_topics=chosen, prefix=prefix, keep=keep))
-            while True:  # until Ctrl-C, which an endless wait would not hear everywhere
+                viewer.show(_read(Path(bag), progress, tf_topics=chosen, prefix=prefix, keep=keep))
+            while True:  # On some platforms Ctrl-C does not interrupt an endless wait.
                 time.sleep(60.0)
 
 
-class _Reading:
-    """How far a recording is read: told as the title of the page, which is announced when the first bit is read."""
+class _ReadingProgress:
+    """The progress of reading a recording, shown as the title of the page."""
 
     _PERIOD = 0.25  # seconds
 
@@ -113,7 +140,7 @@ class _Reading:
             self._announced = True
             announce(self._viewer, browser=self._browser)
 
-    def tell(self, done: int, total: int, name: str) -> None:
+    def update(self, done: int, total: int, name: str) -> None:
         self.announce()
         now = time.monotonic()
         if now >= self._due:
@@ -121,21 +148,21 @@ class _Reading:
             self._viewer.entitle(f"{name}: {100 * done // max(total, 1)} % read")
 
 
-def _read(bag: Path, reading: _Reading, **chosen: Any) -> RecordedSource:
-    from coframe.viewer.sources.recorded import RecordedSource  # noqa: PLC0415 - who looks at the graph needs no recordings
+def _read(bag: Path, progress: _ReadingProgress, **chosen: Any) -> RecordedSource:
+    from coframe.viewer.sources.recorded import RecordedSource  # noqa: PLC0415 - not needed for the live graph
 
-    recording = coframe.open_bag(bag, progress=lambda done, total: reading.tell(done, total, bag.name), **chosen)
-    reading.announce()
+    recording = coframe.open_bag(bag, progress=lambda done, total: progress.update(done, total, bag.name), **chosen)
+    progress.announce()
     return RecordedSource(recording, own=True)
 
 
 @contextlib.contextmanager
-def viewer_beside(ros: coframe.Connection, port: int | None, *, browser: bool) -> Iterator[None]:
-    """The viewer, where what it needs is installed; else a sentence, and the terminal does."""
+def optional_viewer(ros: coframe.Connection, port: int | None, *, browser: bool) -> Iterator[None]:
+    """Show the viewer; print a warning instead if a package that it needs is not installed."""
     try:
         viewer = coframe.show(ros, port=port)
     except coframe.ViewerError as error:
-        typer.echo(f"coframe: no viewer: {error}", err=True)
+        warn(f"The viewer is not available: {error}")
         yield
         return
     with viewer:
@@ -144,12 +171,12 @@ def viewer_beside(ros: coframe.Connection, port: int | None, *, browser: bool) -
 
 
 def announce(viewer: Viewer, *, browser: bool) -> None:
-    """Prints the address on a line of its own, and opens the browser where there is somebody to look at it."""
+    """Print the address on its own line, and open it in the browser if the output is a terminal."""
     print(viewer.url, flush=True)
     if browser and sys.stdout.isatty():
         threading.Thread(target=_open_browser, args=(viewer.url,), daemon=True).start()
 
 
 def _open_browser(url: str) -> None:
-    with contextlib.suppress(Exception):  # the address is there for all who have none
+    with contextlib.suppress(Exception):  # Without a browser, the printed address is enough.
         webbrowser.open(url)

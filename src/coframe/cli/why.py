@@ -1,6 +1,6 @@
-"""``coframe why``: is there a transform between two frames, from which links; if not, which is missing, late or early.
+"""``coframe why``: explains why a transform between two frames is available, or why it is not.
 
-The arguments are those of ``coframe lookup``: who gets an error there changes one word of the line.
+The arguments are those of ``coframe lookup``, so that a user who gets an error there changes only the command.
 """
 
 from __future__ import annotations
@@ -17,11 +17,12 @@ from rich.live import Live
 from rich.text import Text
 
 import coframe
-from coframe.bags import parse_instant
+from coframe.bags import parse_time_point
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
+    TIMES,
     DomainOption,
     KeepOption,
     NamespaceOption,
@@ -50,26 +51,25 @@ if TYPE_CHECKING:
     from coframe.bags import Recording
     from coframe.doctor import Finding, Report
     from coframe.doctor.collector import Collector
-    from coframe.explanation import Explanation, Link
+    from coframe.explanation import ChainEdge, Explanation
 
 __all__ = ["why"]
 
 _NAMES = "[BAG] TARGET SOURCE"
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
-_WHEN = "A stamp, 10s (from the start), -0.5s (from the end, or from now), ISO time, start, end; live also now."
 _ASCII = str.maketrans("├└│─", "+`|-")
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan"}
 
 
 class _Names(NamedTuple):
-    """What frames are called."""
+    """The options that rename frames."""
 
     prefix: str
     keep: str
 
 
-class _Live(NamedTuple):
-    """Where to listen."""
+class _LiveSource(NamedTuple):
+    """The domain and the topics to listen to."""
 
     domain: int | None
     tf_topic: str
@@ -78,7 +78,7 @@ class _Live(NamedTuple):
 
 
 class _Answer(NamedTuple):
-    """What is told: the explanation, what the doctor finds about its links, and where else there are transforms."""
+    """An explanation, the doctor's findings about its edges, and notes about transforms on other topics."""
 
     found: Explanation
     reports: list[Report]
@@ -89,15 +89,28 @@ def why(
     names: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar=_NAMES, help="Two frames, as for lookup; without a recording it listens.", show_default=False
+            metavar=_NAMES,
+            help="The frames as in lookup; without a recording BAG, the live ROS graph is used.",
+            show_default=False,
         ),
     ] = None,
     at: Annotated[
-        str | None, typer.Option("--at", "-t", help=f"When: {_WHEN}", show_default="the latest possible")
+        str | None,
+        typer.Option(
+            "--at",
+            "-t",
+            metavar="TIME",
+            help=f"Time of the lookup: {TIMES}; live also 'now'. [default: the latest common time]",
+            show_default=False,
+        ),
     ] = None,
-    duration: Annotated[str, typer.Option("--duration", "--timeout", help="How long to listen.")] = "2s",
-    watch: Annotated[bool, typer.Option("--watch", help="Listen on, with an answer a second.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="One line of JSON an answer; times in nanoseconds.")] = False,
+    duration: Annotated[
+        str, typer.Option("--duration", "--timeout", metavar="DURATION", help="Time to listen.")
+    ] = "2s",
+    watch: Annotated[bool, typer.Option("--watch", help="Keep listening, and update the answer every second.")] = False,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one line of JSON per answer; times are in nanoseconds.")
+    ] = False,
     namespace: NamespaceOption = None,
     domain: DomainOption = None,
     tf_topic: RecordedTfTopicOption = None,
@@ -105,37 +118,38 @@ def why(
     prefix: PrefixOption = "",
     keep: KeepOption = "",
 ) -> None:
-    """Tell why SOURCE can be seen from TARGET, or why not: by which links, how old, from whom, and what to change.
+    """Explain why the transform from SOURCE to TARGET is available, or why it is not.
 
-    Exit code 0: there is a transform; 1: there is none.
+    The answer lists each edge of the chain with its publisher and its age, and says what to change. The exit code is 0
+    if the transform is available, and 1 if it is not.
 
     Example: coframe why base_link camera_link --at now
     """
     if names is None or len(names) not in {2, 3}:
-        fail("give TARGET and SOURCE, with a recording in front of them or without", code=2)
+        fail("Give the frames TARGET and SOURCE, or a recording and the two frames.", code=2)
     *bags, target, source = names
     if not bags:
         reject_namespace_of_live_graph(namespace)
         if Path(target).exists() and not {"/", "."}.isdisjoint(target):
-            fail(f"{target} is a file or a folder: give TARGET and SOURCE behind the recording", code=2)
+            fail(f"{target} is a file or a folder. Give TARGET and SOURCE after the recording.", code=2)
     if watch and bags:
-        fail("--watch and a recording exclude each other", code=2)
-    patience = positive_duration("--duration", duration)
-    renamed = _Names(prefix, keep)
-    place = _Live(domain, tf_topic or TF_TOPIC, tf_static_topic or TF_STATIC_TOPIC, renamed)
+        fail("--watch cannot be combined with a recording", code=2)
+    window = positive_duration("--duration", duration)
+    renaming_options = _Names(prefix, keep)
+    live = _LiveSource(domain, tf_topic or TF_TOPIC, tf_static_topic or TF_STATIC_TOPIC, renaming_options)
     with run_until_interrupted() if watch else run_to_completion():
         if bags:
             topics = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
-            answer = _recorded(Path(bags[0]), target, source, at, namespace, topics, renamed)
+            answer = _answer_recorded(Path(bags[0]), target, source, at, namespace, topics, renaming_options)
         elif watch:
-            _watch(place, target, source, at, patience, as_json=as_json)
+            _watch(live, target, source, at, window, as_json=as_json)
         else:
-            answer = _heard(place, target, source, at, patience)
+            answer = _answer_live(live, target, source, at, window)
         _print(answer, as_json=as_json)
         raise typer.Exit(0 if answer.found.possible else 1)
 
 
-def _recorded(
+def _answer_recorded(
     bag: Path, target: str, source: str, at: str | None, namespace: str | None, topics: dict[str, Any], names: _Names
 ) -> _Answer:
     collectors: dict[str, Collector] = {}
@@ -146,20 +160,20 @@ def _recorded(
             Observation(live=False, start=recording.start, end=recording.end, transforms=collectors[name].transforms())
             for name in sorted(collectors)
         ]
-        return _Answer(found, _concerning(found, seen), list(_other_namespaces(found, recording)))
+        return _Answer(found, _relevant_reports(found, seen), list(_other_namespaces(found, recording)))
 
 
-def _heard(place: _Live, target: str, source: str, at: str | None, window: int) -> _Answer:
+def _answer_live(graph: _LiveSource, target: str, source: str, at: str | None, window: int) -> _Answer:
     from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
     with (
-        _connection(place) as ros,
+        _connection(graph) as ros,
         LiveObserver(
-            place.domain,
-            tf_topic=place.tf_topic,
-            tf_static_topic=place.tf_static_topic,
+            graph.domain,
+            tf_topic=graph.tf_topic,
+            tf_static_topic=graph.tf_static_topic,
             node_name="coframe_why_doctor",
-            **place.names._asdict(),
+            **graph.names._asdict(),
         ) as listening,
     ):
         if Console(stderr=True).is_terminal:
@@ -167,20 +181,20 @@ def _heard(place: _Live, target: str, source: str, at: str | None, window: int) 
         listening.listen(window / SECOND)
         seen = listening.observe()
         clock = int(seen.clock.stamp[-1]) if seen.clock is not None else None
-        found = ros.buffer.why(target, source, _instant(at, clock, window), now=clock)
-        return _Answer(found, _concerning(found, [seen]), list(_other_topics(found, ros, place)))
+        found = ros.buffer.why(target, source, _lookup_time(at, clock, window), now=clock)
+        return _Answer(found, _relevant_reports(found, [seen]), list(_other_topics(found, ros, graph)))
 
 
-def _watch(place: _Live, target: str, source: str, at: str | None, window: int, *, as_json: bool) -> NoReturn:
-    """An answer a second, without the doctor; until Ctrl-C."""
+def _watch(graph: _LiveSource, target: str, source: str, at: str | None, window: int, *, as_json: bool) -> NoReturn:
+    """Print an answer every second, without the doctor, until Ctrl-C."""
     from coframe.wire import QoS  # noqa: PLC0415 - recordings need no DDS
 
-    with _connection(place) as ros, Live(console=Console(highlight=False), auto_refresh=False) as live:
+    with _connection(graph) as ros, Live(console=Console(highlight=False), auto_refresh=False) as live:
         ticks: deque[Any] = deque(maxlen=1)
         ros.subscribe("/clock", find("rosgraph_msgs/msg/Clock"), ticks.append, QoS(depth=1, reliable=False))
         while True:
             clock = stamp_ns(ticks[0].clock) if ticks else None
-            answer = _Answer(ros.buffer.why(target, source, _instant(at, clock, window), now=clock), [], [])
+            answer = _Answer(ros.buffer.why(target, source, _lookup_time(at, clock, window), now=clock), [], [])
             if as_json:
                 print(json.dumps(_data(answer)), flush=True)
             else:
@@ -188,36 +202,36 @@ def _watch(place: _Live, target: str, source: str, at: str | None, window: int, 
             time.sleep(1.0)
 
 
-def _connection(place: _Live) -> Connection:
+def _connection(graph: _LiveSource) -> Connection:
     return coframe.connect(
         "coframe_why",
-        domain=place.domain,
-        tf_topic=place.tf_topic,
-        tf_static_topic=place.tf_static_topic,
-        **place.names._asdict(),
+        domain=graph.domain,
+        tf_topic=graph.tf_topic,
+        tf_static_topic=graph.tf_static_topic,
+        **graph.names._asdict(),
     )
 
 
-def _instant(at: str | None, clock: int | None, window: int) -> int | None:
-    """A point in time while listening, which ends now."""
+def _lookup_time(at: str | None, clock: int | None, window: int) -> int | None:
+    """Return the time of a lookup in a window that ends now; None: the latest."""
     if at is None:
         return None
     now = time.time_ns() if clock is None else clock
     try:
-        return now if at.strip() == "now" else parse_instant(at, (now - window, now))
+        return now if at.strip() == "now" else parse_time_point(at, (now - window, now))
     except ValueError as error:
         fail(f"--at: {error}", code=2)
 
 
-def _concerning(found: Explanation, seen: Iterable[Observation]) -> list[Report]:
-    """What the doctor finds about the links; where a link or a frame is missing, also about all frames or these."""
-    links = {(link.parent, link.child) for link in found.links}
+def _relevant_reports(found: Explanation, seen: Iterable[Observation]) -> list[Report]:
+    """Return the findings about the edges of the chain; if the chain is incomplete, also those about its frames."""
+    edges = {(edge.parent, edge.child) for edge in found.edges}
     frames = {found.target, found.source, *found.frames}
     incomplete = found.roots is not None or bool(found.unknown)
 
     def concerns(finding: Finding) -> bool:
         if finding.edge is not None:
-            return finding.edge in links
+            return finding.edge in edges
         return incomplete and (not finding.frames or not frames.isdisjoint(finding.frames))
 
     reports = map(diagnose, seen)
@@ -231,17 +245,17 @@ def _other_namespaces(found: Explanation, recording: Recording) -> Iterator[str]
     for frame in found.unknown:
         for name, buffer in recording.buffers.items():
             if frame in buffer:
-                yield f"{frame!r} is told of on {name}/tf: coframe why ... --namespace {name or '/'}"
+                yield f"frame {frame!r} is published on {name}/tf: coframe why ... --namespace {name or '/'}"
 
 
-def _other_topics(found: Explanation, ros: Connection, place: _Live) -> Iterator[str]:
+def _other_topics(found: Explanation, ros: Connection, graph: _LiveSource) -> Iterator[str]:
     if found.possible:
         return
     for topic, publishers in sorted(ros.participant.published().items()):
         types = {endpoint.ros_type for endpoint in publishers.values()}
-        if _TF_TYPE in types and topic not in {place.tf_topic, place.tf_static_topic}:
+        if _TF_TYPE in types and topic not in {graph.tf_topic, graph.tf_static_topic}:
             option = "--tf-static-topic" if topic.endswith("static") else "--tf-topic"
-            yield f"there are transforms on {topic}, too: coframe why ... {option} {topic}"
+            yield f"transforms are also published on {topic}: coframe why ... {option} {topic}"
 
 
 def _print(answer: _Answer, *, as_json: bool) -> None:
@@ -284,7 +298,7 @@ def _data(answer: _Answer) -> dict[str, Any]:
         "text": found.text or None,
         "hint": with_doctor_command(_with_fix(found, found.hint)) or None,
         "frames": list(found.frames),
-        "links": [_link(found, link) for link in found.links],
+        "edges": [_edge_data(found, edge) for edge in found.edges],
         "unknown": list(found.unknown),
         "roots": found.roots,
         "missing": found.missing and found.missing[:2],
@@ -296,7 +310,7 @@ def _data(answer: _Answer) -> dict[str, Any]:
     }
 
 
-def _link(found: Explanation, link: Link) -> dict[str, Any]:
-    times = {"by", "oldest", "newest", "age", "gap"}
-    named = {f"{name}_ns" if name in times else name: value for name, value in link._asdict().items()}
-    return {**named, "remark": remark(found, link)}
+def _edge_data(found: Explanation, edge: ChainEdge) -> dict[str, Any]:
+    times = {"by", "oldest", "newest", "age", "gap", "period"}
+    named = {f"{name}_ns" if name in times else name: value for name, value in edge._asdict().items()}
+    return {**named, "remark": remark(found, edge)}

@@ -1,4 +1,4 @@
-"""Edge: everything that was said of one link on one kind of topic, in the order in which it came."""
+"""Edge: all transforms of one edge on one kind of topic, in the order of arrival."""
 
 from __future__ import annotations
 
@@ -8,27 +8,32 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.analysis.liveness import median_interval, stamp_intervals
+from coframe.time import SECOND
+
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import NDArray
 
-__all__ = ["Edge", "angles_between"]
+__all__ = ["Edge", "angles_between", "publishers_of"]
 
-_LATE = 1_000_000_000
+_LATE = SECOND
 
 
 @dataclass(frozen=True, eq=False)
 class Edge:
-    """What a buffer would take of one link. Times are nanoseconds; rows are in the order in which they came.
+    """The transforms of one edge that a buffer would store. Times are nanoseconds; rows are in the order of arrival.
 
     Attributes:
-        parent: Without a leading slash, as tf2 reads it.
-        child: Likewise.
-        static: Whether it came on a topic of static transforms.
-        arrived: (N,) when it came.
-        stamp: (N,) of the header.
-        publisher: (N,) number of who sent it.
-        values: (N, 7) x, y, z in metres and qx, qy, qz, qw as they were sent.
-        publishers: The names behind the numbers that occur, in the order in which they came up.
+        parent: The parent frame, without a leading slash, as tf2 reads it.
+        child: The child frame, without a leading slash.
+        static: Whether the transforms were published on a topic of static transforms.
+        arrived: (N,) time of arrival.
+        stamp: (N,) stamp of the header.
+        publisher: (N,) number of the publisher.
+        values: (N, 7) x, y, z in metres and qx, qy, qz, qw as published.
+        publishers: The names of the publishers that occur, in the order of their first transform.
     """
 
     parent: str
@@ -46,23 +51,28 @@ class Edge:
         return self.parent, self.child
 
     @property
+    def name(self) -> str:
+        """The edge as ``parent -> child``."""
+        return f"{self.parent} -> {self.child}"
+
+    @property
     def count(self) -> int:
-        """How often it was told of."""
+        """The number of transforms."""
         return len(self.stamp)
 
     @property
     def first_stamp(self) -> int:
-        """Of the first row."""
+        """The stamp of the first row."""
         return int(self.stamp[0])
 
     @cached_property
     def steps(self) -> NDArray[np.int64]:
-        """(N - 1,) from each stamp to the one that came next; negative where time went back."""
+        """(N - 1,) difference of consecutive stamps in the order of arrival; negative where time went back."""
         return np.asarray(self.stamp[1:] - self.stamp[:-1])
 
     @cached_property
     def current(self) -> Edge:
-        """Without the rows that were more than a second late: what a time that jumped back tells again is left out."""
+        """The edge without the rows that were more than a second late, such as those repeated after time went back."""
         kept = self.stamp >= np.maximum.accumulate(self.stamp) - _LATE
         if kept.all():
             return self
@@ -71,52 +81,53 @@ class Edge:
 
     @cached_property
     def intervals(self) -> NDArray[np.int64]:
-        """The times between neighbouring different stamps, in the order of time."""
-        steps = self.steps
-        if (steps > 0).all():
-            return steps
-        stamps = np.unique(self.stamp)
-        return np.asarray(stamps[1:] - stamps[:-1])
+        """The intervals between consecutive different stamps, in the order of time."""
+        return stamp_intervals(self.stamp)
 
     @cached_property
     def period(self) -> float:
-        """The usual time between stamps: the median; 0 for fewer than two."""
-        return float(np.median(self.intervals)) if len(self.intervals) else 0.0
+        """The usual period (see :func:`coframe.analysis.liveness.usual_period`); 0 for fewer than two stamps."""
+        return median_interval(self.intervals)
 
     @cached_property
     def rotations(self) -> NDArray[np.float64]:
-        """(N, 4) of length 1."""
+        """(N, 4) unit quaternions."""
         turns = self.values[:, 3:]
         return np.asarray(turns / _lengths(turns)[:, None])
 
     @cached_property
     def distances(self) -> NDArray[np.float64]:
-        """(N - 1,) metres from each row to the next."""
+        """(N - 1,) metres from each position to the next one."""
         return _lengths(np.diff(self.values[:, :3], axis=0))
 
     @cached_property
     def turns(self) -> NDArray[np.float64]:
-        """(N - 1,) radians from each row's rotation to the next one's."""
+        """(N - 1,) radians from each rotation to the next one."""
         return angles_between(self.rotations[:-1], self.rotations[1:])
 
     @cached_property
     def constant(self) -> bool:
-        """Whether every row says exactly the same."""
+        """Whether all rows have the same values."""
         return bool((self.values == self.values[0]).all())
 
     @cached_property
     def length(self) -> float:
-        """Metres between the two frames by the last row."""
+        """The distance between the two frames in the last row, in metres."""
         return float(_lengths(self.values[-1:, :3])[0])
 
     @cached_property
     def angle(self) -> float:
-        """Radians between the two frames by the last row."""
+        """The angle of the rotation between the two frames in the last row, in radians."""
         return float(angles_between(self.rotations[-1:], np.array([[0.0, 0.0, 0.0, 1.0]]))[0])
 
 
+def publishers_of(edges: Iterable[Edge]) -> tuple[str, ...]:
+    """Return the names of all publishers of some edges, each once."""
+    return tuple(dict.fromkeys(name for edge in edges for name in edge.publishers))
+
+
 def angles_between(first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Radians from rotation to rotation, (N, 4) each, of length 1."""
+    """Return the angles in radians between rotations, (N, 4) unit quaternions each."""
     cosines = np.minimum(np.abs(np.einsum("ij,ij->i", first, second)), 1.0)
     return np.asarray(2.0 * np.arccos(cosines))
 

@@ -1,4 +1,4 @@
-"""What arrives on the wire as an observation: a node that listens to transforms, sensors, joints and the log."""
+"""Observation of a live graph: a node that subscribes to transforms, sensors, joint states and log messages."""
 
 from __future__ import annotations
 
@@ -27,6 +27,7 @@ from coframe.messages import deserialize, find
 from coframe.messages.header_peek import HEADER_BYTES, opens_with_header, peek_header
 from coframe.messages.slices import Slices
 from coframe.messages.tf_columns import tf_columns
+from coframe.time import SECOND
 from coframe.wire.names import full_name
 from coframe.wire.participant import Participant
 from coframe.wire.qos import TF, TF_STATIC_READER, QoS
@@ -44,19 +45,20 @@ if TYPE_CHECKING:
 __all__ = ["LiveObserver"]
 
 TF_TYPE = "tf2_msgs/msg/TFMessage"
-_ANY = QoS(depth=100, reliable=False)  # best-effort and volatile: what every publisher offers
+_ANY_PUBLISHER = QoS(depth=100, reliable=False)  # matches every publisher
 _LATCHED = QoS(depth=10, transient_local=True)
-_WHOLE = 16 << 20  # bytes: a description, a joint state or a line of the log as a whole
-# Megabytes a second, and their CameraInfo has the same header.
+_WHOLE_MESSAGE = 16 << 20  # bytes; enough for a description, a joint state or a log message
+# Images need several megabytes per second, and their CameraInfo has the same header.
 _TOO_LARGE = {"sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"}
 _DECODED = {"sensor_msgs/msg/JointState", "rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Clock"}
 _DESCRIPTION = "robot_description"
-_MOST_ROWS = 1_000_000
-_MOST_MESSAGES = 20_000  # of one topic
-_SECOND = 1_000_000_000
+_MAX_TRANSFORMS = 1_000_000
+_MAX_MESSAGES = 20_000  # for each topic
 
 
-class _Head(NamedTuple):
+class _ReceivedHeader(NamedTuple):
+    """The header of a received message. Times are nanoseconds since 1970."""
+
     frame: str
     stamp: int
     arrived: int
@@ -64,34 +66,36 @@ class _Head(NamedTuple):
 
 
 class _Writer(NamedTuple):
-    node: str  # its full name
-    process: bytes
+    """A publisher of another process."""
+
+    node: str  # the full name of the node
+    process: bytes  # the GUID prefix, which identifies the DDS participant
 
 
 class _Topic:
-    """A topic that is listened to beside those of transforms."""
+    """A subscribed topic other than those of transforms, with what was received on it."""
 
     def __init__(self, name: str, ros_type: str, subscription: BatchSubscription) -> None:
         self.name = name
         self.type = ros_type
         self.subscription = subscription
         self.messages = 0
-        self.heads: deque[_Head] = deque(maxlen=_MOST_MESSAGES)
-        self.decoded: deque[tuple[int, Any]] = deque(maxlen=_MOST_MESSAGES)
+        self.headers: deque[_ReceivedHeader] = deque(maxlen=_MAX_MESSAGES)
+        self.decoded: deque[tuple[int, Any]] = deque(maxlen=_MAX_MESSAGES)
 
 
 class LiveObserver:
-    """Joins the graph and listens; usable as a context manager.
+    """Joins the graph and collects what the doctor checks. Can be used as a context manager.
 
     Args:
-        domain: The ROS domain; None: ROS_DOMAIN_ID, or 0.
-        tf_topic: Where transforms are sent.
-        tf_static_topic: Where static transforms are sent.
-        cache: How far back a listener's buffer is taken to reach, in nanoseconds.
-        window: So much is kept, in nanoseconds; None: everything since the start.
-        node_name: As the others will see it.
-        prefix: In front of the names of frames, as it is; those that sensors name, too.
-        keep: The frames that get no prefix, as they are shared.
+        domain: The ROS domain. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
+        tf_topic: The topic of dynamic transforms.
+        tf_static_topic: The topic of static transforms.
+        cache: The assumed cache length of the listeners' buffers, in nanoseconds.
+        window: The duration that observations cover, in nanoseconds. If None, they cover everything since the start.
+        node_name: The name of the node.
+        prefix: A prefix for the frames of transforms and sensors, used as given.
+        keep: The frames that are shared by robots and get no prefix.
 
     Raises:
         ValueError: The prefix begins with a slash.
@@ -111,19 +115,19 @@ class LiveObserver:
         keep: Iterable[str] = (),
     ) -> None:
         names = renaming(prefix, keep)
-        self._renamed: Callable[[str], str] = names or str
+        self._rename: Callable[[str], str] = names or str
         self.cache = cache
         self.window = window
         self.start = time.time_ns()
         self._participant = Participant.get(domain)
         self._collector = Collector(names)
         self._writers: dict[int, _Writer] = {}
-        self._travel: dict[int, deque[int]] = {}
+        self._delays: dict[int, deque[int]] = {}
         self._topics: dict[str, _Topic] = {}
         try:
             self._node = self._participant.add_node("/", node_name)
             self._transforms = {
-                topic: (self._subscribe(topic, TF_TYPE, qos, _WHOLE), static)
+                topic: (self._subscribe(topic, TF_TYPE, qos, _WHOLE_MESSAGE), static)
                 for topic, qos, static in ((tf_topic, TF, False), (tf_static_topic, TF_STATIC_READER, True))
             }
         except BaseException:
@@ -131,7 +135,7 @@ class LiveObserver:
             raise
 
     def close(self) -> None:
-        """Leaves the graph; what was heard stays."""
+        """Leave the graph. What was received stays available."""
         self._node.close()
         self._participant.close()
 
@@ -142,103 +146,103 @@ class LiveObserver:
         self.close()
 
     def poll(self) -> None:
-        """Takes in what has come, and looks for new topics; to be called a few times a second."""
+        """Process received messages and subscribe to new topics. Call this a few times per second."""
         published = self._participant.published()
         for handles in published.values():
             for handle, endpoint in handles.items():
-                self._meet(handle, endpoint)
+                self._add_writer(handle, endpoint)
         for topic, (subscription, static) in self._transforms.items():
             self._take_transforms(topic, subscription.take(), static)
         for name, handles in published.items():
             if name not in self._topics and name not in self._transforms:
-                self._listen(name, sorted({endpoint.ros_type for endpoint in handles.values()}))
-        for heard in self._topics.values():
-            self._take(heard)
+                self._subscribe_if_relevant(name, sorted({endpoint.ros_type for endpoint in handles.values()}))
+        for other in self._topics.values():
+            self._take(other)
         if self.window is not None:
             self._forget(time.time_ns() - self.window, {handle for handles in published.values() for handle in handles})
 
     def listen(self, seconds: float) -> None:
-        """Polls for so long."""
+        """Poll for a duration in seconds."""
         end = time.monotonic() + seconds
         while (left := end - time.monotonic()) > 0:
             time.sleep(min(0.2, left))
             self.poll()
 
     def observe(self) -> Observation:
-        """What has been heard, within the window."""
+        """Return what was received within the window."""
         end = time.time_ns()
         start = self.start if self.window is None else max(self.start, end - self.window)
         return Observation(
             live=True,
             start=start,
             end=end,
-            transforms=self._named(self._collector.transforms()),
+            transforms=self._with_node_names(self._collector.transforms()),
             empty_messages=self._collector.empty,
             damaged_messages=self._collector.damaged,
             messages_left_out=self._collector.left_out,
             topics=self._facts(),
             sensors=tuple(
-                s for topic in self._topics.values() for s in _sensors(topic, start, self._renamed, self._node_of)
+                s for topic in self._topics.values() for s in _sensors(topic, start, self._rename, self._node_of)
             ),
             descriptions=tuple(str(message.data) for _, message in self._decoded("std_msgs/msg/String")),
             joint_states=tuple(
                 _joints(topic, start) for topic in self._topics.values() if topic.type == "sensor_msgs/msg/JointState"
             ),
             clock=self._clock(start),
-            travel=self._travel_by_name(),
+            travel=self._delays_by_node(),
             log=tuple(
-                LogLine(_node(message.name), message.msg, arrived)
+                LogLine(_node_of_logger(message.name), message.msg, arrived)
                 for arrived, message in self._decoded("rcl_interfaces/msg/Log")
                 if arrived >= start
             ),
             cache=self.cache,
-            link_name=self._renamed,
+            link_name=self._rename,
         )
 
     def _subscribe(self, topic: str, ros_type: str, qos: QoS, max_bytes: int) -> BatchSubscription:
         return self._participant.batch_subscription(self._node, topic, ros_type, qos, max_bytes=max_bytes)
 
-    def _meet(self, handle: int, endpoint: EndpointInfo) -> None:
+    def _add_writer(self, handle: int, endpoint: EndpointInfo) -> None:
         if not endpoint.node.startswith("_NODE_NAME_UNKNOWN"):
             self._writers[handle] = _Writer(full_name(endpoint.namespace, endpoint.node), endpoint.guid[:12])
 
     def _node_of(self, handle: int) -> str:
-        """The full name of a writer's node; "" as long as it is not known, which may be after its first messages.
+        """Return the full name of a writer's node; "" until it is known, which may be after its first messages.
 
-        Of several processes with one name the second one is called a copy.
+        If several processes have a node with the same name, the name of the second one ends with "(copy 2)".
         """
         writer = self._writers.get(handle)
         if writer is None:
             return ""
-        namesakes = dict.fromkeys(other.process for other in self._writers.values() if other.node == writer.node)
-        number = list(namesakes).index(writer.process)
+        processes = dict.fromkeys(other.process for other in self._writers.values() if other.node == writer.node)
+        number = list(processes).index(writer.process)
         return writer.node if number == 0 else f"{writer.node} (copy {number + 1})"
 
     def _forget(self, before: int, present: set[int]) -> None:
-        """Lets go of what came before a time, and of the writers that have left and sent nothing since."""
-        self._collector.forget(before, _MOST_ROWS)
+        """Discard messages that arrived before a time, and the departed writers of only such messages."""
+        self._collector.forget(before, _MAX_TRANSFORMS)
         for topic in self._topics.values():
-            while topic.heads and topic.heads[0].arrived < before:
-                topic.heads.popleft()
-        if (self._writers.keys() | self._travel.keys()) <= present:
+            while topic.headers and topic.headers[0].arrived < before:
+                topic.headers.popleft()
+        if (self._writers.keys() | self._delays.keys()) <= present:
             return
-        kept = present | set(map(int, self._collector.publishers()))
-        kept |= {head.writer for topic in self._topics.values() for head in topic.heads}
-        self._writers = {handle: writer for handle, writer in self._writers.items() if handle in kept}
-        self._travel = {handle: travel for handle, travel in self._travel.items() if handle in kept}
+        active = present | set(map(int, self._collector.publishers()))
+        active |= {head.writer for topic in self._topics.values() for head in topic.headers}
+        self._writers = {handle: writer for handle, writer in self._writers.items() if handle in active}
+        self._delays = {handle: delays for handle, delays in self._delays.items() if handle in active}
 
-    def _named(self, told: Transforms) -> Transforms:
-        """Publishers by name, of the collector's by the handles of their writers."""
-        names = [self._node_of(int(handle)) for handle in told.publishers]
+    def _with_node_names(self, received: Transforms) -> Transforms:
+        """Replace the writer handles of the collector with the names of nodes."""
+        names = [self._node_of(int(handle)) for handle in received.publishers]
         number = {name: i for i, name in enumerate(dict.fromkeys(names))}
         numbers = np.array([number[name] for name in names], dtype=np.int64)
-        return replace(told, publisher=numbers[told.publisher], publishers=tuple(number))
+        return replace(received, publisher=numbers[received.publisher], publishers=tuple(number))
 
-    def _travel_by_name(self) -> dict[str, NDArray[np.int64]]:
+    def _delays_by_node(self) -> dict[str, NDArray[np.int64]]:
         by_name: dict[str, list[int]] = {}
-        for handle, travel in self._travel.items():
-            by_name.setdefault(self._node_of(handle), []).extend(travel)
-        return {name: np.array(travel, dtype=np.int64) for name, travel in by_name.items()}
+        for handle, delays in self._delays.items():
+            by_name.setdefault(self._node_of(handle), []).extend(delays)
+        return {name: np.array(delays, dtype=np.int64) for name, delays in by_name.items()}
 
     def _take_transforms(self, topic: str, messages: MessageBatch, static: bool) -> None:
         if not len(messages.ends):
@@ -252,50 +256,50 @@ class LiveObserver:
             publisher,
             list(map(str, handles.tolist())),
         )
-        if not static:  # what was sent before we came was long under way
-            took = messages.arrived - messages.sent
+        if not static:  # latched messages may have been sent long before this node subscribed
+            delay = messages.arrived - messages.sent
             for number, handle in enumerate(handles.tolist()):
-                travel = self._travel.setdefault(handle, deque(maxlen=_MOST_MESSAGES))
-                travel.extend(took[publisher == number].tolist())
+                delays = self._delays.setdefault(handle, deque(maxlen=_MAX_MESSAGES))
+                delays.extend(delay[publisher == number].tolist())
 
-    def _listen(self, name: str, types: list[str]) -> None:
+    def _subscribe_if_relevant(self, name: str, types: list[str]) -> None:
         ros_type = types[0]
         if name.endswith(_DESCRIPTION) and ros_type == "std_msgs/msg/String":
-            subscription = self._subscribe(name, ros_type, _LATCHED, _WHOLE)
+            subscription = self._subscribe(name, ros_type, _LATCHED, _WHOLE_MESSAGE)
         elif ros_type in _DECODED:
-            subscription = self._subscribe(name, ros_type, _ANY, _WHOLE)
+            subscription = self._subscribe(name, ros_type, _ANY_PUBLISHER, _WHOLE_MESSAGE)
         elif ros_type not in _TOO_LARGE and opens_with_header(ros_type):
-            subscription = self._subscribe(name, ros_type, _ANY, HEADER_BYTES)
+            subscription = self._subscribe(name, ros_type, _ANY_PUBLISHER, HEADER_BYTES)
         else:
             return
         self._topics[name] = _Topic(name, ros_type, subscription)
 
-    def _take(self, heard: _Topic) -> None:
-        messages = heard.subscription.take()
-        heard.messages += len(messages.ends)
+    def _take(self, topic: _Topic) -> None:
+        messages = topic.subscription.take()
+        topic.messages += len(messages.ends)
         whole = Slices.contiguous(messages.data, messages.ends).each()
         rows = zip(map(bytes, whole), messages.arrived.tolist(), messages.writers.tolist(), strict=True)
-        if heard.type in _DECODED or heard.name.endswith(_DESCRIPTION):
-            heard.decoded += _decode(heard.type, rows)
+        if topic.type in _DECODED or topic.name.endswith(_DESCRIPTION):
+            topic.decoded += _decode(topic.type, rows)
             return
         for data, arrived, writer in rows:
             header = peek_header(data)
             if header is not None:
                 stamp, frame = header
-                heard.heads.append(_Head(frame.lstrip("/"), stamp, arrived, writer))
+                topic.headers.append(_ReceivedHeader(frame.lstrip("/"), stamp, arrived, writer))
 
     def _decoded(self, ros_type: str) -> list[tuple[int, Any]]:
         return [pair for topic in self._topics.values() if topic.type == ros_type for pair in topic.decoded]
 
     def _clock(self, start: int) -> Clock | None:
-        ticks = [
-            (arrived, message.clock.sec * _SECOND + message.clock.nanosec)
+        received = [
+            (arrived, message.clock.sec * SECOND + message.clock.nanosec)
             for arrived, message in self._decoded("rosgraph_msgs/msg/Clock")
             if arrived >= start
         ]
-        if not ticks:
+        if not received:
             return None
-        arrived, stamp = np.array(ticks, dtype=np.int64).T
+        arrived, stamp = np.array(received, dtype=np.int64).T
         return Clock(arrived, stamp)
 
     def _facts(self) -> dict[str, TopicFacts]:
@@ -313,7 +317,7 @@ class LiveObserver:
         return facts
 
     def _endpoints(self, endpoints: Iterable[EndpointInfo]) -> tuple[Endpoint, ...]:
-        """Named ones: one without a node is no ROS program, or has just come."""
+        """Return the endpoints that have a node. Others are not ROS programs, or are not fully discovered yet."""
         return tuple(
             Endpoint(full_name(endpoint.namespace, endpoint.node), endpoint.qos.transient_local)
             for endpoint in endpoints
@@ -332,31 +336,31 @@ def _decode(ros_type: str, messages: Iterable[tuple[bytes, int, int]]) -> list[t
     return found
 
 
-def _node(logger: str) -> str:
-    """A logger is called by its node: "lab.listener" is that of /lab/listener."""
+def _node_of_logger(logger: str) -> str:
+    """Return the node of a logger: "/lab/listener" for "lab.listener"."""
     return f"/{logger.replace('.', '/')}"
 
 
-def _sensors(topic: _Topic, start: int, renamed: Callable[[str], str], node_of: Callable[[int], str]) -> list[Sensor]:
-    """One a frame: several devices may share a topic."""
-    by_frame: dict[str, list[_Head]] = {}
-    for head in topic.heads:
+def _sensors(topic: _Topic, start: int, rename: Callable[[str], str], node_of: Callable[[int], str]) -> list[Sensor]:
+    """Return one sensor for each frame, because several devices may publish on one topic."""
+    by_frame: dict[str, list[_ReceivedHeader]] = {}
+    for head in topic.headers:
         if head.arrived >= start and head.frame:
             by_frame.setdefault(head.frame, []).append(head)
     return [
         Sensor(
             topic.name,
             topic.type,
-            renamed(frame),
-            np.array([head.stamp for head in heads], dtype=np.int64),
-            np.array([head.arrived for head in heads], dtype=np.int64),
-            node_of(heads[-1].writer),
+            rename(frame),
+            np.array([head.stamp for head in headers], dtype=np.int64),
+            np.array([head.arrived for head in headers], dtype=np.int64),
+            node_of(headers[-1].writer),
         )
-        for frame, heads in by_frame.items()
+        for frame, headers in by_frame.items()
     ]
 
 
 def _joints(topic: _Topic, start: int) -> JointStates:
     messages = [message for arrived, message in topic.decoded if arrived >= start]
-    stamps = [message.header.stamp.sec * _SECOND + message.header.stamp.nanosec for message in messages]
+    stamps = [message.header.stamp.sec * SECOND + message.header.stamp.nanosec for message in messages]
     return joint_states(topic.name, stamps, messages)

@@ -1,6 +1,6 @@
-"""Observation: what was heard on the wire or is in a recording, frozen, with what several checks ask of it.
+"""Observation: the transforms and messages that were received or recorded, with the facts that several checks need.
 
-The rows are the transforms as they were sent, those that a buffer refuses too. All times are int64 nanoseconds.
+The rows are the transforms as published, including those that a buffer refuses. All times are int64 nanoseconds.
 """
 
 from __future__ import annotations
@@ -11,27 +11,33 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.analysis.clocks import clock_of, group_by_clock
+from coframe.analysis.liveness import is_stale
+from coframe.analysis.tree import FrameTrees
 from coframe.doctor.edge import Edge
 from coframe.doctor.transforms import Transforms, bare
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
+    from coframe.analysis.clocks import ClockName
+
 __all__ = ["NEVER", "Clock", "Endpoint", "JointStates", "LogLine", "Observation", "Sensor", "TopicFacts", "Transforms"]
 
-DEFAULT_CACHE = 10_000_000_000
-_HOUR = 3_600_000_000_000
-_MINUTE = 60_000_000_000
+DEFAULT_CACHE = 10 * SECOND
 NEVER = np.iinfo(np.int64).max
 
 
 @dataclass(frozen=True)
 class Endpoint:
-    """A publisher or a subscription: its node's full name, and whether late joiners get what was sent before.
+    """A publisher or a subscription.
 
-    A recording does not tell the node: it is "" there.
+    Attributes:
+        node: The full name of its node; "" in a recording, which does not contain it.
+        transient_local: Whether its durability is transient local: late joiners receive earlier messages.
     """
 
     node: str
@@ -40,9 +46,9 @@ class Endpoint:
 
 @dataclass(frozen=True)
 class TopicFacts:
-    """A topic: its type, how many messages were heard, and who is on it.
+    """A topic: its type, the number of received messages, its publishers and its subscriptions.
 
-    Of a recording, only the publishers of static transforms are told.
+    In a recording, only the publishers of static transforms are known.
     """
 
     name: str
@@ -58,11 +64,11 @@ class Sensor:
 
     Attributes:
         topic: The topic.
-        type: Of its messages.
-        frame: What they are told in, without a leading slash.
-        stamp: (N,) of their headers.
-        arrived: (N,) when they came.
-        publisher: The node's full name; "" where nobody says.
+        type: The type of its messages.
+        frame: The frame in which they are expressed, without a leading slash.
+        stamp: (N,) stamps of their headers.
+        arrived: (N,) times of their arrival.
+        publisher: The full name of the node; "" if it is not known.
     """
 
     topic: str
@@ -75,7 +81,7 @@ class Sensor:
 
 @dataclass(frozen=True, eq=False)
 class JointStates:
-    """Joint states: (N,) stamps, and the (N,) positions of each joint, NaN where a message does not tell of it."""
+    """Joint states: (N,) stamps, and the (N,) positions of each joint, NaN where a message does not contain it."""
 
     topic: str
     stamp: NDArray[np.int64]
@@ -84,13 +90,13 @@ class JointStates:
 
 @dataclass(frozen=True, eq=False)
 class Clock:
-    """Simulated time: when ticks of /clock came, and what they said. (N,) each."""
+    """Simulated time: the times of arrival of the messages on /clock, and the times that they contain; (N,) each."""
 
     arrived: NDArray[np.int64]
     stamp: NDArray[np.int64]
 
     def at(self, arrived: NDArray[np.int64]) -> NDArray[np.int64]:
-        """What it said, or would have, when these came."""
+        """Return the simulated time at some times of arrival, interpolated between the messages."""
         between = np.interp((arrived - self.arrived[0]).astype(np.float64), self.arrived - self.arrived[0], self._since)
         return np.asarray(self.stamp[0] + np.rint(between).astype(np.int64))
 
@@ -101,7 +107,7 @@ class Clock:
 
 @dataclass(frozen=True)
 class LogLine:
-    """What a node has said on /rosout."""
+    """A message of a node on /rosout."""
 
     node: str
     text: str
@@ -110,26 +116,26 @@ class LogLine:
 
 @dataclass(frozen=True, eq=False)
 class Observation:
-    """All that the checks know.
+    """The data that all checks examine.
 
     Attributes:
-        live: Heard on the wire rather than read from a recording.
-        start: When listening, or the recording, began.
-        end: When it ended.
-        transforms: As they were sent.
-        empty_messages: How many messages held no transform at all.
-        damaged_messages: How many messages are no TFMessage.
-        messages_left_out: How many messages were not looked at, as too many names had come before them.
-        topics: By name.
+        live: Whether it was received from the ROS graph, not read from a recording.
+        start: The start of the observation, or of the recording.
+        end: Its end.
+        transforms: The transforms as published.
+        empty_messages: The number of messages without any transform.
+        damaged_messages: The number of messages that are not valid TFMessages.
+        messages_left_out: The number of messages that were ignored because of too many frame names before them.
+        topics: The topics by name.
         sensors: Messages with a header that names a frame.
-        descriptions: The robot descriptions, in the order in which they came.
-        joint_states: One a topic.
-        clock: Simulated time; None where there is none.
-        travel: By publisher, how long its transforms took to arrive, by the clocks of two machines; live only.
-        log: What nodes have said.
-        cache: How far back a listener's buffer is taken to reach.
-        unread: What could not be read of a recording, a sentence each.
-        link_name: What a link of the descriptions is called among the frames.
+        descriptions: The robot descriptions, in the order of arrival.
+        joint_states: The joint states, one entry per topic.
+        clock: Simulated time; None without /clock.
+        travel: By publisher, the transport times of its transforms by the clocks of two machines; live only.
+        log: Messages of nodes on /rosout.
+        cache: The cache length of the buffers of listeners.
+        unread: What could not be read of a recording, one sentence each.
+        link_name: Returns the frame name of a link of the robot descriptions.
     """
 
     live: bool
@@ -152,56 +158,56 @@ class Observation:
 
     @property
     def duration(self) -> int:
-        """From start to end."""
+        """The time from start to end."""
         return self.end - self.start
 
     @cached_property
     def edges(self) -> tuple[Edge, ...]:
-        """The links, static and dynamic ones apart, by the rows that tf2 takes."""
-        told = self.transforms
-        rows = np.flatnonzero(told.taken)
+        """The edges by the rows that tf2 accepts, static and dynamic ones separately, in the order of arrival."""
+        rows_of = self.transforms
+        rows = np.flatnonzero(rows_of.accepted)
         if not len(rows):
             return ()
-        # With and without a slash in front they are one.
+        # Names with and without a leading slash are the same frame.
         numbers: dict[tuple[str, str], int] = {}
-        names = [bare(told.pair(link)) for link in range(len(told.links))]
+        names = [bare(rows_of.pair(number)) for number in range(len(rows_of.pairs))]
         same = np.array([numbers.setdefault(pair, len(numbers)) for pair in names], dtype=np.int64)
-        groups = same[told.link[rows]] * 2 + told.static[rows]
+        groups = same[rows_of.edge[rows]] * 2 + rows_of.static[rows]
         order = np.argsort(groups.astype(np.min_scalar_type(2 * len(numbers))), kind="stable")
         ends = np.cumsum(np.bincount(groups))
         parts = [rows[part] for part in np.split(order, ends[:-1]) if len(part)]
-        found = [self._edge(part, names[int(told.link[part[0]])]) for part in parts]
+        found = [self._edge(part, names[int(rows_of.edge[part[0]])]) for part in parts]
         return tuple(sorted(found, key=lambda edge: int(edge.arrived[0])))
 
     def _edge(self, rows: NDArray[np.intp], names: tuple[str, str]) -> Edge:
-        told = self.transforms
-        publisher = told.publisher[rows]
+        rows_of = self.transforms
+        publisher = rows_of.publisher[rows]
         numbers, first = np.unique(publisher, return_index=True)
-        senders = (told.publishers[number] for number in numbers[np.argsort(first)].tolist())
+        publishers = (rows_of.publishers[number] for number in numbers[np.argsort(first)].tolist())
         return Edge(
             parent=names[0],
             child=names[1],
-            static=bool(told.static[rows[0]]),
-            arrived=told.arrived[rows],
-            stamp=told.stamp[rows],
+            static=bool(rows_of.static[rows[0]]),
+            arrived=rows_of.arrived[rows],
+            stamp=rows_of.stamp[rows],
             publisher=publisher,
-            values=told.values[rows],
-            publishers=tuple(name for name in senders if name),
+            values=rows_of.values[rows],
+            publishers=tuple(name for name in publishers if name),
         )
 
     @cached_property
     def dynamic(self) -> tuple[Edge, ...]:
-        """The links that were told of on topics of moving transforms."""
+        """The edges that were published on topics of dynamic transforms."""
         return tuple(edge for edge in self.edges if not edge.static)
 
     @cached_property
     def static(self) -> tuple[Edge, ...]:
-        """The links that were told of on topics of static transforms."""
+        """The edges that were published on topics of static transforms."""
         return tuple(edge for edge in self.edges if edge.static)
 
     @cached_property
     def last(self) -> dict[str, Edge]:
-        """By child: the link that was told of last, which is what a buffer holds."""
+        """By child: the edge of the last transform, which is the one that a buffer holds."""
         found: dict[str, Edge] = {}
         for edge in self.edges:
             other = found.get(edge.child)
@@ -209,85 +215,82 @@ class Observation:
                 found[edge.child] = edge
         return found
 
+    def silence(self, edge: Edge) -> int:
+        """Return for how long no transform of an edge was received before the end."""
+        return self.end - int(edge.arrived[-1])
+
+    def is_stale(self, edge: Edge) -> bool:
+        """Return whether an edge was stale at the end; not if its child frame has another parent by then."""
+        is_current = self.last[edge.child] is edge
+        return is_current and is_stale(self.silence(edge), edge.period, static=edge.static)
+
     @cached_property
     def frames(self) -> tuple[str, ...]:
-        """All frames, in the order in which they came up."""
+        """All frames, in the order of their first transform."""
         return tuple(dict.fromkeys(name for edge in self.edges for name in edge.key))
 
     @cached_property
+    def structure(self) -> FrameTrees:
+        """The trees of the frames at the end, by the last parent of each frame."""
+        return FrameTrees.from_parents({child: edge.parent for child, edge in self.last.items()}, self.frames)
+
+    @cached_property
     def roots(self) -> dict[str, str]:
-        """By frame the root of its tree; of a loop, and of what hangs on it, one of the loop's frames."""
-        found: dict[str, str] = {}
-        for start in self.frames:
-            frame, way = start, dict[str, None]()
-            while frame not in found and frame not in way and frame in self.last:
-                way[frame] = None
-                frame = self.last[frame].parent
-            found |= dict.fromkeys([*way, frame], found.get(frame, frame))
-        return found
+        """The root of the tree of each frame, by frame; for a loop and the frames below it, a frame of the loop."""
+        return {frame: self.structure.root(frame) for frame in self.frames}
 
     def root(self, frame: str) -> str:
-        """Of the tree that a frame is in; of one that nobody tells of, itself."""
-        return self.roots.get(frame, frame)
+        """Return the root of the tree of a frame; the frame itself if no transform contains it."""
+        return self.structure.root(frame)
 
     def path(self, frame: str) -> list[Edge]:
-        """The links from a frame up to its root; a loop is walked once."""
-        found: list[Edge] = []
-        seen = {frame}
-        while frame in self.last:
-            edge = self.last[frame]
-            found.append(edge)
-            frame = edge.parent
-            if frame in seen:
-                break
-            seen.add(frame)
-        return found
+        """Return the edges from a frame up to its root; the edges of a loop once."""
+        return [self.last[name] for name in self.structure.path(frame) if name in self.last]
 
     @cached_property
     def trees(self) -> dict[str, tuple[str, ...]]:
-        """By root: the frames of its tree, itself included, the largest tree first."""
-        members: dict[str, list[str]] = {}
-        for frame in self.frames:
-            members.setdefault(self.root(frame), []).append(frame)
-        return {root: tuple(members[root]) for root in sorted(members, key=lambda root: (-len(members[root]), root))}
-
-    # Clocks: stamps may be told by the wall's clock, by a simulation's, or by one that is hours off and not known.
+        """The frames of each tree by its root, the root included; the largest tree first."""
+        trees = {self.structure.root(frames[0]): frames for frames in self.structure.members}
+        return dict(sorted(trees.items(), key=lambda tree: (-len(tree[1]), tree[0])))
 
     @cached_property
     def clocks(self) -> dict[str, str]:
-        """By moving link, as ``parent -> child``, and by sensor's topic: what clock its stamps are told by."""
-        times = {f"{edge.parent} -> {edge.child}": (edge.stamp, edge.arrived) for edge in self.dynamic}
+        """By name of a dynamic edge and by topic of a sensor: the clock of its stamps.
+
+        The clock is ``wall``, ``simulated``, or ``other 1`` and so on for each clock that is hours off both.
+        """
+        times = {edge.name: (edge.stamp, edge.arrived) for edge in self.dynamic}
         times |= {sensor.topic: (sensor.stamp, sensor.arrived) for sensor in self.sensors if len(sensor.stamp)}
-        found = {name: self.clock_of(*columns) for name, columns in times.items()}
-        unknown = [(int(np.median(times[name][1] - times[name][0])), name) for name in found if not found[name]]
-        number, before = 0, 0
-        for offset, name in sorted(unknown):
-            number += not number or offset - before > _HOUR
-            before = offset
-            found[name] = f"unknown {number}"
+        found: dict[str, str] = {name: self.clock_of(*columns) for name, columns in times.items()}
+        others = [name for name, clock in found.items() if clock == "other"]
+        offsets = [int(np.median(times[name][1] - times[name][0])) for name in others]
+        for number, group in enumerate(group_by_clock([(offset, offset) for offset in offsets]), 1):
+            found |= {others[position]: f"other {number}" for position in group}
         return found
 
-    def clock_of(self, stamp: NDArray[np.int64], arrived: NDArray[np.int64]) -> str:
-        """What clock stamps are told by: ``wall``, ``simulated``; "" for one that is hours off."""
-        if self.clock is not None and abs(float(np.median(self.clock.at(arrived) - stamp))) < _MINUTE:
-            return "simulated"
-        return "wall" if abs(float(np.median(arrived - stamp))) < _HOUR else ""
+    def clock_of(self, stamp: NDArray[np.int64], arrived: NDArray[np.int64]) -> ClockName:
+        """Return the clock of stamps, by the times of their arrival."""
+        simulated = None if self.clock is None else float(np.median(self.clock.at(arrived) - stamp))
+        return clock_of(float(np.median(arrived - stamp)), simulated)
 
     def lags(self, stamp: NDArray[np.int64], arrived: NDArray[np.int64]) -> NDArray[np.int64] | None:
-        """How long after their stamps things came, by the stamps' own clock; None where that is not known."""
+        """Return the delays from stamps to arrival by the clock of the stamps; None if that clock is not known."""
         clock = self.clock_of(stamp, arrived)
         if clock == "simulated" and self.clock is not None:
             return self.clock.at(arrived) - stamp
         return np.asarray(arrived - stamp) if clock == "wall" else None
 
     def waits(self, sensor: Sensor) -> NDArray[np.int64]:
-        """(N,) how long after each message its transform to the root of its tree is there; 0: at once, NEVER: not."""
+        """Return how long after the arrival of each message its transform to the root of the tree is available, (N,).
+
+        0 stands for at once, NEVER for not at all.
+        """
         ready = np.zeros(len(sensor.stamp), dtype=np.int64)
         for edge in self.path(sensor.frame):
             if not edge.static:
                 newest = np.maximum.accumulate(edge.stamp)
                 row = np.searchsorted(newest, sensor.stamp)
-                came = edge.arrived[np.minimum(row, edge.count - 1)]
-                told = (row < edge.count) & (sensor.stamp >= edge.stamp.min())
-                ready = np.maximum(ready, np.where(told, came, NEVER))
+                arrival = edge.arrived[np.minimum(row, edge.count - 1)]
+                is_covered = (row < edge.count) & (sensor.stamp >= edge.stamp.min())
+                ready = np.maximum(ready, np.where(is_covered, arrival, NEVER))
         return np.where(ready == NEVER, NEVER, np.maximum(ready - sensor.arrived, 0))

@@ -72,7 +72,9 @@ def observe_recording(
     collectors: dict[str, Collector] = {}
     tf_topics = None if tf_topics is None else list(tf_topics)
     chosen: Any = {"namespace": namespace, "tf_topics": tf_topics, "prefix": prefix, "keep": keep}
-    with open_bag(path, **chosen, progress=progress, heard=collecting(collectors, names, tf_topics)) as recording:
+    with open_bag(
+        path, **chosen, progress=progress, on_transforms=collecting(collectors, names, tf_topics)
+    ) as recording:
         facts = _Facts(recording)
         return {
             name: Observation(

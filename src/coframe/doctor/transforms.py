@@ -1,4 +1,4 @@
-"""Transforms as they were sent, a row each: the table that everything else is taken from."""
+"""The table of all transforms as published, one row each, from which everything else is derived."""
 
 from __future__ import annotations
 
@@ -15,28 +15,28 @@ if TYPE_CHECKING:
 
 __all__ = ["NORM_TOLERANCE", "Transforms", "bare", "numbered"]
 
-# tf2 refuses a quaternion whose squared length differs from 1 by so much.
+# tf2 refuses a quaternion whose squared length differs from 1 by this much or more.
 NORM_TOLERANCE = 0.01
-_DENSE = 1_000_000  # keys up to here are counted rather than sorted
+_DENSE = 1_000_000  # keys up to this one are counted, which is faster than sorting them
 _COLUMNS = ("arrived", "stamp", "parent", "child", "static", "values")
 
 
 @dataclass(frozen=True, eq=False)
 class Transforms:
-    """Transforms as they were sent, a row each, in the order in which they came.
+    """Transforms as published, one row each, in the order of arrival.
 
     Attributes:
-        arrived: (N,) when the message came, by the listener's clock.
-        stamp: (N,) of the header.
-        parent: (N,) number of the parent's name.
-        child: (N,) number of the child's name.
-        publisher: (N,) number of who sent it.
-        static: (N,) bool, whether it came on a topic of static transforms.
+        arrived: (N,) time of arrival of the message, by the clock of the listener.
+        stamp: (N,) stamp of the header.
+        parent: (N,) number of the name of the parent.
+        child: (N,) number of the name of the child.
+        publisher: (N,) number of the publisher.
+        static: (N,) whether it was published on a topic of static transforms.
         values: (N, 7) x, y, z in metres and qx, qy, qz, qw.
-        names: Of frames, as they were sent or as a prefix makes them; one that was sent with a slash and without is
-            there twice.
-        sent: The same, as they were sent; empty where they are the same.
-        publishers: Full names of nodes; "" where nobody says who it was.
+        names: The names of the frames, with the prefix if one was given; a name that was published with and without a
+            leading slash occurs twice.
+        sent: The names as published; empty if they are the same.
+        publishers: Full names of nodes; "" for a publisher that is not known.
     """
 
     arrived: NDArray[np.int64]
@@ -52,7 +52,7 @@ class Transforms:
 
     @staticmethod
     def joined(batches: Sequence[Transforms], names: tuple[str, ...], sent: tuple[str, ...] = ()) -> Transforms:
-        """The rows of all batches, whose frames' numbers are those of these names, in the order in which they came."""
+        """Return the rows of all batches in the order of arrival; the numbers of frames are those of these names."""
         columns: dict[str, Any] = {
             name: np.concatenate([getattr(batch, name) for batch in (_NONE, *batches)]) for name in _COLUMNS
         }
@@ -71,67 +71,67 @@ class Transforms:
 
     @cached_property
     def finite(self) -> NDArray[np.bool_]:
-        """(N,) whether all numbers are numbers."""
+        """(N,) whether all values are finite."""
         return np.asarray(np.isfinite(self.values).all(axis=1))
 
     @cached_property
     def squared_norms(self) -> NDArray[np.float64]:
-        """(N,) of the quaternions."""
+        """(N,) squared lengths of the quaternions."""
         squares: NDArray[np.float64] = np.einsum("ij,ij->i", self.values[:, 3:], self.values[:, 3:])
         return squares
 
     @cached_property
-    def taken(self) -> NDArray[np.bool_]:
-        """(N,) whether tf2 takes the row."""
+    def accepted(self) -> NDArray[np.bool_]:
+        """(N,) whether tf2 accepts the transform."""
         with np.errstate(invalid="ignore", over="ignore"):
             unit = np.abs(self.squared_norms - 1.0) < NORM_TOLERANCE
-        named = np.array([_is_link(self.pair(link)) for link in range(len(self.links))], dtype=bool)
-        return np.asarray(self.finite & unit & (named[self.link] if len(self) else np.zeros(0, dtype=bool)))
+        named = np.array([_is_edge(self.pair(number)) for number in range(len(self.pairs))], dtype=bool)
+        return np.asarray(self.finite & unit & (named[self.edge] if len(self) else np.zeros(0, dtype=bool)))
 
     @cached_property
     def _numbered(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         keys = self.child * len(self.names) + self.parent
         if not len(keys) or keys.max() > _DENSE:
-            links, link = np.unique(keys, return_inverse=True)
-            return links, link
-        links = np.flatnonzero(np.bincount(keys))  # a tenth of the time
-        place = np.zeros(int(links[-1]) + 1, dtype=np.int64)
-        place[links] = np.arange(len(links))
-        return links, place[keys]
+            pairs, edge = np.unique(keys, return_inverse=True)
+            return pairs, edge
+        pairs = np.flatnonzero(np.bincount(keys))  # takes a tenth of the time of np.unique
+        number = np.zeros(int(pairs[-1]) + 1, dtype=np.int64)
+        number[pairs] = np.arange(len(pairs))
+        return pairs, number[keys]
 
     @property
-    def links(self) -> NDArray[np.int64]:
-        """The pairs of names that occur; see :meth:`pair`."""
+    def pairs(self) -> NDArray[np.int64]:
+        """The pairs of names that occur, as numbers; see :meth:`pair`."""
         return self._numbered[0]
 
     @property
-    def link(self) -> NDArray[np.int64]:
-        """(N,) which of the :attr:`links` each row tells of."""
+    def edge(self) -> NDArray[np.int64]:
+        """(N,) position of the pair of each row in :attr:`pairs`."""
         return self._numbered[1]
 
-    def pair(self, link: int) -> tuple[str, str]:
-        """The names of parent and child."""
-        child, parent = divmod(int(self.links[link]), len(self.names))
+    def pair(self, number: int) -> tuple[str, str]:
+        """Return the names of parent and child of a pair."""
+        child, parent = divmod(int(self.pairs[number]), len(self.names))
         return self.names[parent], self.names[child]
 
-    def senders(self, rows: NDArray[np.intp]) -> tuple[str, ...]:
-        """Who sent some of the rows, as far as that is known."""
+    def publishers_of(self, rows: NDArray[np.intp]) -> tuple[str, ...]:
+        """Return the names of the publishers of some rows, as far as they are known."""
         numbers = np.unique(self.publisher[rows]).tolist()
         return tuple(self.publishers[number] for number in numbers if self.publishers[number])
 
 
 def numbered(known: dict[str, int], names: Iterable[str]) -> NDArray[np.int64]:
-    """The numbers of names; new ones get the next and are known from then on."""
+    """Return the numbers of names; new names are added to `known` with the next number."""
     return np.array([known.setdefault(name, len(known)) for name in names], dtype=np.int64)
 
 
 def bare(names: tuple[str, str]) -> tuple[str, str]:
-    """Parent and child as tf2 reads them: without a slash in front."""
+    """Return parent and child as tf2 reads them: without a leading slash."""
     parent, child = names
     return parent.lstrip("/"), child.lstrip("/")
 
 
-def _is_link(names: tuple[str, str]) -> bool:
+def _is_edge(names: tuple[str, str]) -> bool:
     parent, child = bare(names)
     return bool(parent and child) and parent != child
 

@@ -1,6 +1,7 @@
-"""Why there is a transform between two frames, or why not: which link is missing, late or early, and by how much.
+"""Explanations of why a transform between two frames exists or not: which edge is missing, late or early, by how much.
 
-`facts` is the answer as a value, `explaining` makes it of a buffer, `advice` says what to do, `drawing` draws it.
+`facts` defines the explanation as a value, `explaining` builds it from a buffer, `advice` gives the recommended fix,
+and `drawing` formats it as text.
 
 Example:
     >>> import coframe
@@ -13,6 +14,6 @@ Example:
 """
 
 from coframe.explanation.explaining import explain
-from coframe.explanation.facts import Explanation, Link
+from coframe.explanation.facts import ChainEdge, Explanation
 
-__all__ = ["Explanation", "Link", "explain"]
+__all__ = ["ChainEdge", "Explanation", "explain"]

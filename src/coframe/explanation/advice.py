@@ -1,4 +1,4 @@
-"""What to do about a transform that is not there: the exception's hint, or a better one where the links say more."""
+"""What to do about a missing transform: the hint of the exception, or a better one where the edges give more detail."""
 
 from __future__ import annotations
 
@@ -7,32 +7,32 @@ from typing import TYPE_CHECKING
 from coframe.errors import looks_like_seconds
 from coframe.formatting import duration, seconds
 from coframe.lookup_hints import hint
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from coframe.errors import TransformException
-    from coframe.explanation.facts import Explanation, Link
+    from coframe.explanation.facts import ChainEdge, Explanation
 
 __all__ = ["advice"]
 
-_SECOND = 1_000_000_000
-# Seconds that one waits for; what takes longer does not come.
+# The timeouts to suggest, in seconds. A transform that is later than the longest one is not worth waiting for.
 _TIMEOUTS = (0.1, 0.2, 0.5, 1.0, 2.0, 5.0)
 
 
 def advice(found: Explanation, error: TransformException, *, recorded: bool) -> str:
-    """A sentence from the catalogue, and which page says more.
+    """Return what to do, and the code page with more details.
 
     Args:
-        found: What is wrong.
-        error: What a look-up raises.
-        recorded: Whether nothing more is to come.
+        found: The explanation so far.
+        error: The exception that the lookup raises.
+        recorded: Whether the buffer holds recorded data, so that no more transforms will arrive.
     """
-    link = next((link for link in found.broken if error.edge and link.child == error.edge[1]), None)
-    link = link or next(iter(found.broken), None)
-    if link is None or found.code == "loop" or looks_like_seconds(error):
+    edge = next((edge for edge in found.broken if error.edge and edge.child == error.edge[1]), None)
+    edge = edge or next(iter(found.broken), None)
+    if edge is None or found.code == "loop" or looks_like_seconds(error):
         return error.hint
-    if link.state == "no_data":
-        return hint("no_data", child=link.child)
+    if edge.state == "no_data":
+        return hint("no_data", child=edge.child)
     if found.roots is not None:
         return error.hint
     if found.span is None:
@@ -40,31 +40,31 @@ def advice(found: Explanation, error: TransformException, *, recorded: bool) -> 
     if recorded:
         first, last = found.span
         return hint("outside", first=seconds(first), last=seconds(last))
-    return _late(found, link) if link.by > 0 else _early(found, link, error)
+    return _late(found, edge) if edge.by > 0 else _early(found, edge, error)
 
 
 def _no_common_time(found: Explanation) -> str:
-    moving = [link for link in found.links if not link.static]
-    ends = min(moving, key=lambda link: link.newest)
-    begins = max(moving, key=lambda link: link.oldest)
+    moving = [edge for edge in found.edges if not edge.static]
+    ends = min(moving, key=lambda edge: edge.newest)
+    begins = max(moving, key=lambda edge: edge.oldest)
     return hint("no_common_time", limit=ends.name, parent=begins.parent, child=begins.child)
 
 
-def _late(found: Explanation, link: Link) -> str:
-    facts = {"parent": link.parent, "child": link.child, "target": found.target, "source": found.source}
-    if found.now is not None and found.now - link.newest > link.patience:
-        who = f", {link.publisher}," if link.publisher else ""
-        return hint("stopped", age=duration(found.now - link.newest), publisher=who, **facts)
-    # The next sample may just have been missed, and the one after it be late.
-    wait = link.by + 2 * link.period
-    timeout = next((length for length in _TIMEOUTS if length * _SECOND >= wait), None)
+def _late(found: Explanation, edge: ChainEdge) -> str:
+    facts = {"parent": edge.parent, "child": edge.child, "target": found.target, "source": found.source}
+    if found.now is not None and edge.stale:
+        publisher = f", {edge.publisher}," if edge.publisher else ""
+        return hint("stopped", age=duration(found.now - edge.newest), publisher=publisher, **facts)
+    # One sample may just have been missed and the next one may be late, hence two periods.
+    wait = edge.by + 2 * edge.period
+    timeout = next((timeout for timeout in _TIMEOUTS if timeout * SECOND >= wait), None)
     if timeout is None:
-        return hint("far_ahead", by=duration(link.by), **facts)
+        return hint("far_ahead", by=duration(edge.by), **facts)
     return hint("too_new", timeout=f"{timeout:g}", **facts)
 
 
-def _early(found: Explanation, link: Link, error: TransformException) -> str:
-    forgets = 0 <= found.cache <= link.newest - link.oldest + 2 * link.period
-    if forgets:
+def _early(found: Explanation, edge: ChainEdge, error: TransformException) -> str:
+    cache_is_full = 0 <= found.cache <= edge.newest - edge.oldest + 2 * edge.period
+    if cache_is_full:
         return error.hint
-    return hint("not_begun", parent=link.parent, child=link.child, first=seconds(link.oldest))
+    return hint("not_begun", parent=edge.parent, child=edge.child, first=seconds(edge.oldest))

@@ -1,21 +1,21 @@
-"""An explanation as lines of text: the verdict, the way through the tree with a line a link, what to do."""
+"""An explanation as lines of text: the verdict, the chain with one line per frame, and what to do."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.analysis.liveness import usual_gap
-from coframe.formatting import duration, seconds
+from coframe.analysis.liveness import stale_limit, usual_gap
+from coframe.formatting import count, duration, seconds
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from coframe.explanation.facts import Explanation, Link
+    from coframe.explanation.facts import ChainEdge, Explanation
 
 __all__ = ["draw", "remark", "verdict"]
 
-_DEEPEST = 20  # levels: beyond, there would be no room for the rest
-_TITLES = ("  link", "oldest", "newest", "age", "rate", "from")
+_DEEPEST = 20  # levels of indentation; more would leave no room for the columns
+_TITLES = ("  frame", "oldest", "newest", "age", "rate", "publisher")
 
 
 class _Row(NamedTuple):
@@ -24,12 +24,12 @@ class _Row(NamedTuple):
 
 
 def draw(found: Explanation) -> Iterator[str]:
-    """The verdict, the links, what to do, and what tf2 says."""
+    """Yield the verdict, the chain, what to do, and the message of tf2."""
     yield verdict(found)
     yield from _table(found)
     if found.possible_at is not None:
-        other = seconds(found.possible_at) if found.possible_at else "the latest"
-        yield f"the tree has changed: there is one at another time, {other}"
+        other = f"at {seconds(found.possible_at)}" if found.possible_at else "at the latest time"
+        yield f"the tree has changed: there is a transform {other}"
     if found.hint:
         yield f"do:  {found.hint}"
     if found.text:
@@ -37,77 +37,80 @@ def draw(found: Explanation) -> Iterator[str]:
 
 
 def verdict(found: Explanation) -> str:
-    """One sentence: is there one, and if not, which link breaks it and by how much."""
-    asked = f"from {found.source} to {found.target}"
+    """Return in one sentence whether there is a transform, and if not, which edge is the reason and by how much."""
+    frames = f"from {found.source} to {found.target}"
     if found.answered is None:
         when = f" at {seconds(found.stamp)}" if found.stamp else ""
-        return f"no: there is no transform {asked}{when}: {_reason(found)}"
+        return f"no: there is no transform {frames}{when}: {_reason(found)}"
     if found.stamp:
-        return f"yes: there is a transform {asked} at {seconds(found.stamp)}"
+        return f"yes: there is a transform {frames} at {seconds(found.stamp)}"
     if not found.answered:
-        return f"yes: there is a transform {asked}, at any time"
+        return f"yes: there is a transform {frames} at any time"
     age = f", {duration(found.now - found.answered)} old" if found.now is not None else ""
-    limit = f": {' -> '.join(found.limit)} has no newer one" if found.limit and len(found.links) > 1 else ""
-    return f"yes: there is a transform {asked}, the latest at {seconds(found.answered)}{age}{limit}"
+    limit = f", limited by {' -> '.join(found.limit)}" if found.limit and len(found.edges) > 1 else ""
+    return f"yes: there is a transform {frames}, the latest at {seconds(found.answered)}{age}{limit}"
 
 
-def remark(found: Explanation, link: Link) -> str:
-    """What there is to say of a link: what is wrong with it, and by how much; "" where nothing is."""
-    return _oddity(found, link) if link.state == "ok" else _fault(found, link)
+def remark(found: Explanation, edge: ChainEdge) -> str:
+    """Return what is wrong or unusual with an edge, and by how much; "" if nothing is."""
+    return _anomaly(found, edge) if edge.state == "ok" else _fault(found, edge)
 
 
-def _fault(found: Explanation, link: Link) -> str:
-    by = duration(abs(link.by))
-    if link.state == "too_new":
+def _fault(found: Explanation, edge: ChainEdge) -> str:
+    by = duration(abs(edge.by))
+    if edge.state == "too_new":
         due = (
-            f", by its rate due {duration(link.due)} after that time" if link.period and link.by < link.patience else ""
+            f"; the next transform is due {duration(edge.due)} after that time"
+            if edge.due and edge.by < stale_limit(edge.period)
+            else ""
         )
-        return f"late by {by}{due}"
-    if link.state == "too_old":
-        keeps = f", the buffer keeps {duration(found.cache)}" if found.cache >= 0 else ""
-        return f"asked {by} too early{keeps}"
-    if link.state == "only_other":
-        return f"known only {by} {'before' if link.by > 0 else 'after'} that time"
-    return "not known any more"
+        return f"{by} behind the requested time{due}"
+    if edge.state == "too_old":
+        keeps = f"; the buffer keeps {duration(found.cache)}" if found.cache >= 0 else ""
+        return f"first available {by} after the requested time{keeps}"
+    if edge.state == "only_other":
+        return f"available only at one time, {by} {'before' if edge.by > 0 else 'after'} the requested time"
+    return "no longer available"
 
 
-def _oddity(found: Explanation, link: Link) -> str:
-    if link.later:
-        return f"later told in {link.later}"
-    if link.gap > usual_gap(link.period):
-        return f"in a gap of {duration(link.gap)}"
-    silent = found.stamp == 0 and link.age is not None and link.age > link.patience
-    return f"silent for {duration(link.age or 0)}" if silent else ""
+def _anomaly(found: Explanation, edge: ChainEdge) -> str:
+    if edge.later:
+        return f"the parent is now {edge.later}"
+    if edge.gap > usual_gap(edge.period):
+        return f"in a gap of {duration(edge.gap)}"
+    return f"stale: no transform for {duration(edge.age or 0)}" if found.stamp == 0 and edge.stale else ""
 
 
 def _reason(found: Explanation) -> str:
     if found.code in _REASONS:
         return _REASONS[found.code]
     if found.unknown:
-        return f"nobody tells of {' and '.join(map(repr, found.unknown))}"
+        frames = "frame" if len(found.unknown) == 1 else "frames"
+        return f"no transform with the {frames} {' and '.join(map(repr, found.unknown))} was received"
     reasons = []
     if found.broken:
-        worst = max(found.broken, key=lambda link: abs(link.by))
-        others = f", and {len(found.broken) - 1} more have nothing for that time" if len(found.broken) > 1 else ""
+        worst = max(found.broken, key=lambda edge: abs(edge.by))
+        more = len(found.broken) - 1
+        others = f"; {count(more, 'more edge')} {'has' if more == 1 else 'have'} no data for that time" if more else ""
         reasons.append(f"{worst.name} is {remark(found, worst)}{others}")
     if found.roots is not None:
-        reasons.append(f"nothing joins the trees of {found.roots[0]} and {found.roots[1]}")
+        reasons.append(f"{found.roots[0]!r} and {found.roots[1]!r} are roots of two trees that are not connected")
     if found.missing is not None:
-        named = f"a link such as {found.missing.parent} -> {found.missing.child} is missing"
+        named = f"a transform such as {found.missing.parent} -> {found.missing.child} is missing"
         reasons.append(named if found.missing[:2] == found.roots else found.missing.text)
     return "; ".join(reasons)
 
 
 _REASONS = {
-    "empty_name": "a name is empty",
-    "leading_slash": "names of frames have no slash in front",
-    "loop": "the tree runs in a circle",
+    "empty_name": "a frame name is empty",
+    "leading_slash": "frame names must not begin with a slash",
+    "loop": "the tree has a loop",
 }
 
 
 def _table(found: Explanation) -> list[str]:
-    """The way from the frame in common, or from both roots, down to the two frames; a line a frame, with its link."""
-    if not found.links:
+    """Return the chain from the common frame, or from both roots, down to the two frames; one line per frame."""
+    if not found.edges:
         return []
     rows = [_Row(_TITLES, ""), *_rows(found)]
     widths = [max(len(row.cells[column]) for row in rows) for column in range(len(_TITLES))]
@@ -118,25 +121,25 @@ def _table(found: Explanation) -> list[str]:
 
 
 def _rows(found: Explanation) -> Iterator[_Row]:
-    links = {link.child: link for link in found.links}
-    for indent, frame in _tree(found, links):
+    edges = {edge.child: edge for edge in found.edges}
+    for indent, frame in _tree(found, edges):
         role = {found.target: " (target)", found.source: " (source)"}.get(frame, "")
-        link = links.get(frame)
-        cells = ("",) * (len(_TITLES) - 1) if link is None else _cells(link)
-        yield _Row((f"  {indent}{frame}{role}", *cells), "" if link is None else remark(found, link))
+        edge = edges.get(frame)
+        cells = ("",) * (len(_TITLES) - 1) if edge is None else _cells(edge)
+        yield _Row((f"  {indent}{frame}{role}", *cells), "" if edge is None else remark(found, edge))
 
 
-def _cells(link: Link) -> tuple[str, ...]:
-    if link.static:
-        return "static", "", "", "", link.publisher
-    if link.state == "no_data":
-        return "", "", "", "", link.publisher
-    age = duration(link.age) if link.age is not None and link.age >= 0 else ""
-    return seconds(link.oldest), seconds(link.newest), age, f"{link.rate:.3g} Hz", link.publisher
+def _cells(edge: ChainEdge) -> tuple[str, ...]:
+    if edge.static:
+        return "static", "", "", "", edge.publisher
+    if edge.state == "no_data":
+        return "", "", "", "", edge.publisher
+    age = duration(edge.age) if edge.age is not None and edge.age >= 0 else ""
+    return seconds(edge.oldest), seconds(edge.newest), age, f"{edge.rate:.3g} Hz", edge.publisher
 
 
-def _tree(found: Explanation, links: dict[str, Link]) -> Iterator[tuple[str, str]]:
-    """Frames as they hang below each other, with what is drawn in front of them."""
+def _tree(found: Explanation, edges: dict[str, ChainEdge]) -> Iterator[tuple[str, str]]:
+    """Yield the frames in the order of drawing, each with the branches in front of its name."""
     frames = found.frames
     if found.roots is not None:
         cut = frames.index(found.roots[1])
@@ -144,7 +147,7 @@ def _tree(found: Explanation, links: dict[str, Link]) -> Iterator[tuple[str, str
             yield "", root
             yield from _branch(below, last=True)
         return
-    top = next((position for position, frame in enumerate(frames) if frame not in links), 0)
+    top = next((position for position, frame in enumerate(frames) if frame not in edges), 0)
     yield "", frames[top]
     yield from _branch(frames[:top][::-1], last=top + 1 == len(frames))
     yield from _branch(frames[top + 1 :], last=True)

@@ -1,19 +1,22 @@
-"""From a buffer to an explanation.
+"""Builds an explanation from a buffer.
 
-Whether there is a transform is the buffer's own answer. The links are those that a look-up walks, and would walk if
-the ones without a sample had one.
+The buffer itself decides whether there is a transform. The edges are those that the lookup uses, or would use if the
+edges without data had some.
 """
 
 from __future__ import annotations
 
-import time as system_time
 from dataclasses import replace
+from itertools import pairwise
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.analysis.missing_edges import MissingEdge, missing_edge, tree_of
+from coframe.analysis.clocks import present_for
+from coframe.analysis.liveness import buffered_period, is_stale
+from coframe.analysis.missing_edges import MissingEdge, missing_edge
+from coframe.analysis.tree import FrameTrees
 from coframe.errors import TransformException
 from coframe.explanation.advice import advice
-from coframe.explanation.facts import Explanation, Link
+from coframe.explanation.facts import ChainEdge, Explanation
 from coframe.time import stamp_ns
 
 if TYPE_CHECKING:
@@ -22,17 +25,14 @@ if TYPE_CHECKING:
 
 __all__ = ["explain"]
 
-_HOUR = 3_600_000_000_000
-# What buffers note where nobody says who it was.
-_NOBODY = {"", "no recorded authority", "default_authority", "<no authority available>"}
-
-
-# What is wrong with a name, before there is any way to walk.
-_NAMES = {"empty_name", "leading_slash", "unknown_frame"}
+# What buffers record as the authority of transforms whose publisher is not known.
+_UNKNOWN_AUTHORITIES = {"", "no recorded authority", "default_authority", "<no authority available>"}
+# The codes of errors that concern the name of a frame: there is no chain to examine.
+_NAME_ERRORS = {"empty_name", "leading_slash", "unknown_frame"}
 
 
 class _Step(NamedTuple):
-    """A link as the buffer has it for a time."""
+    """An edge at the requested time, as the buffer has it."""
 
     parent: str
     child: str
@@ -40,32 +40,40 @@ class _Step(NamedTuple):
     gap: int
 
 
+class _Chain(NamedTuple):
+    """The frames and edges from the target to the source, and the two roots if these are not connected."""
+
+    frames: tuple[str, ...]
+    steps: list[_Step]
+    roots: tuple[str, str] | None
+
+
 def explain(
     buffer: Buffer, target: str, source: str, at: StampLike | None = None, *, now: StampLike | None = None
 ) -> Explanation:
-    """Why a look-up has an answer, or why not.
+    """Return why a lookup succeeds or fails.
 
     Args:
-        buffer: What is asked.
-        target: The frame that the answer is told in.
-        source: The frame that is asked about.
-        at: When; 0 or None is the latest.
-        now: The present, by the clock of the stamps. By default the system's, where the stamps are within an hour of
-            it; a buffer that is frozen or keeps everything, as of a recording, has none.
+        buffer: The buffer to look up in.
+        target: The target frame of the lookup.
+        source: The source frame of the lookup.
+        at: The requested time; 0 or None is the latest common time.
+        now: The present time by the clock of the stamps. The default is the system time if the stamps can be on the
+            system clock; buffers that are frozen or keep everything, as those of recordings, have no default.
 
     Raises:
-        TypeError: `at` or `now` is no point in time.
+        TypeError: `at` or `now` is not a point in time.
     """
     stamp = 0 if at is None else stamp_ns(at)
     recorded = buffer.frozen or buffer.cache_ns < 0
     seen = buffer if buffer.frozen else buffer.snapshot()
-    answered, error = _ask(seen, target, source, stamp)
+    answered, error = _look_up(seen, target, source, stamp)
     when = stamp or answered or _latest_common_time(seen, target, source)
     code = error.code if error else ""
-    frames, steps, roots = ((), [], None) if code in _NAMES else _between(seen, target, source, when)
-    edges = {edge.child: edge for edge in seen.edges([step.child for step in steps])}
-    present = _present(now, max((edge.newest for edge in edges.values()), default=0), recorded)
-    links = tuple(_link(step, edges[step.child], when, stamp or present) for step in steps)
+    frames, steps, roots = _Chain((), [], None) if code in _NAME_ERRORS else _chain(seen, target, source, when)
+    infos = {info.child: info for info in seen.edges([step.child for step in steps])}
+    present = _present(now, max((info.newest for info in infos.values()), default=0), recorded=recorded)
+    edges = tuple(_edge(seen, step, infos[step.child], when, stamp, present) for step in steps)
     found = Explanation(
         target=target,
         source=source,
@@ -74,21 +82,21 @@ def explain(
         code=code,
         text=str(error) if error else "",
         hint="",
-        unknown=tuple(frame for frame in dict.fromkeys((target, source)) if code in _NAMES and frame not in seen),
-        links=links,
+        unknown=tuple(frame for frame in dict.fromkeys((target, source)) if code in _NAME_ERRORS and frame not in seen),
+        edges=edges,
         frames=frames,
         roots=roots,
         missing=None if roots is None else _missing(seen, roots),
-        limit=_limit(links, when) if stamp == 0 else None,
-        span=_span(links) if roots is None else None,
-        possible_at=None if roots is None else _possible_at(seen, target, source, links),
+        limit=_limit(edges, when) if stamp == 0 else None,
+        span=_span(edges) if roots is None else None,
+        possible_at=None if roots is None else _possible_at(seen, target, source, edges),
         cache=seen.cache_ns,
         now=present,
     )
     return found if error is None else replace(found, hint=advice(found, error, recorded=recorded))
 
 
-def _ask(buffer: Buffer, target: str, source: str, stamp: int) -> tuple[int | None, TransformException | None]:
+def _look_up(buffer: Buffer, target: str, source: str, stamp: int) -> tuple[int | None, TransformException | None]:
     try:
         return buffer.lookup(target, source, stamp).stamp or 0, None
     except TransformException as error:
@@ -102,85 +110,85 @@ def _latest_common_time(buffer: Buffer, target: str, source: str) -> int:
         return 0
 
 
-def _way(buffer: Buffer, frame: str, stamp: int) -> list[_Step]:
-    """The links from a frame up to its root; where one has no sample at that time, by its newest one."""
-    steps: list[_Step] = []
-    seen: set[str] = set()
-    while frame and frame not in seen and (found := buffer._edge_at(frame, stamp)) is not None:
-        seen.add(frame)
-        state, parent, before, after = found
-        steps.append(_Step(parent, frame, state, after - before if state == "ok" else 0))
-        frame = parent
+def _chain(buffer: Buffer, target: str, source: str, stamp: int) -> _Chain:
+    steps = _steps_above(buffer, (target, source), stamp)
+    trees = FrameTrees.from_parents({child: step.parent for child, step in steps.items()}, (target, source))
+    chain = trees.chain(target, source)
+    if chain is None:
+        up, down = trees.path(target), trees.path(source)
+        frames, roots = [*up, *reversed(down)], (up[-1], down[-1])
+        return _Chain(tuple(frames), [steps[frame] for frame in frames if frame in steps], roots)
+    # Going from the target to the source, each frame is below the next one until the top of the chain.
+    top = next((a for a, b in pairwise(chain) if steps.get(a) is None or steps[a].parent != b), chain[-1])
+    return _Chain(tuple(chain), [steps[frame] for frame in chain if frame != top], None)
+
+
+def _steps_above(buffer: Buffer, frames: tuple[str, ...], stamp: int) -> dict[str, _Step]:
+    """Return the edges above the frames by child: at that time, or by the newest sample without data at that time."""
+    steps: dict[str, _Step] = {}
+    for start in frames:
+        frame = start
+        while frame and frame not in steps and (found := buffer._edge_at(frame, stamp)) is not None:
+            state, parent, before, after = found
+            steps[frame] = _Step(parent, frame, state, after - before if state == "ok" else 0)
+            frame = parent
     return steps
 
 
-def _between(
-    buffer: Buffer, target: str, source: str, stamp: int
-) -> tuple[tuple[str, ...], list[_Step], tuple[str, str] | None]:
-    """Frames and links from the target to the source, and the two roots where nothing joins them."""
-    up, down = _way(buffer, target, stamp), _way(buffer, source, stamp)
-    above, below = _passed(target, up), _passed(source, down)
-    places = {frame: place for place, frame in reversed(list(enumerate(below)))}
-    for position, frame in enumerate(above):
-        if (meeting := places.get(frame)) is not None:
-            return tuple(above[: position + 1] + below[:meeting][::-1]), up[:position] + down[:meeting][::-1], None
-    return tuple(above + below[::-1]), up + down[::-1], (above[-1], below[-1])
-
-
-def _passed(frame: str, way: list[_Step]) -> list[str]:
-    return [frame, *(step.parent for step in way if step.parent)]
-
-
-def _present(now: StampLike | None, newest: int, recorded: bool) -> int | None:
+def _present(now: StampLike | None, newest: int, *, recorded: bool) -> int | None:
     if now is not None:
         return stamp_ns(now)
-    clock = system_time.time_ns()
-    return clock if not recorded and abs(clock - newest) < _HOUR else None
+    return None if recorded else present_for(newest)
 
 
-def _link(step: _Step, edge: EdgeInfo, when: int, reference: int | None) -> Link:
-    late = step.state == "too_new" or (step.state == "only_other" and when > edge.newest)
-    timeless = edge.static or not edge.samples
-    return Link(
+def _edge(buffer: Buffer, step: _Step, info: EdgeInfo, when: int, stamp: int, present: int | None) -> ChainEdge:
+    late = step.state == "too_new" or (step.state == "only_other" and when > info.newest)
+    moving = bool(info.samples) and not info.static
+    reference = stamp or present
+    period = buffered_period(buffer, info.parent, info.child, info.oldest, info.newest, info.samples) if moving else 0.0
+    stale = None if present is None else moving and is_stale(present - info.newest, period)
+    return ChainEdge(
         parent=step.parent,
         child=step.child,
-        static=edge.static,
+        static=info.static,
         state=step.state,
-        by=0 if step.state in {"ok", "no_data"} else when - (edge.newest if late else edge.oldest),
-        oldest=edge.oldest,
-        newest=edge.newest,
-        age=None if timeless or reference is None else reference - edge.newest,
+        by=0 if step.state in {"ok", "no_data"} else when - (info.newest if late else info.oldest),
+        oldest=info.oldest,
+        newest=info.newest,
+        age=reference - info.newest if moving and reference is not None else None,
         gap=step.gap,
-        rate=edge.rate,
-        publisher="" if edge.authority in _NOBODY else edge.authority,
-        later=edge.parent if edge.parent != step.parent else "",
+        rate=info.rate,
+        period=period,
+        stale=stale if moving else False,
+        publisher="" if info.authority in _UNKNOWN_AUTHORITIES else info.authority,
+        later=info.parent if info.parent != step.parent else "",
     )
 
 
-def _limit(links: tuple[Link, ...], when: int) -> tuple[str, str] | None:
+def _limit(edges: tuple[ChainEdge, ...], when: int) -> tuple[str, str] | None:
     if when == 0:
         return None
-    return next(((link.parent, link.child) for link in links if not link.static and link.newest == when), None)
+    return next(((edge.parent, edge.child) for edge in edges if not edge.static and edge.newest == when), None)
 
 
-def _span(links: tuple[Link, ...]) -> tuple[int, int] | None:
-    moving = [link for link in links if not link.static]
-    if not moving or any(link.state == "no_data" for link in moving):
+def _span(edges: tuple[ChainEdge, ...]) -> tuple[int, int] | None:
+    moving = [edge for edge in edges if not edge.static]
+    if not moving or any(edge.state == "no_data" for edge in moving):
         return None
-    first, last = max(link.oldest for link in moving), min(link.newest for link in moving)
+    first, last = max(edge.oldest for edge in moving), min(edge.newest for edge in moving)
     return (first, last) if first <= last else None
 
 
 def _missing(buffer: Buffer, roots: tuple[str, str]) -> MissingEdge | None:
-    """The likely link by the names of the frames; without a likely one, that between the roots."""
-    parents = {frame.name: frame.parent for frame in buffer.frames()}
-    if not all(root in parents for root in roots):
+    """Return the likely edge by the names of the frames, or else the one between the roots."""
+    trees = FrameTrees.from_parents({frame.name: frame.parent for frame in buffer.frames()})
+    if not all(root in trees.index for root in roots):
         return None
-    trees = [tree_of(root, parents) for root in roots]
-    return missing_edge(*sorted(trees, key=len, reverse=True)) or MissingEdge(*roots, misspelt=False)
+    frames = [trees.tree(root) for root in roots]
+    return missing_edge(*sorted(frames, key=len, reverse=True)) or MissingEdge(*roots, misspelt=False)
 
 
-def _possible_at(buffer: Buffer, target: str, source: str, links: tuple[Link, ...]) -> int | None:
-    """Frames that change their parents were connected before, or are later."""
-    times = sorted({link.oldest for link in links if link.oldest}, reverse=True)
+def _possible_at(buffer: Buffer, target: str, source: str, edges: tuple[ChainEdge, ...]) -> int | None:
+    """Return a time at which the frames are connected: frames may change their parents."""
+    times = sorted({edge.oldest for edge in edges if edge.oldest}, reverse=True)
     return next((time for time in (0, *times) if buffer.can_transform(target, source, time)), None)

@@ -1,38 +1,38 @@
-"""Explanation: the way between two frames, link by link, and what is wrong with it."""
+"""Explanation: the chain between two frames, edge by edge, and what is wrong with it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.analysis.liveness import usual_silence
 from coframe.explanation.drawing import draw
 
 if TYPE_CHECKING:
     from coframe.analysis.missing_edges import MissingEdge
 
-__all__ = ["Explanation", "Link"]
-
-_SECOND = 1_000_000_000
+__all__ = ["ChainEdge", "Explanation"]
 
 
-class Link(NamedTuple):
-    """A link on the way between two frames, for the time that is asked for. All times are nanoseconds.
+class ChainEdge(NamedTuple):
+    """An edge of the chain between two frames at the requested time. All times are nanoseconds.
 
     Attributes:
-        parent: The frame it is told in at that time, or else by the newest sample; "" where no sample is left.
-        child: The frame it tells of.
-        static: Whether it is valid for all time.
-        state: ``"ok"``, or what is wrong: ``"too_new"`` (asked after the newest sample), ``"too_old"`` (before the
-            oldest), ``"only_other"`` (there is one sample, of another time), ``"no_data"``.
-        by: By how much: from the newest sample to the time that is asked for, or, negative, from the oldest; 0 if ok.
+        parent: The parent frame at that time, or by the newest sample; "" where the buffer has no sample.
+        child: The child frame.
+        static: Whether the edge is static.
+        state: ``"ok"``, or what is wrong: ``"too_new"`` (the requested time is after the newest sample), ``"too_old"``
+            (before the oldest sample), ``"only_other"`` (there is one sample, at another time), ``"no_data"``.
+        by: The distance from the newest sample to the requested time, or, negative, from the oldest sample; 0 if ok.
         oldest: Stamp of the oldest sample; 0 when static.
-        newest: Stamp of the newest.
-        age: From the newest sample to the time that is asked for, or to now; None when static or not known.
-        gap: Between the two samples around that time; 0 at a sample.
-        rate: Samples a second, by their stamps.
-        publisher: Who told of it last: a node, or a recording's topic; "" where that is not known.
-        later: The parent by the newest sample, where it has changed since; else "".
+        newest: Stamp of the newest sample; 0 when static.
+        age: The time from the newest sample to the requested time, or to the present; None when static or not known.
+        gap: The interval between the two samples around the requested time; 0 at a sample.
+        rate: Samples per second, from the mean interval between their stamps.
+        period: The usual period: the median interval between the stamps; 0.0 with fewer than two samples.
+        stale: Whether the edge is stale at present (see :mod:`coframe.analysis.liveness`); None where the present is
+            not known.
+        publisher: The publisher of the newest sample: a node, or the topic of a recording; "" if it is not known.
+        later: The parent by the newest sample, if the parent has changed since the requested time; else "".
     """
 
     parent: str
@@ -45,54 +45,49 @@ class Link(NamedTuple):
     age: int | None
     gap: int
     rate: float
+    period: float
+    stale: bool | None
     publisher: str
     later: str
 
     @property
     def name(self) -> str:
-        """``parent -> child``."""
+        """The edge as ``parent -> child``."""
         return f"{self.parent or '?'} -> {self.child}"
 
     @property
-    def period(self) -> int:
-        """The mean time between samples, in nanoseconds; 0 where there are not two."""
-        return round(_SECOND / self.rate) if self.rate else 0
-
-    @property
     def due(self) -> int:
-        """How long after the time that is asked for its next sample is due by its rate, in nanoseconds."""
-        return -self.by % self.period if self.period else 0
-
-    @property
-    def patience(self) -> int:
-        """For how long it may be silent without having stopped, in nanoseconds."""
-        return usual_silence(self.period)
+        """The time from the requested time to the next sample that is due by the period, in nanoseconds."""
+        return -self.by % round(self.period) if self.period >= 1.0 else 0
 
 
 @dataclass(frozen=True)
 class Explanation:
-    """Why there is a transform, or why not; ``str()`` draws it. All times are nanoseconds.
+    """Why a transform between two frames exists or not; ``str()`` formats it. All times are nanoseconds.
 
     Attributes:
-        target: The frame that the answer would be told in.
-        source: The frame that is asked about.
-        stamp: The time that is asked for; 0 is the latest.
-        answered: The time of the answer (0: every link is static); None where there is none.
-        code: What is wrong, as an exception's ``code``; "" where nothing is.
-        text: The same in tf2's words.
-        hint: What to do, with the line to change; "" where nothing is to be done.
-        unknown: Which of the two frames nobody has told of.
-        links: From the target to the source, by way of the frame that they have in common; none where a name is no
-            frame's.
-        frames: Likewise. Of two trees: up to the target's root, then from the source's root down.
-        roots: Those of the target's tree and the source's, where they are two; else None.
-        missing: The link that would make one tree of the two: a likely one, or that between the roots; else None.
-        limit: The link, as (parent, child), that knows no later time than the latest that all of them know; None
-            where another time is asked for, or nothing moves.
-        span: From when until when all links have samples; None where they never have, or none of them moves.
-        possible_at: Where the two are not connected: another time at which they are, 0 for the latest; else None.
-        cache: How far back the buffer keeps samples; negative: everything.
-        now: The present; None where that is not known.
+        target: The target frame of the lookup.
+        source: The source frame of the lookup.
+        stamp: The requested time; 0 is the latest common time.
+        answered: The time of the transform (0: every edge is static); None if there is no transform.
+        code: What is wrong, as the ``code`` of an exception; "" if nothing is wrong.
+        text: The message of that exception, in tf2's words.
+        hint: What to do, with the line to change; "" if nothing needs to be done.
+        unknown: Which of the two frames do not exist.
+        edges: The edges from the target to the source by way of the first frame in common; empty where a frame does
+            not exist.
+        frames: The frames of the chain in the same order. With two trees: from the target up to its root, then from
+            the root of the source down to the source.
+        roots: The root of the target's tree and that of the source's tree, if these are two trees; else None.
+        missing: The edge that would connect the two trees: a likely one, or one between the roots; else None.
+        limit: The edge, as (parent, child), whose newest sample limits the latest common time; None if another time
+            was requested, or if all edges are static.
+        span: The first and the last time at which all edges have samples; None if there is no such time, or if all
+            edges are static.
+        possible_at: If there is no chain at the requested time: another time with a transform, 0 for the latest; else
+            None.
+        cache: How far back the buffer keeps samples; negative if it keeps everything.
+        now: The present time by the clock of the stamps; None if it is not known.
     """
 
     target: str
@@ -103,7 +98,7 @@ class Explanation:
     text: str
     hint: str
     unknown: tuple[str, ...]
-    links: tuple[Link, ...]
+    edges: tuple[ChainEdge, ...]
     frames: tuple[str, ...]
     roots: tuple[str, str] | None
     missing: MissingEdge | None
@@ -119,9 +114,9 @@ class Explanation:
         return self.answered is not None
 
     @property
-    def broken(self) -> tuple[Link, ...]:
-        """The links that have no sample at the time that is asked for."""
-        return tuple(link for link in self.links if link.state != "ok")
+    def broken(self) -> tuple[ChainEdge, ...]:
+        """The edges that have no data at the requested time."""
+        return tuple(edge for edge in self.edges if edge.state != "ok")
 
     def __str__(self) -> str:
         return "\n".join(draw(self))

@@ -1,21 +1,22 @@
 #!/usr/bin/env python3
-"""Publishes the complete transform tree of the robot system: world, map, odom, base, arm and sensors.
+"""Publish the complete transform tree of the robot system: world, map, odom, base, arm and sensors.
 
 Try it:
-    complete_tf_tree --ros-args -p publish_arm:=false      # the arm comes from dynamic_tf_broadcaster
+    complete_tf_tree --ros-args -p publish_arm:=false      # dynamic_tf_broadcaster publishes the arm
 
 Parameters:
-    rate: broadcasts of the moving transforms per second
-    publish_world: whether the map is placed in the world from here (false: another robot or nobody tells)
-    start_x, start_y, start_yaw: where odom begins on the map, metres and radians
-    publish_base: whether map, odom and base_link move from here (false: a real or simulated robot tells)
-    publish_arm: whether the arm moves from here (false: dynamic_tf_broadcaster or a robot tells)
-    publish_mounts: whether the sensor mounts come from here (false: static_tf_broadcaster tells)
-    publish_gripper: whether the gripper's mount comes from here (false: a robot's description tells)
-    link_lengths, base_height: of the arm, metres
-    world_frame, map_frame, odom_frame, base_frame, link1_frame, link2_frame, end_effector_frame: names of the frames
-    imu_frame, lidar_frame, camera_frame, gripper_frame: names of the mounts
-    imu_translation, lidar_translation, camera_translation, gripper_translation: the mounts, metres
+    rate: the rate of the dynamic transforms, in Hz
+    publish_world: whether to publish world -> map (false if another robot publishes it)
+    start_x, start_y, start_yaw: the initial pose of odom relative to map, in metres and radians
+    publish_base: whether to publish map -> odom -> base_link (false if a real or simulated robot publishes them)
+    publish_arm: whether to publish the transforms of the arm (false if dynamic_tf_broadcaster publishes them)
+    publish_mounts: whether to publish the sensor mounts (false if static_tf_broadcaster publishes them)
+    publish_gripper: whether to publish the gripper mount (false if robot_state_publisher publishes it)
+    link_lengths, base_height: the dimensions of the arm, in metres
+    world_frame, map_frame, odom_frame, base_frame, link1_frame, link2_frame, end_effector_frame: the frame names
+    imu_frame, lidar_frame, camera_frame, gripper_frame: the frame names of the mounts
+    imu_translation, lidar_translation, camera_translation, gripper_translation: the positions of the mounts relative
+        to their parent frames, in metres
 """
 
 import math
@@ -44,20 +45,20 @@ FRAMES = {
     "camera": "camera_link",
     "gripper": "gripper_link",
 }
-NO_MOVE = [0.0, 0.0, 0.0]
+NO_TRANSLATION = [0.0, 0.0, 0.0]
 NO_ROTATION = [0.0, 0.0, 0.0, 1.0]
-# A quarter turn about y: the camera's z axis looks along the gripper.
+# A rotation of 90 degrees about y: the z axis of the camera points along the gripper.
 LOOK_FORWARD = [0.0, math.sqrt(0.5), 0.0, math.sqrt(0.5)]
 
 
 class CompleteTFTree(Node):
-    """Manage complete transform tree."""
+    """A node that publishes the static and dynamic transforms of the complete robot system."""
 
     def __init__(self) -> None:
         super().__init__("complete_tf_tree")
         rate = self.declare_parameter("rate", 50.0).value
         if not rate > 0.0:
-            raise ValueError(f"parameter 'rate' must be more than 0 per second, but is {rate}")
+            raise ValueError(f"parameter 'rate' must be greater than 0 Hz, but is {rate}")
         self.period = 1.0 / rate
         self.frames = {
             frame: self.declare_parameter(f"{frame}_frame", default).value for frame, default in FRAMES.items()
@@ -81,10 +82,10 @@ class CompleteTFTree(Node):
         self.get_logger().info("Complete TF tree manager started")
 
     def lengths(self, name: str, default: list[float]) -> list[float]:
-        """Declare a parameter of as many lengths as its default has."""
+        """Declare a parameter that is a list of lengths, with as many entries as its default."""
         values = [float(value) for value in self.declare_parameter(name, default).value]
         if len(values) != len(default) or not all(math.isfinite(value) for value in values):
-            raise ValueError(f"parameter '{name}' needs {len(default)} finite numbers, but is {values}")
+            raise ValueError(f"parameter '{name}' must have {len(default)} finite numbers, but is {values}")
         return values
 
     def publish_static_transforms(self) -> None:
@@ -96,8 +97,8 @@ class CompleteTFTree(Node):
 
         static_tfs = []
         if self.publish_world:
-            # World to map (identity for simulation)
-            static_tfs.append(self.make_transform("world", "map", NO_MOVE, NO_ROTATION))
+            # The transform world -> map is the identity in this simulation.
+            static_tfs.append(self.make_transform("world", "map", NO_TRANSLATION, NO_ROTATION))
         if self.publish_mounts:
             static_tfs += [
                 self.make_transform("base", "imu", imu, NO_ROTATION),
@@ -111,7 +112,7 @@ class CompleteTFTree(Node):
         self.get_logger().info(f"Published {len(static_tfs)} static transforms")
 
     def publish_dynamic_transforms(self) -> None:
-        """Publish all dynamic transforms, in one message: nobody sees half a robot."""
+        """Publish all dynamic transforms in one message, so that listeners always receive a consistent robot."""
         now = self.get_clock().now()
         self.advance(now)
         stamp = now.to_msg()
@@ -124,13 +125,13 @@ class CompleteTFTree(Node):
             self.dynamic_broadcaster.sendTransform(dynamic_tfs)
 
     def advance(self, now: ClockTime) -> None:
-        """Let the simulated time follow the stamps; a clock that was set back must not set the robot back."""
+        """Advance the simulated time by the time between two stamps. If the clock jumps back, advance by one period."""
         elapsed = self.period if self.last_tick is None else (now - self.last_tick).nanoseconds * 1e-9
         self.last_tick = now
         self.sim_time += self.period if elapsed < 0.0 else elapsed
 
     def base_transforms(self, stamp: Time) -> list[TransformStamped]:
-        """The robot drives forward with a slight sway, and the localization drifts."""
+        """Return the transforms of the base: it drives forward and sways slightly, and the localization drifts."""
         start_x, start_y, start_yaw = self.start
         drift = 0.001 * self.sim_time
         x = 0.1 * self.sim_time
@@ -144,7 +145,7 @@ class CompleteTFTree(Node):
         ]
 
     def arm_transforms(self, stamp: Time) -> list[TransformStamped]:
-        """The two joints of the arm swing."""
+        """Return the transforms of the arm, whose two joints swing."""
         q1 = 0.5 * math.sin(0.3 * self.sim_time)
         q2 = 0.3 * math.sin(0.4 * self.sim_time + 0.5)
         first, second = self.link_lengths
@@ -162,7 +163,7 @@ class CompleteTFTree(Node):
         rotation: Sequence[float],
         stamp: Time | None = None,
     ) -> TransformStamped:
-        """Create TransformStamped message between two of FRAMES; stamped now unless told otherwise."""
+        """Create the transform between two of FRAMES. The default stamp is the current time."""
         t = TransformStamped()
         t.header.stamp = stamp if stamp is not None else self.get_clock().now().to_msg()
         t.header.frame_id = self.frames[parent]
@@ -178,12 +179,12 @@ class CompleteTFTree(Node):
 
     @staticmethod
     def yaw_to_quat(yaw: float) -> list[float]:
-        """Convert yaw angle to quaternion [x, y, z, w]."""
+        """Convert a yaw angle to a quaternion [x, y, z, w]."""
         return [0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)]
 
 
 def main(args: list[str] | None = None) -> None:
-    """Run the node until it is stopped."""
+    """Run the node until it is interrupted."""
     node = None
     try:
         rclpy.init(args=args)

@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
-"""Broadcasts the transforms of a two-link arm: from joint states, or simulated while there are none.
+"""Broadcast the transforms of a two-link arm, from joint states or from a simulation if there are none.
 
 Try it:
     dynamic_tf_broadcaster --ros-args -p rate:=100.0
 
 Parameters:
-    rate: broadcasts of the simulated arm per second
-    publish_joint_states: the simulated arm tells joint states, of which robot_state_publisher makes the transforms
-    joint_timeout: seconds without joint states after which the simulation goes on
-    joint_names: the arm's joints in the joint states
-    joint_states_topic: where joint states come from
-    link_lengths, base_height: of the arm, metres
-    base_frame, link1_frame, link2_frame, end_effector_frame: names of the frames
+    rate: the rate of the simulated arm, in Hz
+    publish_joint_states: whether to publish joint states of the simulated arm instead of its transforms, for
+        robot_state_publisher
+    joint_timeout: the time without joint states after which the simulation resumes, in seconds
+    joint_names: the names of the arm's joints in the joint states
+    joint_states_topic: the topic of the joint states
+    link_lengths, base_height: the dimensions of the arm, in metres
+    base_frame, link1_frame, link2_frame, end_effector_frame: the frame names
 """
 
 import math
@@ -28,13 +29,13 @@ from tf2_ros import TransformBroadcaster
 
 
 class DynamicFramePublisher(Node):
-    """Publish dynamic transforms from joint states."""
+    """A node that publishes the dynamic transforms of the arm."""
 
     def __init__(self) -> None:
         super().__init__("dynamic_tf_broadcaster")
         rate = self.declare_parameter("rate", 50.0).value
         if not rate > 0.0:
-            raise ValueError(f"parameter 'rate' must be more than 0 per second, but is {rate}")
+            raise ValueError(f"parameter 'rate' must be greater than 0 Hz, but is {rate}")
         self.period = 1.0 / rate
         self.joint_timeout = self.declare_parameter("joint_timeout", 1.0).value
         self.joint_names = list(self.declare_parameter("joint_names", ["joint1", "joint2"]).value)
@@ -46,7 +47,7 @@ class DynamicFramePublisher(Node):
         self.end_effector_frame = self.declare_parameter("end_effector_frame", "end_effector").value
         if len(self.joint_names) != 2 or len(self.link_lengths) != 2:
             raise ValueError(
-                "parameters 'joint_names' and 'link_lengths' need two entries each: the arm has two joints"
+                "parameters 'joint_names' and 'link_lengths' must have two entries each, because the arm has two joints"
             )
 
         self.tf_broadcaster = TransformBroadcaster(self)
@@ -64,13 +65,13 @@ class DynamicFramePublisher(Node):
         self.get_logger().info("Dynamic TF broadcaster started")
 
     def simulate_and_broadcast(self) -> None:
-        """Simulate joint motion and broadcast transforms, unless a robot tells its joint states."""
+        """Simulate the motion of the joints and broadcast it, unless a robot publishes joint states."""
         now = self.get_clock().now()
         elapsed = self.seconds_between(self.last_tick, now)
         self.last_tick = now
-        if self.robot_is_there(now):
+        if self.robot_is_active(now):
             return
-        # The motion follows the stamps; a clock that was set back must not set the arm back.
+        # The motion follows the stamps. If the clock jumps back, the motion continues by one period.
         self.sim_time += self.period if elapsed is None or elapsed < 0.0 else elapsed
         q1 = 0.5 * math.sin(2 * math.pi * 0.2 * self.sim_time)
         q2 = 0.3 * math.sin(2 * math.pi * 0.3 * self.sim_time + math.pi / 4)
@@ -81,18 +82,18 @@ class DynamicFramePublisher(Node):
         state.header.stamp = now.to_msg()
         self.joint_pub.publish(state)
 
-    def robot_is_there(self, now: Time) -> bool:
-        """Whether joint states arrived lately; two sources at once would make the arm flicker."""
-        silence = self.seconds_between(self.last_joint_state, now)
-        if silence is not None and 0.0 <= silence < self.joint_timeout:
+    def robot_is_active(self, now: Time) -> bool:
+        """Return whether joint states arrived recently. Two sources at the same time would make the arm flicker."""
+        age = self.seconds_between(self.last_joint_state, now)
+        if age is not None and 0.0 <= age < self.joint_timeout:
             return True
         if self.last_joint_state is not None:
             self.last_joint_state = None
-            self.get_logger().info("No joint states any more: simulating the arm again")
+            self.get_logger().info("No more joint states: the simulation of the arm resumes")
         return False
 
     def joint_callback(self, msg: JointState) -> None:
-        """Handle real joint state messages."""
+        """Broadcast the transforms that belong to a joint state of the robot."""
         try:
             q1, q2 = self.arm_positions(msg)
         except ValueError as e:
@@ -100,34 +101,36 @@ class DynamicFramePublisher(Node):
             return
         now = self.get_clock().now()
         if self.last_joint_state is None:
-            self.get_logger().info("Joint states arrive: the arm follows them instead of the simulation")
+            self.get_logger().info("Received joint states: the arm follows them instead of the simulation")
         self.last_joint_state = now
         stamp = Time.from_msg(msg.header.stamp)
         self.broadcast_arm_transforms(q1, q2, stamp if stamp.nanoseconds else now)
 
     def arm_positions(self, msg: JointState) -> tuple[float, float]:
-        """The angles of the two joints: by name if the message has them, else the first two.
+        """Return the angles of the two joints, in radians.
+
+        If the message has neither name, its first two positions are used.
 
         Raises:
-            ValueError: The message does not tell them.
+            ValueError: The message does not contain two valid positions.
         """
         names = list(msg.name)
-        ours = [name for name in self.joint_names if name in names]
-        if len(ours) == 1:
-            raise ValueError(f"it has {ours[0]!r} but not both of {self.joint_names}")
-        first, second = (names.index(name) for name in ours) if ours else (0, 1)
+        found = [name for name in self.joint_names if name in names]
+        if len(found) == 1:
+            raise ValueError(f"it has only {found[0]!r} of the joints {self.joint_names}")
+        first, second = (names.index(name) for name in found) if found else (0, 1)
         if len(msg.position) <= max(first, second):
-            raise ValueError(f"it has {len(msg.position)} positions and {len(names)} names")
+            raise ValueError(f"it has {len(names)} names and {len(msg.position)} positions")
         q1, q2 = msg.position[first], msg.position[second]
         if not (math.isfinite(q1) and math.isfinite(q2)):
-            raise ValueError(f"its positions are {q1} and {q2}")
+            raise ValueError(f"its positions are {q1} and {q2}, which are not finite")
         return q1, q2
 
     def broadcast_arm_transforms(self, q1: float, q2: float, time: Time) -> None:
-        """Broadcast the transforms of the 2-link arm, all in one message: nobody sees half an arm."""
+        """Broadcast all transforms of the arm in one message, so that listeners always receive a consistent arm."""
         stamp = time.to_msg()
 
-        # Base to link1 (rotation about Z, at the height of the first joint)
+        # base -> link1: a rotation about z at the height of the first joint.
         t1 = TransformStamped()
         t1.header.stamp = stamp
         t1.header.frame_id = self.base_frame
@@ -136,7 +139,7 @@ class DynamicFramePublisher(Node):
         t1.transform.rotation.z = math.sin(q1 / 2)
         t1.transform.rotation.w = math.cos(q1 / 2)
 
-        # Link1 to link2 (rotation about Z, at the end of link1)
+        # link1 -> link2: a rotation about z at the end of link1.
         t2 = TransformStamped()
         t2.header.stamp = stamp
         t2.header.frame_id = self.link1_frame
@@ -145,7 +148,7 @@ class DynamicFramePublisher(Node):
         t2.transform.rotation.z = math.sin(q2 / 2)
         t2.transform.rotation.w = math.cos(q2 / 2)
 
-        # Link2 to end effector
+        # link2 -> end effector: a fixed translation along link2.
         t3 = TransformStamped()
         t3.header.stamp = stamp
         t3.header.frame_id = self.link2_frame
@@ -157,12 +160,12 @@ class DynamicFramePublisher(Node):
 
     @staticmethod
     def seconds_between(earlier: Time | None, later: Time) -> float | None:
-        """Seconds between two times; None if there was no earlier one."""
+        """Return the seconds between two times; None if there is no earlier one."""
         return None if earlier is None else (later - earlier).nanoseconds * 1e-9
 
 
 def main(args: list[str] | None = None) -> None:
-    """Run the node until it is stopped."""
+    """Run the node until it is interrupted."""
     node = None
     try:
         rclpy.init(args=args)

@@ -1,4 +1,4 @@
-"""Starts the lab's nodes, each as a process of its own, and ends them again."""
+"""Start and stop the nodes of the lab, each in its own process."""
 
 from __future__ import annotations
 
@@ -18,17 +18,16 @@ if TYPE_CHECKING:
 
 __all__ = ["COMPLETE_LAB", "DESCRIBED_LAB", "FailedNode", "Launcher", "NodeCommand"]
 
-# How long a node may take to end after it was asked to.
-END_TIMEOUT = 5.0
+STOP_TIMEOUT = 5.0  # seconds between SIGTERM and SIGKILL
 
 
 class NodeCommand(NamedTuple):
-    """A node of the lab and its ROS arguments.
+    """The command that starts a node of the lab.
 
     Attributes:
-        name: What it is called here.
-        arguments: What follows ``--ros-args``.
-        module: Its module in ``coframe.lab``; "": that of its name.
+        name: The name of the process.
+        arguments: The arguments after ``--ros-args``.
+        module: The module in ``coframe.lab``. If "", it is `name`.
     """
 
     name: str
@@ -37,14 +36,14 @@ class NodeCommand(NamedTuple):
 
 
 class FailedNode(NamedTuple):
-    """A node that ended by itself, and the last lines it wrote."""
+    """A node that stopped by itself, with its exit code and the last lines of its output."""
 
     name: str
     exit_code: int
     last_lines: str
 
 
-# The whole lab. The arm comes from the dynamic broadcaster alone: with two sources it would flicker.
+# The complete lab. Only the dynamic broadcaster publishes the arm, because two sources would make it flicker.
 COMPLETE_LAB = (
     NodeCommand("complete_tf_tree", ("-p", "publish_arm:=false")),
     NodeCommand("dynamic_tf_broadcaster"),
@@ -52,7 +51,7 @@ COMPLETE_LAB = (
     NodeCommand("sensor_transform"),
 )
 
-# The same, with arm, sensors and gripper from two_link_arm.urdf.xacro.
+# The complete lab, with arm, sensors and gripper from two_link_arm.urdf.xacro.
 DESCRIBED_LAB = (
     NodeCommand(
         "complete_tf_tree",
@@ -66,11 +65,11 @@ DESCRIBED_LAB = (
 
 
 class Launcher:
-    """Runs nodes while the ``with`` block runs; what they write goes to files in a temporary folder.
+    """A context manager that runs nodes. Their output goes to files in a temporary folder.
 
     Args:
-        commands: The nodes.
-        domain: Their ROS domain; None leaves it to ROS_DOMAIN_ID.
+        commands: The nodes to start.
+        domain: The ROS domain of the nodes. If None, it is ROS_DOMAIN_ID.
     """
 
     def __init__(self, commands: tuple[NodeCommand, ...] = COMPLETE_LAB, *, domain: int | None = None) -> None:
@@ -91,15 +90,15 @@ class Launcher:
 
     @property
     def names(self) -> list[str]:
-        """The nodes, in the order in which they were started."""
+        """The names of the nodes, in the order in which they were started."""
         return list(self._processes)
 
     def failed(self) -> FailedNode | None:
-        """The first node that has ended by itself, if any."""
+        """Return the first node that has stopped by itself; None if all are running."""
         return next(self.ended(), None)
 
     def ended(self) -> Iterator[FailedNode]:
-        """The nodes that have ended by themselves."""
+        """Yield the nodes that have stopped by themselves."""
         for name, process in self._processes.items():
             code = process.poll()
             if code is not None:
@@ -107,11 +106,11 @@ class Launcher:
                 yield FailedNode(name, code, "\n".join(lines[-10:]))
 
     def stop(self) -> None:
-        """Asks all nodes to end, and insists where that takes too long."""
+        """Stop all nodes with SIGTERM, and with SIGKILL after a timeout."""
         for process in self._processes.values():
             if process.poll() is None:
                 process.terminate()
-        deadline = time.monotonic() + END_TIMEOUT
+        deadline = time.monotonic() + STOP_TIMEOUT
         for process in self._processes.values():
             try:
                 process.wait(max(0.0, deadline - time.monotonic()))
@@ -131,12 +130,12 @@ class Launcher:
         module = f"coframe.lab.{command.module or command.name}"
         arguments = ("--ros-args", *command.arguments) if command.arguments else ()
         with self._log(command.name).open("wb") as log:
-            return subprocess.Popen(  # noqa: S603 - our own modules in our own Python
+            return subprocess.Popen(  # noqa: S603 - runs only modules of coframe
                 [sys.executable, "-m", "coframe.lab.run_node", module, *arguments],
                 stdin=subprocess.PIPE,
                 stdout=log,
                 stderr=log,
                 env=self._environment,
-                # Ctrl-C is for the launcher, which ends its nodes in order.
+                # Ctrl-C must reach only the launcher, which then stops the nodes.
                 start_new_session=True,
             )

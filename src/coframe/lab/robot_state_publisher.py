@@ -1,9 +1,9 @@
-"""robot_state_publisher for the lab's arm: the transforms of two_link_arm.urdf.xacro, which lies beside this file.
+"""Run robot_state_publisher with the description of the lab's arm, two_link_arm.urdf.xacro.
 
 Try it:
     python -m coframe.lab.robot_state_publisher first_length:=0.4 --ros-args -r joint_states:=arm/joint_states
 
-What stands before --ros-args are arguments of the xacro file; parameters are those of robot_state_publisher.
+Arguments before --ros-args are arguments of the xacro file. The parameters are those of robot_state_publisher.
 """
 
 from pathlib import Path
@@ -16,7 +16,7 @@ ARM = Path(__file__).with_name("two_link_arm.urdf.xacro")
 
 
 def main(args: list[str] | None = None) -> None:
-    """Run the node until it is stopped."""
+    """Run the node until it is interrupted."""
 
     def start(words: list[str], own: list[str]) -> None:
         robot = load(ARM, arguments=dict(word.split(":=", 1) for word in own if ":=" in word))

@@ -1,6 +1,6 @@
-"""Runs a node that ends with whoever started it, however that one ended: ``python -m coframe.lab.run_node MODULE ...``.
+"""Run a node that stops when its launcher stops: ``python -m coframe.lab.run_node MODULE ...``.
 
-The other end of its standard input is held by the launcher, and closes with it; also where it was killed.
+The launcher holds the other end of the standard input. It is closed when the launcher exits, even if it is killed.
 """
 
 from __future__ import annotations
@@ -12,15 +12,16 @@ import sys
 import threading
 
 
-def _end_with_launcher() -> None:
+def _stop_with_launcher() -> None:
+    """Wait until standard input is closed, then stop this process."""
     while os.read(0, 1024):
         pass
     os.kill(os.getpid(), signal.SIGTERM)
 
 
 def main() -> None:
-    """Runs the module named first with the arguments behind it."""
-    threading.Thread(target=_end_with_launcher, name="end with launcher", daemon=True).start()
+    """Run the module in the first argument with the other arguments."""
+    threading.Thread(target=_stop_with_launcher, name="stop with launcher", daemon=True).start()
     del sys.argv[0]
     runpy.run_module(sys.argv[0], run_name="__main__", alter_sys=True)
 

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Transforms laser scans into the base frame and publishes them as point clouds.
+"""Transform laser scans into the base frame and publish them as point clouds.
 
-A scan usually arrives before the transforms of its moment do. So scans wait, each for its own transform and no longer
-than a deadline; what arrives later does not wait behind them.
+A scan usually arrives before the transforms with its stamp. Therefore, each scan waits for its own transform until a
+deadline. A scan that waits does not delay the scans after it.
 
 Try it:
     sensor_transform --ros-args -p target_frame:=odom
 
 Parameters:
-    target_frame: frame of the clouds
-    wait: seconds a scan waits for its transform at most
-    queue_size: scans that may wait at the same time
-    scan_topic, cloud_topic: where scans come from and clouds go to
+    target_frame: the frame of the clouds
+    wait: the maximum time that a scan waits for its transform, in seconds
+    queue_size: the maximum number of waiting scans
+    scan_topic, cloud_topic: the topics of the scans and of the clouds
 """
 
 import sys
@@ -36,19 +36,19 @@ from tf2_ros import Buffer, TransformException, TransformListener
 
 Array = NDArray[np.float64]
 
-# How often waiting scans are tried again: well below the time between two transforms.
+# Seconds between two attempts to transform the waiting scans. This is well below the period of the transforms.
 RETRY_PERIOD = 0.005
 
 
 class WaitingScan(NamedTuple):
-    """A scan whose transform is not there yet."""
+    """A scan whose transform is not available yet."""
 
     scan: LaserScan
     deadline: Time
 
 
 class SensorTransformNode(Node):
-    """Transform sensor data to base frame."""
+    """A node that transforms scans to the target frame."""
 
     def __init__(self) -> None:
         super().__init__("sensor_transform")
@@ -62,11 +62,11 @@ class SensorTransformNode(Node):
         self.waiting: deque[WaitingScan] = deque()
         self.received = 0
         self.dropped = 0
-        # Runs only while scans wait.
+        # The timer runs only while scans wait.
         self.retry_timer = self.create_timer(RETRY_PERIOD, self.process_waiting)
         self.retry_timer.cancel()
 
-        # Many lidar drivers publish best-effort; a reliable subscription would hear nothing of them.
+        # Many lidar drivers publish with best-effort reliability, which a reliable subscription does not match.
         qos = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
         scan_topic = self.declare_parameter("scan_topic", "/scan").value
         self.scan_sub = self.create_subscription(LaserScan, scan_topic, self.scan_callback, qos)
@@ -75,16 +75,16 @@ class SensorTransformNode(Node):
         self.get_logger().info("Sensor transform node started")
 
     def scan_callback(self, msg: LaserScan) -> None:
-        """Put a scan in the queue, and see what can go."""
+        """Add a scan to the queue, then process the queue."""
         self.received += 1
         if len(self.waiting) == self.queue_size:
-            self.drop(f"more than {self.queue_size} scans wait for their transform")
+            self.drop(f"more than {self.queue_size} scans are waiting for their transforms")
             self.waiting.popleft()
         self.waiting.append(WaitingScan(msg, self.get_clock().now() + self.wait))
         self.process_waiting()
 
     def process_waiting(self) -> None:
-        """Publish the scans whose transform is there by now; drop those that waited too long."""
+        """Publish the scans whose transform is available, and drop those that have waited too long."""
         now = self.get_clock().now()
         still_waiting: deque[WaitingScan] = deque()
         for waiting in self.waiting:
@@ -107,7 +107,7 @@ class SensorTransformNode(Node):
             self.retry_timer.cancel()
 
     def drop(self, reason: str) -> None:
-        """Count a scan that is not published, and say why, but not every time."""
+        """Count a dropped scan and log the reason, at most every two seconds."""
         self.dropped += 1
         self.get_logger().warning(
             f"Scan transform failed: {reason} (dropped {self.dropped} of {self.received} scans so far)",
@@ -115,9 +115,9 @@ class SensorTransformNode(Node):
         )
 
     def make_cloud(self, scan: LaserScan, transform: TransformStamped) -> PointCloud2:
-        """Convert a scan to a point cloud in the target frame, at the scan's own time."""
+        """Convert a scan to a point cloud in the target frame, with the stamp of the scan."""
         ranges = np.asarray(scan.ranges, dtype=np.float64)
-        # Comparing drops NaN as well; a beam without an echo is infinite or out of range.
+        # A beam without an echo is infinite, NaN or out of range. Comparisons with NaN are false.
         valid = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
         angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
         points_sensor = np.zeros((np.count_nonzero(valid), 3))
@@ -134,7 +134,7 @@ class SensorTransformNode(Node):
 
     @staticmethod
     def float32_cloud(header: Header, names: list[str], values: NDArray[Any]) -> PointCloud2:
-        """Create a cloud of float32 fields from an array with one column per field."""
+        """Create a cloud with float32 fields from an array with one column for each field."""
         cloud = PointCloud2()
         cloud.header = header
         cloud.height = 1
@@ -151,25 +151,25 @@ class SensorTransformNode(Node):
         return cloud
 
     def transform_points(self, points: Array, transform: TransformStamped) -> Array:
-        """Transform array of points using transform.
+        """Transform an array of points.
 
         Args:
-            points: Nx3 array of points.
-            transform: geometry_msgs/TransformStamped.
+            points: The points, (N, 3).
+            transform: The transform to apply.
 
         Returns:
-            Nx3 array of transformed points.
+            The transformed points, (N, 3).
         """
         translation = transform.transform.translation
         q = transform.transform.rotation
         t = np.array([translation.x, translation.y, translation.z])
         rotation = self.quaternion_to_matrix(np.array([q.w, q.x, q.y, q.z]))
-        # p' = R @ p + t, with the points as rows
+        # p' = R @ p + t. The points are rows, so the product is transposed.
         return np.asarray(points @ rotation.T + t)
 
     @staticmethod
     def quaternion_to_matrix(q: Array) -> Array:
-        """Convert quaternion [w, x, y, z] to rotation matrix."""
+        """Convert a quaternion [w, x, y, z] to a rotation matrix."""
         w, x, y, z = q / np.linalg.norm(q)
         return np.array(
             [
@@ -181,7 +181,7 @@ class SensorTransformNode(Node):
 
 
 def main(args: list[str] | None = None) -> None:
-    """Run the node until it is stopped."""
+    """Run the node until it is interrupted."""
     node = None
     try:
         rclpy.init(args=args)

@@ -1,19 +1,20 @@
 #!/usr/bin/env python3
-"""Publishes the scans of a lidar in a long hall with pillars, seen from where the robot is.
+"""Publish the scans of a simulated lidar in a long hall with pillars, at the position of the robot.
 
-The hall goes on for ever along x, because the lab's robot does. Far down the hall there is no echo (infinity, as
-REP 117 has it), a pane of glass gives none either (0, below the smallest range), and a mirror one from too far away.
+The hall has no end along x, because the robot drives on without end. It contains all kinds of invalid ranges: far away
+there is no echo (infinity, see REP 117), a pane of glass gives 0, which is below the minimum range, and a mirror gives
+a range above the maximum.
 
 Try it:
     simulated_lidar --ros-args -p rate:=5.0
 
 Parameters:
-    rate: scans per second
-    beams: beams of a scan
-    range_min, range_max: metres
-    frame: frame of the lidar
-    fixed_frame: frame the hall stands in; the lidar is at its origin until tf knows better
-    scan_topic: where the scans are published
+    rate: the rate of the scans, in Hz
+    beams: the number of beams in a scan
+    range_min, range_max: the minimum and maximum range, in metres
+    frame: the frame of the lidar
+    fixed_frame: the frame of the hall; the lidar is at its origin until its transform is available
+    scan_topic: the topic of the scans
 """
 
 import math
@@ -33,25 +34,25 @@ from tf2_ros import Buffer, TransformException, TransformListener
 
 Array = NDArray[np.float64]
 
-HALL_START = -4.0  # the wall behind the robot, along x
-HALL_HALF_WIDTH = 3.0  # the side walls, along y
+HALL_START = -4.0  # the x coordinate of the wall behind the robot
+HALL_HALF_WIDTH = 3.0  # the side walls are at y = -3 and y = 3
 PILLAR_SPACING = 4.0
-PILLAR_OFFSET = 1.8  # pillars stand left and right in turn
+PILLAR_OFFSET = 1.8  # the pillars are alternately on the left and on the right side
 PILLAR_RADIUS = 0.25
 WALL_INTENSITY = 100.0
 PILLAR_INTENSITY = 200.0
-# A stretch of the side walls, as a fraction of the pillar spacing: glass on the right, a mirror on the left.
-ODD_STRETCH = 0.1
+# The part of the side walls, as a fraction of the pillar spacing, that is glass on the right and a mirror on the left.
+REFLECTIVE_PART = 0.1
 
 
 class SimulatedLidar(Node):
-    """Publish laser scans of a simulated hall."""
+    """A node that publishes laser scans of a simulated hall."""
 
     def __init__(self) -> None:
         super().__init__("simulated_lidar")
         rate = self.declare_parameter("rate", 10.0).value
         if not rate > 0.0:
-            raise ValueError(f"parameter 'rate' must be more than 0 per second, but is {rate}")
+            raise ValueError(f"parameter 'rate' must be greater than 0 Hz, but is {rate}")
         self.period = 1.0 / rate
         self.beams = self.declare_parameter("beams", 360).value
         if self.beams < 1:
@@ -69,7 +70,7 @@ class SimulatedLidar(Node):
         self.get_logger().info("Simulated lidar started")
 
     def publish_scan(self) -> None:
-        """Publish what the lidar sees now."""
+        """Publish a scan from the current pose of the lidar."""
         increment = 2.0 * math.pi / self.beams
         angles = -math.pi + increment * np.arange(self.beams)
         x, y, yaw = self.lidar_pose()
@@ -81,7 +82,7 @@ class SimulatedLidar(Node):
         scan.angle_min = -math.pi
         scan.angle_max = float(angles[-1])
         scan.angle_increment = increment
-        scan.time_increment = 0.0  # all beams at once
+        scan.time_increment = 0.0  # all beams are measured at the same time
         scan.scan_time = self.period
         scan.range_min = self.range_min
         scan.range_max = self.range_max
@@ -90,7 +91,7 @@ class SimulatedLidar(Node):
         self.scan_pub.publish(scan)
 
     def lidar_pose(self) -> tuple[float, float, float]:
-        """Where the lidar is in the hall, as far as is known: x, y and yaw."""
+        """Return the pose of the lidar in the hall as x, y and yaw; the origin if its transform is not available."""
         try:
             transform = self.tf_buffer.lookup_transform(self.fixed_frame, self.frame, Time()).transform
         except TransformException as e:
@@ -102,16 +103,16 @@ class SimulatedLidar(Node):
 
 
 def measure(x: float, y: float, headings: Array, range_max: float) -> tuple[Array, Array]:
-    """What a lidar measures in the hall.
+    """Simulate the measurement of a lidar in the hall.
 
     Args:
-        x: Where it is along the hall, metres.
-        y: Where it is across the hall.
-        headings: Directions of the beams in the hall, radians, shape (N,).
-        range_max: How far the lidar sees.
+        x: The position along the hall, in metres.
+        y: The position across the hall, in metres.
+        headings: The directions of the beams in the hall, in radians, (N,).
+        range_max: The maximum range, in metres.
 
     Returns:
-        Ranges and intensities, both of shape (N,).
+        The ranges and the intensities, (N,) each.
     """
     dx, dy = np.cos(headings), np.sin(headings)
     left = distance_to_wall(HALL_HALF_WIDTH - y, dy)
@@ -125,8 +126,8 @@ def measure(x: float, y: float, headings: Array, range_max: float) -> tuple[Arra
     ranges[lost] = np.inf
 
     hit_x = x + np.where(lost, 0.0, ranges) * dx
-    is_odd = ~lost & (np.mod(hit_x / PILLAR_SPACING, 1.0) < ODD_STRETCH)
-    mirror, glass = is_odd & (ranges == left), is_odd & (ranges == right)
+    is_reflective = ~lost & (np.mod(hit_x / PILLAR_SPACING, 1.0) < REFLECTIVE_PART)
+    mirror, glass = is_reflective & (ranges == left), is_reflective & (ranges == right)
     ranges[mirror] = range_max + 1.0
     ranges[glass] = 0.0
     intensities[lost | glass] = 0.0
@@ -134,14 +135,14 @@ def measure(x: float, y: float, headings: Array, range_max: float) -> tuple[Arra
 
 
 def distance_to_wall(offset: float, direction: Array) -> Array:
-    """Along beams, to a wall at an offset; `direction` is the beams' component towards positive offsets."""
+    """Return the distances to a wall at an offset along one axis, for beams with these components along the axis."""
     with np.errstate(divide="ignore", invalid="ignore"):
         distance = offset / direction
     return np.where(distance > 0.0, distance, np.inf)
 
 
 def distance_to_pillars(x: float, y: float, dx: Array, dy: Array, range_max: float) -> Array:
-    """Along beams, to the nearest pillar within range."""
+    """Return the distances along the beams to the nearest pillar within range; infinity if there is none."""
     nearest = np.full(len(dx), np.inf)
     first = math.ceil((x - range_max) / PILLAR_SPACING)
     last = math.floor((x + range_max) / PILLAR_SPACING)
@@ -159,7 +160,7 @@ def distance_to_pillars(x: float, y: float, dx: Array, dy: Array, range_max: flo
 
 
 def main(args: list[str] | None = None) -> None:
-    """Run the node until it is stopped."""
+    """Run the node until it is interrupted."""
     node = None
     try:
         rclpy.init(args=args)

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Broadcasts the static transforms of the sensor mounts: camera, IMU and lidar.
+"""Broadcast the static transforms of the sensor mounts: camera, IMU and lidar.
 
 Try it:
     static_tf_broadcaster --ros-args -p lidar_translation:="[0.0, 0.0, 0.6]"
 
-Parameters (lengths in metres, quaternions x, y, z, w):
-    base_frame, end_effector_frame: what the sensors are mounted on
-    camera_frame, camera_translation, camera_rotation: the camera, on the end effector
-    imu_frame, imu_translation, imu_rotation: the IMU, on the base
-    lidar_frame, lidar_translation, lidar_rotation: the lidar, on the base
+Parameters (translations in metres, rotations as quaternions x, y, z, w):
+    base_frame, end_effector_frame: the parent frames of the sensors
+    camera_frame, camera_translation, camera_rotation: the mount of the camera on the end effector
+    imu_frame, imu_translation, imu_rotation: the mount of the IMU on the base
+    lidar_frame, lidar_translation, lidar_rotation: the mount of the lidar on the base
 """
 
 import math
@@ -22,19 +22,20 @@ from rclpy.node import Node
 from tf2_ros import StaticTransformBroadcaster
 
 NO_ROTATION = [0.0, 0.0, 0.0, 1.0]
-# A quarter turn about y: the camera's z axis looks along the gripper.
+# A rotation of 90 degrees about y: the z axis of the camera points along the gripper.
 LOOK_FORWARD = [0.0, math.sqrt(0.5), 0.0, math.sqrt(0.5)]
 
 
 class StaticFramePublisher(Node):
-    """Publish static transforms for robot sensors."""
+    """A node that publishes the static transforms of the sensors."""
 
     def __init__(self) -> None:
         super().__init__("static_tf_broadcaster")
         base = self.declare_parameter("base_frame", "base_link").value
         end_effector = self.declare_parameter("end_effector_frame", "end_effector").value
 
-        # One call with all of them: Humble's broadcaster keeps only its last call for nodes that start later.
+        # All transforms are sent in one call, because nodes that start later receive only the last message of Humble's
+        # broadcaster.
         self.tf_broadcaster = StaticTransformBroadcaster(self)
         transforms = [
             self.make_mount("camera", end_effector, [0.05, 0.0, 0.02], LOOK_FORWARD),
@@ -45,12 +46,12 @@ class StaticFramePublisher(Node):
         self.get_logger().info(f"Published {len(transforms)} static transforms")
 
     def make_mount(self, sensor: str, parent: str, translation: list[float], rotation: list[float]) -> TransformStamped:
-        """Create the transform of a sensor; its parameters win over the arguments."""
+        """Create the transform of a sensor mount. The arguments are the defaults of its parameters."""
         translation = self.numbers(f"{sensor}_translation", translation)
         rotation = self.numbers(f"{sensor}_rotation", rotation)
         length = math.hypot(*rotation)
         if length == 0.0:
-            raise ValueError(f"parameter '{sensor}_rotation' is not a rotation: all four numbers are 0")
+            raise ValueError(f"parameter '{sensor}_rotation' is not a valid quaternion: all four numbers are 0")
 
         t = TransformStamped()
         t.header.stamp = self.get_clock().now().to_msg()
@@ -64,15 +65,15 @@ class StaticFramePublisher(Node):
         return t
 
     def numbers(self, name: str, default: list[float]) -> list[float]:
-        """Declare a parameter of as many finite numbers as its default has."""
+        """Declare a parameter that is a list of finite numbers, with as many entries as its default."""
         values = [float(value) for value in self.declare_parameter(name, default).value]
         if len(values) != len(default) or not all(math.isfinite(value) for value in values):
-            raise ValueError(f"parameter '{name}' needs {len(default)} finite numbers, but is {values}")
+            raise ValueError(f"parameter '{name}' must have {len(default)} finite numbers, but is {values}")
         return values
 
 
 def main(args: list[str] | None = None) -> None:
-    """Run the node until it is stopped."""
+    """Run the node until it is interrupted."""
     node = None
     try:
         rclpy.init(args=args)

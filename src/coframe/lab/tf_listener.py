@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Listens to transforms and publishes the pose of the end effector.
+"""Listen to transforms and publish the pose of the end effector.
 
 Try it:
     tf_listener --ros-args -p source_frame:=camera_link
 
 Parameters:
-    rate: poses per second
-    target_frame: frame the pose is expressed in
-    source_frame: frame whose pose it is
-    pose_topic: where the pose is published
+    rate: the rate of the poses, in Hz
+    target_frame: the frame that the pose is relative to
+    source_frame: the frame whose pose is published
+    pose_topic: the topic of the pose
 """
 
 import sys
@@ -26,13 +26,13 @@ from tf2_ros import Buffer, TransformException, TransformListener
 
 
 class TransformListenerNode(Node):
-    """Listen to transforms and compute poses."""
+    """A node that looks up transforms and publishes poses."""
 
     def __init__(self) -> None:
         super().__init__("tf_listener")
         rate = self.declare_parameter("rate", 10.0).value
         if not rate > 0.0:
-            raise ValueError(f"parameter 'rate' must be more than 0 per second, but is {rate}")
+            raise ValueError(f"parameter 'rate' must be greater than 0 Hz, but is {rate}")
         self.target_frame = self.declare_parameter("target_frame", "base_link").value
         self.source_frame = self.declare_parameter("source_frame", "end_effector").value
 
@@ -44,9 +44,10 @@ class TransformListenerNode(Node):
         self.get_logger().info("Transform listener started")
 
     def query_transforms(self) -> None:
-        """Publish the newest pose of the end effector.
+        """Publish the latest pose of the end effector.
 
-        It does not wait for one: the next query comes soon, and a callback that waits keeps others waiting.
+        The lookup has no timeout, because a callback that waits blocks the other callbacks of the node. If it fails,
+        the next timer callback tries again.
         """
         try:
             transform = self.tf_buffer.lookup_transform(self.target_frame, self.source_frame, Time())
@@ -55,7 +56,7 @@ class TransformListenerNode(Node):
             return
 
         pose = PoseStamped()
-        # The stamp says when the arm was there, which is not now.
+        # The stamp of the transform is the time of the pose. The current time would be wrong.
         pose.header = transform.header
         pose.pose.position.x = transform.transform.translation.x
         pose.pose.position.y = transform.transform.translation.y
@@ -69,15 +70,15 @@ class TransformListenerNode(Node):
         )
 
     def transform_point(self, point: Sequence[float], from_frame: str, to_frame: str) -> list[float] | None:
-        """Transform a point between frames, with the newest transform.
+        """Transform a point from one frame to another with the latest transform.
 
         Args:
-            point: [x, y, z] in from_frame.
-            from_frame: Source frame.
-            to_frame: Target frame.
+            point: The point [x, y, z], expressed in `from_frame`.
+            from_frame: The source frame.
+            to_frame: The target frame.
 
         Returns:
-            Transformed [x, y, z], or None if the transform is not known within 0.1 s.
+            The point [x, y, z], expressed in `to_frame`; None if the transform is not available within 0.1 s.
         """
         pt = PointStamped()
         pt.header.frame_id = from_frame
@@ -87,12 +88,12 @@ class TransformListenerNode(Node):
         except TransformException as e:
             self.get_logger().error(f"Point transform failed: {e}")
             return None
-        moved = do_transform_point(pt, transform).point
-        return [moved.x, moved.y, moved.z]
+        result = do_transform_point(pt, transform).point
+        return [result.x, result.y, result.z]
 
 
 def main(args: list[str] | None = None) -> None:
-    """Run the node until it is stopped."""
+    """Run the node until it is interrupted."""
     node = None
     try:
         rclpy.init(args=args)

@@ -1,9 +1,10 @@
-"""ROS 2's messages without ROS: their classes, found by name, and their bytes.
+"""Message classes of ROS 2 without a ROS installation: find classes by type name, serialize and deserialize messages.
 
->>> from coframe.messages import deserialize, find, serialize
->>> String = find("std_msgs/msg/String")
->>> deserialize(serialize(String(data="hello")), String)
-std_msgs.msg.String(data='hello')
+Example:
+    >>> from coframe.messages import deserialize, find, serialize
+    >>> String = find("std_msgs/msg/String")
+    >>> deserialize(serialize(String(data="hello")), String)
+    std_msgs.msg.String(data='hello')
 """
 
 from coframe.messages.codec import deserialize, serialize

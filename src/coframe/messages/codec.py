@@ -1,4 +1,4 @@
-"""Messages to CDR bytes and back, as ROS 2 sends them: XCDR1 behind a 4-byte encapsulation header."""
+"""Serialization of messages to CDR as ROS 2 sends it: XCDR1 after a 4-byte encapsulation header."""
 
 from __future__ import annotations
 
@@ -21,11 +21,12 @@ _decodings: dict[tuple[type, bytes], Plan] = {}
 
 
 def serialize(message: Message) -> bytes:
-    """The bytes of a message, little endian.
+    """Return the CDR bytes of a message, in little endian.
 
     Raises:
-        TypeError: it is not a message, or a field holds a value of a wrong type.
-        ValueError: a field holds a value the type cannot carry: too large, too long, a NUL inside a text.
+        TypeError: The argument is not a message, or a field contains a value of a wrong type.
+        ValueError: A field contains a value that its type cannot hold: a number that is too large, a string that is
+            too long or contains a NUL character.
     """
     cls = type(message)
     plan = _encodings.get(cls) or _new_encoding(cls)
@@ -39,10 +40,15 @@ def serialize(message: Message) -> bytes:
 
 
 def deserialize(data: bytes, cls: type[M]) -> M:
-    """The message in the bytes, of either byte order; bytes after its end are ignored, as in ROS.
+    """Return the message that the CDR bytes contain.
+
+    Args:
+        data: CDR of either byte order. Bytes after the end of the message are ignored, as in ROS.
+        cls: The class of the message.
 
     Raises:
-        DecodeError: the bytes are not a message of this class.
+        DecodeError: The bytes are not a message of this class.
+        TypeError: ``cls`` is not a message class.
     """
     data = bytes(data)
     if len(data) < HEADER_SIZE:
@@ -71,17 +77,17 @@ def _new_decoding(cls: type, data: bytes) -> Plan:
 def _message_class(cls: type) -> type[Message]:
     if not issubclass(cls, Message):
         raise TypeError(
-            f"{cls.__module__}.{cls.__qualname__} is not a message class; "
-            "services and actions travel as their parts, for example SetBool.Request"
+            f"{cls.__module__}.{cls.__qualname__} is not a message class. "
+            "For services and actions, use the classes of their parts, such as SetBool.Request."
         )
     return cls
 
 
 def _header_error(cls: type[Message], data: bytes) -> DecodeError:
     return DecodeError(
-        f"{cls.ROS_TYPE}: at byte 0 of {len(data)}: expected the header of CDR, 00 01 00 00 or 00 00 00 00, "
+        f"{cls.ROS_TYPE}: at byte 0 of {len(data)}: expected the CDR header 00 01 00 00 or 00 00 00 00, "
         f"found {data[:HEADER_SIZE].hex(' ') or 'nothing'}",
-        hint="Messages of ROS 2 travel as plain CDR (XCDR1); other encodings are not read.",
+        hint="Only plain CDR (XCDR1) is supported, which ROS 2 uses.",
     )
 
 
@@ -89,10 +95,10 @@ def _decode_error(error: Exception, plan: Plan, data: bytes, cls: type[Message])
     fields, variables = plan.where(error)
     offset, expected = variables["pos"], str(error)
     if isinstance(error, struct.error):
-        expected = f"more than the {max(len(data) - offset, 0)} bytes that are left"
+        expected = f"more than the {max(len(data) - offset, 0)} remaining bytes"
     if isinstance(error, UnicodeDecodeError):
         expected = f"UTF-8, found {error.object[error.start : error.end].hex(' ')}"
     return DecodeError(
         f"{cls.ROS_TYPE}: at byte {offset} of {len(data)}, for {fields}: expected {expected}",
-        hint="The bytes are cut short, damaged, or of another type.",
+        hint="The bytes are truncated or damaged, or contain a message of another type.",
     )

@@ -1,7 +1,7 @@
-"""Compiles a message type to one Python function that writes or reads it.
+"""Compiler from a message type to a Python function that writes or reads messages of that type.
 
-The compiler follows what is known about the offset, joins neighbouring numbers to one `struct` call, and prepares
-that call once for each padding that can occur.
+The compiler tracks what is known about the offset, joins adjacent numbers into one `struct` call, and prepares that
+call once for each padding that can occur.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class RefusedError(CoframeError, ValueError):
 
 
 class Compiler(ABC):
-    """What writing and reading have in common: the source so far and the numbers waiting to join a run."""
+    """Base class for compiling writers and readers: the source so far, and the numbers of the current run."""
 
     def __init__(self, cls: Any, order: Order, start: str) -> None:
         self.cls = cls
@@ -38,68 +38,68 @@ class Compiler(ABC):
         self.names: dict[str, Any] = {"array": array, "RefusedError": RefusedError}
         self.offset = Offset(8, 0)
         self.codes = ""
-        self.waiting: list[str] = []
-        self.waiting_paths: list[str] = []
+        self.pending: list[str] = []
+        self.pending_paths: list[str] = []
         self.after_text = False
         self.path: list[str] = []
-        self.subjects: dict[int, str] = {}  # by line of the source: the fields it deals with
+        self.subjects: dict[int, str] = {}  # The fields that each line of the source handles.
 
     @abstractmethod
     def flush(self) -> None:
-        """Writes or reads the run that waits."""
+        """Emit the code that writes or reads the current run."""
 
     @abstractmethod
     def member(self, type_: AbstractType, place: str) -> None:
-        """One value, at the place that the expression names."""
+        """Compile one value, which the expression `place` refers to."""
 
     def emit(self, line: str, subject: str = "") -> None:
-        """Adds a line of source; subject names the fields it deals with, by default the current one."""
+        """Add a line of source; `subject` names the fields that it handles, by default the current field."""
         self.lines.append("    " * self.indent + line)
         self.subjects[len(self.lines)] = subject or self.here()
 
     def here(self) -> str:
-        """The name of the current field, from the message on."""
-        return "".join(self.path).lstrip(".") or "its one byte"
+        """Return the path of the current field in the message."""
+        return "".join(self.path).lstrip(".") or "the byte of an empty message"
 
     def constant(self, value: Any) -> str:
-        """A name by which the function can use the value."""
+        """Return a name through which the compiled function can use the value."""
         name = f"c{len(self.names)}"
         self.names[name] = value
         return name
 
     def variable(self) -> str:
-        """A name for a variable that no other line uses."""
+        """Return a new variable name."""
         name = f"v{len(self.names)}"
         self.names[name] = None
         return name
 
     @contextmanager
     def block(self, line: str) -> Iterator[None]:
-        """Adds a line that opens a block; what follows belongs to it."""
+        """Add a line that opens a block; lines that are added in the context belong to the block."""
         self.emit(line)
         self.indent += 1
         yield
         self.indent -= 1
 
     def number(self, code: str, expression: str) -> None:
-        """One number to write from, or to read into, the expression."""
+        """Add a number to the current run, which is written from, or read into, the expression."""
         self.codes += code
-        self.waiting.append(expression)
-        self.waiting_paths.append(self.here())
+        self.pending.append(expression)
+        self.pending_paths.append(self.here())
 
     def take_run(self) -> tuple[Run, str, str] | None:
-        """Ends the run: its layouts, its expressions and its fields' names; None if nothing waits."""
+        """End the current run and return its layouts, its expressions and its fields; None if the run is empty."""
         if not self.codes and not self.after_text:
             return None
         run = plan_run(self.codes, self.offset, self.order, after_text=self.after_text)
-        expressions = ", ".join(self.waiting)
-        subject = " to ".join(dict.fromkeys([*self.waiting_paths[:1], *self.waiting_paths[-1:]]))
-        self.codes, self.waiting, self.waiting_paths = "", [], []
+        expressions = ", ".join(self.pending)
+        subject = " to ".join(dict.fromkeys([*self.pending_paths[:1], *self.pending_paths[-1:]]))
+        self.codes, self.pending, self.pending_paths = "", [], []
         self.after_text, self.offset = False, run.end
         return run, expressions, subject
 
     def loop(self, line: str, body: Callable[[], None]) -> None:
-        """A loop; its body is compiled for what is known about the offset at the start of every round."""
+        """Compile a loop; its body must be valid for every offset that an iteration can start at."""
         self.flush()
         while True:
             mark, start = len(self.lines), self.offset
@@ -114,34 +114,34 @@ class Compiler(ABC):
             del self.lines[mark:]
 
     def members(self, cls: Any, variable: str) -> None:
-        """All fields of the message that the variable holds."""
+        """Compile all fields of the message in the variable."""
         for slot, type_ in zip(cls.__slots__, cls.SLOT_TYPES, strict=True):
             self.path.append(f".{slot[1:]}")
             self.member(type_, f"{variable}.{slot}")
             self.path.pop()
 
     def align(self, size: int, padding: str) -> None:
-        """Padding before numbers that are not part of a run."""
+        """Add padding before numbers that are not part of a run."""
         if self.offset.starts(size) != [0]:
             self.emit(padding)
             self.offset = Offset(size, 0)
 
     def function(self) -> Callable[..., Any]:
-        """The function ``run`` that the source defines."""
+        """Return the function ``run`` that the source defines."""
         source = compile("\n".join(self.lines), f"<CDR of {self.cls.ROS_TYPE}>", "exec")
-        exec(source, self.names)  # noqa: S102 - written above, from our own types
+        exec(source, self.names)  # noqa: S102 - the source is generated above, from types of this package
         return self.names["run"]  # type: ignore[no-any-return]
 
 
 class Plan:
-    """A compiled function and what its lines deal with."""
+    """A compiled function and the fields that its lines handle."""
 
     def __init__(self, compiler: Compiler) -> None:
         self.run = compiler.function()
         self._subjects = compiler.subjects
 
     def where(self, error: BaseException) -> tuple[str, dict[str, Any]]:
-        """The fields that `run` dealt with when it failed, and its variables."""
+        """Return the fields that `run` handled when it raised the error, and its local variables."""
         traceback = error.__traceback__
         while traceback is not None and traceback.tb_frame.f_code is not self.run.__code__:
             traceback = traceback.tb_next

@@ -1,4 +1,4 @@
-"""Between coframe's values and the messages of the wire."""
+"""Conversion of coframe's values to messages."""
 
 from __future__ import annotations
 
@@ -8,23 +8,22 @@ from coframe.messages.generated.builtin_interfaces.msg import Time
 from coframe.messages.generated.geometry_msgs.msg import Quaternion, TransformStamped, Vector3
 from coframe.messages.generated.geometry_msgs.msg import Transform as TransformMessage
 from coframe.messages.generated.std_msgs.msg import Header
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from coframe.transform import Transform
 
 __all__ = ["to_time", "to_transform_stamped"]
 
-_NANOSECONDS_PER_SECOND = 1_000_000_000
-
 
 def to_time(stamp: int) -> Time:
-    """Nanoseconds since the epoch as a message."""
-    seconds, nanoseconds = divmod(stamp, _NANOSECONDS_PER_SECOND)
+    """Return a Time message for nanoseconds since the epoch."""
+    seconds, nanoseconds = divmod(stamp, SECOND)
     return Time(sec=seconds, nanosec=nanoseconds)
 
 
 def to_transform_stamped(parent: str, child: str, transform: Transform, stamp: int) -> TransformStamped:
-    """Where ``child`` is, seen from ``parent``, at ``stamp`` nanoseconds, as a message."""
+    """Return a TransformStamped message with the pose of ``child`` in ``parent`` at ``stamp`` nanoseconds."""
     x, y, z, qx, qy, qz, qw = transform.values
     return TransformStamped(
         header=Header(stamp=to_time(stamp), frame_id=parent),

@@ -1,4 +1,4 @@
-"""Compiles how a message type is read from CDR, trusting no length in it."""
+"""Compiler for functions that read messages from CDR, which check every length before they use it."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ from coframe.messages.registry import find
 
 
 def decoding(cls: Any, order: Order) -> Plan:
-    """Compiles ``run(data)`` for messages of the class in one byte order; it keeps the offset in ``pos``."""
+    """Compile ``run(data)`` for messages of the class in one byte order; its variable ``pos`` is the offset."""
     return Plan(_Decoder(cls, order))
 
 
 class _Decoder(Compiler):
-    """Compiles ``run(data)``: the message in data, which begins with the header."""
+    """Compiler for ``run(data)``, which returns the message in data that begins with the encapsulation header."""
 
     def __init__(self, cls: Any, order: Order) -> None:
         super().__init__(cls, order, "def run(data):")
@@ -86,7 +86,8 @@ class _Decoder(Compiler):
     def _text(self, type_: AbstractType, place: str) -> None:
         length, end = self._length(), self.variable()
         self.emit(f"{end} = pos + {length}")
-        # Exactly one NUL, at the end, also finds ends beyond the data. Some writers give an empty text length 0.
+        # The only NUL must be the last byte. This also detects lengths beyond the data. Some writers use length 0
+        # for an empty string.
         with self.block(f"if data.find(0, pos, {end}) != {end} - 1 and {length}:"):
             self.emit(f"raise {self.constant(_text_refusal)}(data, pos, {length})")
         self.emit(f"{place} = data[pos:{end} - 1].decode()")
@@ -173,16 +174,16 @@ class _Decoder(Compiler):
         self.align(size, f"pos += {HEADER_SIZE} - pos & {size - 1}")
 
     def _end(self, length: str, size: int) -> str:
-        """The offset after so many values of that size, held against the data."""
+        """Return the variable with the offset after the values, after a check that they fit the data."""
         end = self.variable()
         self.emit(f"{end} = pos + {length} * {size}")
         with self.block(f"if {end} > len(data):"):
             self.emit(f"raise {self.constant(_length_refusal)}(data, pos, {length}, {size})")
         return end
 
-    def _check_bound(self, length: str, bound: int, what: str) -> None:
+    def _check_bound(self, length: str, bound: int, unit: str) -> None:
         with self.block(f"if {length} > {bound}:"):
-            self.emit(f'raise RefusedError(f"at most {bound} {what}, but there are {{{length}}}")')
+            self.emit(f'raise RefusedError(f"at most {bound} {unit}, found {{{length}}}")')
 
 
 def _text_refusal(data: bytes, pos: int, length: int) -> RefusedError:
@@ -190,15 +191,15 @@ def _text_refusal(data: bytes, pos: int, length: int) -> RefusedError:
         return _length_refusal(data, pos, length, 1)
     if data[pos + length - 1]:
         return RefusedError(
-            f"a text of {length} bytes that ends with NUL, but it ends with {data[pos + length - 1]:#04x}"
+            f"a string of {length} bytes that ends with NUL, found {data[pos + length - 1]:#04x} at its end"
         )
-    return RefusedError(f"a text of {length} bytes whose only NUL is at its end, but there is one inside")
+    return RefusedError(f"a string of {length} bytes with a NUL only at its end, found one inside")
 
 
 def _length_refusal(data: bytes, pos: int, length: int, size: int) -> RefusedError:
     each = "" if size == 1 else f" of at least {size} bytes each"
-    what = "bytes" if size == 1 else "values"
-    return RefusedError(f"{length} {what}{each}, but {max(len(data) - pos, 0)} bytes are left")
+    unit = "bytes" if size == 1 else "values"
+    return RefusedError(f"{length} {unit}{each}, found only {max(len(data) - pos, 0)} bytes")
 
 
 def _from_utf16_units(data: bytes, swapped: bool) -> str:
@@ -206,5 +207,5 @@ def _from_utf16_units(data: bytes, swapped: bool) -> str:
     if swapped:
         units.byteswap()
     if units and max(units) > 0xFFFF:
-        raise RefusedError(f"UTF-16 code units, but there is {max(units):#x}")
+        raise RefusedError(f"UTF-16 code units, found {max(units):#x}")
     return array("H", units).tobytes().decode("utf-16" + ("-le" if sys.byteorder == "little" else "-be"))

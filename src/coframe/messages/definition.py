@@ -1,4 +1,4 @@
-"""The types a field can have, named as ``rosidl_parser.definition`` names them."""
+"""Types of message fields, with the names of ``rosidl_parser.definition``."""
 
 from __future__ import annotations
 
@@ -6,21 +6,21 @@ from typing import Any
 
 
 class AbstractType:
-    """Any type; equal to another of the same kind with the same facts."""
+    """Base class of all types; types are equal if their classes and properties are equal."""
 
     __slots__: tuple[str, ...] = ()
 
-    def _facts(self) -> tuple[Any, ...]:
+    def _properties(self) -> tuple[Any, ...]:
         return tuple(getattr(self, slot) for slot in self.__slots__)
 
     def __eq__(self, other: object) -> bool:
-        return type(other) is type(self) and self._facts() == other._facts()
+        return type(other) is type(self) and self._properties() == other._properties()
 
     def __hash__(self) -> int:
-        return hash((type(self), self._facts()))
+        return hash((type(self), self._properties()))
 
     def __repr__(self) -> str:
-        return f"{type(self).__name__}({', '.join(map(repr, self._facts()))})"
+        return f"{type(self).__name__}({', '.join(map(repr, self._properties()))})"
 
 
 class AbstractNestableType(AbstractType):
@@ -30,7 +30,7 @@ class AbstractNestableType(AbstractType):
 
 
 class BasicType(AbstractNestableType):
-    """A number, boolean or octet, by its IDL name: ``double``, ``uint8``, ``boolean``, ..."""
+    """A number, boolean or octet with its IDL name: ``double``, ``uint8``, ``boolean``, ..."""
 
     __slots__ = ("typename",)
 
@@ -48,7 +48,7 @@ class NamespacedType(AbstractNestableType):
         self.name = name
 
     def namespaced_name(self) -> tuple[str, ...]:
-        """All parts of the name: ``("std_msgs", "msg", "Header")``."""
+        """Return all parts of the name: ``("std_msgs", "msg", "Header")``."""
         return (*self.namespaces, self.name)
 
     def __repr__(self) -> str:
@@ -56,29 +56,29 @@ class NamespacedType(AbstractNestableType):
 
 
 class AbstractGenericString(AbstractNestableType):
-    """Text of either kind."""
+    """A string of either kind."""
 
     __slots__ = ()
 
     def has_maximum_size(self) -> bool:
-        """Whether the length is bounded."""
+        """Return whether the length is bounded."""
         return isinstance(self, (BoundedString, BoundedWString))
 
 
 class AbstractString(AbstractGenericString):
-    """Text that travels as UTF-8."""
+    """A string that is serialized as UTF-8."""
 
     __slots__ = ()
 
 
 class UnboundedString(AbstractString):
-    """``string``."""
+    """The type ``string``."""
 
     __slots__ = ()
 
 
 class BoundedString(AbstractString):
-    """``string<=N``."""
+    """The type ``string<=N``."""
 
     __slots__ = ("maximum_size",)
 
@@ -87,19 +87,19 @@ class BoundedString(AbstractString):
 
 
 class AbstractWString(AbstractGenericString):
-    """Text that travels as UTF-16 code units, each in four bytes."""
+    """A string that is serialized as UTF-16 code units in four bytes each."""
 
     __slots__ = ()
 
 
 class UnboundedWString(AbstractWString):
-    """``wstring``."""
+    """The type ``wstring``."""
 
     __slots__ = ()
 
 
 class BoundedWString(AbstractWString):
-    """``wstring<=N``."""
+    """The type ``wstring<=N``."""
 
     __slots__ = ("maximum_size",)
 
@@ -108,7 +108,7 @@ class BoundedWString(AbstractWString):
 
 
 class AbstractNestedType(AbstractType):
-    """Many values of one type."""
+    """An array or sequence of values of one type."""
 
     __slots__ = ("value_type",)
 
@@ -117,7 +117,7 @@ class AbstractNestedType(AbstractType):
 
 
 class Array(AbstractNestedType):
-    """``T[N]``."""
+    """The type ``T[N]``."""
 
     __slots__ = ("size",)
 
@@ -125,31 +125,31 @@ class Array(AbstractNestedType):
         super().__init__(value_type)
         self.size = size
 
-    def _facts(self) -> tuple[Any, ...]:
+    def _properties(self) -> tuple[Any, ...]:
         return (self.value_type, self.size)
 
 
 class AbstractSequence(AbstractNestedType):
-    """As many values as there are, or up to a bound."""
+    """A sequence with or without a bound on its length."""
 
     __slots__ = ()
 
     def has_maximum_size(self) -> bool:
-        """Whether the number of values is bounded."""
+        """Return whether the number of values is bounded."""
         return isinstance(self, BoundedSequence)
 
-    def _facts(self) -> tuple[Any, ...]:
+    def _properties(self) -> tuple[Any, ...]:
         return (self.value_type,)
 
 
 class UnboundedSequence(AbstractSequence):
-    """``T[]``."""
+    """The type ``T[]``."""
 
     __slots__ = ()
 
 
 class BoundedSequence(AbstractSequence):
-    """``T[<=N]``."""
+    """The type ``T[<=N]``."""
 
     __slots__ = ("maximum_size",)
 
@@ -157,12 +157,12 @@ class BoundedSequence(AbstractSequence):
         super().__init__(value_type)
         self.maximum_size = maximum_size
 
-    def _facts(self) -> tuple[Any, ...]:
+    def _properties(self) -> tuple[Any, ...]:
         return (self.value_type, self.maximum_size)
 
 
 def describe(type_: AbstractType) -> str:
-    """The text that ``get_fields_and_field_types()`` shows: ``sequence<std_msgs/Header, 3>``, ``double[9]``."""
+    """Return a type as ``get_fields_and_field_types()`` shows it: ``sequence<std_msgs/Header, 3>``, ``double[9]``."""
     if isinstance(type_, Array):
         return f"{describe(type_.value_type)}[{type_.size}]"
     if isinstance(type_, BoundedSequence):

@@ -1,4 +1,4 @@
-"""Compiles how a message type is written to CDR."""
+"""Compiler for functions that write messages to CDR."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ from coframe.messages.registry import find
 
 
 def encoding(cls: Any) -> Plan:
-    """Compiles ``run(out, message)`` for messages of the class: appends to a bytearray that begins with the header."""
+    """Compile ``run(out, message)``, which appends a message of the class to a bytearray after the CDR header."""
     return Plan(_Encoder(cls))
 
 
 class _Encoder(Compiler):
-    """Compiles ``run(out, m)``: appends message m to the bytearray out, which begins with the header."""
+    """Compiler for ``run(out, m)``, which appends the message m to the bytearray out after its encapsulation header."""
 
     def __init__(self, cls: Any) -> None:
         super().__init__(cls, "<", "def run(out, m):")
@@ -79,7 +79,7 @@ class _Encoder(Compiler):
         if isinstance(type_, BoundedString):
             self._refuse_if(f"len({place}) > {type_.maximum_size}", f"more than {type_.maximum_size} characters")
         self.emit(f"{text} = {place}.encode()")
-        self._refuse_if(f"0 in {text}", "a NUL inside the text; ROS ends texts with NUL")
+        self._refuse_if(f"0 in {text}", "a NUL character inside the string; ROS strings end at the first NUL")
         self.number("I", f"len({text}) + 1")
         self.flush()
         self.emit(f"out += {text}")
@@ -129,7 +129,7 @@ class _Encoder(Compiler):
             self.emit(f"{values} = array({number.code!r}, {values})")
         self._swap(values)
         empty = self.offset
-        with self.block(f"if {values}:"):  # what is not there needs no padding
+        with self.block(f"if {values}:"):  # An empty sequence has no padding.
             self._align(number.dtype.itemsize)
             self.emit(f"out += {values}")
         self.offset = empty | Offset(number.dtype.itemsize, 0)

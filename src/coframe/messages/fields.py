@@ -1,7 +1,7 @@
-"""The attributes of messages: what their setters accept, convert and refuse.
+"""The attributes of messages: which values their setters accept, convert and refuse.
 
-The rules and the words of refusal are those of Humble's generated classes. They hold while Python runs without
-``-O`` and the environment variable ``ROS_PYTHON_CHECK_FIELDS`` is not ``0``.
+The rules and the error texts are those of Humble's generated classes. The checks are disabled by ``python -O`` and by
+the environment variable ``ROS_PYTHON_CHECK_FIELDS=0``.
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ from coframe.messages.registry import find
 
 CHECKED = __debug__ and os.environ.get("ROS_PYTHON_CHECK_FIELDS", "1") != "0"
 
-# Takes what a user assigns and gives what the message keeps.
+# Converts a value that a user assigns to the value that the message stores.
 Check = Callable[[Any], Any]
 
 
 class Number(NamedTuple):
-    """How Python keeps many numbers of one type: the type code of array.array and the type of numpy."""
+    """How Python stores numbers of one type: the type code of array.array and the dtype of NumPy."""
 
     code: str
     dtype: np.dtype[Any]
@@ -60,7 +60,7 @@ _FLOAT64_BOUND = 1.7976931348623157e308
 
 
 def attribute(name: str, type_: AbstractType, slot: Any) -> Any:
-    """The descriptor behind ``message.name``, storing into the descriptor of the slot ``_name``."""
+    """Return the descriptor of ``message.name``, which stores its value in the slot ``_name``."""
     if not CHECKED and number_of(type_) is None:
         return slot
     check, store = _check(name, type_), slot.__set__
@@ -72,14 +72,14 @@ def attribute(name: str, type_: AbstractType, slot: Any) -> Any:
 
 
 def number_of(type_: AbstractType) -> Number | None:
-    """How many numbers are kept if the type is an array or sequence of numbers, otherwise None."""
+    """Return how the numbers of an array or sequence of numbers are stored; None for other types."""
     if isinstance(type_, AbstractNestedType) and isinstance(type_.value_type, BasicType):
         return NUMBERS.get(type_.value_type.typename)
     return None
 
 
 def constructor_conversion(type_: AbstractType) -> Check | None:
-    """What a constructor does to its argument before assigning it: numbers may come in any iterable."""
+    """Return the conversion of a constructor's argument: constructors accept numbers in any iterable."""
     number = number_of(type_)
     if number is None:
         return None
@@ -97,7 +97,7 @@ def constructor_conversion(type_: AbstractType) -> Check | None:
 
 def _number_sequence(number: Number, values: Iterable[Any]) -> array[Any]:
     if isinstance(values, np.ndarray):
-        values = values.tolist()  # array.array would ask numpy for one scalar after another
+        values = values.tolist()  # Faster: array.array would read one NumPy scalar after another.
     return array(number.code, values)
 
 
@@ -141,7 +141,7 @@ def _python_type(type_: AbstractType) -> Any:
 
 
 def _instance_check(name: str, python_type: type) -> Check:
-    # Also for `double`: every Python float lies within its range.
+    # This check is enough for `double`, too: every Python float is in its range.
     def check(value: Any) -> Any:
         assert isinstance(value, python_type), f"The '{name}' field must be of type '{python_type.__name__}'"
         return value
@@ -238,7 +238,7 @@ def _number_sequence_check(name: str, type_: AbstractNestedType, number: Number)
             )
             return value
         if number.code == "B" and isinstance(value, (bytes, bytearray)) and maximum_size is None:
-            return array("B", value)  # bytes are numbers of the right range
+            return array("B", value)  # Bytes are always in the range of uint8.
         return _number_sequence(number, check_values(value))
 
     return check
@@ -272,7 +272,7 @@ def _size_fits(value: Collection[Any], type_: AbstractNestedType) -> bool:
 
 
 def _value_rule(type_: AbstractNestableType) -> Callable[[Collection[Any]], bool]:
-    """What holds for all values together, beyond their Python type."""
+    """Return the check of all values together, after the check of their Python type."""
     if isinstance(type_, (BoundedString, BoundedWString)):
         longest = type_.maximum_size
         return lambda values: all(len(value) <= longest for value in values)
@@ -285,7 +285,7 @@ def _value_rule(type_: AbstractNestableType) -> Callable[[Collection[Any]], bool
 
 
 def _fit_float32(values: Collection[float]) -> bool:
-    # A NaN that max() starts with, or an infinity, only leads to the second, slower look.
+    # If max() starts with a NaN or finds an infinity, the second, slower check decides.
     return max(map(abs, values), default=0.0) <= _FLOAT32_BOUND or all(map(_fits_float32, values))
 
 

@@ -1,4 +1,4 @@
-"""What type checkers and editors should know about fields that give another type than they take."""
+"""Type hints for fields whose type on reading differs from the types that they accept."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ D = TypeVar("D", bound=np.generic)
 
 
 class NumberSequence(Generic[N]):
-    """A sequence of numbers: reads as array.array, takes any sequence or set of numbers."""
+    """A sequence of numbers: returns array.array, accepts any sequence or set of numbers."""
 
     def __get__(self, message: object, owner: type) -> array[N]:
-        """What a message keeps."""
+        """Return the stored value."""
         raise AttributeError
 
     def __set__(self, message: object, value: Sequence[N] | AbstractSet[N]) -> None:
-        """What a message takes."""
+        """Check and store a value."""
 
 
 class NumberArray(Generic[D]):
-    """A fixed number of numbers: reads as a numpy array, takes one of the same type or a sequence of numbers."""
+    """An array of numbers: returns a NumPy array, accepts one of the same type or a sequence of numbers."""
 
     def __get__(self, message: object, owner: type) -> npt.NDArray[D]:
-        """What a message keeps."""
+        """Return the stored value."""
         raise AttributeError
 
     def __set__(self, message: object, value: npt.NDArray[Any] | Sequence[float]) -> None:
-        """What a message takes."""
+        """Check and store a value."""

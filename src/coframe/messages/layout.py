@@ -1,7 +1,7 @@
-"""Where numbers lie in CDR.
+"""Positions of numbers in CDR.
 
-CDR (XCDR1) aligns every number to its own size, counted from the end of the 4-byte encapsulation header. Texts make
-the offsets after them unknown, but never wholly: after a 4-byte length, an offset is a multiple of four again.
+CDR (XCDR1) aligns every number to its own size, counted from the end of the 4-byte encapsulation header. The offsets
+after a string are not known exactly, but after the next 4-byte length they are multiples of four again.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 CODES = {"boolean": "?", "octet": "c", **{name: number.code for name, number in NUMBERS.items()}}
-WITHOUT_MEMBERS = "B"  # C has no empty structures: rosidl puts one byte into them
+WITHOUT_MEMBERS = "B"  # C has no empty structures, so rosidl adds one byte to messages without fields.
 _SIZES = {code: struct.calcsize(f"<{code}") for code in "?cbBhHiIqQfd"}
 
 
 class Offset(NamedTuple):
-    """What is known about an offset: its remainder when divided by modulus (1, 2, 4 or 8)."""
+    """What is known about an offset: its remainder modulo 1, 2, 4 or 8."""
 
     modulus: int
     remainder: int
@@ -38,26 +38,26 @@ class Offset(NamedTuple):
         return Offset(modulus, self.remainder % modulus)
 
     def starts(self, alignment: int) -> list[int]:
-        """The remainders modulo `alignment` that the offset can have."""
+        """Return the remainders modulo `alignment` that the offset can have."""
         step = min(self.modulus, alignment)
         return list(range(self.remainder % step, alignment, step))
 
 
 class Run(NamedTuple):
-    """Neighbouring numbers, after the NUL of a text where there is one: their layout for each possible start."""
+    """Adjacent numbers, preceded by the NUL of a string if there is one, with a layout for each possible start."""
 
     layouts: dict[int, struct.Struct]
     alignment: int
     end: Offset
 
     def by_offset(self, entry: Callable[[struct.Struct], Any]) -> tuple[Any, ...]:
-        """The entries of the layouts by the offset from the message's first byte, modulo the alignment."""
+        """Return the entries of the layouts, indexed by the offset from the first byte modulo the alignment."""
         starts = ((index - HEADER_SIZE) % self.alignment for index in range(self.alignment))
         return tuple(entry(self.layouts[start]) if start in self.layouts else None for start in starts)
 
 
 def plan_run(codes: str, start: Offset, order: str, *, after_text: bool) -> Run:
-    """Lays neighbouring numbers out for every offset they can start at."""
+    """Return the layouts of adjacent numbers for every offset that they can start at."""
     alignment = max((_SIZES[code] for code in codes), default=1)
     layouts: dict[int, struct.Struct] = {}
     end: Offset | None = None
@@ -79,7 +79,7 @@ def plan_run(codes: str, start: Offset, order: str, *, after_text: bool) -> Run:
 
 
 def smallest_size(type_: AbstractType) -> int:
-    """The least number of bytes a value can take; never 0, so that a length can be held against what is there."""
+    """Return the smallest size of a value in bytes; at least 1, so that lengths can be checked against the data."""
     if isinstance(type_, NamespacedType):
         cls = find("/".join(type_.namespaced_name()))
         return max(1, sum(map(smallest_size, cls.SLOT_TYPES)))

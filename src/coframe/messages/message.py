@@ -1,4 +1,4 @@
-"""What all message, service and action classes share."""
+"""Base classes of all message, service and action classes."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from coframe.messages.registry import classes
 
 
 class MessageType(type):
-    """The class of message classes: keeps their constants constant."""
+    """The metaclass of message classes, which makes their constants read-only."""
 
     def __setattr__(cls, name: str, value: Any) -> None:
         if name.isupper():
-            raise AttributeError(f"{cls.__name__}.{name} is a constant; it cannot be assigned")
+            raise AttributeError(f"{cls.__name__}.{name} is a constant and cannot be assigned")
         super().__setattr__(name, value)
 
 
 class Message(metaclass=MessageType):
-    """A message. Its class gives ROS_TYPE, ``__slots__`` and SLOT_TYPES; the attributes follow from them."""
+    """A message. Its class defines ROS_TYPE, ``__slots__`` and SLOT_TYPES, from which the attributes are made."""
 
-    # Slots take the names _field: what is private here must not look like one.
+    # The slots are named _field. Private names of this class begin with two underscores to be different from them.
     __slots__: ClassVar[list[str]] = []
     ROS_TYPE: ClassVar[str]
     SLOT_TYPES: ClassVar[tuple[AbstractType, ...]]
@@ -33,17 +33,17 @@ class Message(metaclass=MessageType):
 
     def __init_subclass__(cls) -> None:
         if "SLOT_TYPES" not in cls.__dict__:
-            return  # a user's subclass of a message
+            return  # A subclass that a user has derived from a message class.
         fields = {slot[1:]: type_ for slot, type_ in zip(cls.__slots__, cls.SLOT_TYPES, strict=True)}
         for name, type_ in fields.items():
             setattr(cls, name, attribute(name, type_, cls.__dict__[f"_{name}"]))
         cls._fields_and_field_types = {name: describe(type_) for name, type_ in fields.items()}
         conversions = {name: constructor_conversion(type_) for name, type_ in fields.items()}
         cls.__conversions = {name: convert for name, convert in conversions.items() if convert}
-        _announce(cls)
+        _register(cls)
 
     def __init__(self, **fields: Any) -> None:
-        """Takes over what a constructor was given; the generated ones have set the defaults before."""
+        """Set the fields that are passed to the constructor; generated constructors have set the defaults before."""
         unknown = fields.keys() - self._fields_and_field_types.keys() if CHECKED else ()
         assert not unknown, f"Invalid arguments passed to constructor: {', '.join(sorted(unknown))}"
         for name in self._fields_and_field_types:
@@ -53,7 +53,7 @@ class Message(metaclass=MessageType):
 
     @classmethod
     def get_fields_and_field_types(cls) -> dict[str, str]:
-        """The name and the type of each field, in order, as a new dict."""
+        """Return the type of each field by name, in order, as a new dict."""
         return dict(cls._fields_and_field_types)
 
     def __values(self) -> list[Any]:
@@ -73,30 +73,30 @@ class Message(metaclass=MessageType):
 
 
 class Service:
-    """A service: the pair of its classes Request and Response, never an object."""
+    """Base class of services, which contain the classes Request and Response and have no instances."""
 
     ROS_TYPE: ClassVar[str]
 
     def __init_subclass__(cls) -> None:
-        _announce(cls)
+        _register(cls)
 
     def __init__(self) -> None:
         raise NotImplementedError("Service classes can not be instantiated")
 
 
 class Action:
-    """An action: its classes Goal, Result and Feedback, and in Impl what carries them; never an object."""
+    """Base class of actions, which contain Goal, Result, Feedback and Impl and have no instances."""
 
     ROS_TYPE: ClassVar[str]
 
     def __init_subclass__(cls) -> None:
-        _announce(cls)
+        _register(cls)
 
     def __init__(self) -> None:
         raise NotImplementedError("Action classes can not be instantiated")
 
 
-def _announce(cls: type[Message | Service | Action]) -> None:
+def _register(cls: type[Message | Service | Action]) -> None:
     package, kind, _ = cls.ROS_TYPE.split("/")
     cls.__module__ = f"{package}.{kind}"
     classes[cls.ROS_TYPE] = cls
@@ -109,7 +109,7 @@ def _differ(left: Any, right: Any) -> bool:
 
 
 def _show(value: Any, type_: AbstractType) -> str:
-    """The repr of a field's value; sequences of numbers without the array.array around them."""
+    """Return the repr of a field's value; sequences of numbers are shown without ``array(...)`` around them."""
     if isinstance(type_, AbstractSequence) and number_of(type_):
         return repr(value)[len("array('X', ") : -1] if len(value) else "[]"
     return repr(value)

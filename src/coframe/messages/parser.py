@@ -1,4 +1,4 @@
-"""Reads interface definitions: the text of ``.msg``, ``.srv`` and ``.action`` files."""
+"""Parser for interface definitions: the text of ``.msg``, ``.srv`` and ``.action`` files."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from coframe.messages.definition import (
     UnboundedWString,
 )
 
-# rosidl turns these names of .msg files into IDL's; `char` is a number there.
+# Type names in .msg files that have another name in IDL. rosidl maps `char` to a number.
 _IDL_NAMES = {"bool": "boolean", "byte": "octet", "char": "uint8", "float32": "float", "float64": "double"}
 _INTEGERS = {f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}
 
@@ -31,7 +31,7 @@ _SEPARATOR = re.compile(r"^---[ \t]*$", re.MULTILINE)
 
 
 class Field(NamedTuple):
-    """One field; default is None where the file gives none."""
+    """A field; its default is None if the file has none."""
 
     name: str
     type: AbstractType
@@ -39,7 +39,7 @@ class Field(NamedTuple):
 
 
 class Constant(NamedTuple):
-    """One constant; the value of an octet is bytes of length 1, as in Python's messages."""
+    """A constant; the value of an octet is bytes of length 1, as in Python messages."""
 
     name: str
     type: AbstractNestableType
@@ -47,7 +47,7 @@ class Constant(NamedTuple):
 
 
 class Structure(NamedTuple):
-    """What one message is made of, in the file's order; comment is the text of the lines that open the file."""
+    """The fields and constants of one message in file order, and the comment at the beginning of the file."""
 
     fields: list[Field]
     constants: list[Constant]
@@ -55,15 +55,15 @@ class Structure(NamedTuple):
 
 
 def parse(text: str, package: str, parts: int = 1) -> list[Structure]:
-    """Parses a definition file.
+    """Parse the text of a definition file.
 
     Args:
-        text: the file's content.
-        package: where type names without a package belong.
-        parts: how many structures the file must have: 1 for a message, 2 for a service, 3 for an action.
+        text: The content of the file.
+        package: The package of type names without a package.
+        parts: The number of structures: 1 for a message, 2 for a service, 3 for an action.
 
     Raises:
-        ValueError: a line or the number of parts is not what the format allows.
+        ValueError: A line is not valid, or the number of parts is different.
     """
     pieces = _SEPARATOR.split(text)
     if len(pieces) != parts:
@@ -100,7 +100,7 @@ def _opening_comment(text: str) -> str:
 
 
 def _without_comment(line: str) -> str:
-    """The line up to a ``#`` that is not inside a quoted text."""
+    """Return the line up to a ``#`` that is not inside a quoted string."""
     return re.sub(r"""^((?:[^#"']|"[^"]*"|'[^']*')*)#.*$""", r"\1", line).strip()
 
 
@@ -111,7 +111,7 @@ def _nestable(name: str, package: str) -> AbstractNestableType:
     if name == "wstring":
         return BoundedWString(int(bound)) if bound else UnboundedWString()
     if bound:
-        raise ValueError(f"only texts have a bound of their own, not {name}")
+        raise ValueError(f"only strings can have a bound, not {name}")
     if name in _IDL_NAMES or name in _INTEGERS:
         return BasicType(_IDL_NAMES.get(name, name))
     owner, _, message = name.rpartition("/")

@@ -1,4 +1,4 @@
-"""Finds message, service and action classes by their ROS type name."""
+"""The registry of message, service and action classes by ROS type name."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from typing import Any
 
 _TYPE_NAME = re.compile(r"([a-z][a-z0-9_]*)/(msg|srv|action)/([A-Za-z]\w*)")
 
-# Every class announces itself here when it is made, by its ROS type name.
+# Classes by ROS type name; each class is added when it is created.
 classes: dict[str, Any] = {}
 
 
 def find(ros_type: str) -> Any:
-    """The class of a ROS type.
+    """Return the class of a ROS type.
 
     Args:
-        ros_type: the full name, for example ``tf2_msgs/msg/TFMessage``, ``std_srvs/srv/SetBool`` or
+        ros_type: The full name, such as ``tf2_msgs/msg/TFMessage``, ``std_srvs/srv/SetBool`` or
             ``std_srvs/srv/SetBool_Request``.
 
     Raises:
-        LookupError: the name is not a full one, or there is no such type.
+        LookupError: The name is not a full type name, or coframe does not have the type.
     """
     if ros_type in classes:
         return classes[ros_type]
     match = _TYPE_NAME.fullmatch(ros_type)
     if match is None:
-        raise LookupError(f"{ros_type!r} is not the full name of a ROS type; write it like 'geometry_msgs/msg/Pose'")
+        raise LookupError(f"{ros_type!r} is not a full ROS type name such as 'geometry_msgs/msg/Pose'")
     package, kind, name = match.groups()
     module = f"{__package__}.generated.{package}.{kind}"
     try:
@@ -34,7 +34,7 @@ def find(ros_type: str) -> Any:
     except ModuleNotFoundError as error:
         if error.name is None or not module.startswith(error.name):
             raise
-        raise LookupError(f"there is no {ros_type}: coframe has no package {package} with {kind} types") from None
+        raise LookupError(f"no type {ros_type}: coframe has no package {package} with {kind} types") from None
     if ros_type not in classes:
-        raise LookupError(f"there is no {ros_type}: package {package} has no {kind} type {name}")
+        raise LookupError(f"no type {ros_type}: package {package} has no {kind} type {name}")
     return classes[ros_type]

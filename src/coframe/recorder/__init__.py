@@ -1,6 +1,6 @@
-"""Between the wire and recordings: `record` writes down what is said on the graph, `play` says it again.
+"""Recording of topics to a bag, and replay of a bag on the graph.
 
-It stands on `bags`, which knows files only, and on `wire`, which knows the graph only.
+It connects `bags`, which reads and writes files, with `wire`, which communicates with the graph.
 """
 
 from coframe.recorder.player import FASTEST, Player, play

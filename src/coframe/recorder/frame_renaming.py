@@ -1,4 +1,4 @@
-"""The frames in messages of one robot, under other names: what a recorder makes of them before they are written."""
+"""Renaming of the frames in the messages of one robot, before they are recorded."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ __all__ = ["FrameRenamer"]
 
 
 class FrameRenamer:
-    """Renames the frames in the messages of a robot's topics.
+    """Renames the frames in messages on the topics of one robot.
 
     Args:
-        names: What they are called.
-        tf_topic: Where the robot's transforms are sent; the other topics of its namespace are the robot's, too.
-        tf_static_topic: Where its static transforms are sent.
+        names: The renaming.
+        tf_topic: The topic of the robot's transforms. All topics in its namespace belong to the robot.
+        tf_static_topic: The topic of the robot's static transforms.
 
     Attributes:
-        not_renamed: Topics whose frames keep their names, as nobody says what their messages are made of; keys, since
-            they are in order and there once.
+        not_renamed: The topics whose frames cannot be renamed because the definition of their type is not known. A
+            dict is used as an ordered set.
     """
 
     def __init__(self, names: _core.Renaming, tf_topic: str, tf_static_topic: str) -> None:
@@ -35,15 +35,15 @@ class FrameRenamer:
         self._plans: dict[Source, FrameNames | None] = {}
 
     def renamed(self, source: Source, data: bytes) -> bytes:
-        """The message with its new names; as it is where it has none, or is damaged."""
+        """Return the message with renamed frames; unchanged if it has no frames or is damaged."""
         if source not in self._plans:
             self._plans[source] = self._plan(source)
         frames = self._plans[source]
         if frames is None:
             return data
         try:
-            return frames.renamed(data, self._names)[0]
-        except Exception:  # noqa: BLE001 - the library has many ways to say that bytes are damaged
+            return frames.rename(data, self._names)[0]
+        except Exception:  # noqa: BLE001 - decoding damaged bytes can raise many exceptions
             return data
 
     def _plan(self, source: Source) -> FrameNames | None:
@@ -52,4 +52,4 @@ class FrameRenamer:
         frames = FrameNames.of(Channel(source.topic, source.type, "cdr"), source.type)
         if frames is None:
             self.not_renamed[source.topic] = None
-        return frames if frames and frames.are_there else None
+        return frames if frames and frames.exist else None

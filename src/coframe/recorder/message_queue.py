@@ -1,4 +1,4 @@
-"""What was received and is not yet on the disk: a queue with a limit, between the wire and a disk that may be slow."""
+"""The queue of received messages that are not on the disk yet. Its size is limited, because the disk may be slow."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from typing import NamedTuple
 
 __all__ = ["MessageQueue", "ReceivedMessage", "Source"]
 
-_OVERHEAD = 200  # bytes of a message in Python besides its own
+_OVERHEAD = 200  # bytes that Python needs for a message in addition to its data
 
 
 class Source(NamedTuple):
-    """Where messages come from.
+    """The origin of messages.
 
     Attributes:
-        topic: With its slash.
-        type: Of ROS.
-        latched: Whether late joiners are given its last messages, as those of /tf_static.
+        topic: The fully qualified name of the topic.
+        type: The ROS type.
+        latched: Whether the publishers are transient local, as those of /tf_static are.
     """
 
     topic: str
@@ -27,7 +27,15 @@ class Source(NamedTuple):
 
 
 class ReceivedMessage(NamedTuple):
-    """A message. Times are nanoseconds."""
+    """A received message.
+
+    Attributes:
+        source: The topic and its type.
+        data: The serialized message.
+        received: The time of arrival, in nanoseconds since 1970.
+        published: The time of publication, in nanoseconds since 1970.
+        publisher: The handle of the publisher.
+    """
 
     source: Source
     data: bytes
@@ -37,12 +45,16 @@ class ReceivedMessage(NamedTuple):
 
 
 class MessageQueue:
-    """A queue of messages. When it is full, the oldest message makes room, and is counted.
+    """A queue of messages with a limited size. If it is full, the oldest message is dropped and counted.
 
-    Latched messages stay, for they are not said again: they go only if they alone fill the queue.
+    Latched messages are published only once, so they are dropped only if no other message is left.
 
     Args:
-        limit: Bytes that it may hold.
+        limit: The size limit in bytes.
+
+    Attributes:
+        size: The current size in bytes.
+        dropped: The number of dropped messages by topic.
     """
 
     def __init__(self, limit: int) -> None:
@@ -51,11 +63,11 @@ class MessageQueue:
         self._messages: deque[ReceivedMessage] = deque()
         self._latched: deque[ReceivedMessage] = deque()
         self._closed = False
-        self.size = 0  # bytes
-        self.dropped: Counter[str] = Counter()  # by topic
+        self.size = 0
+        self.dropped: Counter[str] = Counter()
 
     def put(self, message: ReceivedMessage) -> None:
-        """Takes a message in, without waiting."""
+        """Add a message without waiting."""
         with self._changed:
             (self._latched if message.source.latched else self._messages).append(message)
             self.size += _size(message)
@@ -66,11 +78,14 @@ class MessageQueue:
             self._changed.notify()
 
     def take(self, timeout: float, limit: int) -> list[ReceivedMessage]:
-        """The oldest messages in the order in which they were received; none after `timeout` seconds, or once closed.
+        """Remove and return the oldest messages, in the order in which they were received.
 
         Args:
-            timeout: How long to wait for the first one.
-            limit: Of how many bytes, about.
+            timeout: The time to wait for the first message, in seconds.
+            limit: The approximate number of bytes to return.
+
+        Returns:
+            The messages; none after the timeout or if the queue is closed and empty.
         """
         deadline = time.monotonic() + timeout
         with self._changed:
@@ -80,7 +95,7 @@ class MessageQueue:
                     break
                 self._changed.wait(left)
             taken: list[ReceivedMessage] = []
-            while limit > 0 and (queue := self._older()):
+            while limit > 0 and (queue := self._queue_with_oldest()):
                 taken.append(queue.popleft())
                 self.size -= _size(taken[-1])
                 limit -= _size(taken[-1])
@@ -88,18 +103,18 @@ class MessageQueue:
 
     @property
     def is_done(self) -> bool:
-        """Whether it is closed and empty."""
+        """Whether the queue is closed and empty."""
         with self._changed:
             return self._closed and not (self._messages or self._latched)
 
     def close(self) -> None:
-        """Nothing more will come."""
+        """Mark the queue as complete: no further messages are added."""
         with self._changed:
             self._closed = True
             self._changed.notify_all()
 
-    def _older(self) -> deque[ReceivedMessage]:
-        """The queue with the older message in front; an empty one if there is none."""
+    def _queue_with_oldest(self) -> deque[ReceivedMessage]:
+        """Return the queue whose first message is older; an empty queue if both are empty."""
         if not self._latched or not self._messages:
             return self._latched or self._messages
         return self._latched if self._latched[0].received <= self._messages[0].received else self._messages

@@ -1,24 +1,26 @@
-"""When what is played is due: a clock of recorded time that can be paused, stepped, sped up and stopped."""
+"""The clock of a replay: recorded time that can be paused, stepped, scaled and stopped."""
 
 from __future__ import annotations
 
 import threading
 import time
 
+from coframe.time import SECOND
+
 __all__ = ["PlaybackClock"]
 
-_LONGEST_WAIT = 3600.0  # seconds: beyond a month, the operating system refuses to wait
+_LONGEST_WAIT = 3600.0  # seconds; the operating system rejects waits that are longer than a month
 
 
 class PlaybackClock:
-    """Recorded time as it passes while a recording is played, from the first `jump` on.
+    """The recorded time during a replay. It starts to run with the first call of `jump`.
 
-    Times are nanoseconds; any thread may call.
+    Times are nanoseconds. All methods are thread-safe.
 
     Args:
-        start: Where it begins.
-        rate: Seconds of the recording in a second.
-        paused: Whether it stands still at first.
+        start: The initial recorded time.
+        rate: The recorded seconds per second.
+        paused: Whether the clock is paused at first.
     """
 
     def __init__(self, start: int, rate: float, *, paused: bool) -> None:
@@ -32,18 +34,18 @@ class PlaybackClock:
 
     @property
     def now(self) -> int:
-        """The recorded time."""
+        """The current recorded time."""
         with self._changed:
             return self._now()
 
     @property
     def rate(self) -> float:
-        """Seconds of the recording in a second."""
+        """The recorded seconds per second."""
         return self._rate
 
     @property
     def paused(self) -> bool:
-        """Whether it stands still."""
+        """Whether the clock is paused."""
         return self._paused
 
     @property
@@ -52,20 +54,20 @@ class PlaybackClock:
         return self._stopped
 
     def jump(self, to: int) -> None:
-        """Goes on from another time."""
+        """Set the recorded time and start the clock."""
         with self._changed:
             self._base, self._since = to, time.monotonic_ns()
             self._changed.notify_all()
 
     def set_rate(self, rate: float) -> None:
-        """Goes on at another rate."""
+        """Set the rate: recorded seconds per second."""
         with self._changed:
             self._anchor()
             self._rate = rate
             self._changed.notify_all()
 
     def set_paused(self, paused: bool) -> None:
-        """Stands still, or goes on."""
+        """Pause the clock, or resume it."""
         with self._changed:
             self._anchor()
             self._paused = paused
@@ -73,20 +75,20 @@ class PlaybackClock:
             self._changed.notify_all()
 
     def step(self) -> None:
-        """Lets one `wait_until` pass although it stands still."""
+        """Let one call of `wait_until` return although the clock is paused."""
         with self._changed:
             if self._paused:
                 self._steps += 1
                 self._changed.notify_all()
 
     def stop(self) -> None:
-        """Ends all waiting, now and from now on."""
+        """Stop the clock. All current and future waits return at once."""
         with self._changed:
             self._stopped = True
             self._changed.notify_all()
 
     def wait_until(self, moment: int) -> bool:
-        """Waits for a recorded time, or a step: False once stopped."""
+        """Wait for a recorded time or a step. Return False if the clock is stopped."""
         with self._changed:
             while not self._stopped:
                 if self._paused:
@@ -96,14 +98,14 @@ class PlaybackClock:
                         return True
                     self._changed.wait()
                     continue
-                left = (moment - self._now()) / self._rate * 1e-9
+                left = (moment - self._now()) / self._rate / SECOND
                 if left <= 0:
                     return True
                 self._changed.wait(min(left, _LONGEST_WAIT))
             return False
 
     def sleep(self, seconds: float) -> bool:
-        """Waits, whether it stands still or not: False once stopped."""
+        """Wait for some seconds of real time, even if paused. Return False if the clock is stopped."""
         with self._changed:
             return not self._changed.wait_for(lambda: self._stopped, seconds)
 

@@ -1,4 +1,4 @@
-"""`coframe.play()`: a recording said again on the graph, in its order and at its pace."""
+"""`coframe.play()`: the replay of a recording on the graph."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from coframe.frame_names import absolute, renaming
 from coframe.messages import find, serialize
 from coframe.recorder.playback_clock import PlaybackClock
 from coframe.recorder.topic_publishers import TopicPublishers
-from coframe.time import duration_ns
+from coframe.time import SECOND, duration_ns
 from coframe.wire import Participant, QoS
 
 if TYPE_CHECKING:
@@ -31,17 +31,16 @@ __all__ = ["FASTEST", "Player", "play"]
 FASTEST = 1000.0  # times as fast as recorded
 _CLOCK, _CLOCK_TYPE = "/clock", "rosgraph_msgs/msg/Clock"
 _FASTEST_CLOCK = 1000.0  # Hz
-_LINGER = 0.3  # seconds: what was said last is to arrive
-_NS = 1_000_000_000
+_LINGER = 0.3  # seconds to keep the publishers open, so that the last messages are delivered
 
 
 class Player:
-    """What `play` gives; usable as a context manager. Any thread may call.
+    """A running replay. Created by :func:`play`; can be used as a context manager. All methods are thread-safe.
 
     Attributes:
-        recording: What is played.
-        clock: Recorded time: pause, step, rate.
-        played: How many messages were said so far.
+        recording: The recording.
+        clock: The clock of the recorded time.
+        played: The number of messages published so far.
     """
 
     def __init__(
@@ -72,39 +71,45 @@ class Player:
         self._participant = Participant.get(domain)
         try:
             self._node = self._participant.add_node("/", "coframe_play")
-            self._outlets = TopicPublishers(self._participant, self._node, recording, topics, remap, names)
+            self._publishers = TopicPublishers(self._participant, self._node, recording, topics, remap, names)
         except BaseException:
             self._participant.close()
             raise
         self._threads = [threading.Thread(target=self._guarded, name="coframe-play", daemon=True)]
         if clock is not None:
-            publisher = self._outlets.publisher(_CLOCK, _CLOCK_TYPE, QoS(depth=1))
+            publisher = self._publishers.publisher(_CLOCK, _CLOCK_TYPE, QoS(depth=1))
             self._threads.append(
-                threading.Thread(target=self._tell_time, args=(publisher,), name="coframe-play-clock", daemon=True)
+                threading.Thread(target=self._publish_clock, args=(publisher,), name="coframe-play-clock", daemon=True)
             )
         for thread in self._threads:
             thread.start()
 
     @property
     def position(self) -> int:
-        """The recorded time that is being played, in nanoseconds."""
+        """The recorded time of the replay, in nanoseconds."""
         return min(max(self.clock.now, self._start), self.recording.end)
 
     @property
     def problems(self) -> list[str]:
-        """What is not played, a sentence each."""
-        return self._outlets.problems
+        """A text for each topic or message that cannot be replayed."""
+        return self._publishers.problems
 
     @property
     def is_playing(self) -> bool:
-        """Whether it has not come to its end."""
+        """Whether the replay has not ended."""
         return self._threads[0].is_alive()
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Waits for the end; False if that has not come within `timeout` seconds.
+        """Wait for the end of the replay.
+
+        Args:
+            timeout: The timeout in seconds. If None, there is no timeout.
+
+        Returns:
+            True at the end, False after the timeout.
 
         Raises:
-            OSError: The recording is no longer there, for example.
+            OSError: The recording cannot be read, for example because it was deleted.
         """
         self._threads[0].join(timeout)
         if self._threads[0].is_alive():
@@ -114,27 +119,27 @@ class Player:
         return True
 
     def pause(self) -> None:
-        """Stands still."""
+        """Pause the replay."""
         self.clock.set_paused(True)
 
     def resume(self) -> None:
-        """Goes on."""
+        """Resume the replay."""
         self.clock.set_paused(False)
 
     def step(self) -> None:
-        """Says the next message although it stands still."""
+        """Publish the next message while the replay is paused."""
         self.clock.step()
 
     def set_rate(self, rate: float) -> None:
-        """Goes on at another rate: seconds of the recording in a second.
+        """Set the rate of the replay: recorded seconds per second.
 
         Raises:
-            ValueError: It is not above 0, or above `FASTEST`.
+            ValueError: The rate is not above 0 and at most `FASTEST`.
         """
         self.clock.set_rate(_checked_rate(rate))
 
     def close(self) -> None:
-        """Stops and leaves the graph. Closing twice does no harm."""
+        """Stop the replay and leave the graph. A second call has no effect."""
         with self._closing:
             if self._closed:
                 return
@@ -155,37 +160,37 @@ class Player:
     def _guarded(self) -> None:
         try:
             self._play()
-        except Exception as error:  # noqa: BLE001 - it is raised again in the thread that waits
+        except Exception as error:  # noqa: BLE001 - `wait` raises it in the thread of the caller
             self._error = error
         finally:
             self.clock.sleep(_LINGER)
             self.clock.stop()
 
     def _play(self) -> None:
-        self._outlets.say_latched(self._start)
-        # Publishers and subscribers find each other while nothing is said that would be missed.
+        self._publishers.publish_latched(self._start)
+        # Discovery needs time: messages that are published before subscriptions match would be lost.
         if not self.clock.sleep(self._delay):
             return
         self.clock.jump(self._start)
         while self._play_once() and self._loop:
             self.clock.jump(self._start)
-            self._outlets.say_latched(self._start)
+            self._publishers.publish_latched(self._start)
 
     def _play_once(self) -> bool:
-        """From the start to the end: False if it was stopped on the way."""
-        for channel, received, data in self.recording.in_order(self._outlets.topics, self._start):
+        """Publish the recording once. Return False if the replay was stopped."""
+        for channel, received, data in self.recording.in_order(self._publishers.topics, self._start):
             if not self.clock.wait_until(received):
                 return False
-            if self._outlets.say(channel, data):
+            if self._publishers.publish(channel, data):
                 self.played += 1
         return self.clock.wait_until(self.recording.end)
 
-    def _tell_time(self, publisher: Publisher) -> None:
+    def _publish_clock(self, publisher: Publisher) -> None:
         kind, stamp = find(_CLOCK_TYPE), find("builtin_interfaces/msg/Time")
         period = 1.0 / (self._clock_rate or 1.0)
         due = time.monotonic()
         while not self.clock.stopped:
-            seconds, nanoseconds = divmod(self.position, _NS)
+            seconds, nanoseconds = divmod(self.position, SECOND)
             publisher.write(serialize(kind(clock=stamp(sec=seconds, nanosec=nanoseconds))))
             due = max(due + period, time.monotonic())
             self.clock.sleep(max(due - time.monotonic(), 0.0))
@@ -193,7 +198,7 @@ class Player:
 
 def _checked_rate(rate: float) -> float:
     if not 0.0 < rate <= FASTEST:
-        raise ValueError(f"a recording is played at a rate above 0 and up to {FASTEST:g}, not {rate:g}")
+        raise ValueError(f"the rate of a replay must be above 0 and at most {FASTEST:g}, not {rate:g}")
     return rate
 
 
@@ -212,29 +217,31 @@ def play(
     prefix: str = "",
     keep: Iterable[str] = (),
 ) -> Player:
-    """Says a recording again on the graph, in the background, in its order and at its pace.
+    """Replay a recording on the graph in the background: publish its messages in order and at their original rate.
 
-    Latched messages come first, wherever playing starts: all static transforms of the recording, and of other latched
-    topics the last message before the start; whoever joins later is given them, too.
+    Latched messages are published first, wherever the replay starts: all static transforms of the recording, and the
+    last message before the start on other latched topics. Late-joining subscriptions receive them, too.
 
     Args:
-        path: A file, or a folder of rosbag2; a bag of ROS 1 as far as ROS 2 has its types.
-        topics: Which topics; None: all.
-        remap: Other names for topics: {"/tf": "/robot1/tf"}.
-        rate: Seconds of the recording in a second.
-        loop: Whether it starts again at its end. Stamps and /clock then jump back.
-        start_offset: How far from the beginning it starts, such as "10s".
-        paused: Whether it stands still at first.
-        clock: How often a second /clock is told, in place of what was recorded of it; None: as recorded.
-        delay: How long it waits before the first message, so that subscribers miss nothing.
-        domain: The ROS domain, 0 to 232; None: ROS_DOMAIN_ID, or 0.
-        prefix: In front of the names of frames in all messages, as it is: ``robot1/`` makes ``robot1/base_link``.
-        keep: The frames that get no prefix, as they are shared: ``["map"]``.
+        path: A file or a rosbag2 folder. Bags of ROS 1 are supported as far as ROS 2 has the types of their messages.
+        topics: The topics to replay. If None, all topics are replayed.
+        remap: A mapping from recorded topic names to published topic names: {"/tf": "/robot1/tf"}.
+        rate: The rate in recorded seconds per second, above 0 and at most 1000.
+        loop: Whether to start again at the end. Stamps and /clock then jump back.
+        start_offset: The start of the replay, relative to the start of the recording, such as "10s".
+        paused: Whether the replay is paused at first.
+        clock: The rate at which /clock is published, in Hz, up to 1000. Recorded messages on /clock are then skipped.
+            If None, /clock is replayed like any other topic.
+        delay: The time before the first message, such as "1s", in which subscriptions can match.
+        domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
+        prefix: A prefix for the frames in all messages, used as given: ``robot1/`` makes ``robot1/base_link`` of
+            ``base_link``.
+        keep: The frames that are shared by robots and get no prefix: ``["map"]``.
 
     Raises:
-        RecordingError: Nothing of it can be read, it has no such topic, or ends before the start.
-        WireError: cyclonedds is missing, or DDS does not let us in.
-        ValueError: One of the arguments makes no sense.
+        RecordingError: The recording cannot be read, has no such topic, or ends before the start.
+        WireError: cyclonedds is not installed, or DDS cannot join the graph.
+        ValueError: An argument has an invalid value.
 
     Example:
         >>> with coframe.play("run", rate=2.0) as player:                              # doctest: +SKIP
@@ -242,7 +249,7 @@ def play(
     """
     _checked_rate(rate)
     if clock is not None and not 0.0 < clock <= _FASTEST_CLOCK:
-        raise ValueError(f"/clock is told up to {_FASTEST_CLOCK:g} times a second, not {clock:g}")
+        raise ValueError(f"the rate of /clock must be above 0 Hz and at most {_FASTEST_CLOCK:g} Hz, not {clock:g}")
     names = renaming(prefix, keep)
     recording = open_bag(Path(path))
     try:
@@ -256,7 +263,7 @@ def play(
             start=_start(recording, duration_ns(start_offset)),
             paused=paused,
             clock=clock,
-            delay=duration_ns(delay) / _NS,
+            delay=duration_ns(delay) / SECOND,
             domain=domain,
             names=names,
         )
@@ -266,22 +273,23 @@ def play(
 
 
 def _chosen(recording: Recording, topics: Iterable[str] | None) -> set[str]:
-    there = set(recording.topics)
+    available = set(recording.topics)
     if topics is None:
-        return there
-    wanted = set(map(absolute, topics))
-    if missing := wanted - set(map(absolute, there)):
+        return available
+    requested = set(map(absolute, topics))
+    if missing := requested - set(map(absolute, available)):
         raise RecordingError(
             f"{recording.path} has no topic {', '.join(sorted(missing))}",
-            hint=f"It has {', '.join(sorted(there)) or 'none'}.",
+            hint=f"Its topics: {', '.join(sorted(available)) or 'none'}.",
         )
-    return {topic for topic in there if absolute(topic) in wanted}
+    return {topic for topic in available if absolute(topic) in requested}
 
 
 def _start(recording: Recording, offset: int) -> int:
     if not 0 <= offset <= recording.duration:
+        duration = f"{recording.duration / SECOND:.3f} s"
         raise RecordingError(
-            f"{recording.path} lasts {recording.duration / _NS:.3f} s: it cannot start at {offset / _NS:.3f} s",
-            hint="Choose another start.",
+            f"{recording.path} lasts {duration}: the replay cannot start at {offset / SECOND:.3f} s",
+            hint=f"Choose a start offset from 0 to {duration}.",
         )
     return recording.start + offset

@@ -1,4 +1,4 @@
-"""`coframe.record()`: what is said on the graph, written down by two threads, of which one may be slow."""
+"""`coframe.record()`: recording of topics, with one thread that receives and one that writes to the disk."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from coframe.bags import OfferedQos, RecordingError, Writer
 from coframe.frame_names import renaming
 from coframe.recorder.frame_renaming import FrameRenamer
 from coframe.recorder.message_queue import MessageQueue, ReceivedMessage
-from coframe.recorder.topic_subscriptions import Subscriptions, Wanted
+from coframe.recorder.topic_subscriptions import TopicFilter, TopicSubscriptions
+from coframe.time import MILLISECOND
 from coframe.wire import Participant
 
 if TYPE_CHECKING:
@@ -25,23 +26,23 @@ if TYPE_CHECKING:
 __all__ = ["DEFAULT_BACKLOG", "Recorder", "RecorderStatistics", "record"]
 
 DEFAULT_BACKLOG = 128 << 20  # bytes
-_FLUSH_PERIOD = 0.5  # seconds: with the time that a flush takes, at most the last second is lost
-_LISTEN_PERIOD_NS = 100_000_000
+_FLUSH_PERIOD = 0.5  # seconds; including the duration of a flush, at most the last second is lost
+_RECEIVE_PERIOD = 100 * MILLISECOND
 _BATCH = 1 << 20  # bytes
 
 
 class RecorderStatistics(NamedTuple):
-    """How a recorder is doing.
+    """The statistics of a recorder.
 
     Attributes:
-        messages: On the disk.
-        size: Bytes of the files.
-        topics: How many were joined.
-        waiting: Bytes that were received and are not on the disk yet.
-        dropped: Messages by topic that the disk was too slow for.
-        missing: Topics that were asked for by name and that nobody publishes on yet.
-        refused: Topics that cannot be joined: their type is not ROS's, or there are too many.
-        not_renamed: Topics whose frames get no prefix, as nobody says what their messages are made of.
+        messages: The number of messages written.
+        size: The size of the files in bytes.
+        topics: The number of subscribed topics.
+        waiting: The size of the received messages that are not written yet, in bytes.
+        dropped: The number of messages, by topic, that were dropped because the disk was too slow.
+        missing: The topics that were requested by name and have no publisher yet.
+        refused: The topics that cannot be recorded: their type is not a ROS type, or there are too many topics.
+        not_renamed: The topics whose frames get no prefix because the definition of their type is not known.
     """
 
     messages: int
@@ -55,16 +56,16 @@ class RecorderStatistics(NamedTuple):
 
 
 class Recorder:
-    """What `record` gives; usable as a context manager. Any thread may ask.
+    """A running recording. Created by :func:`record`; can be used as a context manager. All methods are thread-safe.
 
     Attributes:
-        writer: What writes the files.
+        writer: The writer of the files.
     """
 
     def __init__(
         self,
         writer: Writer,
-        wanted: Wanted,
+        topic_filter: TopicFilter,
         *,
         domain: int | None,
         backlog: int,
@@ -72,10 +73,10 @@ class Recorder:
         frames: FrameRenamer | None = None,
     ) -> None:
         self.writer = writer
-        self._wanted = wanted
+        self._filter = topic_filter
         self._on_topic = on_topic
         self._frames = frames
-        self._backlog = MessageQueue(backlog)
+        self._queue = MessageQueue(backlog)
         self._error: Exception | None = None
         self._ended = threading.Event()
         self._stopping = False
@@ -85,42 +86,45 @@ class Recorder:
         try:
             self._node = self._participant.add_node("/", "coframe_record")
             self._data, self._graph = _core.Event(), _core.Event()
-            self._subscriptions = Subscriptions(self._participant, self._node, wanted, self._data)
+            self._subscriptions = TopicSubscriptions(self._participant, self._node, topic_filter, self._data)
             self._participant.watch_graph(self._graph)
         except BaseException:
             self._participant.close()
             raise
         self._graph.set()
         self._threads = [
-            threading.Thread(target=self._guarded, args=(run,), name=f"coframe-record-{name}", daemon=True)
-            for name, run in (("listen", self._listen), ("write", self._write))
+            threading.Thread(target=self._run_guarded, args=(run,), name=f"coframe-record-{name}", daemon=True)
+            for name, run in (("receive", self._receive), ("write", self._write))
         ]
         for thread in self._threads:
             thread.start()
 
     @property
     def statistics(self) -> RecorderStatistics:
-        """How it is doing."""
-        joined = self._subscriptions.topics()
+        """The current statistics."""
+        subscribed = self._subscriptions.topics()
         return RecorderStatistics(
             messages=self.writer.messages,
             size=self.writer.size,
-            topics=len(joined),
-            waiting=self._backlog.size,
-            dropped=dict(self._backlog.dropped),
-            missing=self._wanted.missing(joined),
+            topics=len(subscribed),
+            waiting=self._queue.size,
+            dropped=dict(self._queue.dropped),
+            missing=self._filter.missing(subscribed),
             refused=sorted(self._subscriptions.refused()),
             not_renamed=[] if self._frames is None else list(self._frames.not_renamed),
         )
 
     def wait(self, timeout: float | None = None) -> bool:
-        """Waits until recording has ended by itself, which it does only when something fails: True, or an exception.
+        """Wait until the recording ends, which happens if it is closed or fails.
 
         Args:
-            timeout: Seconds; None: for ever.
+            timeout: The timeout in seconds. If None, there is no timeout.
+
+        Returns:
+            True if the recording has ended, False after the timeout.
 
         Raises:
-            RecordingError: The disk is full, for example.
+            RecordingError: Writing failed, for example because the disk is full.
         """
         if not self._ended.wait(timeout):
             return False
@@ -129,10 +133,10 @@ class Recorder:
         return True
 
     def close(self) -> None:
-        """Writes what was received so far and ends the files. Closing twice does no harm.
+        """Write the messages received so far and close the files. A second call has no effect.
 
         Raises:
-            RecordingError: The disk is full, for example; what was written before can be read.
+            RecordingError: Writing failed, for example because the disk is full. The files up to then are readable.
         """
         with self._closing:
             if self._stopping:
@@ -158,36 +162,36 @@ class Recorder:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    def _guarded(self, run: Callable[[], None]) -> None:
-        """Whatever ends a thread ends the recording, and `wait` and `close` tell of it."""
+    def _run_guarded(self, run: Callable[[], None]) -> None:
+        """Run the function of a thread. If it raises, end the recording; `wait` and `close` raise it again."""
         try:
             run()
-        except Exception as error:  # noqa: BLE001 - it is raised again in the thread that waits
+        except Exception as error:  # noqa: BLE001 - `wait` and `close` raise it in the thread of the caller
             self._error = self._error or error
             self._ended.set()
 
-    def _listen(self) -> None:
+    def _receive(self) -> None:
         try:
             while not (self._stopping or self._ended.is_set()):
-                self._listen_once()
-                self._data.wait(_LISTEN_PERIOD_NS)
-            self._listen_once()
+                self._receive_once()
+                self._data.wait(_RECEIVE_PERIOD)
+            self._receive_once()
         finally:
-            self._backlog.close()
+            self._queue.close()
 
-    def _listen_once(self) -> None:
+    def _receive_once(self) -> None:
         if self._graph.wait(0):
             for topic, ros_type, offered in self._subscriptions.refresh():
                 profiles = (OfferedQos(qos.depth, qos.reliable, qos.transient_local, qos.keep_all) for qos in offered)
                 self._qos[topic, ros_type] = tuple(dict.fromkeys(profiles))
                 self._on_topic(topic, ros_type)
         for message in self._subscriptions.take():
-            self._backlog.put(message)
+            self._queue.put(message)
 
     def _write(self) -> None:
         due = time.monotonic() + _FLUSH_PERIOD
-        while not self._backlog.is_done:
-            for message in self._backlog.take(max(due - time.monotonic(), 0.0), _BATCH):
+        while not self._queue.is_done:
+            for message in self._queue.take(max(due - time.monotonic(), 0.0), _BATCH):
                 self._put(message)
             if time.monotonic() >= due:
                 self.writer.flush()
@@ -217,47 +221,47 @@ def record(
     prefix: str = "",
     keep: Iterable[str] = (),
 ) -> Recorder:
-    """Writes down what is said on the graph, in the background, until the recorder is closed.
+    """Record topics in the background until the recorder is closed.
 
-    The messages are written as the bytes that they came as, of any type, unless their frames are to be renamed. They
-    are given to the operating system twice a second: if the process is killed, at most the last second is missing, and
-    the files are whole.
+    Messages of any type are written unchanged, unless their frames are renamed. The files are flushed twice per second:
+    if the process is killed, at most the last second is lost, and the files are readable.
 
     Args:
-        path: The folder, which must not be there yet; None: rosbag2_ and the time.
-        topics: Which topics; None: all that are not hidden, or those of `regex`.
-        regex: Also topics whose whole name this matches.
-        exclude: No topics whose whole name this matches.
-        domain: The ROS domain, 0 to 232; None: ROS_DOMAIN_ID, or 0.
+        path: The folder to create. If None, its name is ``rosbag2_`` with the current time.
+        topics: The topics to record. If None, all topics are recorded that are not hidden, or those that match `regex`.
+        regex: A regular expression. Topics whose full name matches it are recorded as well.
+        exclude: A regular expression. Topics whose full name matches it are not recorded.
+        domain: The ROS domain, 0 to 232. If None, it is ROS_DOMAIN_ID, or 0 if that is not set.
         compression: ``zstd``, ``lz4`` or ``none``.
-        max_size: Bytes after which the next file begins; None: never.
-        max_duration: Time after which the next file begins, such as "10min"; None: never.
-        backlog: Bytes that may wait for a slow disk; then the oldest messages make room and are counted.
-        on_topic: Is called with the name and the type of each topic that is joined.
-        tf_topic: Where the transforms of the robot are sent that `prefix` is for; the other topics of its namespace
-            are that robot's, too: of ``/tf`` all.
-        tf_static_topic: Where its static transforms are sent.
-        prefix: In front of the names of frames in all messages of that robot, as it is: ``robot1/`` makes
-            ``robot1/base_link``.
-        keep: The frames that get no prefix, as they are shared: ``["map"]``.
+        max_size: The size in bytes after which a new file is started. If None, it is not limited.
+        max_duration: The duration after which a new file is started, such as "10min". If None, it is not limited.
+        backlog: The size in bytes of the queue for a slow disk. If it is full, the oldest messages are dropped and
+            counted.
+        on_topic: Called with the name and the type of each topic when its recording starts.
+        tf_topic: The topic of the transforms of the robot that `prefix` is for. All topics in its namespace belong to
+            the robot; with ``/tf``, these are all topics.
+        tf_static_topic: The topic of the static transforms of that robot.
+        prefix: A prefix for the frames in all messages of that robot, used as given: ``robot1/`` makes
+            ``robot1/base_link`` of ``base_link``.
+        keep: The frames that are shared by robots and get no prefix: ``["map"]``.
 
     Raises:
-        RecordingError: The folder is there already or cannot be made, or a package is missing.
-        WireError: cyclonedds is missing, or DDS does not let us in.
-        ValueError: One of the arguments makes no sense.
+        RecordingError: The folder exists or cannot be created, or a package is not installed.
+        WireError: cyclonedds is not installed, or DDS cannot join the graph.
+        ValueError: An argument has an invalid value.
 
     Example:
         >>> with coframe.record("run", topics=["/tf", "/tf_static"]) as recorder:     # doctest: +SKIP
         ...     recorder.wait(10.0)
     """
-    wanted = Wanted(topics, regex, exclude)
+    topic_filter = TopicFilter(topics, regex, exclude)
     names = renaming(prefix, keep)
     frames = None if names is None else FrameRenamer(names, tf_topic, tf_static_topic)
     folder = datetime.now().astimezone().strftime("rosbag2_%Y_%m_%d-%H_%M_%S") if path is None else path
-    participant = Participant.get(domain)  # before there is a folder: this is what may fail
+    participant = Participant.get(domain)  # before the folder is created, because this can fail
     try:
         writer = Writer(folder, compression=compression, max_size=max_size, max_duration=max_duration)
-        tell = on_topic or (lambda _topic, _type: None)
-        return Recorder(writer, wanted, domain=domain, backlog=backlog, on_topic=tell, frames=frames)
+        callback = on_topic or (lambda _topic, _type: None)
+        return Recorder(writer, topic_filter, domain=domain, backlog=backlog, on_topic=callback, frames=frames)
     finally:
         participant.close()

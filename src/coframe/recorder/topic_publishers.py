@@ -1,11 +1,11 @@
-"""Where the messages of a recording go when it is played: a publisher for each topic, and the statics together."""
+"""The publishers of a replay: one for each recorded topic; static transforms are merged into one message."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.bags import from_yaml
-from coframe.bags.as_cdr import as_cdr, transforms_of
+from coframe.bags.cdr_conversion import cdr_converter, decode_transforms
 from coframe.bags.message_frames import FrameNames
 from coframe.bags.transforms import is_static
 from coframe.errors import WireError
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
 __all__ = ["TopicPublishers"]
 
 _TF = "tf2_msgs/msg/TFMessage"
-_DEPTH = 100  # messages that a publisher keeps until they have been delivered
-_DEEP = 1000  # in place of all: a subscription that hangs must not stop the others
+_DEPTH = 100  # messages that a publisher keeps until they are delivered
+_KEEP_ALL_DEPTH = 1000  # replaces "keep all", so that one hanging subscription does not block the replay
 
 
-class _Outlet(NamedTuple):
-    """Where the messages of a recorded channel go."""
+class _ChannelPublisher(NamedTuple):
+    """The publisher of a recorded channel, with the conversion of its messages to CDR."""
 
     write: Callable[[bytes], None]
     convert: Callable[[bytes], bytes]
@@ -37,19 +37,19 @@ class _Outlet(NamedTuple):
 
 
 class TopicPublishers:
-    """Publishers for the topics of a recording.
+    """The publishers for the topics of a recording.
 
     Args:
-        participant: Of the graph.
-        node: Whose publishers they are.
-        recording: What is played.
-        topics: Which topics of it.
-        remap: Other names for some of them.
-        names: What the frames in the messages are called; None: as they were recorded.
+        participant: The DDS participant.
+        node: The node that owns the publishers.
+        recording: The recording.
+        topics: The topics to replay.
+        remap: A mapping from recorded topic names to published topic names.
+        names: The renaming of frames in the messages. If None, frames keep their names.
 
     Attributes:
-        topics: Those that are played.
-        problems: What is not, a sentence each.
+        topics: The topics to replay.
+        problems: A text for each topic or message that cannot be replayed.
     """
 
     def __init__(
@@ -70,53 +70,55 @@ class TopicPublishers:
         self._names = names
         self._statics: dict[str, StaticBroadcaster] = {}
         self._publishers: dict[tuple[str, str], Publisher] = {}
-        self._outlets: dict[tuple[str, str], _Outlet | None] = {}
+        self._channels: dict[tuple[str, str], _ChannelPublisher | None] = {}
         self._open()
 
-    def say(self, channel: Channel, data: bytes) -> bool:
-        """Sends a message where it belongs; False, and perhaps a problem more, if it cannot be sent."""
-        outlet = self._outlets[channel.topic, channel.type]
-        if outlet is None:
+    def publish(self, channel: Channel, data: bytes) -> bool:
+        """Publish a recorded message. If that fails, add to `problems` and return False."""
+        publisher = self._channels[channel.topic, channel.type]
+        if publisher is None:
             return False
         try:
-            outlet.write(outlet.convert(data))
-        except WireError as error:  # a subscription does not keep up, for example
-            self._problem(str(error))
+            publisher.write(publisher.convert(data))
+        except WireError as error:  # for example, a subscription does not keep up
+            self._add_problem(str(error))
             return False
-        except Exception:  # noqa: BLE001 - of DDS and of the library that converts, which have many ways to say it
-            self._problem(f"{channel.topic}: there are damaged messages, which are left out")
+        except Exception:  # noqa: BLE001 - DDS and the conversion can raise many exceptions
+            self._add_problem(f"{channel.topic}: damaged messages are skipped")
             return False
         return True
 
-    def _problem(self, sentence: str) -> None:
-        if sentence not in self.problems:
-            self.problems.append(sentence)
+    def _add_problem(self, text: str) -> None:
+        if text not in self.problems:
+            self.problems.append(text)
 
-    def say_latched(self, start: int) -> None:
-        """What holds where playing starts, before all else: all static transforms, and of others the last message.
+    def publish_latched(self, start: int) -> None:
+        """Publish all static transforms, and the last message before the start on other latched topics.
 
         Args:
-            start: In nanoseconds, on the clock of receipt.
+            start: The start of the replay, in nanoseconds of the time of receipt.
         """
         for topic, transforms in self._static_transforms(start).items():
             self._statics[topic].send(transforms)
-        latched = {topic for (topic, _), outlet in self._outlets.items() if outlet is not None and outlet.latched}
+        latched = {
+            topic for (topic, _), publisher in self._channels.items() if publisher is not None and publisher.latched
+        }
         last = {
             (channel.topic, channel.type): (channel, data)
             for channel, _, data in self._recording.in_order(latched - self._statics.keys(), None, start)
         }
         for channel, data in last.values():
-            self.say(channel, data)
+            self.publish(channel, data)
 
     def _static_transforms(self, start: int) -> dict[str, list[Any]]:
-        """Those of the whole recording, by topic, with the values that hold where playing starts."""
+        """Return all static transforms of the recording by topic, with their values at the start of the replay."""
         found: dict[str, dict[str, Any]] = {topic: {} for topic in self._statics}
         for channel, received, data in self._recording.in_order(self._statics):
-            outlet = self._outlets[channel.topic, channel.type]
-            if outlet is None:
+            publisher = self._channels[channel.topic, channel.type]
+            if publisher is None:
                 continue
             known = found[channel.topic]
-            for transform in transforms_of(outlet.convert, data):
+            for transform in decode_transforms(publisher.convert, data):
                 if received < start or transform.child_frame_id not in known:
                     known[transform.child_frame_id] = transform
         return {topic: list(known.values()) for topic, known in found.items() if known}
@@ -131,16 +133,17 @@ class TopicPublishers:
                 offers.setdefault(key, []).extend(QoS(*profile) for profile in from_yaml(channel.offered_qos))
         for key, channel in channels.items():
             try:
-                self._outlets[key] = self._outlet(channel, offers[key])
-            except (WireError, ValueError) as error:  # recordings may hold names that DDS does not take
-                self._outlets[key] = None
-                self.problems.append(f"{channel.topic} is not played: {error}")
+                self._channels[key] = self._channel_publisher(channel, offers[key])
+            except (WireError, ValueError) as error:  # recordings can contain topic names that DDS does not allow
+                self._channels[key] = None
+                self.problems.append(f"{channel.topic} is not replayed: {error}")
 
-    def _outlet(self, channel: Channel, offered: list[QoS]) -> _Outlet | None:
-        converted = as_cdr(channel)
+    def _channel_publisher(self, channel: Channel, offered: list[QoS]) -> _ChannelPublisher | None:
+        converted = cdr_converter(channel)
         if converted is None:
             self.problems.append(
-                f"{channel.topic} is not played: ROS 2 has no {channel.type} as it was recorded ({channel.encoding})"
+                f"{channel.topic} is not replayed: messages of type {channel.type} with the encoding "
+                f"{channel.encoding} cannot be converted to ROS 2"
             )
             return None
         ros_type, convert = converted[0], self._renamed(channel, *converted)
@@ -148,42 +151,44 @@ class TopicPublishers:
         if is_static(channel.topic) and ros_type == _TF:
             writer = self._participant.static_broadcaster(self._node, topic)
             self._statics[channel.topic] = writer
-            return _Outlet(_sending(writer), convert, latched=True)
-        qos = _together(offered)
-        return _Outlet(self.publisher(topic, ros_type, qos).write, convert, qos.transient_local)
+            return _ChannelPublisher(_send_function(writer), convert, latched=True)
+        qos = _combined_qos(offered)
+        return _ChannelPublisher(self.publisher(topic, ros_type, qos).write, convert, qos.transient_local)
 
     def _renamed(self, channel: Channel, ros_type: str, convert: Callable[[bytes], bytes]) -> Callable[[bytes], bytes]:
-        """What converts a channel's messages, and gives the frames in them their names."""
+        """Return the function that converts a message of the channel and renames its frames."""
         if self._names is None:
             return convert
         frames = FrameNames.of(channel, ros_type)
         if frames is None:
-            self.problems.append(f"{channel.topic}: frames keep their names, as nobody says what {ros_type} is made of")
+            self.problems.append(
+                f"{channel.topic}: frames are not renamed, because the definition of {ros_type} is not known"
+            )
             return convert
         rename = self._names
-        return (lambda data: frames.renamed(convert(data), rename)[0]) if frames.are_there else convert
+        return (lambda data: frames.rename(convert(data), rename)[0]) if frames.exist else convert
 
     def publisher(self, topic: str, ros_type: str, qos: QoS) -> Publisher:
-        """One for all channels that go there."""
+        """Return the publisher on a topic, which is shared by all channels with that topic and type."""
         key = (topic, ros_type)
         if key not in self._publishers:
             self._publishers[key] = self._participant.raw_publisher(self._node, topic, ros_type, qos)
         return self._publishers[key]
 
 
-def _sending(writer: StaticBroadcaster) -> Callable[[bytes], None]:
+def _send_function(writer: StaticBroadcaster) -> Callable[[bytes], None]:
     kind = find(_TF)
     return lambda data: writer.send(deserialize(data, kind).transforms)
 
 
-def _together(offered: list[QoS]) -> QoS:
-    """What one publisher offers in place of several: as much as the best of them."""
+def _combined_qos(offered: list[QoS]) -> QoS:
+    """Return a QoS that meets every request that one of the offered QoS profiles meets."""
     if not offered:
         return QoS(depth=_DEPTH)
     latched = any(qos.transient_local for qos in offered)
-    depth = max(_DEEP if qos.keep_all else qos.depth for qos in offered)
+    depth = max(_KEEP_ALL_DEPTH if qos.keep_all else qos.depth for qos in offered)
     return QoS(
-        # Of a latched topic the depth says how many messages late joiners are given.
+        # On a latched topic, the depth is the number of messages that late-joining subscriptions receive.
         depth=depth if latched else max(depth, _DEPTH),
         reliable=any(qos.reliable for qos in offered),
         transient_local=latched,

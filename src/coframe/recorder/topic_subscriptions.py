@@ -1,4 +1,4 @@
-"""A recorder's subscriptions: to every topic that is wanted, as soon as somebody publishes there, as it is offered."""
+"""The subscriptions of a recorder: to each selected topic, as soon as it has a publisher, with the offered QoS."""
 
 from __future__ import annotations
 
@@ -17,24 +17,24 @@ if TYPE_CHECKING:
     from coframe import _core
     from coframe.wire import EndpointInfo, GraphNode, Participant, Subscription
 
-__all__ = ["Subscriptions", "Wanted"]
+__all__ = ["TopicFilter", "TopicSubscriptions"]
 
-_DEPTH = 1000  # messages that wait in DDS while Python is busy
-_TAKE = 256
-_MOST = 4000  # subscriptions; a graph has hundreds
-_HIDDEN = "/_"  # ROS's own topics, those of actions for example, have a part of the name that begins so
+_DEPTH = 1000  # messages that DDS queues while Python is busy
+_BATCH = 256  # messages
+_MAX_SUBSCRIPTIONS = 4000  # a typical graph has hundreds of topics
+_HIDDEN = "/_"  # a name with a part that begins with an underscore is hidden, such as the topics of actions
 
 
-class Wanted:
-    """Which topics are to be recorded.
+class TopicFilter:
+    """The selection of the topics to record.
 
     Args:
-        topics: By name; None: all that are not hidden.
-        regex: Besides those, if names are given, else only: topics whose whole name this matches.
-        exclude: But none whose whole name this matches.
+        topics: The names of topics. If None and there is no `regex`, all topics are selected that are not hidden.
+        regex: A regular expression. Topics whose full name matches it are selected as well.
+        exclude: A regular expression. Topics whose full name matches it are not selected.
 
     Raises:
-        ValueError: One of them is no regular expression.
+        ValueError: `regex` or `exclude` is not a valid regular expression.
     """
 
     def __init__(self, topics: Iterable[str] | None, regex: str | None, exclude: str | None) -> None:
@@ -42,20 +42,20 @@ class Wanted:
         self._regex, self._exclude = _compiled(regex), _compiled(exclude)
 
     def __call__(self, topic: str) -> bool:
-        """Whether this topic is."""
+        """Return whether a topic is selected."""
         if self._exclude is not None and self._exclude.fullmatch(topic):
             return False
         if self._names is None and self._regex is None:
             return _HIDDEN not in topic
         return topic in (self._names or ()) or bool(self._regex and self._regex.fullmatch(topic))
 
-    def missing(self, there: Iterable[str]) -> list[str]:
-        """The names that were given and are not among those."""
-        return sorted((self._names or set()) - set(there))
+    def missing(self, available: Iterable[str]) -> list[str]:
+        """Return the requested names that are not among the available topics."""
+        return sorted((self._names or set()) - set(available))
 
 
 class _Offer(NamedTuple):
-    """Publishers of one topic that one subscription hears."""
+    """A topic with the QoS that a group of its publishers offers; there is one subscription for each."""
 
     topic: str
     type: str
@@ -63,77 +63,81 @@ class _Offer(NamedTuple):
     transient_local: bool
 
 
-class Subscriptions:
-    """Joins topics as they appear.
+class TopicSubscriptions:
+    """The subscriptions to the selected topics, which are created as topics appear.
 
-    A subscription hears those only who offer as much as it asks for; one that asks for little hears everybody, but late
-    joiners' messages from nobody. So there is one for each quality that is offered on a topic, and of what several
-    of them hear, the one that the publisher's offer fits is believed.
+    A subscription matches only publishers that offer at least what it requests. One that requests little matches all
+    publishers, but receives no latched messages. Therefore, there is one subscription for each QoS that is offered on a
+    topic, and a message that several of them receive is taken from the one whose request equals the publisher's offer.
 
     Args:
-        participant: Of the graph.
-        node: Whose subscriptions they are.
-        wanted: Which topics.
-        event: Is set when messages arrive.
+        participant: The DDS participant.
+        node: The node that owns the subscriptions.
+        topic_filter: The selection of topics.
+        event: An event that is set when messages arrive.
     """
 
-    def __init__(self, participant: Participant, node: GraphNode, wanted: Wanted, event: _core.Event) -> None:
+    def __init__(
+        self, participant: Participant, node: GraphNode, topic_filter: TopicFilter, event: _core.Event
+    ) -> None:
         self._participant = participant
         self._node = node
-        self._wanted = wanted
+        self._filter = topic_filter
         self._event = event
-        self._offers: dict[int, _Offer] = {}  # by publisher, also of those that have gone
+        self._offers: dict[int, _Offer] = {}  # by publisher, including those that have left
         self._readers: dict[_Offer, Subscription] = {}
-        self._rivals: dict[tuple[str, str], list[_Offer]] = {}  # by topic and type
+        self._topic_offers: dict[tuple[str, str], list[_Offer]] = {}  # by topic and type
         self._refused: set[_Offer] = set()
 
     def refresh(self) -> list[tuple[str, str, list[QoS]]]:
-        """Joins what has appeared since: each new topic, its type, and what its publishers offer."""
+        """Subscribe to new topics. Return the name, the type and the offered QoS profiles of each new topic."""
         new: dict[tuple[str, str], list[QoS]] = {}
         for topic, publishers in self._participant.published().items():
-            if self._wanted(topic):
+            if self._filter(topic):
                 for handle, publisher in publishers.items():
-                    self._join(topic, handle, publisher, new)
+                    self._add_publisher(topic, handle, publisher, new)
         return [(topic, ros_type, offered) for (topic, ros_type), offered in new.items()]
 
     def topics(self) -> set[str]:
-        """Those that were joined."""
-        return {topic for topic, _ in list(self._rivals)}
+        """Return the subscribed topics."""
+        return {topic for topic, _ in list(self._topic_offers)}
 
     def refused(self) -> set[str]:
-        """Those that cannot be joined: their type is not ROS's, or there are too many."""
+        """Return the topics that cannot be recorded: their type is not a ROS type, or there are too many topics."""
         return {offer.topic for offer in list(self._refused)}
 
     def take(self) -> Iterator[ReceivedMessage]:
-        """What has arrived, first that of latched topics, which others build upon."""
+        """Yield the received messages, those of latched topics first, because other messages depend on them."""
         for offer, reader in sorted(self._readers.items(), key=lambda pair: not pair[0].transient_local):
             source = Source(offer.topic, offer.type, offer.transient_local)
             while reader.pending():
-                for sample in reader.take(_TAKE):
-                    if self._is_for(offer, sample.writer):
+                for sample in reader.take(_BATCH):
+                    if self._accepts(offer, sample.writer):
                         yield ReceivedMessage(
                             source, sample.data, time.time_ns(), sample.source_timestamp, sample.writer
                         )
 
     def close(self) -> None:
-        """Leaves all topics."""
+        """Close all subscriptions."""
         for reader in self._readers.values():
             reader.close()
 
-    def _join(self, topic: str, handle: int, publisher: EndpointInfo, new: dict[tuple[str, str], list[QoS]]) -> None:
+    def _add_publisher(
+        self, topic: str, handle: int, publisher: EndpointInfo, new: dict[tuple[str, str], list[QoS]]
+    ) -> None:
         key = (topic, publisher.ros_type)
         offer = _Offer(*key, publisher.qos.reliable, publisher.qos.transient_local)
         self._offers[handle] = offer
         if offer in self._refused or (offer not in self._readers and not self._subscribe(offer)):
             return
-        rivals = self._rivals.setdefault(key, [])
-        if key in new or not rivals:
+        offers = self._topic_offers.setdefault(key, [])
+        if key in new or not offers:
             new.setdefault(key, []).append(publisher.qos)
-        if offer not in rivals:
-            rivals.append(offer)
+        if offer not in offers:
+            offers.append(offer)
 
     def _subscribe(self, offer: _Offer) -> bool:
-        if len(self._readers) < _MOST and "/" in offer.type:  # as all types of ROS have
+        if len(self._readers) < _MAX_SUBSCRIPTIONS and "/" in offer.type:  # all ROS types contain a slash
             qos = QoS(depth=_DEPTH, reliable=offer.reliable, transient_local=offer.transient_local)
             with suppress(WireError):
                 self._readers[offer] = self._participant.raw_subscription(
@@ -143,18 +147,18 @@ class Subscriptions:
         self._refused.add(offer)
         return False
 
-    def _is_for(self, offer: _Offer, publisher: int) -> bool:
-        rivals = self._rivals[offer.topic, offer.type]
-        if len(rivals) == 1:
+    def _accepts(self, offer: _Offer, publisher: int) -> bool:
+        offers = self._topic_offers[offer.topic, offer.type]
+        if len(offers) == 1:
             return True
         if publisher not in self._offers:
             self.refresh()
-        # Of a publisher that nobody has told of, the least demanding subscription hears all that anybody does.
-        return self._offers.get(publisher, min(rivals)) == offer
+        # The publisher is not discovered yet. The subscription that requests least receives all its messages.
+        return self._offers.get(publisher, min(offers)) == offer
 
 
 def _compiled(regex: str | None) -> re.Pattern[str] | None:
     try:
         return None if regex is None else re.compile(regex)
     except re.error as error:
-        raise ValueError(f"{regex!r} is no regular expression: {error}") from None
+        raise ValueError(f"{regex!r} is not a valid regular expression: {error}") from None

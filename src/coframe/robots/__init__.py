@@ -1,7 +1,7 @@
-"""Robots from their descriptions: links, joints, and where every link is.
+"""Robot models from URDF and xacro: links, joints and forward kinematics.
 
 >>> import coframe.robots
->>> robot = coframe.robots.parse_urdf('<robot name="stone"><link name="base"/></robot>')
+>>> robot = coframe.robots.parse_urdf('<robot name="example"><link name="base"/></robot>')
 >>> list(robot.frames())
 ['base']
 """

@@ -1,4 +1,4 @@
-"""XML with line numbers, read strictly: no entities, no definitions inside, no abysses."""
+"""A strict XML parser with line numbers, which rejects entities, internal definitions and deep nesting."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
 
 __all__ = ["Element", "decoded", "parse"]
 
-LARGEST = 64 << 20  # bytes: a hundred times the largest robot we know
-DEEPEST = 64
-# Not float()'s idea of a number, which takes nan, 1_000 and the digits of every script.
+MAX_BYTES = 64 << 20  # a hundred times the largest known robot description
+MAX_DEPTH = 64
 _DECLARATION = re.compile(r"""\A(\s*<\?xml\s[^>]*?)\sencoding\s*=\s*["']([\w.:-]+)["']""", re.ASCII)
 _LONGEST_DECLARATION = 200  # bytes
-# As Python calls them. Not all that it knows: some are no texts, and some take for ever.
+# The supported encodings by their Python names. Some other codecs of Python do not give text or are very slow.
 _ENCODINGS = {"ascii", "cp1252", "iso8859-1", "iso8859-15", "utf-8"}
+# float() would also accept nan, 1_000 and the digits of all scripts.
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 
 class Element:
-    """One element: its attributes, the elements inside, and the line that it begins on."""
+    """An XML element: its attributes, its child elements, and the line on which it begins."""
 
     __slots__ = ("attributes", "children", "line", "tag")
 
@@ -38,72 +38,72 @@ class Element:
         self.children: list[Element] = []
 
     def all(self, tag: str) -> Iterator[Element]:
-        """The elements of that name directly inside."""
+        """Return the child elements with a tag."""
         return (child for child in self.children if child.tag == tag)
 
     def one(self, tag: str) -> Element | None:
-        """The only element of that name directly inside, or None.
+        """Return the only child element with a tag; None if there is none.
 
         Raises:
-            RobotDescriptionError: There are two.
+            RobotDescriptionError: There are several.
         """
         found = list(self.all(tag))
         if len(found) > 1:
-            found[1].refuse(f"there is a second <{tag}> in one <{self.tag}>", hint="Which one holds? Leave one out.")
+            found[1].fail(f"there is a second <{tag}> in one <{self.tag}>", hint=f"Remove one <{tag}>.")
         return found[0] if found else None
 
     def need(self, tag: str) -> Element:
-        """The only element of that name.
+        """Return the only child element with a tag.
 
         Raises:
-            RobotDescriptionError: There is none, or there are two.
+            RobotDescriptionError: There is none, or there are several.
         """
-        return self.one(tag) or self.refuse(f"<{self.tag}> has no <{tag}>")
+        return self.one(tag) or self.fail(f"<{self.tag}> has no <{tag}>")
 
     def text(self, name: str) -> str:
-        """An attribute that must be there and not be empty.
+        """Return the value of a required attribute.
 
         Raises:
-            RobotDescriptionError: It is not.
+            RobotDescriptionError: The attribute is missing or empty.
         """
         value = self.attributes.get(name, "").strip()
-        return value or self.refuse(f"<{self.tag}> needs the attribute {name}")
+        return value or self.fail(f"<{self.tag}> needs the attribute {name}")
 
     def number(self, name: str, default: float | None = None) -> float:
-        """An attribute that is one number.
+        """Return the value of an attribute as a number.
 
         Raises:
-            RobotDescriptionError: It is no number, or it is missing and there is no default.
+            RobotDescriptionError: The value is not a finite number, or it is missing and there is no default.
         """
         return self.numbers(name, 1, None if default is None else (default,))[0]
 
     def numbers(self, name: str, count: int, default: tuple[float, ...] | None = None) -> tuple[float, ...]:
-        """An attribute that is so many numbers with blanks between.
+        """Return the value of an attribute as `count` numbers separated by spaces.
 
         Raises:
-            RobotDescriptionError: It is not, or it is missing and there is no default.
+            RobotDescriptionError: The value is not `count` finite numbers, or it is missing and there is no default.
         """
         written = self.attributes.get(name)
         if written is None and default is not None:
             return default
         words = self.text(name).split()
         if len(words) != count:
-            wanted = "one number" if count == 1 else f"{count} numbers with blanks between"
-            self.refuse(f'<{self.tag} {name}="{_short(" ".join(words))}">: that is not {wanted}')
+            expected = "one number" if count == 1 else f"{count} numbers separated by spaces"
+            self.fail(f'<{self.tag} {name}="{_short(" ".join(words))}">: expected {expected}')
         return tuple(self._number(name, word) for word in words)
 
     def _number(self, name: str, word: str) -> float:
         if not _NUMBER.fullmatch(word) or not math.isfinite(float(word)):
-            self.refuse(f'<{self.tag} {name}="...">: {_short(word)!r} is not a finite number')
+            self.fail(f'<{self.tag} {name}="...">: {_short(word)!r} is not a finite number')
         return float(word)
 
-    def refuse(self, text: str, hint: str = "") -> NoReturn:
-        """Raises what says that this element is wrong."""
+    def fail(self, text: str, hint: str = "") -> NoReturn:
+        """Raise a RobotDescriptionError with the line of this element."""
         raise RobotDescriptionError(text, line=self.line, hint=hint)
 
 
 class _Builder:
-    """Puts together what expat finds."""
+    """Builds the tree of elements from the events of expat."""
 
     def __init__(self, parser: expat.XMLParserType) -> None:
         self.parser = parser
@@ -116,8 +116,8 @@ class _Builder:
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         element = Element(tag, attributes, self.parser.CurrentLineNumber)
-        if len(self.open) >= DEEPEST:
-            element.refuse(f"<{tag}> is nested more than {DEEPEST} elements deep: that is no robot")
+        if len(self.open) >= MAX_DEPTH:
+            element.fail(f"<{tag}> is nested more than {MAX_DEPTH} elements deep")
         if self.open:
             self.open[-1].children.append(element)
         else:
@@ -129,27 +129,28 @@ class _Builder:
 
     def doctype(self, _name: str, _system: str | None, _public: str | None, has_definitions: int) -> None:
         if has_definitions:
-            self.refuse()
+            self.fail_on_entities()
 
     def entity(self, *_: object) -> None:
-        self.refuse()
+        self.fail_on_entities()
 
-    def refuse(self) -> None:
+    def fail_on_entities(self) -> None:
         raise RobotDescriptionError(
-            "the document defines entities of its own, which can grow without bound",
+            "the document defines entities, which are not allowed because they can expand without limit",
             line=self.parser.CurrentLineNumber,
-            hint="Leave the <!DOCTYPE ...> out; a robot description needs none.",
+            hint="Remove the <!DOCTYPE ...>. A robot description does not need it.",
         )
 
 
 def decoded(text: str | bytes) -> str:
-    """The text of a document; of one that is no UTF-8 without the declaration's encoding, which is no longer true.
+    """Return the text of a document. The declaration of an encoding other than UTF-8 is removed.
 
     Raises:
-        RobotDescriptionError: It is larger than any robot, or not in its encoding, or that is none of the usual ones.
+        RobotDescriptionError: The document is larger than 64 MiB, its encoding is not supported, or it cannot be
+            decoded.
     """
-    if len(text) > LARGEST:
-        raise RobotDescriptionError(f"{len(text)} bytes are no robot description: at most {LARGEST} are read")
+    if len(text) > MAX_BYTES:
+        raise RobotDescriptionError(f"the robot description has {len(text)} bytes. The limit is {MAX_BYTES} bytes")
     if isinstance(text, str):
         return text
     encoding = _encoding(text)
@@ -173,10 +174,10 @@ def _encoding(text: bytes) -> str:
 
 
 def parse(text: str) -> Element:
-    """The outermost element of an XML document.
+    """Parse an XML document and return its root element.
 
     Raises:
-        RobotDescriptionError: It is not well formed, defines entities, or is deeper than any robot.
+        RobotDescriptionError: The document is not well-formed, defines entities, or is nested more than 64 levels deep.
     """
     parser = expat.ParserCreate()
     builder = _Builder(parser)
@@ -184,7 +185,7 @@ def parse(text: str) -> Element:
         parser.Parse(text, True)
     except expat.ExpatError as error:
         raise RobotDescriptionError(
-            f"not well-formed XML: {expat.errors.messages[error.code]}", line=error.lineno, hint=_advice(text)
+            f"not well-formed XML: {expat.errors.messages[error.code]}", line=error.lineno, hint=_xml_hint(text)
         ) from None
     except UnicodeError as error:  # lone surrogates
         raise RobotDescriptionError(f"the text cannot be decoded: {error}") from None
@@ -197,5 +198,5 @@ def _short(text: str) -> str:
     return text if len(text) <= 40 else f"{text[:40]}..."
 
 
-def _advice(text: str) -> str:
-    return "It is empty." if not text.strip() else "Is a tag left open, or is it another kind of file?"
+def _xml_hint(text: str) -> str:
+    return "The document is empty." if not text.strip() else "Check for unclosed tags, and that the file is XML."

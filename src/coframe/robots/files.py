@@ -1,4 +1,4 @@
-"""Robot descriptions from files: URDF, and xacro that becomes URDF."""
+"""Loading of robot descriptions from URDF and xacro files."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 __all__ = ["expand_xacro", "load"]
 
-_one_at_a_time = threading.Lock()  # xacro keeps what it does in its module
+_xacro_lock = threading.Lock()  # xacro keeps its state in module variables
 
 
 def load(
@@ -30,16 +30,17 @@ def load(
     arguments: Mapping[str, str] | None = None,
     packages: Iterable[str | os.PathLike[str]] = (),
 ) -> Robot:
-    """A robot from a file.
+    """Load a robot from a file.
 
     Args:
-        path: A ``.xacro`` file, which is expanded (with Python expressions in it: take it from those you trust), or
-            URDF.
-        arguments: What ``$(arg NAME)`` gives in xacro.
-        packages: Folders in which ``$(find PACKAGE)`` looks first; see :class:`Packages`.
+        path: A URDF file, or a ``.xacro`` file, which is expanded. Xacro files can contain Python expressions: load
+            them only from trusted sources.
+        arguments: The values of ``$(arg NAME)`` in xacro.
+        packages: Folders that ``$(find PACKAGE)`` searches first; see :class:`Packages`.
 
     Raises:
-        RobotDescriptionError: The file is not there, or as of :func:`parse_urdf`; the text names file and line.
+        RobotDescriptionError: The file cannot be read or is not valid, see :func:`parse_urdf`. The text contains the
+            file and the line.
     """
     file = Path(path)
     expands = file.suffix == ".xacro"
@@ -48,7 +49,7 @@ def load(
     except OSError as error:
         reason = error.strerror or type(error).__name__
         raise RobotDescriptionError(
-            f"cannot be read: {reason}", file=str(file), hint="Check the path, and who may read it."
+            f"cannot be read: {reason}", file=str(file), hint="Check the path and the permissions of the file."
         ) from None
     try:
         robot = parse_urdf(text)
@@ -63,34 +64,40 @@ def expand_xacro(
     arguments: Mapping[str, str] | None = None,
     packages: Iterable[str | os.PathLike[str]] = (),
 ) -> str:
-    """The URDF that a xacro file expands to.
+    """Expand a xacro file and return the URDF.
+
+    Args:
+        path: The xacro file.
+        arguments: The values of ``$(arg NAME)``.
+        packages: Folders that ``$(find PACKAGE)`` searches first; see :class:`Packages`.
 
     Raises:
-        RobotDescriptionError: xacro refuses it, or is not installed.
+        RobotDescriptionError: xacro fails, or is not installed.
+        OSError: The file cannot be read.
     """
     try:
-        import xacro  # noqa: PLC0415 - an extra
+        import xacro  # noqa: PLC0415 - optional dependency
     except ModuleNotFoundError:
-        reason = "this is xacro, and the package xacro is not installed"
+        reason = "the file is xacro, and the package xacro is not installed"
         raise RobotDescriptionError(reason, file=str(path), hint="pip install 'coframe[robots]'") from None
     finder = Packages(path, packages)
     try:
-        with _one_at_a_time, _finding(finder), contextlib.redirect_stderr(io.StringIO()):
+        with _xacro_lock, _finding(finder), contextlib.redirect_stderr(io.StringIO()):
             document = xacro.process_file(os.fspath(path), mappings=dict(arguments or {}))
             return str(document.toprettyxml(indent="  "))
     except OSError:
         raise
-    except Exception as error:  # noqa: BLE001 - xacro runs the file's own Python expressions
+    except Exception as error:  # noqa: BLE001 - Python expressions in the file can raise any exception
         reason = f"xacro: {str(error) or type(error).__name__}"
         raise RobotDescriptionError(reason, file=str(path), hint=getattr(error, "hint", "")) from None
 
 
 @contextlib.contextmanager
 def _finding(packages: Packages) -> Iterator[None]:
-    """Makes ``$(find PACKAGE)`` ask us instead of an installed ROS."""
+    """Resolve ``$(find PACKAGE)`` with `packages` instead of an installed ROS."""
     from xacro import substitution_args  # noqa: PLC0415
 
-    previous: Any = substitution_args._eval_find  # noqa: SLF001 - there is no other way in
+    previous: Any = substitution_args._eval_find  # noqa: SLF001 - xacro has no public hook for this
     substitution_args._eval_find = lambda name: str(packages.find(name))  # noqa: SLF001
     try:
         yield

@@ -1,8 +1,9 @@
-"""What joint_state_publisher tells of a robot: defaults, what other sources say, and joints that follow others."""
+"""Joint states by the rules of joint_state_publisher: defaults, values from other sources, and mimic joints."""
 
 from __future__ import annotations
 
 import math
+import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -14,36 +15,36 @@ if TYPE_CHECKING:
     from coframe.robots.parts import Joint
     from coframe.robots.robot import Robot
 
-__all__ = ["FreeJoint", "JointStates", "Told"]
+__all__ = ["FreeJoint", "JointStateFields", "JointStates"]
 
 
 @dataclass
 class FreeJoint:
-    """A joint that follows no other one.
+    """A joint that does not follow another joint. Units are radians or metres.
 
     Attributes:
-        lower: Radians or metres, to where it can go; a continuous joint from -pi to pi.
-        upper: Likewise.
-        zero: Where it rests.
-        goes_round: Whether it comes out at the other end.
-        position: Where it is; None: nobody has said.
-        velocity: Likewise.
-        effort: Likewise.
-        goes_up: The way in which :meth:`JointStates.step` moves it.
+        lower: The lower limit; -pi for a continuous joint.
+        upper: The upper limit; pi for a continuous joint.
+        zero: The default position.
+        continuous: Whether the joint is continuous.
+        position: The position; None if it is unknown.
+        velocity: The velocity; None if it is unknown.
+        effort: The effort; None if it is unknown.
+        increasing: Whether :meth:`JointStates.step` increases the position.
     """
 
     lower: float
     upper: float
     zero: float
-    goes_round: bool = False
+    continuous: bool = False
     position: float | None = None
     velocity: float | None = None
     effort: float | None = None
-    goes_up: bool = True
+    increasing: bool = True
 
 
-class Told(NamedTuple):
-    """The fields of a JointState; empty where nothing is known of any joint."""
+class JointStateFields(NamedTuple):
+    """The fields of a JointState message. A field is empty if it is unknown for all joints."""
 
     names: list[str]
     positions: list[float]
@@ -52,7 +53,7 @@ class Told(NamedTuple):
 
 
 class _Follower(NamedTuple):
-    """By which factor and offset a joint follows another one."""
+    """The joint that a joint follows, with factor and offset."""
 
     leader: str
     factor: float = 1.0
@@ -60,20 +61,22 @@ class _Follower(NamedTuple):
 
 
 class JointStates:
-    """The states of a robot's joints with one position each.
+    """The states of a robot's revolute, continuous and prismatic joints.
 
     Args:
         robot: The robot.
-        zeros: By joint, where it rests; the others at 0, or amid their limits where these leave 0 out.
-        dependent: By joint, whom it follows: (joint, factor, offset), which wins over its mimic tag.
-        use_mimic_tags: Joints with such a tag follow whom it names; else they move by themselves.
-        use_smallest_limits: A safety controller's limits count where they are narrower.
-        positions: Joints that nobody told of are said to be where they rest,
-        velocities: to stand still,
-        efforts: and to be without effort.
+        zeros: The default positions by joint. The default of other joints is 0, or the middle of their limits if 0 is
+            not within the limits.
+        dependent: The joints that follow another joint: {joint: (other joint, factor, offset)}. This overrides mimic
+            tags.
+        use_mimic_tags: Whether joints with a mimic tag follow the joint in the tag.
+        use_smallest_limits: Whether the soft limits of a safety controller apply if they are narrower.
+        positions: Whether joints have their default position until another source sets it.
+        velocities: Whether joints have the velocity 0 until another source sets it.
+        efforts: Whether joints have the effort 0 until another source sets it.
 
     Raises:
-        RobotDescriptionError: Joints follow each other in a circle, or one that is not there.
+        RobotDescriptionError: Joints follow each other in a circle, or a joint that does not exist.
     """
 
     def __init__(
@@ -89,7 +92,7 @@ class JointStates:
         efforts: bool = False,
     ) -> None:
         joints = {name: joint for name, joint in robot.joints.items() if joint.size == 1}
-        followers = {name: _Follower(*whom) for name, whom in (dependent or {}).items() if name in joints}
+        followers = {name: _Follower(*rule) for name, rule in (dependent or {}).items() if name in joints}
         if use_mimic_tags:
             tags = {name: joint.mimic for name, joint in joints.items() if joint.mimic is not None}
             followers |= {
@@ -108,6 +111,64 @@ class JointStates:
             state.effort = 0.0 if efforts else None
         self._followers = {name: self._last_leader(name, followers) for name in joints}
 
+    def update(
+        self,
+        names: Sequence[str],
+        positions: Sequence[float] = (),
+        velocities: Sequence[float] = (),
+        efforts: Sequence[float] = (),
+    ) -> None:
+        """Set values of joints from another source, except those of unknown joints and of joints that follow others.
+
+        Args:
+            names: The joints.
+            positions: A position for each name, in radians or metres; empty if unknown.
+            velocities: A velocity for each name; empty if unknown.
+            efforts: An effort for each name; empty if unknown.
+
+        Raises:
+            ValueError: A field that is not empty has the wrong number of values, or a value is not finite.
+        """
+        fields = {"position": positions, "velocity": velocities, "effort": efforts}
+        for field, values in fields.items():
+            if len(values) not in {0, len(names)}:
+                raise ValueError(f"a joint state with {len(names)} names has {len(values)} values of {field}")
+            if not all(math.isfinite(value) for value in values):
+                raise ValueError(f"a value of {field} is not finite")
+        for field, values in fields.items():
+            for name, value in zip(names, values, strict=False):
+                if name in self.free:
+                    setattr(self.free[name], field, float(value))
+
+    def step(self, delta: float) -> None:
+        """Move every free joint by `delta`, back and forth between its limits; continuous joints wrap around."""
+        for joint in self.free.values():
+            position = (joint.zero if joint.position is None else joint.position) + (
+                delta if joint.increasing else -delta
+            )
+            if position > joint.upper:
+                position = joint.lower if joint.continuous else joint.upper
+                joint.increasing = joint.continuous
+            elif position < joint.lower:
+                position = joint.lower
+                joint.increasing = True
+            joint.position = position
+
+    def fields(self) -> JointStateFields:
+        """Return the values of all joints, including those that follow others. Unknown values are 0."""
+        pairs = [(self.free[follower.leader], follower) for follower in self._followers.values()]
+
+        def field(values: list[float | None]) -> list[float]:
+            known = any(value is not None for value in values)
+            return [0.0 if value is None else value for value in values] if known else []
+
+        return JointStateFields(
+            list(self._followers),
+            field([None if j.position is None else j.position * f.factor + f.offset for j, f in pairs]),
+            field([None if j.velocity is None else j.velocity * f.factor for j, f in pairs]),
+            field([j.effort for j, _ in pairs]),
+        )
+
     def take(
         self,
         names: Sequence[str],
@@ -115,52 +176,17 @@ class JointStates:
         velocities: Sequence[float] = (),
         efforts: Sequence[float] = (),
     ) -> None:
-        """Takes over what another source says of joints that follow none; the rest is left out.
+        """Call :meth:`update`, whose former name this is."""
+        warnings.warn("JointStates.take() is deprecated: use JointStates.update()", DeprecationWarning, stacklevel=2)
+        self.update(names, positions, velocities, efforts)
 
-        Raises:
-            ValueError: One of the fields that are not empty has not as many values as there are names, or one that is
-                not finite.
-        """
-        fields = {"position": positions, "velocity": velocities, "effort": efforts}
-        for field, values in fields.items():
-            if len(values) not in {0, len(names)}:
-                raise ValueError(f"it has {len(names)} names, but {field} has {len(values)} values")
-            if not all(math.isfinite(value) for value in values):
-                raise ValueError(f"a {field} is not finite")
-        for field, values in fields.items():
-            for name, value in zip(names, values, strict=False):
-                if name in self.free:
-                    setattr(self.free[name], field, float(value))
-
-    def step(self, delta: float) -> None:
-        """Moves every free joint by so much, to and fro between its limits; what goes round begins anew."""
-        for joint in self.free.values():
-            position = (joint.zero if joint.position is None else joint.position) + (delta if joint.goes_up else -delta)
-            if position > joint.upper:
-                position = joint.lower if joint.goes_round else joint.upper
-                joint.goes_up = joint.goes_round
-            elif position < joint.lower:
-                position = joint.lower
-                joint.goes_up = True
-            joint.position = position
-
-    def told(self) -> Told:
-        """What there is to tell of all joints, those that follow others included; 0 for one that nobody told of."""
-        pairs = [(self.free[follower.leader], follower) for follower in self._followers.values()]
-
-        def field(values: list[float | None]) -> list[float]:
-            known = any(value is not None for value in values)
-            return [0.0 if value is None else value for value in values] if known else []
-
-        return Told(
-            list(self._followers),
-            field([None if j.position is None else j.position * f.factor + f.offset for j, f in pairs]),
-            field([None if j.velocity is None else j.velocity * f.factor for j, f in pairs]),
-            field([j.effort for j, _ in pairs]),
-        )
+    def told(self) -> JointStateFields:
+        """Call :meth:`fields`, whose former name this is."""
+        warnings.warn("JointStates.told() is deprecated: use JointStates.fields()", DeprecationWarning, stacklevel=2)
+        return self.fields()
 
     def _last_leader(self, name: str, followers: Mapping[str, _Follower]) -> _Follower:
-        """Whom a joint follows in the end, itself perhaps."""
+        """Return the free joint that a joint follows, directly or indirectly; the joint itself if it is free."""
         found = _Follower(name)
         chain = [name]
         while found.leader in followers:
@@ -171,7 +197,8 @@ class JointStates:
             chain.append(leader)
         if found.leader not in self.free:
             raise RobotDescriptionError(
-                f"joint {chain[-2]!r} depends on {found.leader!r}, which is no joint with one position"
+                f"joint {chain[-2]!r} depends on {found.leader!r}, "
+                "which is not a revolute, continuous or prismatic joint"
             )
         return found
 

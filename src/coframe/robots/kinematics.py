@@ -1,4 +1,4 @@
-"""Forward kinematics of a tree of joints, for one configuration or many at once, by the native core."""
+"""Forward kinematics of a tree of joints in the native core, for one or many configurations."""
 
 from __future__ import annotations
 
@@ -13,53 +13,56 @@ if TYPE_CHECKING:
     from coframe.robots.parts import Joint
     from coframe.transform import Transform
 
-__all__ = ["Chain"]
+__all__ = ["KinematicTree"]
 
 
-class Chain:
-    """Joints as the native core has them. Row i of everything belongs to joint i and to the link that it moves.
+class KinematicTree:
+    """A tree of joints in the native core. Row i of all arrays belongs to joint i and its child link.
 
     Args:
         root: The root link.
-        joints: Parents before children.
+        joints: The joints, parents before children.
     """
 
     def __init__(self, root: str, joints: Sequence[Joint]) -> None:
         self.joints = joints
         self._row = {joint.child: i for i, joint in enumerate(joints)}
-        self._tree = _core.JointTree(root, [_described(joint) for joint in joints])
+        self._tree = _core.JointTree(root, [_joint_tuple(joint) for joint in joints])
 
     def transforms(self, positions: Mapping[str, object], *, in_root: bool) -> dict[str, Transform] | None:
-        """Where the links are in one configuration.
+        """Return the transforms of one configuration.
 
         Args:
-            positions: By joint a float, of a joint of several numbers a list; others are as they follow, or at 0.
-            in_root: Told in the root link and by link, the root link included; else by joint in the link before it.
+            positions: A float for each joint, or a list for planar and floating joints. Other joints follow the joint
+                that they mimic, or are at 0.
+            in_root: Whether to return the pose of every link relative to the root link, by link. Otherwise, the pose
+                of every child link relative to its parent link is returned, by joint.
 
         Returns:
-            None where a position is none: not finite, of another size, or of no joint that moves.
+            The transforms; None if a position is not finite, has the wrong size, or belongs to a fixed or unknown
+            joint.
         """
         return self._tree.transforms(positions if type(positions) is dict else dict(positions), in_root)
 
     def poses(
         self, positions: Mapping[str, Array], count: int, out: Array, *, in_root: bool, threads: int = 1
     ) -> str | None:
-        """Where the links are in many configurations.
+        """Compute the poses of the links in many configurations.
 
         Args:
-            positions: By joint (count,), of a joint of several numbers (count, size).
-            count: How many configurations.
-            out: Is filled: (J, count, 7) float64, x, y, z, qx, qy, qz, qw.
-            in_root: Told in the root link, else in the link before each joint.
-            threads: So many share the work.
+            positions: An array (count,) for each joint, or (count, size) for planar and floating joints.
+            count: The number of configurations.
+            out: The array for the result, (J, count, 7) float64: x, y, z, qx, qy, qz, qw.
+            in_root: Whether the poses are relative to the root link. Otherwise, they are relative to the parent link.
+            threads: The number of threads.
 
         Returns:
-            The first joint with a position that is not finite, or a quaternion of zero; None if there is none.
+            The first joint whose position is not finite or has a zero quaternion; None if there is none.
         """
         return self._tree.poses_into(list(positions.items()), count, in_root, out, threads)
 
     def path(self, link: str) -> list[int]:
-        """The joints between the root and a link, from the link upwards."""
+        """Return the rows of the joints from a link up to the root."""
         rows = []
         while link in self._row:
             rows.append(self._row[link])
@@ -67,6 +70,6 @@ class Chain:
         return rows
 
 
-def _described(joint: Joint) -> tuple[object, ...]:
+def _joint_tuple(joint: Joint) -> tuple[object, ...]:
     mimic = joint.mimic and (joint.mimic.joint, joint.mimic.multiplier, joint.mimic.offset)
     return joint.name, joint.type, joint.parent, joint.child, joint.origin.values, joint.axis, mimic

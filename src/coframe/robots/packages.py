@@ -1,4 +1,4 @@
-"""Where packages are, with and without ROS, and the files that ``package://`` names."""
+"""Search for ROS packages, with or without ROS, and for the files of ``package://`` URLs."""
 
 from __future__ import annotations
 
@@ -16,21 +16,22 @@ if TYPE_CHECKING:
 __all__ = ["Packages"]
 
 _MANIFEST = "package.xml"
-_DEEPEST = 4  # folders between a workspace and its packages
-_NEIGHBOURS = 2  # the folder around a package may hold anything, such as all of somebody's home
+_MAX_DEPTH = 4  # levels of folders between a workspace and its packages
+_NEIGHBOR_DEPTH = 2  # less, because the folder around a package may be large, such as a home folder
 _NOT_SEARCHED = {"build", "install", "log", "node_modules", "__pycache__"}
 
 
 class Packages:
-    """Finds packages by name.
+    """A search for packages by name.
 
-    In this order: the package around ``near`` and its neighbours, ``folders``, those of COFRAME_PACKAGE_PATH, the
-    installations of AMENT_PREFIX_PATH, the folders of ROS_PACKAGE_PATH. A folder may be a package itself (it has a
-    ``package.xml``), hold packages further below, or hold folders with packages' names.
+    The following places are searched in this order: the package that contains `near` and its neighbors, `folders`, the
+    folders in COFRAME_PACKAGE_PATH, the installations in AMENT_PREFIX_PATH, and the folders in ROS_PACKAGE_PATH. A
+    folder can be a package (it has a ``package.xml``), contain packages in subfolders, or contain folders with the
+    names of packages.
 
     Args:
-        near: A robot description's file, or its folder; None: nowhere.
-        folders: Searched before those of the environment.
+        near: The file of a robot description, or its folder.
+        folders: Folders to search before those of the environment.
     """
 
     def __init__(
@@ -42,29 +43,29 @@ class Packages:
         self._crawled: dict[tuple[Path, int], dict[str, Path]] = {}
 
     def find(self, name: str) -> Path:
-        """The folder of a package, with all symbolic links resolved.
+        """Return the folder of a package, with all symbolic links resolved.
 
         Raises:
-            PackageError: There is no such package.
+            PackageError: The package is not found.
         """
         if name not in self._found:
             self._found[name] = self._search(name).resolve()
         return self._found[name]
 
     def resolve(self, url: str) -> Path:
-        """The file that ``package://NAME/PATH`` names.
+        """Return the file of a URL ``package://NAME/PATH`` or a relative path.
 
-        A relative path is taken from the folder of ``near``, and must stay inside the package around it, or below that
-        folder where there is none.
+        A relative path starts at the folder of `near`. It must lead to a file in the package that contains this folder,
+        or below the folder if there is no such package.
 
         Raises:
-            PackageError: There is no such package or file, or the file is not inside the package.
+            PackageError: The package or the file does not exist, or the file is outside the package.
         """
         scheme, separator, rest = url.partition("://")
         if not separator:
             return self._inside(url, *self._surroundings(url))
         if scheme != "package":
-            raise PackageError(f"{url!r} is no file of a package", hint="Name it as package://PACKAGE/PATH.")
+            raise PackageError(f"{url!r} is not a package URL", hint="Use package://PACKAGE/PATH.")
         name, _, path = unquote(rest).partition("/")
         root = self.find(name)
         return self._inside(url, root, root / path)
@@ -73,62 +74,64 @@ class Packages:
         try:
             real = path.resolve()
             if not real.is_relative_to(root):
-                raise PackageError(f"{url!r} leads out of {root}", hint="Only files inside a package are read.")
+                raise PackageError(f"{url!r} is outside {root}", hint="Only files inside the package can be read.")
             if not real.is_file():
-                raise PackageError(f"{url!r} is not there: no file {real}")
-        except (OSError, ValueError, RuntimeError) as error:  # endless links, a NUL, names that are too long
-            raise PackageError(f"{url!r} is no file: {error}") from None
+                raise PackageError(f"{url!r} does not exist: there is no file {real}")
+        except (OSError, ValueError, RuntimeError) as error:  # circular links, NUL characters, names that are too long
+            raise PackageError(f"{url!r} is not a valid file name: {error}") from None
         return real
 
     def _surroundings(self, url: str) -> tuple[Path, Path]:
         if self.near is None:
-            raise PackageError(f"{url!r} is relative, and nobody said to what", hint="Use package://PACKAGE/PATH.")
+            raise PackageError(
+                f"{url!r} is relative, but the robot description has no file", hint="Use package://PACKAGE/PATH."
+            )
         folder = self.near if self.near.is_dir() else self.near.parent
         return _package_around(folder) or folder, folder / unquote(url)
 
     def _search(self, name: str) -> Path:
-        # No separators, no dots alone, nothing that a file system might take for more than a name.
+        # The name must not contain path separators or anything else that leads to another folder.
         if not name or name.startswith(".") or not all(c.isalnum() or c in "_-." for c in name):
-            raise PackageError(f"{name!r} cannot be the name of a package")
-        for folder in self._near_by():
-            if name in self._below(folder, _NEIGHBOURS):
-                return self._below(folder, _NEIGHBOURS)[name]
+            raise PackageError(f"{name!r} is not a valid package name")
+        for folder in self._nearby_folders():
+            if name in self._below(folder, _NEIGHBOR_DEPTH):
+                return self._below(folder, _NEIGHBOR_DEPTH)[name]
         for folder in [*self.folders, *_listed("COFRAME_PACKAGE_PATH")]:
-            found = self._below(folder, _DEEPEST).get(name) or folder / name
+            found = self._below(folder, _MAX_DEPTH).get(name) or folder / name
             if found.is_dir():
                 return found
         for prefix in _listed("AMENT_PREFIX_PATH"):
             if (prefix / "share" / name).is_dir():
                 return prefix / "share" / name
         for folder in _listed("ROS_PACKAGE_PATH"):
-            if name in self._below(folder, _DEEPEST):
-                return self._below(folder, _DEEPEST)[name]
+            if name in self._below(folder, _MAX_DEPTH):
+                return self._below(folder, _MAX_DEPTH)[name]
         raise PackageError(
-            f"there is no package {name!r}",
-            hint="Set COFRAME_PACKAGE_PATH to the folder that holds it (with others: separated as in PATH).",
+            f"no package named {name!r}",
+            hint="Add the folder that contains it to COFRAME_PACKAGE_PATH (folders are separated as in PATH).",
         )
 
-    def _near_by(self) -> list[Path]:
-        """The package around the description, and the folder that holds it and its neighbours."""
+    def _nearby_folders(self) -> list[Path]:
+        """Return the package that contains the description, and the folder with its neighbors."""
         if self.near is None:
             return []
         package = _package_around(self.near)
         return [] if package is None else [package, package.parent]
 
-    def _below(self, folder: Path, deepest: int) -> dict[str, Path]:
-        if (folder, deepest) not in self._crawled:
+    def _below(self, folder: Path, max_depth: int) -> dict[str, Path]:
+        if (folder, max_depth) not in self._crawled:
             found: dict[str, Path] = {}
-            packages = list(_crawl(folder, deepest))
+            packages = list(_crawl(folder, max_depth))
             for package in packages:
                 found.setdefault(_name(package), package)
-            for package in packages:  # some are installed under another name than their own
+            for package in packages:  # the folder of an installed package can have another name
                 found.setdefault(package.name, package)
-            self._crawled[folder, deepest] = found
-        return self._crawled[folder, deepest]
+            self._crawled[folder, max_depth] = found
+        return self._crawled[folder, max_depth]
 
 
 def _listed(variable: str) -> Iterator[Path]:
-    """The existing folders that an environment variable lists."""
+    """Return the existing folders in an environment variable."""
     entries = os.environ.get(variable, "").split(os.pathsep)
     return (Path(entry) for entry in entries if entry and Path(entry).is_dir())
 
@@ -137,24 +140,24 @@ def _package_around(path: Path) -> Path | None:
     return next((folder for folder in [path, *path.parents] if (folder / _MANIFEST).is_file()), None)
 
 
-def _crawl(folder: Path, deepest: int) -> Iterator[Path]:
-    """Packages at or below a folder; there are none inside others."""
+def _crawl(folder: Path, max_depth: int) -> Iterator[Path]:
+    """Yield the packages at or below a folder. Packages inside packages are not searched."""
     if (folder / _MANIFEST).is_file():
         yield folder
         return
-    if deepest == 0:
+    if max_depth == 0:
         return
     try:
         inside = sorted(entry.name for entry in os.scandir(folder) if entry.is_dir(follow_symlinks=False))
-    except OSError:  # not for our eyes
+    except OSError:  # no permission
         return
     for name in inside:
         if not name.startswith(".") and name not in _NOT_SEARCHED:
-            yield from _crawl(folder / name, deepest - 1)
+            yield from _crawl(folder / name, max_depth - 1)
 
 
 def _name(package: Path) -> str:
-    """As its manifest has it, else that of its folder."""
+    """Return the name in the manifest of a package, or the name of its folder."""
     try:
         name = ET.parse(package / _MANIFEST).findtext("name") or ""  # noqa: S314
     except (OSError, ET.ParseError, ValueError, LookupError):

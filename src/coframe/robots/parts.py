@@ -1,4 +1,4 @@
-"""What a robot is made of, as its description says: links, joints, shapes. Metres, radians, kilograms."""
+"""The parts of a robot description: links, joints and shapes. Units are metres, radians and kilograms."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ JointType: TypeAlias = Literal["fixed", "revolute", "continuous", "prismatic", "
 
 @dataclass(frozen=True)
 class Box:
-    """A box around its origin.
+    """A box centered at its origin.
 
     Attributes:
-        size: Metres along x, y, z.
+        size: The lengths along x, y and z, in metres.
     """
 
     size: Vector
@@ -43,7 +43,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Cylinder:
-    """A cylinder along z, around its origin."""
+    """A cylinder along z, centered at its origin. Units are metres."""
 
     radius: float
     length: float
@@ -51,7 +51,7 @@ class Cylinder:
 
 @dataclass(frozen=True)
 class Capsule:
-    """A cylinder along z with half a sphere on both ends; ``length`` is the cylinder's."""
+    """A cylinder along z with a hemisphere at each end. `length` is that of the cylinder. Units are metres."""
 
     radius: float
     length: float
@@ -59,18 +59,19 @@ class Capsule:
 
 @dataclass(frozen=True)
 class Sphere:
-    """A sphere around its origin."""
+    """A sphere centered at its origin, with the radius in metres."""
 
     radius: float
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """A shape in a file of its own.
+    """A shape from a mesh file.
 
     Attributes:
-        filename: As written: ``package://...``, ``file://...`` or a path; see ``coframe.robots.Packages``.
-        scale: Factors along x, y, z.
+        filename: The text in the description: ``package://...``, ``file://...`` or a path; see
+            ``coframe.robots.Packages``.
+        scale: The scale factors along x, y and z.
     """
 
     filename: str
@@ -82,12 +83,12 @@ Geometry: TypeAlias = "Box | Cylinder | Capsule | Sphere | Mesh"
 
 @dataclass(frozen=True)
 class Material:
-    """How a surface looks.
+    """The appearance of a surface.
 
     Attributes:
-        name: May be empty.
-        color: Red, green, blue, alpha from 0 to 1; None where it is not said.
-        texture: A file, as written; None where there is none.
+        name: The name, which can be empty.
+        color: Red, green, blue and alpha from 0 to 1; None if there is no color.
+        texture: The file name in the description; None if there is no texture.
     """
 
     name: str
@@ -97,7 +98,7 @@ class Material:
 
 @dataclass(frozen=True)
 class Visual:
-    """What of a link is seen; ``origin`` is told in the link."""
+    """A visual shape of a link. `origin` is its pose relative to the link."""
 
     name: str
     origin: Transform
@@ -107,7 +108,7 @@ class Visual:
 
 @dataclass(frozen=True)
 class Collision:
-    """What of a link is bumped into; ``origin`` is told in the link."""
+    """A collision shape of a link. `origin` is its pose relative to the link."""
 
     name: str
     origin: Transform
@@ -116,12 +117,12 @@ class Collision:
 
 @dataclass(frozen=True)
 class Inertial:
-    """A link's mass in kilograms and its inertia in kg m^2.
+    """The mass and inertia of a link.
 
     Attributes:
-        origin: The centre of mass, and the axes that the inertia is told along, in the link.
-        mass: Kilograms.
-        inertia: ixx, ixy, ixz, iyy, iyz, izz about the centre of mass.
+        origin: The pose of the inertial frame relative to the link: the center of mass and the axes of the inertia.
+        mass: The mass in kilograms.
+        inertia: ixx, ixy, ixz, iyy, iyz, izz about the center of mass, in kg m^2.
     """
 
     origin: Transform
@@ -131,7 +132,7 @@ class Inertial:
 
 @dataclass(frozen=True)
 class Link:
-    """A rigid part of a robot, and the frame that moves with it."""
+    """A rigid body of a robot, with a frame of the same name."""
 
     name: str
     visuals: tuple[Visual, ...] = ()
@@ -141,9 +142,9 @@ class Link:
 
 @dataclass(frozen=True)
 class Limits:
-    """How far and how hard a joint goes: rad, rad/s and Nm, or m, m/s and N; None where it is not said.
+    """The limits of a joint, in rad, rad/s and Nm or in m, m/s and N; None for limits that are not given.
 
-    The soft ones are a safety controller's, which keeps the joint from where it would be stopped hard.
+    The soft limits are those of a safety controller, which stops the joint before the hard limits.
     """
 
     lower: float | None = None
@@ -156,7 +157,7 @@ class Limits:
 
 @dataclass(frozen=True)
 class Mimic:
-    """A joint follows another one: ``multiplier * position + offset``."""
+    """The rule by which a joint follows another joint: ``multiplier * position + offset``."""
 
     joint: str
     multiplier: float = 1.0
@@ -165,18 +166,18 @@ class Mimic:
 
 @dataclass(frozen=True)
 class Joint:
-    """What ties a link to its parent.
+    """A joint, which connects a child link to its parent link.
 
     Attributes:
-        name: The joint's name.
-        type: One of ``JointType``.
-        parent: The link it starts from.
-        child: The link that it moves.
-        origin: Where the child is at position 0, told in the parent.
-        axis: Of unit length, in the child's frame: what it turns about or slides along; of a planar joint the normal
-            of the plane.
-        limits: None where none are given; revolute and prismatic joints have them.
-        mimic: Whom it follows; None: nobody.
+        name: The name.
+        type: One of `JointType`.
+        parent: The parent link.
+        child: The child link.
+        origin: The pose of the child link relative to the parent link at position 0.
+        axis: The unit vector of the rotation or translation axis, or the normal of a planar joint, expressed in the
+            child link.
+        limits: The limits, which revolute and prismatic joints always have; None if there are none.
+        mimic: The rule by which it follows another joint; None if it does not.
     """
 
     name: str
@@ -190,5 +191,5 @@ class Joint:
 
     @property
     def size(self) -> int:
-        """How many numbers its position has: 0, 1, 3 (planar: x, y, angle) or 7 (floating: x, y, z, qx, qy, qz, qw)."""
+        """The length of a position: 0 (fixed), 3 (planar: x, y, angle), 7 (floating: x, y, z, qx, qy, qz, qw) or 1."""
         return {"fixed": 0, "planar": 3, "floating": 7}.get(self.type, 1)

@@ -1,4 +1,4 @@
-"""What URDF says of one link's looks, shape and mass."""
+"""Parsing of links in URDF: visuals, collisions, materials and inertia."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _INERTIA = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
 class Materials:
-    """The materials that a description defines, at its top or inside links, and what is said of others."""
+    """The materials that a description defines, at the top level or in links. Undefined ones cause warnings."""
 
     def __init__(self, root: Element, warnings: list[str]) -> None:
         self.defined: dict[str, Material] = {}
@@ -38,7 +38,7 @@ class Materials:
         for element in root.all("material"):
             material = _material(element)
             if self.defined.setdefault(element.text("name"), material) != material:
-                element.refuse(f"material {material.name!r} is defined a second time, and differently")
+                element.fail(f"material {material.name!r} is defined twice with different values")
         for link in root.all("link"):
             for visual in link.all("visual"):
                 for element in filter(_defines, visual.all("material")):
@@ -46,7 +46,7 @@ class Materials:
                     self.defined.setdefault(material.name, material)
 
     def used_in(self, visual: Element) -> Material | None:
-        """What a visual looks like; None where it does not say."""
+        """Return the material of a visual; None if it has none."""
         element = visual.one("material")
         if element is None:
             return None
@@ -73,10 +73,10 @@ def _material(element: Element) -> Material:
 
 
 def parse_link(element: Element, materials: Materials) -> Link:
-    """What a <link> describes.
+    """Return the link that a <link> element describes.
 
     Raises:
-        RobotDescriptionError: A value is missing or is no number.
+        RobotDescriptionError: A value is missing or is not a number.
     """
     name = element.text("name")
     visuals = tuple(
@@ -91,29 +91,29 @@ def parse_link(element: Element, materials: Materials) -> Link:
 
 
 def origin(element: Element, target: str, source: str | None = None) -> Transform:
-    """The <origin> inside an element, told in ``target``; the identity where there is none.
+    """Return the pose in the <origin> of an element, relative to `target`; the identity if there is no <origin>.
 
     Raises:
-        RobotDescriptionError: Its values are not as many numbers as they should be.
+        RobotDescriptionError: A value is not valid.
     """
-    place = element.one("origin")
-    if place is None:
+    pose = element.one("origin")
+    if pose is None:
         return Transform(target=target, source=source)
-    xyz = place.numbers("xyz", 3, _ZEROS)
-    if "quat_xyzw" not in place.attributes:
-        return Transform.from_rpy(xyz, place.numbers("rpy", 3, _ZEROS), target=target, source=source)
-    if "rpy" in place.attributes:
-        place.refuse("<origin> has both rpy and quat_xyzw", hint="Which one holds? Leave one out.")
+    xyz = pose.numbers("xyz", 3, _ZEROS)
+    if "quat_xyzw" not in pose.attributes:
+        return Transform.from_rpy(xyz, pose.numbers("rpy", 3, _ZEROS), target=target, source=source)
+    if "rpy" in pose.attributes:
+        pose.fail("<origin> has both rpy and quat_xyzw", hint="Remove one of them.")
     try:
-        return Transform(xyz, place.numbers("quat_xyzw", 4), target=target, source=source)
+        return Transform(xyz, pose.numbers("quat_xyzw", 4), target=target, source=source)
     except InvalidArgumentException as error:
-        place.refuse(str(error), hint=error.hint)
+        pose.fail(str(error), hint=error.hint)
 
 
 def _geometry(element: Element) -> Geometry:
     geometry = element.need("geometry")
     if len(geometry.children) != 1:
-        geometry.refuse(f"<geometry> needs one shape, not {len(geometry.children)}")
+        geometry.fail(f"<geometry> must contain one shape, not {len(geometry.children)}")
     shape = geometry.children[0]
     if shape.tag == "mesh":
         x, y, z = shape.numbers("scale", 3, (1.0, 1.0, 1.0))
@@ -127,7 +127,7 @@ def _geometry(element: Element) -> Geometry:
         return Cylinder(shape.number("radius"), shape.number("length"))
     if shape.tag == "capsule":
         return Capsule(shape.number("radius"), shape.number("length"))
-    return shape.refuse(f"<{shape.tag}> is no shape", hint="URDF knows box, cylinder, capsule, sphere and mesh.")
+    return shape.fail(f"<{shape.tag}> is not a shape", hint="The shapes are box, cylinder, capsule, sphere and mesh.")
 
 
 def _inertial(link: Element, name: str) -> Inertial | None:

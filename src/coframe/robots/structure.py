@@ -1,4 +1,4 @@
-"""Whether links and joints form one tree, and whether joints that follow others get anywhere."""
+"""Validation that links and joints form one tree, and that mimic joints follow an existing joint."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ __all__ = ["check_mimics", "ordered"]
 def ordered(
     links: Iterable[str], joints: list[Joint], elements: Mapping[str, Element], root: Element
 ) -> dict[str, Joint]:
-    """The joints by name, parents before children, level by level from the root link.
+    """Return the joints by name, level by level from the root link.
 
     Raises:
-        RobotDescriptionError: A joint names a link that is not there, a link has two parents, there is a loop, or
+        RobotDescriptionError: A joint refers to a link that does not exist, a link has two parents, there is a loop, or
             there are several roots.
     """
     parent_joint = _parent_joints(set(links), joints, elements)
     roots = [link for link in links if link not in parent_joint]
     if len(roots) > 1:
         names = ", ".join(repr(link) for link in roots[:10]) + (", ..." if len(roots) > 10 else "")
-        root.refuse(f"{len(roots)} links have no parent: {names}", hint="All but one must be the child of a joint.")
+        root.fail(f"{len(roots)} links have no parent: {names}", hint="Make all but one of them the child of a joint.")
     children: defaultdict[str, list[Joint]] = defaultdict(list)
     for joint in joints:
         children[joint.parent].append(joint)
@@ -39,67 +39,68 @@ def ordered(
         level = [joint.child for joint in below]
     for joint in joints:
         if joint.name not in order:
-            _refuse_loop(joint, parent_joint, elements)
+            _fail_on_loop(joint, parent_joint, elements)
     return order
 
 
 def _parent_joints(links: set[str], joints: list[Joint], elements: Mapping[str, Element]) -> dict[str, Joint]:
-    """By link: the joint that it hangs from."""
+    """Return the joint above each link, by link."""
     found: dict[str, Joint] = {}
     for joint in joints:
         for role, link in (("parent", joint.parent), ("child", joint.child)):
             if link not in links:
-                elements[joint.name].refuse(f"joint {joint.name!r} has the {role} {link!r}, which is not a link")
+                elements[joint.name].fail(f"joint {joint.name!r} has the {role} {link!r}, which is not a link")
         if joint.parent == joint.child:
-            elements[joint.name].refuse(f"joint {joint.name!r} ties the link {joint.child!r} to itself")
+            elements[joint.name].fail(f"joint {joint.name!r} connects the link {joint.child!r} to itself")
         other = found.setdefault(joint.child, joint)
         if other is not joint:
-            elements[joint.name].refuse(
+            elements[joint.name].fail(
                 f"link {joint.child!r} has two parents: {other.parent!r} by joint {other.name!r}, and {joint.parent!r} "
                 f"by joint {joint.name!r}"
             )
     return found
 
 
-def _refuse_loop(joint: Joint, parent_joint: Mapping[str, Joint], elements: Mapping[str, Element]) -> None:
+def _fail_on_loop(joint: Joint, parent_joint: Mapping[str, Joint], elements: Mapping[str, Element]) -> None:
     seen: dict[str, Joint] = {}
     while joint.child not in seen:
         seen[joint.child] = joint
         joint = parent_joint[joint.parent]
     loop = list(seen)[list(seen).index(joint.child) :]
     names = " <- ".join([*loop[:10], *(["..."] if len(loop) > 10 else []), loop[0]])
-    elements[joint.name].refuse(f"the links form a loop: {names}", hint="URDF describes trees; leave one joint out.")
+    elements[joint.name].fail(f"the links form a loop: {names}", hint="URDF describes trees. Remove one of the joints.")
 
 
 def check_mimics(joints: list[Joint], elements: Mapping[str, Element]) -> None:
-    """Checks that every joint that follows another ends at one that moves by itself.
+    """Check that every mimic joint follows, directly or indirectly, a joint without a mimic tag.
 
     Raises:
-        RobotDescriptionError: The other joint is not there, is not a single number, or they follow each other.
+        RobotDescriptionError: The other joint does not exist, one of them is fixed, planar or floating, or the joints
+            mimic each other in a circle.
     """
     by_name = {joint.name: joint for joint in joints}
-    settled: set[str] = set()
+    checked: set[str] = set()
     for joint in joints:
         chain: dict[str, Joint] = {}
         follower = joint
-        while follower.mimic is not None and follower.name not in settled:
+        while follower.mimic is not None and follower.name not in checked:
             if follower.name in chain:
-                elements[joint.name].refuse(f"joints mimic each other in a circle: {', '.join(chain)}")
+                elements[joint.name].fail(f"joints mimic each other in a circle: {', '.join(chain)}")
             chain[follower.name] = follower
             follower = _leader(follower, by_name, elements)
-        settled.update(chain)
+        checked.update(chain)
 
 
 def _leader(follower: Joint, by_name: Mapping[str, Joint], elements: Mapping[str, Element]) -> Joint:
     assert follower.mimic is not None
     leader = by_name.get(follower.mimic.joint)
-    refuse = elements[follower.name].refuse
+    fail = elements[follower.name].fail
     if leader is None:
-        refuse(f"joint {follower.name!r} mimics {follower.mimic.joint!r}, which is not a joint")
+        fail(f"joint {follower.name!r} mimics {follower.mimic.joint!r}, which is not a joint")
     for joint in (follower, leader):
         if joint.size != 1:
-            refuse(
+            fail(
                 f"joint {follower.name!r} mimics {leader.name!r}, but {joint.name!r} is {joint.type}",
-                hint="Only revolute, continuous and prismatic joints have the one position that a mimic needs.",
+                hint="Only revolute, continuous and prismatic joints can mimic and be mimicked.",
             )
     return leader

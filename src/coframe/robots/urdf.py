@@ -1,4 +1,4 @@
-"""URDF, read strictly: what contradicts itself is refused with its line, not guessed at."""
+"""A strict URDF parser, which reports contradictions with their line instead of guessing."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ _NEEDS_LIMITS = ("revolute", "prismatic")
 
 
 def parse_urdf(text: str | bytes) -> Robot:
-    """A robot from the text of its URDF.
+    """Parse a URDF document and return the robot.
 
     Args:
-        text: The whole document; xacro must have been expanded before (:func:`coframe.robots.load` does so).
+        text: The document. Xacro must be expanded first, as :func:`coframe.robots.load` does.
 
     Returns:
-        The robot. What means nothing but does no harm to the frames, such as a material that nobody defines, is in
-        its ``warnings``.
+        The robot. Problems that do not affect the frames, such as an undefined material, are in its `warnings`.
 
     Raises:
-        RobotDescriptionError: It is no URDF or contradicts itself: loops, links with two parents, names that occur
-            twice, values that are no numbers, limits that are missing, no links at all. The text names the line.
+        RobotDescriptionError: The document is not valid URDF, for example because of loops, links with two parents,
+            duplicate names, values that are not numbers, missing limits, or because it has no links. The text contains
+            the line.
 
     Example:
         >>> from coframe.robots import parse_urdf
@@ -56,12 +56,12 @@ def parse_urdf(text: str | bytes) -> Robot:
     parts = _named(root, "link")
     links = {name: parse_link(element, materials) for name, element in parts.items()}
     warnings += [
-        f"line {element.line}: link {name!r} begins with a slash, which tf2 leaves off"
+        f"line {element.line}: link {name!r} begins with a slash, which tf2 removes"
         for name, element in parts.items()
         if name.startswith("/")
     ]
     if not links:
-        root.refuse("the robot has no links", hint="A description needs one <link> at least.")
+        root.fail("the robot has no links", hint="Add at least one <link>.")
     elements = _named(root, "joint")
     joints = [_joint(element, warnings) for element in elements.values()]
     check_mimics(joints, elements)
@@ -78,12 +78,16 @@ def parse_urdf(text: str | bytes) -> Robot:
 def _check_kind(root: Element) -> None:
     if root.tag != "robot":
         other = {"sdf": "SDF", "mujoco": "MJCF"}.get(root.tag)
-        root.refuse(
-            f"the outermost element is <{root.tag}>, not <robot>", hint=f"It is {other}, not URDF." if other else ""
+        root.fail(
+            f"the outermost element is <{root.tag}>, not <robot>",
+            hint=f"The document is {other}, not URDF." if other else "",
         )
     for element in root.children:
         if element.tag.startswith("xacro:"):
-            element.refuse(f"<{element.tag}> is xacro, not URDF", hint="Load it from a file that ends with .xacro.")
+            element.fail(
+                f"<{element.tag}> is xacro, not URDF",
+                hint="Save it as a file with the suffix .xacro and load that file.",
+            )
 
 
 def _named(root: Element, tag: str) -> dict[str, Element]:
@@ -91,7 +95,7 @@ def _named(root: Element, tag: str) -> dict[str, Element]:
     for element in root.all(tag):
         name = element.text("name")
         if name in found:
-            element.refuse(f"there is a second {tag} {name!r}; the first one is on line {found[name].line}")
+            element.fail(f"there is a second {tag} {name!r}; the first one is on line {found[name].line}")
         found[name] = element
     return found
 
@@ -101,7 +105,9 @@ def _joint(element: Element, warnings: list[str]) -> Joint:
     kind = next((known for known in _JOINT_TYPES if known == element.attributes.get("type")), None)
     if kind is None:
         written = element.attributes.get("type", "")
-        element.refuse(f"joint {name!r} has the type {written!r}", hint=f"URDF knows {', '.join(_JOINT_TYPES)}.")
+        element.fail(
+            f"joint {name!r} has the unknown type {written!r}", hint=f"The types are {', '.join(_JOINT_TYPES)}."
+        )
     return Joint(
         name=name,
         type=kind,
@@ -121,12 +127,12 @@ def _link_name(joint: Element, role: str) -> str:
 def _axis(joint: Element, name: str, kind: JointType) -> Vector:
     element = joint.one("axis")
     if element is None or kind in {"fixed", "floating"}:
-        # A planar joint without one moves in the plane of x and y, as MoveIt and Pinocchio have it.
+        # The default plane of a planar joint is that of x and y, as in MoveIt and Pinocchio.
         return (0.0, 0.0, 1.0) if kind == "planar" else (1.0, 0.0, 0.0)
     x, y, z = element.numbers("xyz", 3, (1.0, 0.0, 0.0))
     largest = max(abs(x), abs(y), abs(z))
     if largest == 0.0:
-        element.refuse(f"the axis of joint {name!r} is zero", hint="Turns about what, or slides along what?")
+        element.fail(f"the axis of joint {name!r} is zero", hint='Give it a direction, such as xyz="0 0 1".')
     x, y, z = x / largest, y / largest, z / largest
     length = math.hypot(x, y, z)
     return x / length, y / length, z / length
@@ -135,9 +141,9 @@ def _axis(joint: Element, name: str, kind: JointType) -> Vector:
 def _limits(joint: Element, name: str, kind: JointType) -> Limits | None:
     element, safety = joint.one("limit"), joint.one("safety_controller")
     if element is None and kind in _NEEDS_LIMITS:
-        joint.refuse(
+        joint.fail(
             f"joint {name!r} is {kind} and has no <limit>",
-            hint='Give it <limit lower="..." upper="..." effort="..." velocity="..."/>'
+            hint='Add <limit lower="..." upper="..." effort="..." velocity="..."/>'
             + (", or make it continuous." if kind == "revolute" else "."),
         )
     if element is None and safety is None:
@@ -146,7 +152,7 @@ def _limits(joint: Element, name: str, kind: JointType) -> Limits | None:
     if element is not None and kind in _NEEDS_LIMITS:
         lower, upper = lower or 0.0, upper or 0.0
         if lower > upper:
-            element.refuse(f"joint {name!r} has the lower limit {lower:g} above the upper one {upper:g}")
+            element.fail(f"joint {name!r} has the lower limit {lower:g} above the upper limit {upper:g}")
     soft_lower, soft_upper = (_given(safety, part) for part in ("soft_lower_limit", "soft_upper_limit"))
     return Limits(lower, upper, effort, velocity, soft_lower, soft_upper)
 
@@ -159,7 +165,7 @@ def _mimic(joint: Element, name: str, kind: JointType, warnings: list[str]) -> M
     element = joint.one("mimic")
     if element is None:
         return None
-    if kind == "fixed":  # what is left when somebody locks a gripper
-        warnings.append(f"line {element.line}: joint {name!r} is fixed and mimics nothing")
+    if kind == "fixed":  # usually a gripper joint that was fixed later
+        warnings.append(f"line {element.line}: joint {name!r} is fixed, so its <mimic> has no effect")
         return None
     return Mimic(element.text("joint"), element.number("multiplier", 1.0), element.number("offset", 0.0))

@@ -1,13 +1,13 @@
-"""The frames of a robot as trees to look at: in the terminal, as a picture, as text for other programs.
+"""Drawings of the frames of a robot as trees: for terminals, as images, and as text for other programs.
 
-How it is made, from bottom to top:
+The package is built in layers:
 
-- A `Forest` is what is drawn: the frames in the order of drawing, each below its parent, with the figures of its links.
-  `grow` makes it of an observation (`coframe.doctor`), live or of a recording; the figures are those of
+- A `Forest` is what is drawn: the frames in the order of drawing, each below its parent, with the figures of its
+  edges. `grow` builds it from an observation (`coframe.doctor`), live or recorded; the figures are those of
   `coframe.doctor.figures`.
-- `wording` says a frame's figures as short lines, and makes any name fit to be shown.
-- One module a format: `text` (rows for a terminal), `graphviz`, `mermaid`, `plain` (data for JSON), and `svg` and
-  `pdf`, which write down the boxes and lines that `layout` places.
+- `labels` formats the figures of a frame as short lines, and makes any name printable.
+- Each format has a module: `text` (rows for a terminal), `graphviz`, `mermaid`, `plain` (data for JSON), and `svg` and
+  `pdf`, which write the boxes and lines that `layout` places.
 - `changes` compares two forests.
 """
 

@@ -1,4 +1,4 @@
-"""What has changed from one forest to the next."""
+"""The changes from one forest to the next."""
 
 from __future__ import annotations
 
@@ -16,12 +16,13 @@ __all__ = ["Change", "changes"]
 
 
 class Change(NamedTuple):
-    """One frame's.
+    """A change of one frame.
 
     Attributes:
-        kind: ``came``, ``gone``, ``moved`` (it has another parent), ``stale`` or ``fresh`` (it is told of again).
+        kind: ``came`` (the frame is new), ``gone``, ``moved`` (it has another parent), ``stale``, or ``fresh`` (it is
+            published again).
         frame: The frame.
-        text: A sentence without its full stop.
+        text: A sentence without a full stop.
     """
 
     kind: str
@@ -30,21 +31,21 @@ class Change(NamedTuple):
 
 
 def changes(before: Forest, after: Forest) -> Iterator[Change]:
-    """The frames that came, changed and went, in the order of drawing."""
+    """Yield the frames that are new, changed or gone, in the order of drawing."""
     for name, frame in after.frames.items():
         old = before.frames.get(name)
         if old is None:
-            yield Change("came", name, f"{shown(name)} came, {_place(frame)}")
+            yield Change("came", name, f"{shown(name)} is new: {_position(frame)}")
         elif old.parent != frame.parent:
-            yield Change("moved", name, f"{shown(name)} moved: it is {_place(frame)} now, and was {_place(old)}")
+            yield Change("moved", name, f"{shown(name)} moved: {_position(frame)}, before {_position(old)}")
         elif frame.silence is not None and old.silence is None:
-            yield Change("stale", name, f"{shown(name)} is stale: silent for {duration(frame.silence)}")
+            yield Change("stale", name, f"{shown(name)} is stale: no transform for {duration(frame.silence)}")
         elif frame.silence is None and old.silence is not None:
-            yield Change("fresh", name, f"{shown(name)} is told of again")
+            yield Change("fresh", name, f"{shown(name)} is published again")
     for name, old in before.frames.items():
         if name not in after.frames:
-            yield Change("gone", name, f"{shown(name)} is gone; it was {_place(old)}")
+            yield Change("gone", name, f"{shown(name)} is gone; it was {_position(old)}")
 
 
-def _place(frame: Frame) -> str:
+def _position(frame: Frame) -> str:
     return f"below {shown(frame.parent)}" if frame.parent else "a root"

@@ -1,7 +1,8 @@
-"""Forest: the frames as trees, each with the figures of the links that lead to it."""
+"""Forest: the frames as trees, each with the figures of the edge to its parent."""
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from itertools import groupby
 from typing import TYPE_CHECKING
@@ -16,17 +17,17 @@ __all__ = ["Forest", "Frame"]
 
 @dataclass(frozen=True)
 class Frame:
-    """A frame where it is drawn. Times are nanoseconds.
+    """A frame and its position in the drawing. Times are nanoseconds.
 
     Attributes:
-        name: As tf2 knows it.
-        parent: The frame that it is told in; "" for a root.
-        root: Of the tree that it is drawn in.
-        depth: Links up to the root.
-        children: The frames drawn below it, by name.
-        links: What is told of the link from its parent, one a publisher.
-        others: What is told of links from other parents: only one of them can hold.
-        silence: How long nothing was heard of it, if it moves and that is too long; None otherwise.
+        name: The name of the frame in tf2.
+        parent: The parent frame; "" for a root.
+        root: The root of the tree in which it is drawn.
+        depth: The number of edges up to the root.
+        children: The frames that are drawn below it, by name.
+        edges: The figures of the edge from its parent, one entry per publisher.
+        other_edges: The figures of the edges from other parents. A tree can contain only one of these edges.
+        silence: How long no transform was received for the frame, if its edge is stale; else None.
     """
 
     name: str
@@ -34,23 +35,29 @@ class Frame:
     root: str
     depth: int
     children: tuple[str, ...]
-    links: tuple[EdgeFigures, ...]
-    others: tuple[EdgeFigures, ...]
+    edges: tuple[EdgeFigures, ...]
+    other_edges: tuple[EdgeFigures, ...]
     silence: int | None
 
     @property
+    def links(self) -> tuple[EdgeFigures, ...]:
+        """The old name of :attr:`edges`."""
+        warnings.warn("Frame.links is deprecated: use Frame.edges", DeprecationWarning, stacklevel=2)
+        return self.edges
+
+    @property
     def is_root(self) -> bool:
-        """Whether a tree is drawn from here: nothing is above, or only what is below, too."""
+        """Whether a tree is drawn from here: the frame has no parent, or is the first frame of a loop."""
         return self.depth == 0
 
     @property
     def static(self) -> bool:
-        """Whether its place below its parent never changes."""
-        return bool(self.links) and all(link.static for link in self.links)
+        """Whether the edge from its parent is static."""
+        return bool(self.edges) and all(edge.static for edge in self.edges)
 
     @property
     def kind(self) -> str:
-        """What it is drawn as: ``root``, ``stale`` (it moves, and is no longer told of), ``static`` or ``moving``."""
+        """The kind as which it is drawn: ``root``, ``stale``, ``static`` or ``moving``."""
         if self.is_root:
             return "root"
         if self.silence is not None:
@@ -60,15 +67,15 @@ class Frame:
 
 @dataclass(frozen=True)
 class Forest:
-    """All trees.
+    """All trees of an observation.
 
     Attributes:
-        start: When listening, or the recording, began; int64 nanoseconds.
-        end: When it ended.
-        live: Heard on the wire rather than read from a recording.
-        frames: By name, in the order of drawing: tree after tree, each frame in front of what is below it.
-        trees: How many frames each tree has, by root, the largest tree first.
-        loops: The roots that are a frame of a loop: tf2 can look up nothing there.
+        start: The start of the observation, or of the recording; int64 nanoseconds.
+        end: Its end.
+        live: Whether it was received from the ROS graph, not read from a recording.
+        frames: The frames by name, in the order of drawing: tree after tree, parents before their children.
+        trees: The number of frames of each tree by its root, the largest tree first.
+        loops: The roots that are a frame of a loop, where no lookup in tf2 succeeds.
     """
 
     start: int
@@ -79,6 +86,6 @@ class Forest:
     loops: frozenset[str]
 
     def by_tree(self) -> Iterator[list[Frame]]:
-        """The frames of one tree after the other, its root first."""
+        """Yield the frames of each tree, the root first."""
         for _, frames in groupby(self.frames.values(), key=lambda frame: frame.root):
             yield list(frames)

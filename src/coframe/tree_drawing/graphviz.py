@@ -44,7 +44,7 @@ def _edges(forest: Forest, ids: dict[str, str]) -> Iterator[str]:
             style = _style(forest, frame)
             label = _quoted([*figures(frame), *alarms(frame)])
             yield f"  {_quoted([ids[frame.parent]])} -> {_quoted([ids[frame.name]])} [label={label}{style}];"
-        for parent, links in _by_parent(frame.others).items():
+        for parent, links in _by_parent(frame.other_edges).items():
             told = [line for link in links[:_MOST] for line in edge_figures(link)]
             ends = f"{_quoted([ids[parent]])} -> {_quoted([ids[frame.name]])}"
             yield f"  {ends} [label={_quoted(told)}, color=red, constraint=false];"

@@ -1,11 +1,10 @@
-"""Names and figures of frames in short lines."""
+"""Names and figures of frames as short lines of text."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.doctor.phrases import listed
-from coframe.formatting import duration
+from coframe.formatting import count, duration, listed
 
 if TYPE_CHECKING:
     from coframe.doctor.figures import EdgeFigures
@@ -14,17 +13,17 @@ if TYPE_CHECKING:
 __all__ = ["alarms", "edge_figures", "figures", "shown", "summary"]
 
 _LONGEST = 60
-_MOST_LINKS = 5
+_MOST_EDGES = 5
 
 
 def shown(name: str) -> str:
-    r"""A name as a picture shows it: names from the wire may hold anything, and be of any length.
+    r"""Return a name for a drawing: printable and not too long, whatever a publisher sends.
 
     Example:
         >>> shown("base_link"), shown("two\nlines"), len(shown("x" * 10_000))
         ('base_link', 'two\\nlines', 60)
     """
-    # Shortened first, too: of a long name the rest need not be looked at.
+    # A long name is shortened first, so that the rest of it costs nothing.
     return _shortened("".join(c if c.isprintable() else repr(c)[1:-1] for c in _shortened(name)))
 
 
@@ -34,50 +33,50 @@ def _shortened(name: str) -> str:
 
 
 def figures(frame: Frame) -> list[str]:
-    """What is told of the link that leads to a frame, by publisher; of many only the first ones."""
-    told = [line for link in frame.links[:_MOST_LINKS] for line in edge_figures(link)]
-    more = len(frame.links) - _MOST_LINKS
-    return [*told, f"and {more} more publishers"] if more > 0 else told
+    """Return the figures of the edge to the parent of a frame by publisher, for the first publishers of many."""
+    found = [line for edge in frame.edges[:_MOST_EDGES] for line in edge_figures(edge)]
+    more = len(frame.edges) - _MOST_EDGES
+    return [*found, f"and {count(more, 'more publisher')}"] if more > 0 else found
 
 
 def alarms(frame: Frame) -> list[str]:
-    """What is wrong with the frame's place: it is in a loop, no longer told of, or told to be elsewhere, too."""
-    told = [f"in a loop: below {shown(frame.parent)}"] if frame.is_root and frame.parent else []
+    """Return what is wrong with the position of a frame: it is in a loop, is stale, or has other parents too."""
+    found = [f"in a loop: below {shown(frame.parent)}"] if frame.is_root and frame.parent else []
     if frame.silence is not None:
-        told.append(f"stale: silent for {duration(frame.silence)}")
-    told += [f"also below {shown(link.parent)}{_by(link)}" for link in frame.others[:_MOST_LINKS]]
-    more = len(frame.others) - _MOST_LINKS
-    return [*told, f"and {more} more such"] if more > 0 else told
+        found.append(f"stale: no transform for {duration(frame.silence)}")
+    found += [f"also below {shown(edge.parent)}{_by(edge)}" for edge in frame.other_edges[:_MOST_EDGES]]
+    more = len(frame.other_edges) - _MOST_EDGES
+    return [*found, f"and {more} more"] if more > 0 else found
 
 
-def edge_figures(link: EdgeFigures) -> list[str]:
-    """One publisher's figures; of a static link none, as they mean nothing there."""
-    if link.static:
-        return [f"static{_by(link)}"]
-    pace = ["told once" if link.rate is None else f"{link.rate:.1f} Hz"]
-    if link.jitter is not None:
-        pace.append(f"jitter {duration(link.jitter)}")
+def edge_figures(edge: EdgeFigures) -> list[str]:
+    """Return the figures of one publisher of an edge; a static edge has none."""
+    if edge.static:
+        return [f"static{_by(edge)}"]
+    rate = ["published once" if edge.rate is None else f"{edge.rate:.1f} Hz"]
+    if edge.jitter is not None:
+        rate.append(f"jitter {duration(edge.jitter)}")
     ages = [
-        f"{what} {duration(value)}"
-        for what, value in (("delay", link.delay), ("p99", link.delay_p99), ("age", link.age))
+        f"{name} {duration(value)}"
+        for name, value in (("delay", edge.delay), ("p99", edge.delay_p99), ("age", edge.age))
         if value is not None
     ]
-    return [line for line in (shown(link.publisher), ", ".join(pace), ", ".join(ages)) if line]
+    return [line for line in (shown(edge.publisher), ", ".join(rate), ", ".join(ages)) if line]
 
 
-def _by(link: EdgeFigures) -> str:
-    """Who tells of it, where that is known: a recording of ROS 2 does not say."""
-    return f", by {shown(link.publisher)}" if link.publisher else ""
+def _by(edge: EdgeFigures) -> str:
+    """Return the publisher if it is known: recordings of ROS 2 do not contain it."""
+    return f", by {shown(edge.publisher)}" if edge.publisher else ""
 
 
 def summary(forest: Forest) -> str:
-    """How many frames and trees there are, and the roots where there are several."""
-    frames = f"{len(forest.frames)} frame{'s' * (len(forest.frames) != 1)}"
-    over = f"{duration(forest.end - forest.start)}"
+    """Return the numbers of frames and trees, the roots of several trees, and the loops."""
+    period = duration(forest.end - forest.start)
     if not forest.frames:
-        return f"no transforms yet, {over}"
-    loops = f"; {listed(map(shown, sorted(forest.loops)))}: in a loop" if forest.loops else ""
+        return f"no transforms yet, {period}"
+    frames = count(len(forest.frames), "frame")
+    loops = f"; in a loop: {listed(map(shown, sorted(forest.loops)))}" if forest.loops else ""
     if len(forest.trees) == 1:
-        return f"{frames} in 1 tree, {over}{loops}"
-    roots = listed(f"{shown(root)} ({count})" for root, count in forest.trees.items())
-    return f"{frames} in {len(forest.trees)} trees that nothing joins: {roots}; {over}{loops}"
+        return f"{frames} in 1 tree, {period}{loops}"
+    roots = listed(f"{shown(root)} ({size})" for root, size in forest.trees.items())
+    return f"{frames} in {len(forest.trees)} separate trees: {roots}; {period}{loops}"

@@ -200,7 +200,7 @@ def _links(forest: Forest, spots: dict[str, _Spot]) -> Iterator[Line]:
 def _alarming_links(forest: Forest, spots: dict[str, _Spot]) -> Iterator[Line]:
     """From second parents, and to where a loop closes."""
     for name, frame in forest.frames.items():
-        others = dict.fromkeys(link.parent for link in frame.others)
+        others = dict.fromkeys(link.parent for link in frame.other_edges)
         if name in forest.loops:
             others[frame.parent] = None
         end = (spots[name].x, spots[name].y + spots[name].height - _PAD)

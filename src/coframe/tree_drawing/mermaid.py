@@ -51,7 +51,7 @@ def _arrows(forest: Forest) -> Iterator[str]:
     for frame in forest.frames.values():
         if frame.parent:
             yield f"  {names[frame.parent]} {'-.->' if frame.name in forest.loops else '-->'} {names[frame.name]}"
-        for other in dict.fromkeys(link.parent for link in frame.others):
+        for other in dict.fromkeys(link.parent for link in frame.other_edges):
             yield f"  {names[other]} -.-> {names[frame.name]}"
 
 

@@ -31,6 +31,6 @@ def _frame(frame: Frame) -> dict[str, Any]:
         "children": list(frame.children),
         "static": frame.static,
         "silent_ns": frame.silence,
-        "links": [link._asdict() for link in frame.links],
-        "other_links": [link._asdict() for link in frame.others],
+        "edges": [edge._asdict() for edge in frame.edges],
+        "other_edges": [edge._asdict() for edge in frame.other_edges],
     }

@@ -51,12 +51,12 @@ def rows(forest: Forest) -> Iterator[Row]:
 
 def _rows(frame: Frame, last: list[bool]) -> Iterator[Row]:
     to_name, below = _branches(frame, last)
-    for number, link in enumerate(frame.links or (None,)):
+    for number, link in enumerate(frame.edges or (None,)):
         name = "" if number else shown(frame.name)
         yield Row(below if number else to_name, name, _cells(link), frame.name, frame.kind)
     if frame.is_root and frame.parent:
         yield Row(f"{below}in a loop: below ", shown(frame.parent), ("",) * 6, frame.name, "other")
-    for link in frame.others:
+    for link in frame.other_edges:
         yield Row(f"{below}also below ", shown(link.parent), _cells(link), frame.name, "other")
 
 

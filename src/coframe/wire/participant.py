@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from coframe import _core
 from coframe.errors import WireError
-from coframe.frame_names import oddities
+from coframe.frame_names import naming_problems
 from coframe.time import SECOND
 from coframe.wire import config, dds, names, types
 from coframe.wire.batch_subscription import BatchSubscription
@@ -443,7 +443,7 @@ class Participant:
             for statistics in reader.writer_statistics():
                 node = self._graph.writer_node(statistics.writer) or "an unnamed node"
                 examples = statistics.slashed, statistics.prefixed, statistics.plain
-                for problem in oddities(f"{node} on {topic}", *examples):
+                for problem in naming_problems(f"{node} on {topic}", *examples):
                     self._warn_of_name(problem, problem)
 
     def _graph_changed(self) -> None:

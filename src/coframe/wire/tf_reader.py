@@ -27,6 +27,7 @@ class WriterStatistics(NamedTuple):
         writer: The writer's handle.
         messages: The number of messages.
         received_at: The time at which the last one arrived, in nanoseconds of `time.monotonic_ns`.
+        period: The median interval between the arrivals of the last messages, in nanoseconds; 0 for fewer than two.
         lag: The delay of the stamps relative to the system clock on arrival, in nanoseconds: the lower quartile of
             the last messages. None if there are too few messages.
         slashed: A frame name that begins with a slash; "" if there is none.
@@ -37,6 +38,7 @@ class WriterStatistics(NamedTuple):
     writer: int
     messages: int
     received_at: int
+    period: int
     lag: int | None
     slashed: str
     prefixed: str

@@ -1,4 +1,4 @@
-"""joint_state_publisher as a node of rclpy: joint states from a robot's description and what other sources say."""
+"""joint_state_publisher as an rclpy node, which combines joint states from a robot description and other sources."""
 
 from joint_state_publisher._node import JointStatePublisher, main, run
 

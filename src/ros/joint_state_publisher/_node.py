@@ -1,4 +1,4 @@
-"""The node: upstream's parameters, topics, QoS and texts."""
+"""The node joint_state_publisher, with the parameters, topics, QoS profiles and log messages of upstream."""
 
 import contextlib
 import threading
@@ -11,7 +11,7 @@ from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.exceptions import ParameterAlreadyDeclaredException
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
-from robot_state_publisher import program, spin_until_ended
+from robot_state_publisher import program, spin_until_shutdown
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
@@ -31,20 +31,20 @@ _DEFAULTS: dict[str, Any] = {
 
 
 class JointStatePublisher(Node):
-    """Publishes the states of a robot's joints again and again.
+    """Node that publishes the states of the joints of a robot periodically.
 
     Args:
-        robot: The robot, until `/robot_description` tells of one; None: there is none until then.
-        options: As of Node.
+        robot: Robot to use until a description is received on `/robot_description`. None: no robot.
+        options: Keyword arguments of Node.
 
     Attributes:
-        robot: The robot whose joints are told of; None until there is one.
-        states: What is told; None until there is a robot. To be used under `lock`.
-        lock: Guards `states`.
+        robot: Robot whose joint states are published, or None.
+        states: Joint states to publish, or None if there is no robot. Access requires `lock`.
+        lock: Lock that protects `states`.
 
     Raises:
-        RobotDescriptionError: Joints follow each other in a circle, or one that is not there.
-        ValueError: A parameter makes no sense.
+        RobotDescriptionError: Mimic joints form a cycle or refer to a joint that does not exist.
+        ValueError: A parameter is not valid.
     """
 
     def __init__(self, robot: Robot | None = None, **options: Any) -> None:
@@ -67,30 +67,30 @@ class JointStatePublisher(Node):
         self._delta = self._number("delta")
         rate = self._number("rate")
         if not 0.0 < rate <= 1e6:
-            raise ValueError(f"parameter 'rate' must be more than 0 per second, but is {rate:g}")
+            raise ValueError(f"The parameter 'rate' must be greater than 0 Hz and at most 1 MHz, but is {rate:g}.")
         if robot is None:
             self.get_logger().info("Waiting for robot_description to be published on the robot_description topic...")
         else:
             self.configure(robot)
-        self.create_subscription(String, "robot_description", self._take_description, _LATCHED)
+        self.create_subscription(String, "robot_description", self._on_description, _LATCHED)
         for source in self._topics("source_list"):
-            self.create_subscription(JointState, source, self._take_source, 10)
+            self.create_subscription(JointState, source, self._on_source, 10)
         self._publisher = self.create_publisher(JointState, "joint_states", 10)
-        self.create_timer(1.0 / rate, self._tell)
+        self.create_timer(1.0 / rate, self._publish)
 
     def configure(self, robot: Robot) -> None:
-        """From now on tells of this robot, from its rest on.
+        """Use this robot with its default joint positions.
 
         Raises:
-            RobotDescriptionError: As of the node.
+            RobotDescriptionError: Mimic joints form a cycle or refer to a joint that does not exist.
         """
         states = JointStates(robot, **self._choices)
         with self.lock:
             self.robot, self.states = robot, states
 
-    def _take_description(self, message: String) -> None:
+    def _on_description(self, message: String) -> None:
         if self.robot is not None and message.data == self.robot.text:
-            return  # it was known, and joints that were moved stay where they are
+            return  # The description has not changed, so the joints keep their positions.
         try:
             robot = parse_urdf(message.data)
         except RobotDescriptionError as error:
@@ -102,22 +102,22 @@ class JointStatePublisher(Node):
             self.get_logger().error(str(error))
             raise
 
-    def _take_source(self, message: JointState) -> None:
+    def _on_source(self, message: JointState) -> None:
         if self.states is None:
             return
         try:
             with self.lock:
-                self.states.take(message.name, message.position, message.velocity, message.effort)
+                self.states.update(message.name, message.position, message.velocity, message.effort)
         except ValueError as error:
             self.get_logger().warning(f"Ignored an invalid JointState message: {error}", throttle_duration_sec=5.0)
 
-    def _tell(self) -> None:
+    def _publish(self) -> None:
         if self.states is None:
             return
         with self.lock:
             if self._delta > 0.0:
                 self.states.step(self._delta)
-            names, positions, velocities, efforts = self.states.told()
+            names, positions, velocities, efforts = self.states.fields()
         if not names:
             return
         message = JointState(name=names, position=positions, velocity=velocities, effort=efforts)
@@ -125,13 +125,14 @@ class JointStatePublisher(Node):
         self._publisher.publish(message)
 
     def _dependent_joints(self) -> dict[str, tuple[str, float, float]]:
-        """By joint: whom it follows, factor and offset."""
+        """Return parent, factor and offset of each dependent joint."""
         found: dict[str, dict[str, Any]] = {}
         for name in self.get_parameters_by_prefix("dependent_joints"):
             joint, _, part = name.rpartition(".")
             if not joint or part not in {"parent", "factor", "offset"}:
                 raise ValueError(
-                    f"Invalid dependent_joint name '{name}': it is dependent_joints.JOINT.parent, .factor or .offset"
+                    f"Invalid dependent_joint name '{name}'. "
+                    "Expected dependent_joints.JOINT.parent, .factor or .offset."
                 )
             full = f"dependent_joints.{name}"
             found.setdefault(joint, {})[part] = (
@@ -139,7 +140,7 @@ class JointStatePublisher(Node):
             )
         for joint, parts in found.items():
             if "parent" not in parts:
-                raise ValueError(f"All dependent_joints must at least have a parent: '{joint}' has none")
+                raise ValueError(f"All dependent_joints must at least have a parent. '{joint}' has no parent.")
         return {
             joint: (parts["parent"], parts.get("factor", 1.0), parts.get("offset", 0.0))
             for joint, parts in found.items()
@@ -148,38 +149,38 @@ class JointStatePublisher(Node):
     def _number(self, name: str) -> float:
         value = self.get_parameter(name).value
         if isinstance(value, bool) or not isinstance(value, int | float):
-            raise ValueError(f"parameter '{name}' must be a number, but is {value!r}")  # noqa: TRY004 - of the user
+            raise ValueError(f"The parameter '{name}' must be a number, but is {value!r}.")  # noqa: TRY004
         return float(value)
 
     def _switch(self, name: str) -> bool:
         value = self.get_parameter(name).value
         if not isinstance(value, bool):
-            raise ValueError(f"parameter '{name}' must be true or false, but is {value!r}")  # noqa: TRY004
+            raise ValueError(f"The parameter '{name}' must be true or false, but is {value!r}.")  # noqa: TRY004
         return value
 
     def _topics(self, name: str) -> list[str]:
         value = self.get_parameter(name).value
         if not isinstance(value, Sequence) or isinstance(value, str) or not all(isinstance(v, str) for v in value):
-            raise ValueError(f"parameter '{name}' must be a list of topics, but is {value!r}")
+            raise ValueError(f"The parameter '{name}' must be a list of topics, but is {value!r}.")
         return list(value)
 
 
 def run(args: list[str], robot: Robot | None = None, *, domain_id: int | None = None, **options: Any) -> None:
-    """Run the node until it is ended from outside.
+    """Run the node until shutdown.
 
     Args:
-        args: A command line; what follows `--ros-args` is the node's.
-        robot: As of the node.
-        domain_id: DDS domain; None: as the environment says.
-        options: As of Node.
+        args: Command line with `--ros-args`.
+        robot: Robot, as for the node.
+        domain_id: DDS domain. None: ROS_DOMAIN_ID or 0.
+        options: Keyword arguments of Node.
 
     Raises:
-        RobotDescriptionError: As of the node, also for a description that arrives later.
-        ValueError: As of the node.
+        RobotDescriptionError: A description is not valid, also if it is received later.
+        ValueError: A parameter is not valid.
     """
-    spin_until_ended(lambda: JointStatePublisher(robot, **options), args, domain_id)
+    spin_until_shutdown(lambda: JointStatePublisher(robot, **options), args, domain_id)
 
 
 def main(args: list[str] | None = None) -> None:
-    """The console script: maybe a file's name, then `--ros-args`."""
+    """Run the console script, whose arguments are an optional file and `--ros-args`."""
     program("joint_state_publisher", args, lambda words, files: run(words, load(files[0]) if files else None))

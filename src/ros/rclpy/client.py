@@ -213,9 +213,9 @@ def wait_until_ready(
     """Wait until the remote side of some endpoints is available.
 
     Args:
-        context: Its shutdown ends the wait.
-        participant: Tells when the graph changes.
-        is_ready: Whether the other side is there.
+        context: Context whose shutdown ends the wait.
+        participant: Participant whose graph changes wake the wait.
+        is_ready: Function that returns whether the remote side is available.
         timeout_sec: Maximum time to wait in seconds. None: no limit.
 
     Returns:

@@ -1,4 +1,4 @@
-"""The node: upstream's parameters, topics, QoS and texts."""
+"""The node robot_state_publisher, with the parameters, topics, QoS profiles and log messages of upstream."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -6,6 +6,7 @@ from typing import Any
 from coframe.frame_names import kept, prefix_advice
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
 from coframe.robots.publishing import StatePublisher
+from coframe.time import SECOND
 from coframe.transform import Transform
 from geometry_msgs.msg import TransformStamped
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
@@ -14,26 +15,25 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.time import Time
-from robot_state_publisher._program import program, spin_until_ended
+from robot_state_publisher._program import program, spin_until_shutdown
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster
 
 __all__ = ["RobotStatePublisher", "main", "run"]
 
-_SECOND = 1_000_000_000
 _LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class RobotStatePublisher(Node):
-    """Publishes a robot's transforms: the fixed ones once, the others with every joint state.
+    """Node that publishes the fixed transforms of a robot once, and the others with every joint state.
 
     Args:
-        file: URDF or xacro, for where the parameter `robot_description` is empty.
-        options: As of Node.
+        file: URDF or xacro file that is used if the parameter `robot_description` is empty.
+        options: Keyword arguments of Node.
 
     Raises:
-        RobotDescriptionError: There is no description, or it contradicts itself.
+        RobotDescriptionError: The description is missing or not valid.
     """
 
     def __init__(self, file: str | None = None, **options: Any) -> None:
@@ -42,7 +42,7 @@ class RobotStatePublisher(Node):
         hertz = ParameterDescriptor(floating_point_range=[FloatingPointRange(from_value=0.0, to_value=1000.0)])
         frequency = self.declare_parameter("publish_frequency", 20.0, hertz).value
         self._prefix = self.declare_parameter("frame_prefix", "").value
-        # Not upstream's: the links that are shared and get no prefix, such as "map,world".
+        # An extension of upstream: links without prefix, such as "map,world".
         self._kept = set(kept(self.declare_parameter("frame_prefix_keep", "").value))
         self._advise()
         ignore_stamps = self.declare_parameter("ignore_timestamp", False).value
@@ -55,14 +55,16 @@ class RobotStatePublisher(Node):
         self.add_on_set_parameters_callback(self._set_parameters)
         overrides = QoSOverridingOptions.with_default_policies()
         self.create_subscription(
-            JointState, "joint_states", self._take, qos_profile_sensor_data, qos_overriding_options=overrides
+            JointState, "joint_states", self._on_joint_state, qos_profile_sensor_data, qos_overriding_options=overrides
         )
 
     def _first_robot(self, description: str, file: str | None) -> Robot:
         if description:
             return parse_urdf(description)
         if file is None:
-            raise RobotDescriptionError("robot_description parameter must not be empty", hint="Or name a URDF file.")
+            raise RobotDescriptionError(
+                "robot_description parameter must not be empty", hint="Alternatively, pass a URDF file."
+            )
         self.get_logger().warning(
             "No robot_description parameter, but command-line argument available.  "
             "Assuming argument is name of URDF file."
@@ -79,13 +81,13 @@ class RobotStatePublisher(Node):
         self._description.publish(String(data=self._states.robot.text))
         now = self.get_clock().now().nanoseconds
         fixed = [self._message(transform, now) for transform in self._states.fixed()]
-        told = self._static_broadcaster.net_message
-        # Unlike upstream's, which goes on to tell of links that a robot before this one had.
-        told.transforms, before = [], told.transforms
-        if fixed or before:
+        message = self._static_broadcaster.net_message
+        # Links of the previous description are removed. Upstream continues to publish them.
+        message.transforms, previous = [], message.transforms
+        if fixed or previous:
             self._static_broadcaster.sendTransform(fixed)
 
-    def _take(self, state: JointState) -> None:
+    def _on_joint_state(self, state: JointState) -> None:
         if len(state.name) != len(state.position):
             if not len(state.position):
                 self.get_logger().warning("Robot state publisher ignored a JointState message without positions")
@@ -106,9 +108,9 @@ class RobotStatePublisher(Node):
     def _message(self, transform: Transform, stamp: int) -> TransformStamped:
         message = TransformStamped(child_frame_id=self._frame(transform.source or ""))
         message.header.frame_id = self._frame(transform.target or "")
-        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, _SECOND)
-        at, turn = message.transform.translation, message.transform.rotation
-        at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w = transform.values
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, SECOND)
+        p, q = message.transform.translation, message.transform.rotation
+        p.x, p.y, p.z, q.x, q.y, q.z, q.w = transform.values
         return message
 
     def _frame(self, link: str) -> str:
@@ -117,13 +119,13 @@ class RobotStatePublisher(Node):
     def _advise(self) -> None:
         if self._prefix.startswith("/"):
             self.get_logger().warning(
-                f"The frame_prefix {self._prefix!r} begins with a slash, as no frame of tf2 does: it is left off"
+                f"The frame_prefix {self._prefix!r} begins with a slash. tf2 frame names do not, so it is removed."
             )
         elif advice := prefix_advice(self._prefix):
             self.get_logger().warning(f"The frame_prefix is put in front as it is: {advice}")
 
     def _set_parameters(self, parameters: Sequence[Parameter[Any]]) -> SetParametersResult:
-        """Take changes over, or refuses all of them."""
+        """Apply changes of parameters, or reject all of them."""
         given = {parameter.name: parameter.value for parameter in parameters}
         try:
             robot = self._new_robot(given["robot_description"]) if "robot_description" in given else None
@@ -148,20 +150,20 @@ class RobotStatePublisher(Node):
 
 
 def run(args: list[str], file: str | None = None, *, domain_id: int | None = None, **options: Any) -> None:
-    """Run the node until it is ended from outside.
+    """Run the node until shutdown.
 
     Args:
-        args: A command line; what follows `--ros-args` is the node's.
-        file: As of the node.
-        domain_id: DDS domain; None: as the environment says.
-        options: As of Node.
+        args: Command line with `--ros-args`.
+        file: URDF or xacro file, as for the node.
+        domain_id: DDS domain. None: ROS_DOMAIN_ID or 0.
+        options: Keyword arguments of Node.
 
     Raises:
-        RobotDescriptionError: As of the node.
+        RobotDescriptionError: The description is missing or not valid.
     """
-    spin_until_ended(lambda: RobotStatePublisher(file, **options), args, domain_id)
+    spin_until_shutdown(lambda: RobotStatePublisher(file, **options), args, domain_id)
 
 
 def main(args: list[str] | None = None) -> None:
-    """The console script: a file's name, then `--ros-args`."""
+    """Run the console script, whose arguments are an optional file and `--ros-args`."""
     program("robot_state_publisher", args, lambda words, files: run(words, files[0] if files else None))

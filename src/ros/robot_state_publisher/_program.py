@@ -1,4 +1,4 @@
-"""A node as a program: it runs until it is ended from outside, and what is wrong is one sentence."""
+"""Entry points of nodes as programs, which run until shutdown and report errors as a message."""
 
 import sys
 from collections.abc import Callable
@@ -9,16 +9,16 @@ from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 
-__all__ = ["program", "spin_until_ended"]
+__all__ = ["program", "spin_until_shutdown"]
 
 
-def spin_until_ended(make_node: Callable[[], Node], args: list[str], domain_id: int | None) -> None:
-    """Run a node until it is ended from outside.
+def spin_until_shutdown(make_node: Callable[[], Node], args: list[str], domain_id: int | None) -> None:
+    """Run a node until shutdown.
 
     Args:
-        make_node: Makes it.
-        args: A command line; what follows `--ros-args` is the node's.
-        domain_id: DDS domain; None: as the environment says.
+        make_node: Function that creates the node.
+        args: Command line with `--ros-args`.
+        domain_id: DDS domain. None: ROS_DOMAIN_ID or 0.
     """
     try:
         with rclpy.init(args=args, domain_id=domain_id):
@@ -28,12 +28,12 @@ def spin_until_ended(make_node: Callable[[], Node], args: list[str], domain_id: 
 
 
 def program(name: str, args: list[str] | None, run: Callable[[list[str], list[str]], None]) -> None:
-    """A console script.
+    """Run a console script and report its errors.
 
     Args:
-        name: The program's.
-        args: What follows its name on the command line; None: as this process was started.
-        run: Gets the whole command line, and what of it is not ROS's, without the name.
+        name: Name of the program.
+        args: Command line without the name. None: that of the process.
+        run: Function that is called with the command line, and with the arguments that are not ROS arguments.
     """
     words = [name, *(sys.argv[1:] if args is None else args)]
     try:

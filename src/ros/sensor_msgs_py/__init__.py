@@ -1,4 +1,4 @@
-"""Reading and making `sensor_msgs/PointCloud2` with numpy, as the ROS 2 package `sensor_msgs_py` does."""
+"""Conversion between `sensor_msgs/PointCloud2` and NumPy arrays with the API of the ROS 2 package `sensor_msgs_py`."""
 
 from coframe import ros_side
 

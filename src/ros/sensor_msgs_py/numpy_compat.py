@@ -1,4 +1,4 @@
-"""Structured arrays to plain ones and back; numpy itself has had them since 1.16."""
+"""Conversion between structured and unstructured arrays, which NumPy provides since version 1.16."""
 
 from numpy.lib.recfunctions import structured_to_unstructured, unstructured_to_structured
 

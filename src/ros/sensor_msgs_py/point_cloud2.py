@@ -1,4 +1,4 @@
-"""Points of a `sensor_msgs/PointCloud2` as numpy arrays, and clouds out of arrays."""
+"""Conversion between `sensor_msgs/PointCloud2` and NumPy arrays."""
 
 import sys
 from array import array
@@ -34,17 +34,17 @@ def read_points(
     uvs: Iterable[int] | NDArray[Any] | None = None,
     reshape_organized_cloud: bool = False,
 ) -> NDArray[Any]:
-    """The points of a cloud.
+    """Return the points of a cloud as a structured array.
 
     Args:
-        cloud: The cloud.
-        field_names: Fields to read; all by default.
-        skip_nans: Leave out points with a NaN in one of these fields.
-        uvs: Indices of the points to read; all by default.
-        reshape_organized_cloud: Return an organized cloud with the shape (width, height), as upstream does.
+        cloud: Cloud to read.
+        field_names: Fields to read. None: all fields.
+        skip_nans: Whether to skip points with a NaN in one of these fields.
+        uvs: Indices of the points to read. None: all points.
+        reshape_organized_cloud: Whether to return an organized cloud with the shape (width, height), as upstream.
 
     Returns:
-        A structured array, shape (N,), with one name per field. It looks at the cloud's own bytes where it can.
+        A structured array with shape (N,) and one name per field, which is a view of the data of the cloud if possible.
     """
     assert isinstance(cloud, PointCloud2), "Cloud is not a sensor_msgs.msg.PointCloud2"
     points: NDArray[Any] = as_structured(cloud).reshape(-1)
@@ -71,9 +71,9 @@ def read_points_numpy(
     uvs: Iterable[int] | NDArray[Any] | None = None,
     reshape_organized_cloud: bool = False,
 ) -> NDArray[Any]:
-    """The points of a cloud as a plain array, shape (N, fields); the fields need to have one type.
+    """Return the points of a cloud as an unstructured array with shape (N, fields).
 
-    The arguments are those of `read_points`.
+    All fields must have the same type. The arguments are those of `read_points`.
     """
     points = read_points(cloud, field_names, skip_nans, uvs, reshape_organized_cloud)
     types = {points.dtype[name] for name in points.dtype.names or ()}
@@ -87,7 +87,7 @@ def read_points_list(
     skip_nans: bool = False,
     uvs: Iterable[int] | NDArray[Any] | None = None,
 ) -> list[Any]:
-    """The points of a cloud as named tuples; slow, and nice to read. The arguments are those of `read_points`."""
+    """Return the points of a cloud as named tuples, which is slow. The arguments are those of `read_points`."""
     assert isinstance(cloud, PointCloud2), "Cloud is not a sensor_msgs.msg.PointCloud2"
     points = read_points(cloud, field_names, skip_nans, uvs)
     point_type = namedtuple("Point", points.dtype.names or ())  # type: ignore[misc]  # noqa: PYI024 - names are data
@@ -95,11 +95,11 @@ def read_points_list(
 
 
 def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = None) -> np.dtype[Any]:
-    """The structured dtype of a list of `PointField`.
+    """Return the structured dtype of a list of `PointField`.
 
     Args:
-        fields: The fields. One with a count above 1 becomes several, named `<field>_0`, `<field>_1`, ...
-        point_step: Bytes of one point, when there is padding after the last field.
+        fields: Fields of a point. A field with a count above 1 becomes several, named `<field>_0`, `<field>_1`, ...
+        point_step: Size of a point in bytes, if there is padding after the last field.
     """
     names: list[str] = []
     formats: list[np.dtype[Any]] = []
@@ -127,14 +127,14 @@ def create_cloud(
     points: Any,
     point_step: int | None = None,
 ) -> PointCloud2:
-    """A cloud of points.
+    """Create a cloud from points.
 
     Args:
-        header: Its header.
-        fields: Its fields.
-        points: A structured array, a plain array of shape (N, fields), or an iterable of points; an array of
-            points of shape (width, height) makes an organized cloud.
-        point_step: Bytes of one point, when there shall be padding after the last field.
+        header: Header of the cloud.
+        fields: Fields of a point.
+        points: Structured array, unstructured array of shape (N, fields), or iterable of points. An array of points
+            with shape (width, height) creates an organized cloud.
+        point_step: Size of a point in bytes, if there should be padding after the last field.
     """
     fields = list(fields)
     structured = np.ascontiguousarray(_structured(fields, points, point_step))
@@ -158,7 +158,7 @@ def create_cloud(
 
 
 def create_cloud_xyz32(header: Header, points: Any, point_step: int | None = None) -> PointCloud2:
-    """A cloud of points with the float32 fields x, y and z; the arguments are those of `create_cloud`."""
+    """Create a cloud with the float32 fields x, y and z. The arguments are those of `create_cloud`."""
     fields = [
         PointField(name=name, offset=4 * number, datatype=PointField.FLOAT32, count=1)
         for number, name in enumerate("xyz")
@@ -167,7 +167,7 @@ def create_cloud_xyz32(header: Header, points: Any, point_step: int | None = Non
 
 
 def as_structured(cloud: PointCloud2) -> NDArray[Any]:
-    """The cloud's bytes as a structured array, shape (height, width), in the cloud's byte order; not a copy."""
+    """Return a view of the cloud's data as a structured array of shape (height, width) in the cloud's byte order."""
     dtype = dtype_from_fields(cloud.fields, cloud.point_step).newbyteorder(">" if cloud.is_bigendian else "<")
     row_step = cloud.row_step or cloud.point_step * cloud.width
     strides = (row_step, cloud.point_step)

@@ -1,6 +1,6 @@
-"""Geometry messages in tf2: points, directions, poses, twists, ... seen from another frame.
+"""tf2 support for geometry messages: points, vectors, poses, twists, ...
 
-Importing this package teaches `tf2_ros.Buffer.transform` the stamped types.
+Importing this package registers the stamped types for `tf2_ros.Buffer.transform`.
 """
 
 from coframe import ros_side
@@ -53,7 +53,7 @@ from tf2_geometry_msgs.tf2_geometry_msgs import (
     transform_covariance,
 )
 
-# Message types and the like are here because upstream leaks them, and user code imports them from here.
+# The message types and other names are exported because programs import them from upstream's package.
 __all__ = [
     "AccelStamped",
     "AccelWithCovarianceStamped",

@@ -1,18 +1,18 @@
-"""Velocities, accelerations, forces and inertias of rigid bodies, seen from another frame.
+"""Transformation of velocities, accelerations, wrenches and inertias of rigid bodies.
 
-Upstream's Python has none of these. A twist, wrench or acceleration is told in the axes of a frame *and* at a point:
-where the body's velocity is meant, about what the torque is. A change of frame turns the axes. Whether the point moves
-to the other frame's origin as well is the caller's to say:
+Upstream's Python package does not provide these functions. A twist, wrench or acceleration is expressed in the axes of
+a frame *and* refers to a point: the point of the velocity, or the point about which the torque acts. A transform
+rotates the axes. The caller chooses whether the reference point changes as well:
 
-- By default it stays: each vector is rotated and nothing else, as tf2's C++ does it with a `WrenchStamped`
-  (`doTransform` in `tf2_geometry_msgs.hpp`) and ROS 1's Python did. That is what it takes to see the velocity of a
-  robot, measured in its own axes, in those of the map.
-- With `at_target_origin=True` it becomes the target frame's origin, as in C++'s `VelocityStamped` (from Jazzy on) and
-  in KDL's `Frame * Twist` and `Frame * Wrench`: the adjoint map of Lynch and Park, Modern Robotics, sections 3.3.2 and
-  3.4. That is what it takes to tell a sensor's velocity from the robot's on which it is mounted, or the torque at the
-  flange from that at the tool; both frames need to be fixed to the same body.
+- By default, the point stays the same and each vector is only rotated, like a `WrenchStamped` in tf2's C++
+  (`doTransform` in `tf2_geometry_msgs.hpp`) and in ROS 1's Python. Use this to express the velocity of a robot,
+  measured in its own axes, in the axes of the map.
+- With `at_target_origin=True`, the point becomes the origin of the target frame, as in C++'s `VelocityStamped` (since
+  Jazzy) and in KDL's `Frame * Twist` and `Frame * Wrench`. This is the adjoint map of Lynch and Park, Modern Robotics,
+  sections 3.3.2 and 3.4. Use this to compute the velocity of a sensor from that of the robot on which it is mounted,
+  or the torque at the flange from the torque at the tool. Both frames must be fixed to the same body.
 
-`Buffer.transform` does the former. The result's header is the transform's, by reference, as upstream.
+`Buffer.transform` uses the default. The header of a result is a reference to the header of the transform, as upstream.
 """
 
 from typing import Any
@@ -39,30 +39,30 @@ Array = NDArray[np.float64]
 def do_transform_twist_stamped(
     twist: TwistStamped, transform: TransformStamped, *, at_target_origin: bool = False
 ) -> TwistStamped:
-    """A twist (m/s, rad/s), seen from the transform's frame.
+    """Transform a twist (m/s, rad/s).
 
     Args:
-        twist: Velocity of a point of a body, and the body's angular velocity.
-        transform: To the frame to see it from.
-        at_target_origin: Tell the velocity of the body at the target frame's origin instead of at the source's.
+        twist: Linear velocity of a point of a body, and angular velocity of the body.
+        transform: Transform into the target frame.
+        at_target_origin: Whether to return the velocity at the origin of the target frame instead of the source frame.
     """
     result = TwistStamped(header=transform.header)
-    _turn_twist(twist.twist, result.twist, transform, at_target_origin=at_target_origin)
+    _transform_twist(twist.twist, result.twist, transform, at_target_origin=at_target_origin)
     return result
 
 
 def do_transform_twist_with_covariance_stamped(
     twist: TwistWithCovarianceStamped, transform: TransformStamped, *, at_target_origin: bool = False
 ) -> TwistWithCovarianceStamped:
-    """A twist and its covariance (linear x, y, z, angular x, y, z), seen from the transform's frame.
+    """Transform a twist and its covariance (linear x, y, z, angular x, y, z).
 
     Args:
-        twist: Velocity of a point of a body, and the body's angular velocity.
-        transform: To the frame to see it from.
-        at_target_origin: Tell the velocity of the body at the target frame's origin instead of at the source's.
+        twist: Linear velocity of a point of a body, and angular velocity of the body.
+        transform: Transform into the target frame.
+        at_target_origin: Whether to return the velocity at the origin of the target frame instead of the source frame.
     """
     result = TwistWithCovarianceStamped(header=transform.header)
-    _turn_twist(twist.twist.twist, result.twist.twist, transform, at_target_origin=at_target_origin)
+    _transform_twist(twist.twist.twist, result.twist.twist, transform, at_target_origin=at_target_origin)
     if at_target_origin:
         adjoint = _adjoint(transform)
         covariance = adjoint @ np.reshape(twist.twist.covariance, (6, 6)) @ adjoint.T
@@ -73,21 +73,21 @@ def do_transform_twist_with_covariance_stamped(
 
 
 def do_transform_accel_stamped(accel: AccelStamped, transform: TransformStamped) -> AccelStamped:
-    """An acceleration (m/s^2, rad/s^2) of a body at a point, seen from the transform's frame: rotated.
+    """Rotate the acceleration (m/s^2, rad/s^2) of a body at a point.
 
-    At another point it cannot be told: that takes the angular velocity, which the message does not have.
+    The acceleration at another point depends on the angular velocity, which the message does not contain.
     """
     result = AccelStamped(header=transform.header)
-    _turn(accel.accel, result.accel, transform, ("linear", "angular"))
+    _rotate_vectors(accel.accel, result.accel, transform, ("linear", "angular"))
     return result
 
 
 def do_transform_accel_with_covariance_stamped(
     accel: AccelWithCovarianceStamped, transform: TransformStamped
 ) -> AccelWithCovarianceStamped:
-    """An acceleration and its covariance (linear x, y, z, angular x, y, z), seen from the transform's frame."""
+    """Rotate an acceleration and its covariance (linear x, y, z, angular x, y, z)."""
     result = AccelWithCovarianceStamped(header=transform.header)
-    _turn(accel.accel.accel, result.accel.accel, transform, ("linear", "angular"))
+    _rotate_vectors(accel.accel.accel, result.accel.accel, transform, ("linear", "angular"))
     result.accel.covariance = transform_covariance(accel.accel.covariance, transform)
     return result
 
@@ -95,58 +95,58 @@ def do_transform_accel_with_covariance_stamped(
 def do_transform_wrench_stamped(
     wrench: WrenchStamped, transform: TransformStamped, *, at_target_origin: bool = False
 ) -> WrenchStamped:
-    """A force and a torque (N, N m), seen from the transform's frame.
+    """Transform a force and a torque (N, N m).
 
     Args:
-        wrench: A force through a point, and the torque about it.
-        transform: To the frame to see it from.
-        at_target_origin: Tell the torque about the target frame's origin instead of about the source's.
+        wrench: Force through a point, and torque about this point.
+        transform: Transform into the target frame.
+        at_target_origin: Whether to return the torque about the origin of the target frame instead of the source frame.
     """
     result = WrenchStamped(header=transform.header)
-    _turn(wrench.wrench, result.wrench, transform, ("force", "torque"))
+    _rotate_vectors(wrench.wrench, result.wrench, transform, ("force", "torque"))
     if at_target_origin:
         _add(result.wrench.torque, np.cross(_xyz(transform.transform.translation), _xyz(result.wrench.force)))
     return result
 
 
 def do_transform_inertia_stamped(inertia: InertiaStamped, transform: TransformStamped) -> InertiaStamped:
-    """A mass, its centre and its inertia tensor, seen from the transform's frame.
+    """Transform the center of mass and the inertia tensor of a body.
 
-    The tensor is taken as that about the centre of mass, as in URDF: it is rotated, and the centre moves.
+    The tensor refers to the center of mass, as in URDF, so it is only rotated.
     """
-    given, result = inertia.inertia, InertiaStamped(header=transform.header)
-    told = result.inertia
-    told.m = given.m
-    _set(told.com, _apply(transform, _xyz(given.com)))
+    source, result = inertia.inertia, InertiaStamped(header=transform.header)
+    target = result.inertia
+    target.m = source.m
+    _set(target.com, _apply(transform, _xyz(source.com)))
     rotation = _rotation(transform.transform)
     tensor = np.array(
         [
-            [given.ixx, given.ixy, given.ixz],
-            [given.ixy, given.iyy, given.iyz],
-            [given.ixz, given.iyz, given.izz],
+            [source.ixx, source.ixy, source.ixz],
+            [source.ixy, source.iyy, source.iyz],
+            [source.ixz, source.iyz, source.izz],
         ]
     )
-    (told.ixx, told.ixy, told.ixz), (_, told.iyy, told.iyz), (_, _, told.izz) = (
+    (target.ixx, target.ixy, target.ixz), (_, target.iyy, target.iyz), (_, _, target.izz) = (
         rotation @ tensor @ rotation.T
     ).tolist()
     return result
 
 
-def _turn_twist(given: Twist, told: Twist, transform: TransformStamped, *, at_target_origin: bool) -> None:
-    _turn(given, told, transform, ("linear", "angular"))
+def _transform_twist(source: Twist, target: Twist, transform: TransformStamped, *, at_target_origin: bool) -> None:
+    _rotate_vectors(source, target, transform, ("linear", "angular"))
     if at_target_origin:
-        _add(told.linear, np.cross(_xyz(transform.transform.translation), _xyz(told.angular)))
+        _add(target.linear, np.cross(_xyz(transform.transform.translation), _xyz(target.angular)))
 
 
-def _turn(given: Any, told: Any, transform: TransformStamped, vectors: tuple[str, str]) -> None:
-    """Rotate two vectors of a message into another message."""
+def _rotate_vectors(source: Any, target: Any, transform: TransformStamped, vectors: tuple[str, str]) -> None:
+    """Write two rotated vectors of a message to another message."""
     rotation = _rotation(transform.transform)
     for vector in vectors:
-        _set(getattr(told, vector), (rotation @ _xyz(getattr(given, vector))).tolist())
+        _set(getattr(target, vector), (rotation @ _xyz(getattr(source, vector))).tolist())
 
 
 def _adjoint(transform: TransformStamped) -> Array:
-    """The 6x6 matrix that takes (linear, angular) of a twist to the other frame's axes and origin."""
+    """Return the 6x6 adjoint matrix for (linear, angular) of a twist, from the source to the target frame."""
     rotation = _rotation(transform.transform)
     adjoint = np.zeros((6, 6))
     adjoint[:3, :3] = adjoint[3:, 3:] = rotation

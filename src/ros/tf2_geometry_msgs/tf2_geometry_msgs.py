@@ -1,4 +1,4 @@
-"""Geometry messages seen from another frame."""
+"""Transformation of geometry messages."""
 
 from collections.abc import Iterable
 from typing import Any, Optional, Tuple  # noqa: F401, UP035 - leaked upstream
@@ -25,12 +25,12 @@ Array = NDArray[np.float64]
 
 
 def to_msg_msg(msg: Any) -> Any:
-    """The message itself: it needs no conversion."""
+    """Return the message itself, which needs no conversion."""
     return msg
 
 
 def from_msg_msg(msg: Any) -> Any:
-    """The message itself: it needs no conversion."""
+    """Return the message itself, which needs no conversion."""
     return msg
 
 
@@ -38,11 +38,11 @@ def transform_covariance(cov_in: Any, transform: Any) -> Array:
     """Rotate the covariance of a pose.
 
     Args:
-        cov_in: 36 numbers, row by row, of (x, y, z, rotation about x, about y, about z).
-        transform: A `Transform` or `TransformStamped`; its translation does not matter.
+        cov_in: 6x6 covariance of (x, y, z, rotation about x, about y, about z) as 36 numbers in row-major order.
+        transform: A `Transform` or `TransformStamped`. Only its rotation is used.
 
     Returns:
-        36 numbers in the same order: each 3x3 block C becomes R C R^T.
+        The rotated covariance as 36 numbers in the same order. Each 3x3 block C becomes R C R^T.
     """
     rotation = _rotation(getattr(transform, "transform", transform))
     blocks = np.asarray(cov_in, dtype=np.float64).reshape(2, 3, 2, 3)
@@ -50,14 +50,14 @@ def transform_covariance(cov_in: Any, transform: Any) -> Array:
 
 
 def do_transform_point(point: PointStamped, transform: TransformStamped) -> PointStamped:
-    """A point, seen from the transform's frame."""
+    """Transform a point."""
     result = PointStamped(header=transform.header)
     result.point.x, result.point.y, result.point.z = _apply(transform, _xyz(point.point))
     return result
 
 
 def do_transform_vector3(vector3: Vector3Stamped, transform: TransformStamped) -> Vector3Stamped:
-    """A direction, seen from the transform's frame: rotated, not moved."""
+    """Rotate a vector. The translation of the transform is ignored."""
     result = Vector3Stamped(header=transform.header)
     rotated = _rotation(transform.transform) @ _xyz(vector3.vector)
     result.vector.x, result.vector.y, result.vector.z = rotated.tolist()
@@ -65,7 +65,7 @@ def do_transform_vector3(vector3: Vector3Stamped, transform: TransformStamped) -
 
 
 def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
-    """A pose, seen from the transform's frame."""
+    """Transform a pose."""
     quaternion = pose.orientation
     affine = _transform_to_affine(transform) @ _build_affine(
         rotation=[quaternion.w, quaternion.x, quaternion.y, quaternion.z], translation=_xyz(pose.position)
@@ -79,14 +79,14 @@ def do_transform_pose(pose: Pose, transform: TransformStamped) -> Pose:
 
 
 def do_transform_pose_stamped(pose: PoseStamped, transform: TransformStamped) -> PoseStamped:
-    """A stamped pose, seen from the transform's frame."""
+    """Transform a stamped pose."""
     return PoseStamped(header=transform.header, pose=do_transform_pose(pose.pose, transform))
 
 
 def do_transform_pose_with_covariance_stamped(
     pose: PoseWithCovarianceStamped, transform: TransformStamped
 ) -> PoseWithCovarianceStamped:
-    """A pose and its covariance, seen from the transform's frame."""
+    """Transform a pose and its covariance."""
     result = PoseWithCovarianceStamped(header=transform.header)
     result.pose.pose = do_transform_pose(pose.pose.pose, transform)
     result.pose.covariance = transform_covariance(pose.pose.covariance, transform)
@@ -94,7 +94,7 @@ def do_transform_pose_with_covariance_stamped(
 
 
 def do_transform_polygon_stamped(polygon: PolygonStamped, transform: TransformStamped) -> PolygonStamped:
-    """A polygon, seen from the transform's frame."""
+    """Transform a polygon."""
     result = PolygonStamped(header=transform.header)
     points = []
     for corner in polygon.polygon.points:
@@ -105,35 +105,35 @@ def do_transform_polygon_stamped(polygon: PolygonStamped, transform: TransformSt
 
 
 def do_transform_quaternion_stamped(quaternion: QuaternionStamped, transform: TransformStamped) -> QuaternionStamped:
-    """An orientation, seen from the transform's frame, as C++ has it too; normalised, and w is not negative."""
+    """Transform an orientation, as in C++. The result is normalized with w >= 0."""
     result = QuaternionStamped(header=transform.header)
-    told = result.quaternion
-    told.x, told.y, told.z, told.w = _turn_orientations([quaternion.quaternion], transform)[0]
+    target = result.quaternion
+    target.x, target.y, target.z, target.w = _rotate_orientations([quaternion.quaternion], transform)[0]
     return result
 
 
 def do_transform_pose_array(poses: PoseArray, transform: TransformStamped) -> PoseArray:
-    """Poses, seen from the transform's frame."""
+    """Transform an array of poses."""
     positions = np.array([_xyz(pose.position) for pose in poses.poses]).reshape(-1, 3)
     moved = positions @ _rotation(transform.transform).T + _xyz(transform.transform.translation)
-    turned = _turn_orientations([pose.orientation for pose in poses.poses], transform)
+    rotated = _rotate_orientations([pose.orientation for pose in poses.poses], transform)
     result = PoseArray(header=transform.header)
     result.poses = [Pose() for _ in poses.poses]
-    for pose, position, orientation in zip(result.poses, moved.tolist(), turned, strict=True):
+    for pose, position, orientation in zip(result.poses, moved.tolist(), rotated, strict=True):
         pose.position.x, pose.position.y, pose.position.z = position
         pose.orientation.x, pose.orientation.y, pose.orientation.z, pose.orientation.w = orientation
     return result
 
 
-def _turn_orientations(orientations: list[Any], transform: TransformStamped) -> list[list[float]]:
-    """Quaternions (x, y, z, w) of messages, rotated; any length will do, and a zero quaternion is the identity."""
-    given = [[q.x, q.y, q.z, q.w] for q in (transform.transform.rotation, *orientations)]
-    unit = np.array(given, dtype=np.float64)
+def _rotate_orientations(orientations: list[Any], transform: TransformStamped) -> list[list[float]]:
+    """Return the rotated quaternions (x, y, z, w). Inputs are normalized, and a zero quaternion is the identity."""
+    values = [[q.x, q.y, q.z, q.w] for q in (transform.transform.rotation, *orientations)]
+    unit = np.array(values, dtype=np.float64)
     squared = np.einsum("ij,ij->i", unit, unit)
     unit[squared < np.finfo(np.float64).eps] = (0.0, 0.0, 0.0, 1.0)
     unit /= np.linalg.norm(unit, axis=1, keepdims=True)
-    turned = quaternions.multiply(unit[0], unit[1:])
-    rows: list[list[float]] = np.where(turned[:, 3:] < 0.0, -turned, turned).tolist()
+    rotated = quaternions.multiply(unit[0], unit[1:])
+    rows: list[list[float]] = np.where(rotated[:, 3:] < 0.0, -rotated, rotated).tolist()
     return rows
 
 
@@ -152,7 +152,7 @@ def _apply(transform: TransformStamped, point: Array) -> list[float]:
 
 
 def _build_affine(rotation: Iterable[float] | None = None, translation: Iterable[float] | None = None) -> Array:
-    """A 4x4 matrix of a quaternion (w, x, y, z) and a translation; either may be left out."""
+    """Return the 4x4 matrix of a quaternion (w, x, y, z) and a translation, which are both optional."""
     affine = np.eye(4)
     if rotation is not None:
         affine[:3, :3] = _get_mat_from_quat(np.asarray(rotation, dtype=np.float64))
@@ -162,7 +162,7 @@ def _build_affine(rotation: Iterable[float] | None = None, translation: Iterable
 
 
 def _transform_to_affine(transform: TransformStamped) -> Array:
-    """The 4x4 matrix of a `TransformStamped`."""
+    """Return the 4x4 matrix of a `TransformStamped`."""
     affine = np.eye(4)
     affine[:3, :3] = _rotation(transform.transform)
     affine[:3, 3] = _xyz(transform.transform.translation)
@@ -170,7 +170,7 @@ def _transform_to_affine(transform: TransformStamped) -> Array:
 
 
 def _get_mat_from_quat(quaternion: Array) -> Array:
-    """The 3x3 rotation matrix of a quaternion (w, x, y, z) of any length; the identity for a zero quaternion."""
+    """Return the 3x3 rotation matrix of a quaternion (w, x, y, z), which is normalized. Zero gives the identity."""
     squared = float(quaternion @ quaternion)
     if squared < np.finfo(np.float64).eps:
         return np.eye(3)
@@ -186,9 +186,9 @@ def _get_mat_from_quat(quaternion: Array) -> Array:
 
 
 def _get_quat_from_mat(rot_mat: Array) -> Array:
-    """The quaternion (w, x, y, z), w not negative, that is nearest to a 3x3 matrix.
+    """Return the quaternion (w, x, y, z) with w >= 0 that is closest to a 3x3 matrix.
 
-    It is the eigenvector of the largest eigenvalue of Bar-Itzhack's matrix, also when the argument is not quite a
+    It is the eigenvector of the largest eigenvalue of Bar-Itzhack's matrix, even if the matrix is not exactly a
     rotation.
     """
     (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = np.asarray(rot_mat, dtype=np.float64)[:3, :3].tolist()
@@ -205,7 +205,7 @@ def _get_quat_from_mat(rot_mat: Array) -> Array:
 
 
 def _decompose_affine(affine: Array) -> tuple[Array, Array]:
-    """Translation and quaternion (w, x, y, z) of a 4x4 matrix."""
+    """Return the translation and the quaternion (w, x, y, z) of a 4x4 matrix."""
     return affine[:3, 3], _get_quat_from_mat(affine[:3, :3])
 
 

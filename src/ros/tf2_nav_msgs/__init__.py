@@ -1,7 +1,7 @@
-"""Navigation messages in tf2: odometry and paths seen from another frame.
+"""tf2 support for navigation messages: odometry and paths.
 
-Importing this package teaches `tf2_ros.Buffer.transform` the types `Odometry` and `Path`. ROS itself has no such
-package: this one stands on ROS names only, and works on a sourced ROS, too.
+Importing this package registers the types `Odometry` and `Path` for `tf2_ros.Buffer.transform`. ROS has no such
+package. This one only uses the API of ROS, so it also works with a sourced ROS installation.
 """
 
 from tf2_nav_msgs.odometry import do_transform_odometry

@@ -1,4 +1,4 @@
-"""Odometry seen from another frame."""
+"""Transformation of odometry."""
 
 from copy import deepcopy
 
@@ -9,10 +9,10 @@ from tf2_geometry_msgs import do_transform_pose, transform_covariance
 
 
 def do_transform_odometry(odometry: Odometry, transform: TransformStamped) -> Odometry:
-    """Odometry, seen from the transform's frame; the header is the transform's.
+    """Transform odometry. The header is that of the transform.
 
-    The pose, which is told in the header's frame, moves, and its covariance is rotated. The twist and its covariance
-    are told in `child_frame_id`, the robot's own frame, and stay.
+    The pose, which is expressed in the frame of the header, is transformed, and its covariance is rotated. The twist
+    and its covariance are expressed in `child_frame_id`, the frame of the robot, and do not change.
     """
     result = deepcopy(odometry)
     result.header = transform.header

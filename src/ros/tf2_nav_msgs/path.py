@@ -1,4 +1,4 @@
-"""Paths seen from another frame."""
+"""Transformation of paths."""
 
 import tf2_ros
 from geometry_msgs.msg import PoseStamped, TransformStamped
@@ -8,10 +8,10 @@ from tf2_geometry_msgs import do_transform_pose
 
 
 def do_transform_path(path: Path, transform: TransformStamped) -> Path:
-    """A path, seen from the transform's frame at the time of its own header; the header is the transform's.
+    """Transform a path at the time of its header. The header is that of the transform.
 
-    The poses move together, as one thing: each keeps the stamp of its header, which says when the robot shall be
-    there, and gets the path's new frame.
+    All poses are transformed by the same transform. Each pose keeps the stamp of its header, which is the planned time
+    of the pose, and gets the new frame.
 
     Raises:
         InvalidArgumentException: A pose is in another frame than the path.
@@ -21,8 +21,8 @@ def do_transform_path(path: Path, transform: TransformStamped) -> Path:
     for number, pose in enumerate(path.poses):
         if pose.header.frame_id not in {"", frame}:
             raise tf2_ros.InvalidArgumentException(
-                f"pose {number} of the path is in frame {pose.header.frame_id!r}, but the path is in {frame!r}: "
-                "transform the poses one by one with Buffer.transform()"
+                f"Pose {number} of the path is expressed in frame {pose.header.frame_id!r}, but the path in frame "
+                f"{frame!r}. Transform the poses one by one with Buffer.transform()."
             )
     result.poses = [
         PoseStamped(

@@ -1,4 +1,4 @@
-"""tf2's buffer and exceptions, as the ROS 2 package `tf2_py` has them."""
+"""tf2's buffer and exceptions with the API of the ROS 2 package `tf2_py`."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -32,10 +32,10 @@ __all__ = [
 
 @contextmanager
 def add_dll_directories_from_env(env_name: str) -> Iterator[None]:
-    """Here because upstream leaks it; what it does on Windows, nothing of ours needs.
+    """Do nothing. Upstream exports this function, which it needs only on Windows.
 
     Args:
-        env_name: Name of an environment variable with a list of folders.
+        env_name: Name of an environment variable that lists directories.
     """
     del env_name
     yield

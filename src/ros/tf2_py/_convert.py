@@ -1,34 +1,35 @@
-"""Between what tf2's callers hand over and what the core takes: nanoseconds, checked names, seven numbers."""
+"""Conversion of the arguments of tf2's functions to those of the core: nanoseconds, checked names and pose values."""
 
 import warnings
 from operator import index
 from typing import Any
 
+from coframe.time import SECOND
 from geometry_msgs.msg import Quaternion, Vector3
 from rclpy.time import Time
 
-NANOSECONDS_PER_SECOND = 1_000_000_000
-
 
 def nanoseconds(value: Any, what: str) -> int:
-    """The nanoseconds of a time or duration: of a message (`sec`, `nanosec`) or of rclpy's (`nanoseconds`)."""
-    if type(value) is Time:  # most are, and a missing attribute costs more than a look-up
+    """Return the nanoseconds of a time or duration, which is a message or an object of rclpy."""
+    if type(value) is Time:  # The common case. Catching an AttributeError would cost more than a lookup.
         return value.nanoseconds
     try:
-        return index(value.sec) * NANOSECONDS_PER_SECOND + index(value.nanosec)
+        return index(value.sec) * SECOND + index(value.nanosec)
     except AttributeError:
         pass
     try:
         return index(value.nanoseconds)
     except AttributeError:
         kind = "Duration" if what == "duration" else "Time"
-        advice = f"{type(value).__name__} does not: give rclpy's {kind}(seconds=...)"
-        latest = "" if kind == "Duration" else ", or Time() for the latest"
-        raise TypeError(f"{what} must have sec and nanosec, or nanoseconds. {advice}{latest}.") from None
+        latest = "" if kind == "Duration" else ", or Time() for the latest transform"
+        raise TypeError(
+            f"{what} must have sec and nanosec, or nanoseconds. "
+            f"Got {type(value).__name__}. Use rclpy's {kind}(seconds=...){latest}."
+        ) from None
 
 
 def text(value: Any, position: int) -> str:
-    """A string argument; refuses what C strings cannot carry, in the words of Python's own C interface."""
+    """Return a string argument, or raise the errors of Python's C interface for values that are not C strings."""
     if not isinstance(value, str):
         raise TypeError(f"argument {position} must be str, not {type(value).__name__}")
     if "\0" in value:
@@ -37,7 +38,7 @@ def text(value: Any, position: int) -> str:
 
 
 def frame_id(value: Any, field: str) -> str:
-    """A frame name out of a message; anything but a string is the caller's mistake, not bad data."""
+    """Return the frame name of a message field, or raise an error if it is not a string."""
     if not isinstance(value, str):
         raise TypeError(f"{field} must be str, not {type(value).__name__}")
     if "\0" in value:
@@ -46,7 +47,7 @@ def frame_id(value: Any, field: str) -> str:
 
 
 def values(transform: Any, *, static: bool) -> tuple[Any, Any, Any, Any, Any, Any, Any]:
-    """x, y, z, qx, qy, qz, qw of a `geometry_msgs/Transform`, as they are: the core checks that they are numbers."""
+    """Return x, y, z, qx, qy, qz, qw of a `geometry_msgs/Transform`. The core checks that they are numbers."""
     translation, rotation = transform.translation, transform.rotation
     if not isinstance(translation, Vector3):
         warnings.warn("translation should be of type Vector3", UserWarning, stacklevel=4)
@@ -71,7 +72,7 @@ def values(transform: Any, *, static: bool) -> tuple[Any, Any, Any, Any, Any, An
 def full_query(
     target_frame: Any, target_time: Any, source_frame: Any, source_time: Any, fixed_frame: Any
 ) -> tuple[str, int, str, int, str]:
-    """The five arguments of a look-up between two times, as the core takes them."""
+    """Return the five arguments of a lookup between two times, converted for the core."""
     return (
         text(target_frame, 1),
         nanoseconds(target_time, "time"),

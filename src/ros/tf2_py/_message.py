@@ -1,7 +1,7 @@
-"""The core's answers as messages and times.
+"""Conversion of the core's results to messages and times.
 
-The numbers go straight into the slots: they need no checking. A stamp that is too late for a message's 32-bit seconds
-is still an answer, and so is one before the epoch, which the constructor of rclpy's `Time` refuses.
+The values are written directly into the slots, because they need no checks. This also allows stamps beyond the 32-bit
+seconds of a message, and stamps before the epoch, which the constructor of rclpy's `Time` rejects.
 """
 
 # ruff: noqa: SLF001
@@ -10,21 +10,21 @@ from typing import Any
 
 from builtin_interfaces.msg import Time as TimeMessage
 from coframe import _core
+from coframe.time import SECOND
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from rclpy.time import Time
 from std_msgs.msg import Header
-from tf2_py._convert import NANOSECONDS_PER_SECOND
 
 Pose = tuple[float, float, float, float, float, float, float]
 
 
 def transform_stamped(target: str, source: str, stamp: int, pose: Pose) -> TransformStamped:
-    """The `TransformStamped` that takes data from `source` to `target`."""
+    """Return the `TransformStamped` that transforms data from `source` into `target`."""
     result = TransformStamped()
     slots: Any = result
     header, transform = slots._header, slots._transform
     time, translation, rotation = header._stamp, transform._translation, transform._rotation
-    time._sec, time._nanosec = divmod(stamp, NANOSECONDS_PER_SECOND)
+    time._sec, time._nanosec = divmod(stamp, SECOND)
     header._frame_id = target
     slots._child_frame_id = source
     translation._x, translation._y, translation._z, rotation._x, rotation._y, rotation._z, rotation._w = pose
@@ -32,7 +32,7 @@ def transform_stamped(target: str, source: str, stamp: int, pose: Pose) -> Trans
 
 
 def any_time(nanoseconds: int) -> Time:
-    """The `Time` of a stamp, also of a negative one."""
+    """Return the `Time` of a stamp, which may be negative."""
     result = Time()
     result._nanoseconds = nanoseconds
     return result

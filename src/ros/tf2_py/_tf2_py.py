@@ -30,7 +30,7 @@ __all__ = [
     "TransformException",
 ]
 
-# tf2's native module calls itself so, and tracebacks of programs that use tf2 read `tf2.LookupException: ...`.
+# This is the name of tf2's native module, so that tracebacks contain `tf2.LookupException: ...` as upstream.
 for _exception in (
     TransformException,
     LookupException,
@@ -41,43 +41,44 @@ for _exception in (
 ):
     _exception.__module__ = "tf2"
 
-# console_bridge's prefixes, as Humble writes them to stderr.
+# Result of an insertion without problems.
 _STORED = 0
+# Prefixes of console_bridge, which Humble writes to stderr.
 _LOG_PREFIX = {"error": "Error:   ", "warning": "Warning: "}
 _TEN_SECONDS = Duration(seconds=10)
 _NO_TIME = Time()
 
 
 class BufferCore:
-    """Every transform of the last seconds, and the answers to "where was A seen from B at time t".
+    """Buffer that stores the transforms of the last seconds and answers lookups.
 
-    Names, arguments and texts are those of ROS 2's `tf2_py.BufferCore`; times and durations are rclpy's or
-    messages. Time zero asks for the latest. Look-ups raise `TransformException`'s children.
+    Names, arguments and texts are those of ROS 2's `tf2_py.BufferCore`. Times and durations are objects of rclpy or
+    messages. Time zero requests the latest transform. Lookups raise subclasses of `TransformException`.
     """
 
-    __module__ = "_tf2"  # likewise
+    __module__ = "_tf2"  # The module name of upstream's class.
 
     def __init__(self, cache_time: Any = _TEN_SECONDS, /, **_ignored: Any) -> None:
         """Create an empty buffer.
 
         Args:
-            cache_time: How long a transform is kept after newer ones arrived.
-            **_ignored: tf2's native type takes no keywords and passes over them silently.
+            cache_time: Duration for which transforms are kept, relative to the latest one.
+            **_ignored: Ignored, because tf2's native type silently ignores keyword arguments.
         """
-        # Programs subclass it, with attributes of their own: names are chosen that theirs are not.
+        # Programs subclass BufferCore, so the prefix avoids collisions with their attributes.
         self._coframe_buffer = coframe.Buffer(_convert.nanoseconds(cache_time, "duration"))
 
     def set_transform(self, transform: Any, authority: str, /) -> None:
-        """Add a transform that changes over time; refused data are reported on stderr, as tf2 does.
+        """Insert a dynamic transform. Rejected data are reported on stderr, as in tf2.
 
         Args:
-            transform: A `geometry_msgs/TransformStamped`, or what looks like one.
-            authority: Who says so.
+            transform: A `geometry_msgs/TransformStamped`, or an object with the same attributes.
+            authority: Name of the publisher of the transform.
         """
         self.__insert(transform, authority, static=False)
 
     def set_transform_static(self, transform: Any, authority: str, /) -> None:
-        """Add a transform that holds at every time; refused data are reported on stderr, as tf2 does."""
+        """Insert a static transform. Rejected data are reported on stderr, as in tf2."""
         self.__insert(transform, authority, static=True)
 
     def __insert(self, transform: Any, authority: str, *, static: bool) -> None:
@@ -93,13 +94,13 @@ class BufferCore:
             if refused is None:
                 refused = self._coframe_buffer._set_values(parent, child, stamp, *pose, static, authority)
         except TypeError:
-            raise TypeError(f"translation and rotation must be numbers, but are {pose!r}") from None
+            raise TypeError(f"translation and rotation must be numbers, but are {pose!r}.") from None
         if refused:
             for level, text in _core.insert_texts(refused, parent, child, stamp, *pose, authority):
                 sys.stderr.write(f"{_LOG_PREFIX[level]}{text}\n")
 
     def can_transform_core(self, target_frame: str, source_frame: str, time: Any) -> tuple[int, str]:
-        """1 and an empty text if the look-up would succeed, else 0 and the reason."""
+        """Return 1 and an empty string if the lookup would succeed, otherwise 0 and the reason."""
         query = _convert.text(target_frame, 1), _convert.text(source_frame, 2), _convert.nanoseconds(time, "time")
         if self._coframe_buffer.can_transform(*query):
             return 1, ""
@@ -109,17 +110,17 @@ class BufferCore:
     def can_transform_full_core(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> tuple[int, str]:
-        """The same for `lookup_transform_full_core`."""
+        """Return 1 and an empty string if `lookup_transform_full_core` would succeed, otherwise 0 and the reason."""
         reason = self._coframe_buffer._why_not_full(
             *_convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         )
         return int(not reason), reason
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Any) -> TransformStamped:
-        """The transform that takes data from `source_frame` to `target_frame` at a time.
+        """Return the transform that transforms data from `source_frame` into `target_frame` at a time.
 
         Raises:
-            TransformException: One of its children, with tf2's text.
+            TransformException: The transform is not available. The subclass and the text are those of tf2.
         """
         found: TransformStamped | None = self._coframe_buffer._lookup_message(target_frame, source_frame, time)
         if found is not None:
@@ -135,10 +136,12 @@ class BufferCore:
     def lookup_transform_full_core(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> TransformStamped:
-        """From `source_frame` at one time to `target_frame` at another, standing still in `fixed_frame` between.
+        """Return the transform from `source_frame` at one time into `target_frame` at another time.
+
+        The data do not move relative to `fixed_frame` between the two times.
 
         Raises:
-            TransformException: One of its children, with tf2's text.
+            TransformException: The transform is not available. The subclass and the text are those of tf2.
         """
         return self._coframe_lookup_full(
             _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
@@ -149,10 +152,10 @@ class BufferCore:
         return transform_stamped(query[0], query[2], found.stamp or 0, found.values)
 
     def get_latest_common_time(self, target_frame: str, source_frame: str, /) -> Time:
-        """The newest time at which every moving link between the frames is known; 0 if none moves.
+        """Return the latest time at which all dynamic transforms between the frames are available, 0 if all are static.
 
         Raises:
-            TransformException: There is none; `LookupException` for a frame that nobody has mentioned.
+            TransformException: The frames are not connected, or a frame does not exist (`LookupException`).
         """
         return any_time(
             self._coframe_buffer.latest_common_time(_convert.text(target_frame, 1), _convert.text(source_frame, 2))
@@ -161,7 +164,7 @@ class BufferCore:
     def lookupVelocityCore(
         self, tracking_frame: str, observation_frame: str, time: Any, averaging_interval: Any
     ) -> tuple[Vector, Vector]:
-        """Linear (m/s) and angular (rad/s) velocity of the tracking frame's origin in the observation frame."""
+        """Return the linear (m/s) and angular (rad/s) velocity of the tracking frame in the observation frame."""
         tracking, observation = _convert.text(tracking_frame, 1), _convert.text(observation_frame, 2)
         return lookup_velocity(
             self._coframe_buffer,
@@ -183,7 +186,7 @@ class BufferCore:
         averaging_interval: Any,
         /,
     ) -> tuple[Vector, Vector]:
-        """The same for a point fixed to the tracking frame, expressed in the reference frame."""
+        """Return the velocity of a point that is fixed to the tracking frame, expressed in the reference frame."""
         x, y, z = reference_point
         point = (float(x), float(y), float(z))
         return lookup_velocity(
@@ -196,11 +199,11 @@ class BufferCore:
         )
 
     def all_frames_as_yaml(self, *_ignored: Any) -> str:
-        """One YAML block per frame that has a parent: who sends it, how often, from when to when."""
+        """Return a YAML block per frame with a parent: its broadcaster, rate and time range."""
         return self._coframe_buffer.all_frames_as_yaml()
 
     def all_frames_as_string(self, *_ignored: Any) -> str:
-        """One sentence per frame that has a parent."""
+        """Return a line of text per frame with a parent."""
         return self._coframe_buffer.all_frames_as_string()
 
     def _allFramesAsDot(self, time: Any = _NO_TIME) -> str:
@@ -214,12 +217,12 @@ class BufferCore:
         )
 
     def _frameExists(self, frame: str, /) -> bool:
-        # tf2 keeps the root of all trees in its table of names.
+        # tf2's table of frame names contains the parent of all roots.
         return _convert.text(frame, 1) == "NO_PARENT" or self._coframe_buffer.frame_exists(frame)
 
     def _getFrameStrings(self) -> list[str]:
         return self._coframe_buffer.frame_names()
 
     def clear(self) -> None:
-        """Forget every moving transform; frames and static transforms stay."""
+        """Remove all dynamic transforms. Frame names and static transforms are kept."""
         self._coframe_buffer.clear()

@@ -1,4 +1,4 @@
-"""How fast one frame moves in another: tf2's finite difference of two look-ups."""
+"""Velocity of a frame relative to another, computed as tf2's finite difference of two lookups."""
 
 import math
 from typing import NamedTuple
@@ -7,15 +7,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 import coframe
+from coframe.time import SECOND
 
 Vector = tuple[float, float, float]
 
-# tf2 keeps the averaging window this far away from time zero, which would mean "latest".
+# Earliest start of the averaging window in nanoseconds, as in tf2. Time zero would request the latest transform.
 _EARLIEST_START = 10_000
 
 
 class Tracked(NamedTuple):
-    """What moves: a frame, and the point of it whose velocity is wanted, given in a frame of its own."""
+    """A moving frame, and the point whose velocity is computed, expressed in `point_frame`."""
 
     frame: str
     point: Vector
@@ -25,14 +26,14 @@ class Tracked(NamedTuple):
 def lookup_velocity(
     core: coframe.Buffer, tracked: Tracked, observation: str, reference: str, *, stamp: int, interval: int
 ) -> tuple[Vector, Vector]:
-    """Linear (m/s) and angular (rad/s) velocity of what is tracked, seen from `observation`.
+    """Return the linear (m/s) and angular (rad/s) velocity of a tracked point relative to `observation`.
 
-    Both are expressed in `reference`. `stamp` and `interval` are nanoseconds; the window ends at the newest common
-    time if that is earlier than `stamp + interval / 2`.
+    Both are expressed in `reference`. `stamp` and `interval` are in nanoseconds. The averaging window ends at the
+    latest common time if that is earlier than `stamp + interval / 2`.
     """
     end = min(stamp + interval // 2, _latest_common_time(core, observation, tracked.frame))
     start = max(_EARLIEST_START + interval, end) - interval
-    seconds = (end - start) / 1e9 or math.nan
+    seconds = (end - start) / SECOND or math.nan
     first = core.lookup(observation, tracked.frame, start)
     last = core.lookup(observation, tracked.frame, end)
     velocity = (last.translation - first.translation) / seconds
@@ -44,14 +45,14 @@ def lookup_velocity(
     linear = rotation @ velocity + np.cross(into_reference.translation, angular)
 
     point = core.lookup(reference, tracked.point_frame, stamp) @ np.array(tracked.point)
-    # The lever arm belongs in a cross product. tf has multiplied element by element since ROS 1, and an answer
-    # that differs from every other tf2 helps nobody who compares.
+    # Correct would be a cross product with the lever arm. tf has multiplied element by element since ROS 1, and this
+    # implementation returns the same values as upstream.
     linear = linear + angular * (point - into_reference.translation)
     return _vector(linear), _vector(angular)
 
 
 def _latest_common_time(core: coframe.Buffer, target: str, source: str) -> int:
-    """The newest common time; 0 if there is none, so that the look-ups name the reason."""
+    """Return the latest common time, or 0 if there is none, so that the lookups raise the error."""
     try:
         return core.latest_common_time(target, source)
     except coframe.TransformException:
@@ -59,7 +60,7 @@ def _latest_common_time(core: coframe.Buffer, target: str, source: str) -> int:
 
 
 def _rotation_vector(quaternion: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Axis times angle of a unit quaternion (x, y, z, w), the short way round."""
+    """Return the rotation vector (axis times angle) of a unit quaternion (x, y, z, w)."""
     axis, w = quaternion[:3], quaternion[3]
     sine = float(np.linalg.norm(axis))
     if sine == 0.0:

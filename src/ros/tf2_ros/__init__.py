@@ -1,6 +1,7 @@
-"""tf2 for nodes: buffers, listeners and broadcasters of transforms.
+"""tf2 for nodes: buffers, listeners and broadcasters.
 
-Upstream's package has no `__all__`; programs import what its modules happen to import, so those names are here as well.
+The upstream package has no `__all__`, and programs rely on names that its modules import. These names are exported
+here as well.
 """
 
 from coframe import ros_side

@@ -1,4 +1,4 @@
-"""What the clients and the servers of a buffer agree on: the action's quality of service and its error codes."""
+"""Definitions shared by buffer clients and servers: the QoS profile and the error codes of the action."""
 
 from typing import Final
 
@@ -13,10 +13,11 @@ from tf2_py import (
     TransformException,
 )
 
-# Everybody's answers come by every client, and questions may come by the hundred: more room than services have.
+# Each client receives the replies to all clients, and there may be hundreds of requests, so the depth is larger than
+# that of services.
 QOS: Final = QoSProfile(depth=1000)
 
-# Their parent comes last.
+# The base class comes last, because the first match is used.
 EXCEPTIONS: Final[dict[int, type[TransformException]]] = {
     TF2Error.LOOKUP_ERROR: LookupException,
     TF2Error.CONNECTIVITY_ERROR: ConnectivityException,
@@ -28,12 +29,12 @@ EXCEPTIONS: Final[dict[int, type[TransformException]]] = {
 
 
 def error_message(error: TransformException) -> TF2Error:
-    """Put what a look-up raised into a message."""
+    """Return the message that describes the exception of a lookup."""
     code = next(code for code, kind in EXCEPTIONS.items() if isinstance(error, kind))
     return TF2Error(error=code, error_string=str(error))
 
 
 def raise_error(error: TF2Error) -> None:
-    """Raise what a message tells of; nothing if it tells of no error."""
+    """Raise the exception that a message describes, if it describes an error."""
     if error.error != TF2Error.NO_ERROR:
         raise EXCEPTIONS.get(error.error, TransformException)(error.error_string)

@@ -1,4 +1,4 @@
-"""The messages that wait in a filter, and what becomes of them."""
+"""Queue of the messages that wait for transforms in a message filter."""
 
 import threading
 from collections import OrderedDict, deque
@@ -11,25 +11,25 @@ from rclpy.task import Future
 
 
 class FilterFailureReason(IntEnum):
-    """Why a message did not get through. Names and numbers are C++'s; C++ has no `TimedOut`."""
+    """Reason for dropping a message. Names and numbers are those of C++, which has no `TimedOut`."""
 
-    Unknown = 0  # somebody cancelled the wait for its transform
-    OutTheBack = 1  # it is older than everything the buffer has, so its transform will never come
-    EmptyFrameID = 2  # its header names no frame
-    NoTransformFound = 3  # its header names a frame that cannot exist
-    QueueFull = 4  # it was the oldest of more messages than may wait
-    TimedOut = 5  # its time to wait was over
+    Unknown = 0  # The wait for its transform was cancelled.
+    OutTheBack = 1  # It is older than all data in the buffer, so its transform will never be available.
+    EmptyFrameID = 2  # The frame_id of its header is empty.
+    NoTransformFound = 3  # The frame_id of its header is not a valid frame name.
+    QueueFull = 4  # It was the oldest message in a full queue.
+    TimedOut = 5  # Its transform was not available before the timeout.
 
 
 class FilterStatistics(NamedTuple):
-    """What became of a filter's messages: received == passed + sum(dropped.values()) + cleared + waiting.
+    """Message counts of a filter: received == passed + sum(dropped.values()) + cleared + waiting.
 
     Attributes:
-        received: Messages that came in.
-        passed: Those given to the callbacks.
-        dropped: Those that were dropped, by reason.
-        cleared: Those forgotten by `clear()` or `destroy()`.
-        waiting: Those that wait for a transform, or have it and wait for the executor.
+        received: Number of received messages.
+        passed: Number of messages passed to the callbacks.
+        dropped: Number of dropped messages by reason.
+        cleared: Number of messages removed by `clear()` or `destroy()`.
+        waiting: Number of messages that wait for a transform or for the executor.
     """
 
     received: int
@@ -40,16 +40,16 @@ class FilterStatistics(NamedTuple):
 
 
 @dataclass(eq=False)
-class Waiting:
-    """A message that lacks a transform, as far as is known.
+class PendingMessage:
+    """A message that waits for a transform.
 
     Attributes:
-        number: How many came before it.
+        number: Number of messages received before this one.
         message: The message.
-        frame: The frame of its header.
-        stamp: Nanoseconds of its header.
-        deadline: When it is given up, in nanoseconds of the steady clock; None: never.
-        future: What it waits for.
+        frame: Frame of its header.
+        stamp: Stamp of its header in nanoseconds.
+        deadline: Steady time in nanoseconds at which the wait times out. None: never.
+        future: Future of the transform that it waits for.
     """
 
     number: int
@@ -61,7 +61,7 @@ class Waiting:
 
 
 class Outcome(NamedTuple):
-    """A message that the callbacks have to be told of; with a reason if it was dropped."""
+    """A message for the callbacks, with a reason if it was dropped."""
 
     message: Any
     reason: FilterFailureReason | None = None
@@ -69,74 +69,74 @@ class Outcome(NamedTuple):
 
 
 class MessageQueue:
-    """Messages that wait, in the order in which they came, and outcomes that wait for the callbacks.
+    """Queue of pending messages in the order of their arrival, and of outcomes for the callbacks.
 
-    For any number of threads: each message leaves once, whoever sees first that it can.
+    The queue is thread-safe. Each message is finished once, by the first thread that can finish it.
     """
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._waiting: OrderedDict[int, Waiting] = OrderedDict()
+        self._pending: OrderedDict[int, PendingMessage] = OrderedDict()
         self._outcomes: deque[Outcome] = deque()
         self._received = self._passed = self._cleared = 0
         self._dropped = dict.fromkeys(FilterFailureReason, 0)
         self._is_closed = False
 
-    def enter(self, message: Any, frame: str, stamp: int, deadline: int | None) -> Waiting | None:
-        """Take a message in; None: the queue is closed."""
+    def add(self, message: Any, frame: str, stamp: int, deadline: int | None) -> PendingMessage | None:
+        """Add a message. Return None if the queue is closed."""
         with self._lock:
             if self._is_closed:
                 return None
-            waiting = Waiting(self._received, message, frame, stamp, deadline)
+            pending = PendingMessage(self._received, message, frame, stamp, deadline)
             self._received += 1
-            self._waiting[waiting.number] = waiting
-        return waiting
+            self._pending[pending.number] = pending
+        return pending
 
-    def leave(self, waiting: Waiting, reason: FilterFailureReason | None = None, explanation: str = "") -> bool:
-        """Let a message out; False: it is out already."""
+    def finish(self, pending: PendingMessage, reason: FilterFailureReason | None = None, explanation: str = "") -> bool:
+        """Move a message to the outcomes. Return False if it is finished already."""
         with self._lock:
-            if self._waiting.pop(waiting.number, None) is None:
+            if self._pending.pop(pending.number, None) is None:
                 return False
             if reason is not None:
                 self._dropped[reason] += 1
-            self._outcomes.append(Outcome(waiting.message, reason, explanation))
-        if waiting.future is not None:
-            waiting.future.cancel()
+            self._outcomes.append(Outcome(pending.message, reason, explanation))
+        if pending.future is not None:
+            pending.future.cancel()
         return True
 
-    def wait_for(self, waiting: Waiting, future: Future[Any]) -> None:
-        """Note what a message waits for from now on; what it waited for before is cancelled."""
+    def set_future(self, pending: PendingMessage, future: Future[Any]) -> None:
+        """Set the future that a message waits for, and cancel its previous future."""
         with self._lock:
             obsolete = future
-            if waiting.number in self._waiting:
-                waiting.future, obsolete = future, waiting.future
+            if pending.number in self._pending:
+                pending.future, obsolete = future, pending.future
         if obsolete is not None:
             obsolete.cancel()
 
-    def waits_for(self, number: int, future: Future[Any]) -> Waiting | None:
-        """The message with that number, if it still waits for that future."""
+    def pending_for(self, number: int, future: Future[Any]) -> PendingMessage | None:
+        """Return the message with this number if it still waits for this future, otherwise None."""
         with self._lock:
-            waiting = self._waiting.get(number)
-        return waiting if waiting is not None and waiting.future is future else None
+            pending = self._pending.get(number)
+        return pending if pending is not None and pending.future is future else None
 
-    def all(self) -> list[Waiting]:
-        """All that wait."""
+    def all(self) -> list[PendingMessage]:
+        """Return all pending messages."""
         with self._lock:
-            return list(self._waiting.values())
+            return list(self._pending.values())
 
-    def elders(self, waiting: Waiting) -> list[Waiting]:
-        """Those that go first if they can: of the same frame, come before it, and no younger."""
+    def earlier_of_same_frame(self, pending: PendingMessage) -> list[PendingMessage]:
+        """Return the earlier messages of the same frame whose stamps are not newer, which are delivered first."""
         with self._lock:
-            earlier = takewhile(lambda other: other is not waiting, self._waiting.values())
-            return [other for other in earlier if other.frame == waiting.frame and other.stamp <= waiting.stamp]
+            earlier = takewhile(lambda other: other is not pending, self._pending.values())
+            return [other for other in earlier if other.frame == pending.frame and other.stamp <= pending.stamp]
 
-    def oldest_beyond(self, size: int) -> Waiting | None:
-        """The one that came first, if more than `size` wait."""
+    def oldest_if_longer_than(self, size: int) -> PendingMessage | None:
+        """Return the oldest message if more than `size` messages are pending, otherwise None."""
         with self._lock:
-            return next(iter(self._waiting.values())) if len(self._waiting) > size else None
+            return next(iter(self._pending.values())) if len(self._pending) > size else None
 
-    def take(self) -> Outcome | None:
-        """The next outcome for the callbacks, if there is one."""
+    def take_outcome(self) -> Outcome | None:
+        """Return and remove the next outcome, or None if there is none."""
         with self._lock:
             if not self._outcomes:
                 return None
@@ -145,28 +145,28 @@ class MessageQueue:
             return outcome
 
     def has_outcomes(self) -> bool:
-        """Return whether there is an outcome for the callbacks."""
+        """Return whether there are outcomes for the callbacks."""
         return bool(self._outcomes)
 
     def clear(self) -> None:
-        """Forget all that wait, for transforms or for the callbacks; drops are still told."""
+        """Remove all messages that wait for transforms or callbacks. Dropped messages are still reported."""
         with self._lock:
-            forgotten, self._waiting = self._waiting, OrderedDict()
+            removed, self._pending = self._pending, OrderedDict()
             drops = [outcome for outcome in self._outcomes if outcome.reason is not None]
-            self._cleared += len(forgotten) + len(self._outcomes) - len(drops)
+            self._cleared += len(removed) + len(self._outcomes) - len(drops)
             self._outcomes = deque(drops)
-        for waiting in forgotten.values():
-            if waiting.future is not None:
-                waiting.future.cancel()
+        for pending in removed.values():
+            if pending.future is not None:
+                pending.future.cancel()
 
     def close(self) -> None:
-        """Forget all that wait, and take no more in."""
+        """Remove all messages and accept no new ones."""
         with self._lock:
             self._is_closed = True
         self.clear()
 
     def statistics(self) -> FilterStatistics:
-        """What became of the messages so far."""
+        """Return the message counts."""
         with self._lock:
-            waiting = len(self._waiting) + sum(outcome.reason is None for outcome in self._outcomes)
-            return FilterStatistics(self._received, self._passed, dict(self._dropped), self._cleared, waiting)
+            pending = len(self._pending) + sum(outcome.reason is None for outcome in self._outcomes)
+            return FilterStatistics(self._received, self._passed, dict(self._dropped), self._cleared, pending)

@@ -1,4 +1,4 @@
-"""A robot's prefix in front of the frames of messages."""
+"""Renaming of the frames of messages, for example with the prefix of a robot."""
 
 from collections.abc import Iterable
 from copy import copy
@@ -8,7 +8,7 @@ from geometry_msgs.msg import TransformStamped
 
 
 def renamed(transforms: Iterable[TransformStamped], renaming: Renaming | None) -> list[TransformStamped]:
-    """The transforms under the names that they shall have; those given are not changed."""
+    """Return the transforms with renamed frames. The given transforms are not modified."""
     return list(transforms) if renaming is None else [_renamed(transform, renaming) for transform in transforms]
 
 

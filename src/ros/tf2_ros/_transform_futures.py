@@ -1,4 +1,4 @@
-"""Futures that complete when a buffer learns the transform they wait for, whoever tells it."""
+"""Futures that complete when a transform becomes available in a buffer."""
 
 # rclpy and tf2_ros use each other's private members.
 # ruff: noqa: SLF001
@@ -18,8 +18,8 @@ LookUp = Callable[[], TransformStamped]
 Convert = Callable[["Transform"], TransformStamped]
 
 
-class _WaitFuture(Future[TransformStamped]):
-    """A future that takes its wait out of the buffer when it is given up."""
+class _TransformFuture(Future[TransformStamped]):
+    """Future that removes its wait from the buffer when it is cancelled."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -33,21 +33,21 @@ class _WaitFuture(Future[TransformStamped]):
 def wait(
     dispatcher: "Dispatcher", start: "StartWait", convert: Convert, look_up: LookUp, timeout: int | None = None
 ) -> Future[TransformStamped]:
-    """A future of the message that `convert` makes of the answer, once the buffer has it.
+    """Return a future of a transform that becomes available in a buffer.
 
-    Transforms that Python inserts complete it in the inserting thread, before the insertion returns; those that
-    arrive from the wire, and the end of the time, in a thread of the buffer's.
+    Transforms inserted from Python complete the future in the inserting thread, before the insertion returns.
+    Transforms received from the wire and timeouts complete it in a thread of the buffer.
 
     Args:
-        dispatcher: The buffer's.
-        start: Begins the native wait.
-        convert: From a transform to its message.
-        look_up: Tells by its exception what is missing when the time is over.
-        timeout: Nanoseconds; None waits for ever.
+        dispatcher: Dispatcher of the buffer.
+        start: Function that starts the native wait.
+        convert: Function that converts the transform to the message that is the result.
+        look_up: Function that is called after a timeout and whose exception describes what is missing.
+        timeout: Timeout in nanoseconds. None: no timeout.
     """
-    future = _WaitFuture()
+    future = _TransformFuture()
 
-    def end(found: "Transform | None") -> None:
+    def complete(found: "Transform | None") -> None:
         if future.done() or future.cancelled():
             return
         try:
@@ -57,5 +57,5 @@ def wait(
         else:
             future.set_result(result)
 
-    future._end_wait = dispatcher.wait(start, end, timeout)
+    future._end_wait = dispatcher.wait(start, complete, timeout)
     return future

@@ -1,6 +1,6 @@
-"""The buffer of transforms that nodes look up in."""
+"""Transform buffer of nodes."""
 
-# What is not used here is here because upstream leaks it.
+# The unused names are imported because programs import them from upstream's module.
 import threading  # noqa: F401
 from copy import deepcopy  # noqa: F401
 from time import sleep  # noqa: F401
@@ -32,18 +32,19 @@ _NO_WAIT = Duration()
 
 
 class Buffer(tf2.BufferCore, BufferInterface):
-    """Stores the transforms of the last seconds and answers where frames were, now or then.
+    """Buffer that stores the transforms of the last seconds and answers lookups.
 
-    Waiting for a transform (`timeout`) works anywhere, also in a callback: what a `TransformListener` hears arrives
-    without the executor.
+    Lookups with a `timeout` also work in callbacks, because a `TransformListener` inserts transforms without the
+    executor.
     """
 
     def __init__(self, cache_time: Duration | None = None, node: Node | None = None) -> None:
         """Create an empty buffer.
 
         Args:
-            cache_time: How long a transform is kept after newer ones arrived; 10 s by default.
-            node: If given, its service `tf2_frames` describes the tree, and jumps of its clock clear the buffer.
+            cache_time: Duration for which transforms are kept, relative to the latest one. Default: 10 s.
+            node: Node for the service `tf2_frames`, which returns the tree, and whose clock clears the buffer when it
+                jumps back. None: no service, and the system clock.
         """
         if cache_time is None:
             tf2.BufferCore.__init__(self)
@@ -58,7 +59,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         self.jump_handle = clear_on_time_jump(self, self.clock)
 
     def time_jump_callback(self, time_jump: TimeJump) -> None:
-        """Forget the transforms of a time that is yet to come."""
+        """Clear the buffer after a backward jump of the clock."""
         del time_jump
         get_logger("tf2_buffer").warning("Detected jump back in time. Clearing tf buffer.")
         self.clear()
@@ -69,21 +70,21 @@ class Buffer(tf2.BufferCore, BufferInterface):
         return response
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
-        """Add a transform that changes over time.
+        """Insert a dynamic transform.
 
         Args:
             transform: The transform.
-            authority: Who says so.
+            authority: Name of the publisher of the transform.
         """
         with self._coframe_buffer._dispatcher.inserting():
             super().set_transform(transform, authority)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
-        """Add a transform that holds at every time.
+        """Insert a static transform.
 
         Args:
             transform: The transform.
-            authority: Who says so.
+            authority: Name of the publisher of the transform.
         """
         with self._coframe_buffer._dispatcher.inserting():
             super().set_transform_static(transform, authority)
@@ -91,16 +92,16 @@ class Buffer(tf2.BufferCore, BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage, timeout: Duration = _NO_WAIT
     ) -> TransformStamped:
-        """The transform that takes data from `source_frame` to `target_frame`.
+        """Return the transform that transforms data from `source_frame` into `target_frame`.
 
         Args:
-            target_frame: Frame to express data in.
-            source_frame: Frame the data are in.
-            time: When; time zero asks for the latest.
-            timeout: How long to wait for it.
+            target_frame: Frame to transform data into.
+            source_frame: Frame in which the data are expressed.
+            time: Time of the transform. Zero requests the latest transform.
+            timeout: Maximum time to wait for the transform.
 
         Raises:
-            TransformException: It is not known; one of its children says why.
+            TransformException: The transform is not available. The subclass and the text give the reason.
         """
         target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
         return self._coframe_lookup(target, source, _convert.nanoseconds(time, "time"), _wait(timeout))
@@ -114,18 +115,18 @@ class Buffer(tf2.BufferCore, BufferInterface):
         fixed_frame: str,
         timeout: Duration = _NO_WAIT,
     ) -> TransformStamped:
-        """The transform from `source_frame` at one time to `target_frame` at another.
+        """Return the transform from `source_frame` at one time into `target_frame` at another time.
 
         Args:
-            target_frame: Frame to express data in.
-            target_time: When that frame is looked at.
-            source_frame: Frame the data are in.
-            source_time: When the data were taken.
-            fixed_frame: Frame that stands still between the two times.
-            timeout: How long to wait for it.
+            target_frame: Frame to transform data into.
+            target_time: Time of the target frame.
+            source_frame: Frame in which the data are expressed.
+            source_time: Time of the data.
+            fixed_frame: Frame that does not move between the two times.
+            timeout: Maximum time to wait for the transform.
 
         Raises:
-            TransformException: It is not known; one of its children says why.
+            TransformException: The transform is not available. The subclass and the text give the reason.
         """
         query = _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         return self._coframe_lookup_full(query, _wait(timeout))
@@ -138,9 +139,9 @@ class Buffer(tf2.BufferCore, BufferInterface):
         *,
         timeout: Duration | None = None,
     ) -> TransformStamped:
-        """`lookup_transform` as a coroutine; waits for ever unless given a timeout."""
+        """Look up a transform in a coroutine like `lookup_transform`, and wait for it without limit by default."""
         found = await self.wait_for_transform_async(target_frame, source_frame, time, timeout=timeout)
-        # Nothing was found if someone cancelled the wait: then the look-up says what is missing.
+        # A cancelled wait returns None. The lookup then raises an exception that describes what is missing.
         return found or self.lookup_transform(target_frame, source_frame, time)
 
     async def lookup_transform_full_async(
@@ -153,7 +154,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         *,
         timeout: Duration | None = None,
     ) -> TransformStamped:
-        """`lookup_transform_full` as a coroutine; waits for ever unless given a timeout."""
+        """Look up a transform in a coroutine like `lookup_transform_full`, and wait for it without limit by default."""
         query = (target_frame, target_time, source_frame, source_time, fixed_frame)
         found = await self.wait_for_transform_full_async(*query, timeout=timeout)
         return found or self.lookup_transform_full(*query)
@@ -166,7 +167,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         timeout: Duration = _NO_WAIT,
         return_debug_tuple: bool = False,
     ) -> int | tuple[int, str]:
-        """Return whether `lookup_transform` would answer: 1 or 0, on request together with the reason why not."""
+        """Return 1 if `lookup_transform` would succeed, otherwise 0, optionally with the reason as a tuple."""
         stamp, wait = _convert.nanoseconds(time, "time"), _wait(timeout)
         if wait is not None:
             target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
@@ -184,7 +185,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         timeout: Duration = _NO_WAIT,
         return_debug_tuple: bool = False,
     ) -> int | tuple[int, str]:
-        """Return whether `lookup_transform_full` would answer: 1 or 0, on request together with the reason why not."""
+        """Return 1 if `lookup_transform_full` would succeed, otherwise 0, optionally with the reason as a tuple."""
         query = (target_frame, target_time, source_frame, source_time, fixed_frame)
         wait = _wait(timeout)
         if wait is not None:
@@ -200,7 +201,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         *,
         timeout: Duration | None = None,
     ) -> Future[TransformStamped]:
-        """A future of the transform; with a timeout it raises what the look-up raises when the time is over."""
+        """Return a future of a transform. After a timeout, it raises the exception of the lookup."""
         target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
         stamp = _convert.nanoseconds(time, "time")
         return _transform_futures.wait(
@@ -221,7 +222,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         *,
         timeout: Duration | None = None,
     ) -> Future[TransformStamped]:
-        """The same between two times."""
+        """Return a future of a transform between two times; otherwise like `wait_for_transform_async`."""
         query = _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         return _transform_futures.wait(
             self._coframe_buffer._dispatcher,
@@ -233,13 +234,13 @@ class Buffer(tf2.BufferCore, BufferInterface):
 
 
 def clear_on_time_jump(buffer: Buffer, clock: Clock) -> Any:
-    """Clear a buffer when a clock jumps back or changes; returns the handle to keep as long as it shall hold."""
+    """Clear a buffer when a clock jumps back or changes its source, as long as the returned handle is kept."""
     threshold = JumpThreshold(min_forward=None, min_backward=Duration(seconds=-1), on_clock_change=True)
     return clock.create_jump_callback(threshold, post_callback=buffer.time_jump_callback)
 
 
 def _wait(timeout: Duration) -> int | None:
-    """Nanoseconds to wait; None for not at all."""
+    """Return the nanoseconds to wait, or None for no wait."""
     return _nanoseconds(timeout) or None
 
 
@@ -250,5 +251,7 @@ def _limit(timeout: Duration | None) -> int | None:
 def _nanoseconds(timeout: Duration) -> int:
     if not isinstance(timeout, Duration):
         given = timeout if isinstance(timeout, (int, float)) else "..."
-        raise TypeError(f"timeout must be an rclpy Duration, not {type(timeout).__name__}: Duration(seconds={given})")
+        raise TypeError(
+            f"timeout must be an rclpy Duration, not {type(timeout).__name__}. Use Duration(seconds={given})."
+        )
     return timeout.nanoseconds

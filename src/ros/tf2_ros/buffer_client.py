@@ -1,8 +1,8 @@
-"""Looking transforms up in the buffer of another node."""
+"""Client for lookups in the buffer of another node."""
 
-# ruff: noqa: SLF001 - rclpy's action client lets this client wait with a timeout
+# ruff: noqa: SLF001 - The client uses a private method of rclpy's action client to wait with a timeout.
 
-# What is not used here is here because upstream leaks it.
+# The unused names are imported because programs import them from upstream's module.
 import threading  # noqa: F401
 import warnings
 from time import monotonic, sleep  # noqa: F401
@@ -14,6 +14,7 @@ import tf2_ros  # noqa: F401
 from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Duration as DurationMessage
 from builtin_interfaces.msg import Time as TimeMessage
+from coframe.time import SECOND
 from geometry_msgs.msg import TransformStamped
 from rclpy.action import ActionClient
 from rclpy.action.client import ClientGoalHandle
@@ -34,28 +35,28 @@ _SUSPICION: Final = "Something is likely wrong with the server."
 
 
 class BufferClient(BufferInterface):
-    """Looks transforms up in a buffer server, by the action `tf2_msgs/LookupTransform`.
+    """Client that looks up transforms in a buffer server through the action `tf2_msgs/LookupTransform`.
 
-    Look-ups work anywhere, also in a callback of a single-threaded executor, and nobody needs to spin the node: they
-    receive their answers themselves. In coroutines, await the `..._async` ones, which leave the executor free.
+    Lookups do not need a spinning node and also work in callbacks of a single-threaded executor, because they take
+    their responses themselves. In coroutines, await the `..._async` methods, which do not block the executor.
 
     Attributes:
-        node: The node that asks.
-        action_client: What it asks by.
-        check_frequency: Kept for upstream's sake; nothing is asked for periodically.
-        timeout_padding: How much longer than its timeout a look-up waits for the server.
+        node: Node of the client.
+        action_client: Action client that sends the requests.
+        check_frequency: Unused, kept for compatibility. The client does not poll.
+        timeout_padding: Additional time that a lookup waits for the server after its timeout.
     """
 
     def __init__(
         self, node: Node, ns: str, check_frequency: float = 10.0, timeout_padding: Duration = _PADDING
     ) -> None:
-        """Look for the server.
+        """Create the client.
 
         Args:
-            node: The node that asks.
-            ns: Name of the server's action; expanded and remapped.
-            check_frequency: Kept for upstream's sake.
-            timeout_padding: How much longer than its timeout a look-up waits for the server.
+            node: Node of the client.
+            ns: Name of the server's action, which is expanded and remapped.
+            check_frequency: Ignored, accepted for compatibility.
+            timeout_padding: Additional time that a lookup waits for the server after its timeout.
         """
         BufferInterface.__init__(self)
         self.node = node
@@ -75,17 +76,17 @@ class BufferClient(BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage, timeout: Duration = _NO_WAIT
     ) -> TransformStamped:
-        """The transform that takes data from `source_frame` to `target_frame`.
+        """Return the transform that transforms data from `source_frame` into `target_frame`.
 
         Args:
-            target_frame: Frame to express data in.
-            source_frame: Frame the data are in.
-            time: When; time zero asks for the latest. A message is deprecated, as upstream.
-            timeout: How long the server waits for it.
+            target_frame: Frame to transform data into.
+            source_frame: Frame in which the data are expressed.
+            time: Time of the transform. Zero requests the latest transform. Time messages are deprecated, as upstream.
+            timeout: Maximum time that the server waits for the transform.
 
         Raises:
-            TransformException: It is not known; one of its children says why.
-            TimeoutException: There is no server, or it does not answer.
+            TransformException: The transform is not available. The subclass and the text give the reason.
+            TimeoutException: No server is available, or it does not respond.
         """
         return self._process(_goal(target_frame, source_frame, time, timeout))
 
@@ -98,26 +99,26 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Duration = _NO_WAIT,
     ) -> TransformStamped:
-        """The transform from `source_frame` at one time to `target_frame` at another.
+        """Return the transform from `source_frame` at one time into `target_frame` at another time.
 
         Args:
-            target_frame: Frame to express data in.
-            target_time: When that frame is looked at.
-            source_frame: Frame the data are in.
-            source_time: When the data were taken.
-            fixed_frame: Frame that stands still between the two times.
-            timeout: How long the server waits for it.
+            target_frame: Frame to transform data into.
+            target_time: Time of the target frame.
+            source_frame: Frame in which the data are expressed.
+            source_time: Time of the data.
+            fixed_frame: Frame that does not move between the two times.
+            timeout: Maximum time that the server waits for the transform.
 
         Raises:
-            TransformException: It is not known; one of its children says why.
-            TimeoutException: There is no server, or it does not answer.
+            TransformException: The transform is not available. The subclass and the text give the reason.
+            TimeoutException: No server is available, or it does not respond.
         """
         return self._process(_full_goal(target_frame, target_time, source_frame, source_time, fixed_frame, timeout))
 
     async def lookup_transform_async(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage, timeout: Duration = _NO_WAIT
     ) -> TransformStamped:
-        """`lookup_transform` as a coroutine, for a node that is spun; not in upstream."""
+        """Look up a transform in a coroutine like `lookup_transform`. The node must spin. Not in upstream."""
         return await self._process_async(_goal(target_frame, source_frame, time, timeout))
 
     async def lookup_transform_full_async(
@@ -129,7 +130,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Duration = _NO_WAIT,
     ) -> TransformStamped:
-        """`lookup_transform_full` as a coroutine, for a node that is spun; not in upstream."""
+        """Look up a transform in a coroutine like `lookup_transform_full`. The node must spin. Not in upstream."""
         return await self._process_async(
             _full_goal(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
         )
@@ -137,7 +138,7 @@ class BufferClient(BufferInterface):
     def can_transform(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage, timeout: Duration = _NO_WAIT
     ) -> bool:
-        """Return whether `lookup_transform` would answer."""
+        """Return whether `lookup_transform` would succeed."""
         try:
             self.lookup_transform(target_frame, source_frame, time, timeout)
         except TransformException:
@@ -153,7 +154,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Duration = _NO_WAIT,
     ) -> bool:
-        """Return whether `lookup_transform_full` would answer."""
+        """Return whether `lookup_transform_full` would succeed."""
         try:
             self.lookup_transform_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
         except TransformException:
@@ -161,7 +162,7 @@ class BufferClient(BufferInterface):
         return True
 
     def destroy(self) -> None:
-        """Stop asking; doing so twice does no harm."""
+        """Destroy the action client. Repeated calls have no effect."""
         self.action_client.destroy()
 
     def _process(self, goal: LookupTransform.Goal) -> TransformStamped:
@@ -177,17 +178,17 @@ class BufferClient(BufferInterface):
     def _deadline(self, goal: LookupTransform.Goal) -> float:
         if not self.action_client.server_is_ready():
             raise TimeoutException("The BufferServer is not ready.")
-        patience = Duration.from_msg(goal.timeout).nanoseconds + self.timeout_padding.nanoseconds
-        return monotonic() + patience / 1e9
+        wait = Duration.from_msg(goal.timeout).nanoseconds + self.timeout_padding.nanoseconds
+        return monotonic() + wait / SECOND
 
     def _wait_for(self, future: Future[Any], deadline: float) -> Any:
         self.action_client._wait_for(future, deadline - monotonic())
-        _give_up(future)
+        _time_out(future)
         return future.result()
 
     async def _within(self, future: Future[Any], deadline: float) -> Any:
-        patience = max(deadline - monotonic(), 0.0)
-        timer = self.node.create_timer(patience, lambda: _give_up(future), self._group, self._clock)
+        remaining = max(deadline - monotonic(), 0.0)
+        timer = self.node.create_timer(remaining, lambda: _time_out(future), self._group, self._clock)
         try:
             return await future
         finally:
@@ -232,12 +233,12 @@ def _time_message(time: Any) -> TimeMessage:
 
 def _duration_message(timeout: Any) -> DurationMessage:
     if not isinstance(timeout, Duration):
-        raise TypeError(f"timeout must be an rclpy Duration, not {type(timeout).__name__}: Duration(seconds=...)")
+        raise TypeError(f"timeout must be an rclpy Duration, not {type(timeout).__name__}. Use Duration(seconds=...).")
     return timeout.to_msg()
 
 
-def _give_up(future: Future[Any]) -> None:
-    """End a future that is not over, by an exception."""
+def _time_out(future: Future[Any]) -> None:
+    """Set a TimeoutException on a future that is not done."""
     if not future.done():
         text = "The LookupTransform goal sent to the BufferServer did not come back in the specified time."
         future.set_exception(TimeoutException(f"{text} {_SUSPICION}"))
@@ -253,8 +254,10 @@ def _accepted(goal_handle: ClientGoalHandle) -> ClientGoalHandle:
 def _transform_in(response: Any) -> TransformStamped:
     raise_error(response.result.error)
     if response.status == GoalStatus.STATUS_ABORTED:
-        # All that C++'s server says about a goal whose time is over.
-        raise TimeoutException("The BufferServer aborted the LookupTransform goal: the transform did not come in time.")
+        # The C++ server aborts a goal after its timeout without an error in the result.
+        raise TimeoutException(
+            "The BufferServer aborted the LookupTransform goal. The transform was not available within the timeout."
+        )
     if response.status != GoalStatus.STATUS_SUCCEEDED:
         raise TransformException(f"The LookupTransform goal ended with status {response.status}, without a transform.")
     transform: TransformStamped = response.result.transform

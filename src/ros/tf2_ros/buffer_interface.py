@@ -1,6 +1,6 @@
-"""What every tf2 buffer can do with stamped data, and the two registries of types it can do it with."""
+"""Interface of tf2 buffers, and the registries of the types that they can transform and convert."""
 
-# What is not used here is here because upstream leaks it.
+# The unused names are imported because programs import them from upstream's module.
 from copy import deepcopy
 from typing import Any, Callable, ClassVar, Dict, NoReturn, Optional, Tuple, Type, TypeVar, Union  # noqa: F401, UP035
 
@@ -24,14 +24,14 @@ from std_msgs.msg import Header
 MsgStamped = PointStamped | PoseStamped | PoseWithCovarianceStamped | Vector3Stamped | PointCloud2
 TransformableObject = Any
 TransformableObjectType = TypeVar("TransformableObjectType")
-# PyKDL's types, for those who registered converters for them.
+# The PyKDL types, for programs that register converters for them.
 PyKDLType = TypeVar("PyKDLType")
 
 _NO_WAIT = Duration()
 
 
 class BufferInterface:
-    """Transforming stamped data, on top of whatever answers `lookup_transform`."""
+    """Base class of buffers that transforms stamped data with the `lookup_transform` of the subclass."""
 
     def __init__(self) -> None:
         self.registration = TransformRegistration()
@@ -43,17 +43,17 @@ class BufferInterface:
         timeout: Duration = _NO_WAIT,
         new_type: type | None = None,
     ) -> Any:
-        """Express stamped data in another frame, at the data's own time.
+        """Transform stamped data into another frame at the time of the data.
 
         Args:
-            object_stamped: A message with a header, of a type that was registered.
-            target_frame: Name of the frame to express it in.
-            timeout: How long to wait for the transform.
-            new_type: A type to convert the result to.
+            object_stamped: Message with a header, of a registered type.
+            target_frame: Frame to transform the message into.
+            timeout: Maximum time to wait for the transform.
+            new_type: Type to convert the result to.
 
         Raises:
-            TypeException: The type of the data was not registered.
-            TransformException: The transform is not known; one of its children says why.
+            TypeException: The type of the data is not registered.
+            TransformException: The transform is not available. The subclass and the text give the reason.
         """
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
@@ -69,11 +69,11 @@ class BufferInterface:
         timeout: Duration = _NO_WAIT,
         new_type: type | None = None,
     ) -> Any:
-        """Express stamped data in another frame at another time; the data stand still in `fixed_frame`.
+        """Transform stamped data into another frame at another time, fixed in `fixed_frame` between the two times.
 
         Raises:
-            TypeException: The type of the data was not registered.
-            TransformException: The transform is not known; one of its children says why.
+            TypeException: The type of the data is not registered.
+            TransformException: The transform is not available. The subclass and the text give the reason.
         """
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
@@ -85,7 +85,7 @@ class BufferInterface:
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage, timeout: Duration = _NO_WAIT
     ) -> TransformStamped:
-        """The transform from `source_frame` to `target_frame`; for a child class to answer."""
+        """Return the transform from `source_frame` into `target_frame`. Subclasses implement this."""
         del target_frame, source_frame, time, timeout
         _not_implemented()
 
@@ -98,14 +98,14 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Duration = _NO_WAIT,
     ) -> TransformStamped:
-        """The transform between two frames at two times; for a child class to answer."""
+        """Return the transform between two frames at two times. Subclasses implement this."""
         del target_frame, target_time, source_frame, source_time, fixed_frame, timeout
         _not_implemented()
 
     def can_transform(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage, timeout: Duration = _NO_WAIT
     ) -> Any:
-        """Return whether `lookup_transform` would answer; for a child class to answer."""
+        """Return whether `lookup_transform` would succeed. Subclasses implement this."""
         del target_frame, source_frame, time, timeout
         _not_implemented()
 
@@ -118,7 +118,7 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Duration = _NO_WAIT,
     ) -> Any:
-        """Return whether `lookup_transform_full` would answer; for a child class to answer."""
+        """Return whether `lookup_transform_full` would succeed. Subclasses implement this."""
         del target_frame, target_time, source_frame, source_time, fixed_frame, timeout
         _not_implemented()
 
@@ -132,13 +132,13 @@ def _converted(result: Any, new_type: type | None) -> Any:
 
 
 def Stamped(obj: Any, stamp: TimeMessage, frame_id: str) -> Any:
-    """Give an object a header and return it."""
+    """Set the header of an object and return the object."""
     obj.header = Header(frame_id=frame_id, stamp=stamp)
     return obj
 
 
 class TypeException(Exception):
-    """A type nobody registered."""
+    """A type is not registered."""
 
     def __init__(self, errstr: str) -> None:
         self.errstr = errstr
@@ -146,7 +146,7 @@ class TypeException(Exception):
 
 
 class NotImplementedException(Exception):
-    """A buffer that does not offer this question."""
+    """A buffer does not implement a method."""
 
     def __init__(self) -> None:
         self.errstr = "CanTransform or LookupTransform not implemented"
@@ -154,56 +154,56 @@ class NotImplementedException(Exception):
 
 
 class TransformRegistration:
-    """Type of stamped data -> function(data, transform) -> data in the other frame; one table for everyone."""
+    """Registry of the functions `f(data, transform)` that transform stamped data, shared by all buffers."""
 
     __type_map: ClassVar[dict[type, Callable[[Any, TransformStamped], Any]]] = {}
 
     def print_me(self) -> None:
-        """Print the table."""
-        print(self.__type_map)  # noqa: T201 - printing is what it is for
+        """Print the registry."""
+        print(self.__type_map)  # noqa: T201
 
     def add(self, key: type, callback: Callable[[Any, TransformStamped], Any]) -> None:
-        """Register how data of type `key` are transformed."""
+        """Register the function that transforms data of type `key`."""
         self.__type_map[key] = callback
 
     def get(self, key: type) -> Callable[[Any, TransformStamped], Any]:
-        """The function for a type.
+        """Return the function for a type.
 
         Raises:
-            TypeException: The type was not registered.
+            TypeException: The type is not registered.
         """
         return _registered(self.__type_map, key)
 
 
 class ConvertRegistration:
-    """Type -> functions to and from messages, and direct converters between two types; one table for everyone."""
+    """Registry of converters between types and messages, and directly between types, shared by all buffers."""
 
     __to_msg_map: ClassVar[dict[type, Callable[[Any], Any]]] = {}
     __from_msg_map: ClassVar[dict[type, Callable[[Any], Any]]] = {}
     __convert_map: ClassVar[dict[tuple[type, type], Callable[[Any], Any]]] = {}
 
     def add_from_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
-        """Register how a message becomes a `key`."""
+        """Register the function that converts a message to the type `key`."""
         self.__from_msg_map[key] = callback
 
     def add_to_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
-        """Register how a `key` becomes a message."""
+        """Register the function that converts the type `key` to a message."""
         self.__to_msg_map[key] = callback
 
     def add_convert(self, key: tuple[type, type], callback: Callable[[Any], Any]) -> None:
-        """Register how the first type of `key` becomes the second, without a message between."""
+        """Register the function that converts the first type of `key` directly to the second."""
         self.__convert_map[key] = callback
 
     def get_from_msg(self, key: type) -> Callable[[Any], Any]:
-        """The function from a message; raises `TypeException` if there is none."""
+        """Return the function that converts a message to a type, or raise `TypeException`."""
         return _registered(self.__from_msg_map, key)
 
     def get_to_msg(self, key: type) -> Callable[[Any], Any]:
-        """The function to a message; raises `TypeException` if there is none."""
+        """Return the function that converts a type to a message, or raise `TypeException`."""
         return _registered(self.__to_msg_map, key)
 
     def get_convert(self, key: tuple[type, type]) -> Callable[[Any], Any]:
-        """The direct converter; raises `TypeException` if there is none."""
+        """Return the direct converter between two types, or raise `TypeException`."""
         return _registered(self.__convert_map, key)
 
 
@@ -219,10 +219,10 @@ def _registered(table: dict[_Key, _Value], key: _Key) -> _Value:
 
 
 def convert(a: Any, b_type: type) -> Any:
-    """Turn `a` into a `b_type`: directly if a converter is registered, else by way of a message.
+    """Convert `a` to `b_type`, directly if a converter is registered, otherwise via a message.
 
     Raises:
-        TypeException: No way is registered.
+        TypeException: No converter is registered.
     """
     registry = ConvertRegistration()
     try:

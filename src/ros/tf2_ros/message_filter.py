@@ -1,4 +1,4 @@
-"""Letting messages through once their frame can be transformed."""
+"""Message filter, which passes messages on once their frame can be transformed."""
 
 import inspect
 import threading
@@ -10,6 +10,7 @@ from functools import partial
 from typing import Any, NamedTuple
 
 from builtin_interfaces.msg import Time as TimeMessage
+from coframe.time import SECOND
 from rclpy.callback_groups import CallbackGroup
 from rclpy.duration import Duration
 from rclpy.logging import get_logger
@@ -18,17 +19,17 @@ from rclpy.qos import QoSProfile
 from rclpy.subscription import Subscription
 from rclpy.task import Future
 from tf2_py import ExtrapolationException, InvalidArgumentException, TransformException, _convert
-from tf2_ros._message_queue import FilterFailureReason, FilterStatistics, MessageQueue, Outcome, Waiting
+from tf2_ros._message_queue import FilterFailureReason, FilterStatistics, MessageQueue, Outcome, PendingMessage
 from tf2_ros.buffer import Buffer
 
 __all__ = ["FilterFailureReason", "FilterStatistics", "MessageFilter"]
 
-# That messages are dropped is told at once, and then this often at most.
-_WARNING_PERIOD = 10 * _convert.NANOSECONDS_PER_SECOND
+# The first dropped message is reported immediately, later ones at most once per period.
+_WARNING_PERIOD = 10 * SECOND
 
 
-class _Lack(NamedTuple):
-    """A transform that a message needs and the buffer has not; with a reason if it will never have it."""
+class _MissingTransform(NamedTuple):
+    """A transform that a message needs and that is not available, with a reason if it never will be."""
 
     target: str
     time: TimeMessage
@@ -37,27 +38,28 @@ class _Lack(NamedTuple):
 
 
 class MessageFilter:
-    """Keeps messages until they can be transformed, and says why when it gives one up.
+    """Filter that holds messages until they can be transformed, and reports why messages are dropped.
 
-    A sensor's message nearly always arrives before the transforms of its moment do. A filter calls back with it as
-    soon as its `header.frame_id` can be transformed to all target frames at `header.stamp`: a look-up in the callback
-    then succeeds at once. A stamp of zero asks for the latest transform, as in look-ups. A slash before the name of a
-    frame is taken off, as in C++.
+    A sensor message nearly always arrives before the transforms for its stamp. The filter calls the callbacks as soon
+    as `header.frame_id` can be transformed to all target frames at `header.stamp`, so that a lookup in the callback
+    succeeds immediately. A stamp of zero requests the latest transform, as in lookups. A leading slash of a frame name
+    is removed, as in C++.
 
-    Each message goes as soon as its own transforms are there and waits for no other, as in C++. Messages of one frame
-    that the same transform lets through go in the order in which they came, if their stamps are in that order.
+    A message is passed on as soon as its own transforms are available and does not wait for other messages, as in C++.
+    Messages of one frame that become transformable at the same time are passed on in the order of their arrival if
+    their stamps are in that order.
 
-    With a node, callbacks run where that node is spun, as those of its subscriptions do: they may be coroutine
-    functions, and what they raise is raised by `spin`. Without a node they run in the thread that brought the message
-    or the transform, never two at a time, and what they raise is printed. No lock is held meanwhile.
+    With a node, callbacks run in the executor of the node, like those of its subscriptions: they may be coroutine
+    functions, and `spin` raises their exceptions. Without a node, they run in the thread that added the message or
+    the transform, one at a time, and their exceptions are printed. No lock is held during callbacks.
 
-    A message whose transform cannot come any more is dropped at once: where the buffer has only newer ones
-    (OutTheBack), or where the frame's name is none. Waiting costs no polling, and its time is that of a steady clock,
-    also where a simulation drives the node's. (C++ takes the node's clock, and drops only what is older than the
-    buffer's cache time at once.)
+    A message whose transform can never become available is dropped immediately, because the buffer has only newer
+    transforms (OutTheBack) or the frame name is not valid. The filter does not poll. Timeouts are measured in steady
+    time, even if a simulator sets the clock of the node. (C++ uses the node's clock, and immediately drops only
+    messages that are older than the buffer's cache time.)
 
     Attributes:
-        node: The node whose executor runs the callbacks, or None.
+        node: Node whose executor runs the callbacks, or None.
     """
 
     def __init__(
@@ -71,23 +73,24 @@ class MessageFilter:
         *,
         callback_group: CallbackGroup | None = None,
     ) -> None:
-        """Create a filter; it takes messages in from now on.
+        """Create a filter and start receiving messages.
 
         Args:
-            subscriber: Where messages come from: (message class, topic, QoS profile or depth), for which the filter
-                makes a subscription of `node`; or anything with a method `registerCallback(callback)`, such as a
-                subscriber of message_filters or another filter; or None, if somebody calls `add()`.
-            buffer: Where the transforms are.
-            target_frames: The frame, or the frames, to which a message must be transformable.
-            queue_size: How many messages may wait for transforms; 0: any number. One more, and the oldest is dropped.
-            node: Its executor runs the callbacks.
-            buffer_timeout: How long a message may wait; None: until newer ones push it out of the queue.
-            callback_group: Of the callbacks and the subscription; None: the node's default group.
+            subscriber: Source of the messages. Either a tuple (message class, topic, QoS profile or depth), for which
+                the filter creates a subscription of `node`, or an object with a method `registerCallback(callback)`,
+                such as a subscriber of message_filters or another filter, or None if the program calls `add()`.
+            buffer: Buffer with the transforms.
+            target_frames: Frame or frames to which a message must be transformable.
+            queue_size: Maximum number of messages that wait for transforms. If the queue is full, the oldest message is
+                dropped. 0: no limit.
+            node: Node whose executor runs the callbacks.
+            buffer_timeout: Maximum time that a message waits. None: until newer messages displace it from the queue.
+            callback_group: Group of the callbacks and the subscription. None: the default group of the node.
 
         Raises:
-            TypeError: The subscriber is none of the above or its messages have no header, a topic or a callback group
-                is given without a node, or another argument is of a wrong type.
-            ValueError: There is no target frame, or the queue's size is negative.
+            TypeError: The subscriber is not one of the above, its messages have no header, a topic or a callback group
+                is given without a node, or another argument has the wrong type.
+            ValueError: There is no target frame, or the queue size is negative.
         """
         self.node = node
         self._buffer = buffer
@@ -98,67 +101,67 @@ class MessageFilter:
         self._queue = MessageQueue()
         self._callbacks: list[Callable[[Any], Any]] = []
         self._failure_callbacks: list[Callable[[Any, FilterFailureReason, str], Any]] = []
-        self._delivering = threading.Lock()
-        self._quiet_until = 0
+        self._delivery_lock = threading.Lock()
+        self._next_warning_ns = 0
         self._guard = None
         if node is not None:
             self._guard = node.create_guard_condition(self._deliver_one, callback_group)
         elif callback_group is not None:
-            raise TypeError("a callback group is of use to a node only: give node=..., too")
+            raise TypeError("A callback group requires a node. Pass node=... as well.")
         self._subscription = self._connect(subscriber, callback_group)
 
     def registerCallback(self, callback: Callable[..., Any], *args: Any) -> None:
-        """Call `callback(message, *args)` with each message that can be transformed.
+        """Register `callback(message, *args)` for the messages that can be transformed.
 
-        Several callbacks get a message one after the other; if one raises, those after it do not get it.
+        Several callbacks are called one after another. If one raises an exception, the callbacks after it are skipped.
 
         Raises:
-            TypeError: It is not callable, or is a coroutine function and there is no node to run it.
+            TypeError: The callback is not callable, or it is a coroutine function and the filter has no node.
         """
         self._check(callback)
         self._callbacks.append(lambda message: callback(message, *args))
 
     def register_failure_callback(self, callback: Callable[..., Any]) -> None:
-        """Call `callback(message, reason, explanation)` with each message that is dropped.
+        """Register `callback(message, reason, explanation)` for dropped messages.
 
-        `reason` is a FilterFailureReason, and `explanation` a sentence about what was missing; a callback with two
-        parameters does without it.
+        `reason` is a FilterFailureReason, and `explanation` is a text that describes what was missing. It is omitted
+        for a callback with two parameters.
 
         Raises:
-            TypeError: As for `registerCallback`.
+            TypeError: The callback is not callable, or it is a coroutine function and the filter has no node.
         """
         self._check(callback)
-        wants_explanation = _takes_three(callback)
+        accepts_explanation = _takes_three(callback)
         self._failure_callbacks.append(
-            callback if wants_explanation else lambda message, reason, _: callback(message, reason)
+            callback if accepts_explanation else lambda message, reason, _: callback(message, reason)
         )
 
     registerFailureCallback = register_failure_callback
 
     def add(self, message: Any) -> None:
-        """Take a message in, as if it had come from the subscriber; in any thread.
+        """Add a message as if the subscriber had received it. This may be called from any thread.
 
         Raises:
-            TypeError: It has no header with a frame_id and a stamp.
+            TypeError: The message has no header with a frame_id and a stamp.
         """
         frame, stamp = _frame_and_stamp(message)
         deadline = None if self._timeout is None else time.monotonic_ns() + self._timeout
-        waiting = self._queue.enter(message, frame, stamp, deadline)
-        if waiting is None:
+        pending = self._queue.add(message, frame, stamp, deadline)
+        if pending is None:
             return
         if not frame:
-            explanation = "its header names no frame: whoever publishes it has to set header.frame_id"
-            self._drop(waiting, FilterFailureReason.EmptyFrameID, explanation)
+            explanation = "the frame_id of its header is empty. Set header.frame_id in the publisher."
+            self._drop(pending, FilterFailureReason.EmptyFrameID, explanation)
             return
-        self._pursue(waiting)
-        self._make_room()
+        self._process(pending)
+        self._limit_queue()
 
     def clear(self) -> None:
-        """Forget the messages that wait; no callback is told of them."""
+        """Remove the waiting messages without calling a callback."""
         self._queue.clear()
 
     def destroy(self) -> None:
-        """Forget the messages that wait, and take no more in; doing so twice does no harm."""
+        """Remove the waiting messages and accept no new ones. Repeated calls have no effect."""
         self._queue.close()
         if self.node is not None and self._subscription is not None:
             self.node.destroy_subscription(self._subscription)
@@ -166,48 +169,48 @@ class MessageFilter:
             self.node.destroy_guard_condition(self._guard)
 
     def set_target_frame(self, target_frame: str) -> None:
-        """Ask for this one target frame from now on; see `set_target_frames`."""
+        """Replace the target frames by a single frame; see `set_target_frames`."""
         self.set_target_frames([target_frame])
 
     def set_target_frames(self, target_frames: str | Iterable[str]) -> None:
-        """Ask for these target frames from now on, also for messages that wait already.
+        """Replace the target frames, also for messages that are waiting already.
 
         Raises:
-            TypeError: A name is no text.
-            ValueError: There is none.
+            TypeError: A frame name is not a string.
+            ValueError: There is no target frame.
         """
         self._targets = _frames(target_frames)
-        self._pursue_all()
+        self._process_all()
 
     def get_target_frames_string(self) -> str:
-        """The target frames, with spaces between them."""
+        """Return the target frames, separated by spaces."""
         return " ".join(self._targets)
 
     def set_tolerance(self, tolerance: Duration) -> None:
-        """Ask for the transforms at stamp + `tolerance`, too, from now on, also for messages that wait already.
+        """Also require the transforms at stamp + `tolerance`, including for messages that are waiting already.
 
-        That is for what takes time, such as the sweep of a lidar: its frame moves while the message is recorded.
-        Messages with a stamp of zero are not concerned.
+        Use this for data with a duration, such as a lidar sweep, during which the frame moves. The tolerance does not
+        apply to messages with a stamp of zero.
         """
         self._tolerance = _nanoseconds(tolerance, "tolerance")
-        self._pursue_all()
+        self._process_all()
 
     @property
     def queue_size(self) -> int:
-        """How many messages may wait for transforms; 0: any number."""
+        """Maximum number of messages that wait for transforms. 0: no limit."""
         return self._queue_size
 
     @queue_size.setter
     def queue_size(self, size: int) -> None:
         self._queue_size = _size(size)
-        self._make_room()
+        self._limit_queue()
 
     @property
     def statistics(self) -> FilterStatistics:
-        """What became of the messages so far."""
+        """Message counts since the creation of the filter."""
         return self._queue.statistics()
 
-    # Where messages come from
+    # Sources of messages
 
     def _connect(self, subscriber: Any, callback_group: CallbackGroup | None) -> Subscription | None:
         if subscriber is None:
@@ -217,104 +220,107 @@ class MessageFilter:
             return None
         message_type, topic, qos = _topic(subscriber)
         if self.node is None:
-            raise TypeError(f"the subscription to {topic!r} needs a node: give node=..., or call add() with messages")
+            raise TypeError(
+                f"The subscription to {topic!r} requires a node. Pass node=..., or pass None as the subscriber and "
+                "call add() with the messages."
+            )
         return self.node.create_subscription(message_type, topic, self.add, qos, callback_group=callback_group)
 
-    # Waiting for transforms
+    # PendingMessage for transforms
 
-    def _pursue(self, waiting: Waiting) -> None:
-        """Let a message out or drop it, if either can be said already; else wait for what it lacks."""
-        lack = self._lack(waiting)
-        if lack is None:
-            for elder in self._queue.elders(waiting):
-                self._settle(elder)
-            self._release(waiting)
-        elif lack.reason is not None:
-            self._drop(waiting, lack.reason, _explain(lack.error))
+    def _process(self, pending: PendingMessage) -> None:
+        """Pass or drop a message if this can be decided now; otherwise wait for its missing transform."""
+        missing = self._find_missing(pending)
+        if missing is None:
+            for earlier in self._queue.earlier_of_same_frame(pending):
+                self._resolve(earlier)
+            self._pass(pending)
+        elif missing.reason is not None:
+            self._drop(pending, missing.reason, _explain(missing.error))
         else:
-            self._wait_for(lack, waiting)
+            self._wait_for(missing, pending)
 
-    def _pursue_all(self) -> None:
-        for waiting in self._queue.all():
-            self._pursue(waiting)
+    def _process_all(self) -> None:
+        for pending in self._queue.all():
+            self._process(pending)
 
-    def _settle(self, waiting: Waiting, otherwise: FilterFailureReason | None = None) -> None:
-        """Let a message out or drop it, if either can be said already; else drop it for the reason given, if any."""
-        lack = self._lack(waiting)
-        if lack is None:
-            self._release(waiting)
-        elif (reason := lack.reason or otherwise) is not None:
-            self._drop(waiting, reason, _explain(lack.error))
+    def _resolve(self, pending: PendingMessage, otherwise: FilterFailureReason | None = None) -> None:
+        """Pass or drop a message if this can be decided now; otherwise drop it with the given reason, if any."""
+        missing = self._find_missing(pending)
+        if missing is None:
+            self._pass(pending)
+        elif (reason := missing.reason or otherwise) is not None:
+            self._drop(pending, reason, _explain(missing.error))
 
-    def _make_room(self) -> None:
-        while self._queue_size and (oldest := self._queue.oldest_beyond(self._queue_size)) is not None:
-            self._settle(oldest, otherwise=FilterFailureReason.QueueFull)
+    def _limit_queue(self) -> None:
+        while self._queue_size and (oldest := self._queue.oldest_if_longer_than(self._queue_size)) is not None:
+            self._resolve(oldest, otherwise=FilterFailureReason.QueueFull)
 
-    def _lack(self, waiting: Waiting) -> _Lack | None:
-        """A transform that it lacks, preferably one that it will lack for ever; None if it lacks none."""
-        times = [_time(waiting.stamp)]
-        if self._tolerance and waiting.stamp:
-            times.append(_time(waiting.stamp + self._tolerance))
+    def _find_missing(self, pending: PendingMessage) -> _MissingTransform | None:
+        """Return a missing transform of a message, preferably one that can never become available, or None."""
+        times = [_time(pending.stamp)]
+        if self._tolerance and pending.stamp:
+            times.append(_time(pending.stamp + self._tolerance))
         first = None
         for target in self._targets:
             for when in times:
                 try:
-                    self._buffer.lookup_transform_core(target, waiting.frame, when)
+                    self._buffer.lookup_transform_core(target, pending.frame, when)
                 except TransformException as error:
-                    lack = _Lack(target, when, error, _hopeless(error))
-                    if lack.reason is not None:
-                        return lack
-                    first = first or lack
+                    missing = _MissingTransform(target, when, error, _permanent_failure(error))
+                    if missing.reason is not None:
+                        return missing
+                    first = first or missing
         return first
 
-    def _wait_for(self, lack: _Lack, waiting: Waiting) -> None:
+    def _wait_for(self, missing: _MissingTransform, pending: PendingMessage) -> None:
         timeout = None
-        if waiting.deadline is not None:
-            timeout = Duration(nanoseconds=max(0, waiting.deadline - time.monotonic_ns()))
-        future = self._buffer.wait_for_transform_async(lack.target, waiting.frame, lack.time, timeout=timeout)
-        self._queue.wait_for(waiting, future)
-        # The buffer keeps the future, which must keep neither the message nor a filter that nobody wants any more.
-        future.add_done_callback(partial(_answer, weakref.ref(self), waiting.number))
+        if pending.deadline is not None:
+            timeout = Duration(nanoseconds=max(0, pending.deadline - time.monotonic_ns()))
+        future = self._buffer.wait_for_transform_async(missing.target, pending.frame, missing.time, timeout=timeout)
+        self._queue.set_future(pending, future)
+        # The buffer refers to the future, which must not keep the message or an unused filter alive.
+        future.add_done_callback(partial(_forward_wait_result, weakref.ref(self), pending.number))
 
-    def _on_answer(self, number: int, future: Future[Any]) -> None:
-        """Go on with a message whose transform has come, or whose time is over."""
+    def _on_wait_result(self, number: int, future: Future[Any]) -> None:
+        """Process a message whose transform is available or whose wait has timed out."""
         is_late = future.exception() is not None
-        waiting = self._queue.waits_for(number, future)
-        if waiting is None:
+        pending = self._queue.pending_for(number, future)
+        if pending is None:
             return
         if future.cancelled():
-            self._drop(waiting, FilterFailureReason.Unknown, "somebody cancelled the wait for its transform")
+            self._drop(pending, FilterFailureReason.Unknown, "the wait for its transform was cancelled.")
         elif is_late:
-            self._settle(waiting, otherwise=FilterFailureReason.TimedOut)
+            self._resolve(pending, otherwise=FilterFailureReason.TimedOut)
         else:
-            self._pursue(waiting)
+            self._process(pending)
 
-    def _release(self, waiting: Waiting) -> None:
-        if self._queue.leave(waiting):
+    def _pass(self, pending: PendingMessage) -> None:
+        if self._queue.finish(pending):
             self._deliver()
 
-    def _drop(self, waiting: Waiting, reason: FilterFailureReason, explanation: str) -> None:
-        if self._queue.leave(waiting, reason, explanation):
-            self._warn(waiting, reason, explanation)
+    def _drop(self, pending: PendingMessage, reason: FilterFailureReason, explanation: str) -> None:
+        if self._queue.finish(pending, reason, explanation):
+            self._warn(pending, reason, explanation)
             self._deliver()
 
-    def _warn(self, waiting: Waiting, reason: FilterFailureReason, explanation: str) -> None:
+    def _warn(self, pending: PendingMessage, reason: FilterFailureReason, explanation: str) -> None:
         now = time.monotonic_ns()
-        if now < self._quiet_until:
+        if now < self._next_warning_ns:
             return
-        self._quiet_until = now + _WARNING_PERIOD
-        received, _, dropped, _, still_waiting = self.statistics
-        share = 100.0 * sum(dropped.values()) / max(1, received - still_waiting)
+        self._next_warning_ns = now + _WARNING_PERIOD
+        received, _, dropped, _, still_pending = self.statistics
+        share = 100.0 * sum(dropped.values()) / max(1, received - still_pending)
         counts = ", ".join(f"{reason.name}: {count}" for reason, count in dropped.items() if count)
         text = (
             f"MessageFilter [target={self.get_target_frames_string()}]: Dropped {share:.2f}% of messages so far "
-            f"({counts}). The last one, of frame '{waiting.frame}' at {waiting.stamp / 1e9:.6f}: {reason.name}, "
+            f"({counts}). The last one, of frame '{pending.frame}' at {pending.stamp / SECOND:.6f}: {reason.name}, "
             f"{explanation}"
         )
         logger = get_logger("tf2_ros_message_filter") if self.node is None else self.node.get_logger()
         logger.warning(text)
 
-    # Calling back
+    # Callbacks
 
     def _deliver(self) -> None:
         if self._guard is not None:
@@ -323,8 +329,8 @@ class MessageFilter:
             self._deliver_all()
 
     async def _deliver_one(self) -> None:
-        """In the executor: one message a turn, so that other callbacks get theirs in between."""
-        outcome = self._queue.take()
+        """Deliver one message in the executor. Other callbacks run before the next message."""
+        outcome = self._queue.take_outcome()
         if self._guard is not None and self._queue.has_outcomes():
             self._guard.trigger()
         if outcome is None:
@@ -334,17 +340,17 @@ class MessageFilter:
                 await result
 
     def _deliver_all(self) -> None:
-        """Without an executor: in this thread, unless another one is at it already."""
-        # Nobody waits for this lock: who has it goes on until nothing is left, for all.
-        while self._queue.has_outcomes() and self._delivering.acquire(blocking=False):
+        """Deliver all messages in this thread, unless another thread is delivering them already."""
+        # No thread blocks on this lock. The thread that holds it delivers the messages of all threads.
+        while self._queue.has_outcomes() and self._delivery_lock.acquire(blocking=False):
             try:
-                while (outcome := self._queue.take()) is not None:
+                while (outcome := self._queue.take_outcome()) is not None:
                     self._call_back_safely(outcome)
             finally:
-                self._delivering.release()
+                self._delivery_lock.release()
 
     def _call_back(self, outcome: Outcome) -> Iterable[Any]:
-        """Call the callbacks, one for each step of the iteration."""
+        """Return an iterator that calls one callback per step."""
         if outcome.reason is None:
             return (callback(outcome.message) for callback in self._callbacks)
         reason = outcome.reason
@@ -354,24 +360,24 @@ class MessageFilter:
         try:
             for _ in self._call_back(outcome):
                 pass
-        except Exception:  # noqa: BLE001 - the thread may be anybody's, and more messages may wait
+        except Exception:  # noqa: BLE001 - The thread may belong to the caller, and more messages may be queued.
             traceback.print_exc()
 
     def _check(self, callback: object) -> None:
         if not callable(callback):
-            raise TypeError(f"the callback must be a function, not {callback!r}: give it without () behind its name")
+            raise TypeError(f"The callback must be a function, not {callback!r}. Pass the function without calling it.")
         if self.node is None and inspect.iscoroutinefunction(callback):
-            raise TypeError("a coroutine function needs a node whose executor runs it: give the filter node=...")
+            raise TypeError("A coroutine function requires a node whose executor runs it. Pass node=... to the filter.")
 
 
-def _answer(reference: weakref.ref[MessageFilter], number: int, future: Future[Any]) -> None:
+def _forward_wait_result(reference: weakref.ref[MessageFilter], number: int, future: Future[Any]) -> None:
     message_filter = reference()
     if message_filter is not None:
-        message_filter._on_answer(number, future)  # noqa: SLF001 - a method that does not keep its object
+        message_filter._on_wait_result(number, future)  # noqa: SLF001 - A bound method would keep the filter alive.
 
 
-def _hopeless(error: TransformException) -> FilterFailureReason | None:
-    """Why a transform will never come; None if it may."""
+def _permanent_failure(error: TransformException) -> FilterFailureReason | None:
+    """Return why a transform can never become available, or None if it can."""
     if isinstance(error, InvalidArgumentException):
         return FilterFailureReason.NoTransformFound
     if isinstance(error, ExtrapolationException) and error.requested is not None and error.earliest is not None:
@@ -384,8 +390,8 @@ def _explain(error: TransformException) -> str:
 
 
 _NO_HEADER = (
-    "has no header with a frame_id and a stamp, so nobody knows where and when it was: a MessageFilter takes stamped "
-    "messages, for example PointStamped instead of Point"
+    "has no header with a frame_id and a stamp. A MessageFilter requires stamped messages, for example PointStamped "
+    "instead of Point."
 )
 
 
@@ -400,8 +406,8 @@ def _frame_and_stamp(message: Any) -> tuple[str, int]:
 def _topic(subscriber: Any) -> tuple[type[Any], str, QoSProfile | int]:
     if not isinstance(subscriber, tuple) or len(subscriber) != 3:
         raise TypeError(
-            "subscriber must be (message class, topic, QoS profile or depth), or have a method registerCallback, or be "
-            f"None for a filter that is fed with add(): {subscriber!r} is none of these"
+            f"Invalid subscriber {subscriber!r}. It must be a tuple (message class, topic, QoS profile or depth), an "
+            "object with a method registerCallback, or None for a filter whose messages are added with add()."
         )
     message_type, topic, qos = subscriber
     if hasattr(message_type, "get_fields_and_field_types"):
@@ -414,7 +420,7 @@ def _topic(subscriber: Any) -> tuple[type[Any], str, QoSProfile | int]:
 def _frames(names: str | Iterable[str]) -> tuple[str, ...]:
     names = [names] if isinstance(names, str) else list(names)
     if not names:
-        raise ValueError("a MessageFilter needs at least one target frame")
+        raise ValueError("A MessageFilter requires at least one target frame.")
     return tuple(_without_slash(_convert.frame_id(name, "a target frame")) for name in names)
 
 
@@ -424,20 +430,20 @@ def _without_slash(frame: str) -> str:
 
 def _size(queue_size: int) -> int:
     if not isinstance(queue_size, int):
-        raise TypeError(f"queue_size must be an int, not {type(queue_size).__name__}")
+        raise TypeError(f"queue_size must be an int, not {type(queue_size).__name__}.")
     if queue_size < 0:
-        raise ValueError(f"queue_size must not be negative, but is {queue_size}: 0 lets any number of messages wait")
+        raise ValueError(f"queue_size must not be negative, but is {queue_size}. 0 means no limit.")
     return queue_size
 
 
 def _nanoseconds(duration: Duration, what: str) -> int:
     if not isinstance(duration, Duration):
-        raise TypeError(f"{what} must be an rclpy Duration, not {type(duration).__name__}: Duration(seconds=...)")
+        raise TypeError(f"{what} must be an rclpy Duration, not {type(duration).__name__}. Use Duration(seconds=...).")
     return duration.nanoseconds
 
 
 def _time(nanoseconds: int) -> TimeMessage:
-    sec, nanosec = divmod(nanoseconds, _convert.NANOSECONDS_PER_SECOND)
+    sec, nanosec = divmod(nanoseconds, SECOND)
     return TimeMessage(sec=sec, nanosec=nanosec)
 
 
@@ -446,6 +452,6 @@ def _takes_three(callback: Callable[..., Any]) -> bool:
         inspect.signature(callback).bind(None, None, None)
     except TypeError:
         return False
-    except ValueError:  # some built-in functions have no signature
+    except ValueError:  # Some built-in functions have no signature.
         return True
     return True

@@ -1,6 +1,6 @@
-"""Sending transforms that hold for ever."""
+"""Broadcaster of static transforms."""
 
-# ruff: noqa: SLF001 - rclpy's nodes let this broadcaster in, so that those of a process share one DDS writer
+# ruff: noqa: SLF001 - The broadcasters of a process share a DDS writer through private members of rclpy's nodes.
 
 from collections.abc import Iterable
 from copy import deepcopy
@@ -19,15 +19,15 @@ DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 
 
 class StaticTransformBroadcaster:
-    """Publishes static transforms on `/tf_static`, all it ever sent in every message.
+    """Broadcaster that publishes static transforms on `/tf_static`. Each message contains all transforms sent so far.
 
-    A late subscription hears a writer's last message only. By default all broadcasters of the process share one writer,
-    and what one of them publishes goes out together with what the others did.
+    A late-joining subscription receives only the last message of a DDS writer. By default, all broadcasters of the
+    process share one writer, which publishes the transforms of all broadcasters together.
 
     Attributes:
         pub_tf: The publisher.
-        net_message: What was sent so far; one transform per child frame. Taking one out and publishing the rest with
-            `pub_tf` ends it for those who come later.
+        net_message: Transforms sent so far, one per child frame. To withdraw a transform for late-joining
+            subscriptions, remove it and publish the message with `pub_tf`.
     """
 
     def __init__(
@@ -42,12 +42,12 @@ class StaticTransformBroadcaster:
         """Create the publisher.
 
         Args:
-            node: The node that publishes.
-            qos: Quality of service of a publisher of its own; by default all broadcasters of the process share one,
+            node: Node of the publisher.
+            qos: QoS profile of a separate publisher. None: all broadcasters of the process share a publisher, which is
                 reliable and transient-local with a depth of 1.
             tf_static_topic: Topic to publish on.
-            prefix: Goes in front of the names of frames as it is, such as `robot1/`.
-            keep: Frames that get no prefix, such as `["map"]`.
+            prefix: Prefix of the frame names, such as `robot1/`. No separator is added.
+            keep: Frames without prefix, such as `["map"]`.
         """
         self._renaming = renaming(prefix, keep)
         self.pub_tf = _shared_publisher(node, tf_static_topic) if qos is None else _own(node, tf_static_topic, qos)
@@ -55,9 +55,9 @@ class StaticTransformBroadcaster:
         self._child_frame_ids: set[str] = set()
 
     def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:
-        """Publish one transform or several together with all earlier ones; the last word on a child frame holds."""
+        """Publish one or several transforms with all earlier ones. A new transform replaces that of the same child."""
         transforms = {known.child_frame_id: known for known in self.net_message.transforms}
-        # Copies: callers fill the same message again for their next frame.
+        # The messages are copied, because callers reuse them for their next transform.
         added = renamed(as_list(transform), self._renaming)
         transforms.update((new.child_frame_id, deepcopy(new)) for new in added)
         self.net_message.transforms = list(transforms.values())

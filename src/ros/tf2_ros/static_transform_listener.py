@@ -1,4 +1,4 @@
-"""A listener for static transforms only."""
+"""Listener for static transforms."""
 
 import tf2_py as tf2
 from rclpy.node import Node
@@ -8,7 +8,7 @@ from tf2_ros.transform_listener import TransformListener
 
 
 class StaticTransformListener(TransformListener):
-    """Fills a buffer from `/tf_static` and leaves `/tf` alone: sensor mounts cost nothing at run time."""
+    """Listener that fills a buffer from `/tf_static` only, for programs that need no dynamic transforms."""
 
     def __init__(
         self,
@@ -19,7 +19,7 @@ class StaticTransformListener(TransformListener):
         static_qos: QoSProfile | int | None = None,
         tf_static_topic: str = DEFAULT_STATIC_TF_TOPIC,
     ) -> None:
-        """Start listening; the arguments are those of `TransformListener`."""
+        """Create the subscription. The arguments are those of `TransformListener`."""
         super().__init__(
             buffer,
             node,

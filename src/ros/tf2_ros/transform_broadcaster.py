@@ -1,4 +1,4 @@
-"""Sending transforms that change over time."""
+"""Broadcaster of dynamic transforms."""
 
 from collections.abc import Iterable
 from typing import List, Optional, Union  # noqa: F401, UP035 - leaked upstream
@@ -14,7 +14,7 @@ DEFAULT_TF_TOPIC = "/tf"
 
 
 class TransformBroadcaster:
-    """Publishes transforms on `/tf`.
+    """Broadcaster that publishes transforms on `/tf`.
 
     Attributes:
         pub_tf: The publisher.
@@ -32,11 +32,11 @@ class TransformBroadcaster:
         """Create the publisher.
 
         Args:
-            node: The node that publishes.
-            qos: Quality of service; reliable with a depth of 100 by default.
+            node: Node of the publisher.
+            qos: QoS profile, or its depth. Default: reliable with a depth of 100.
             tf_topic: Topic to publish on.
-            prefix: Goes in front of the names of frames as it is, such as `robot1/`.
-            keep: Frames that get no prefix, such as `["map"]`.
+            prefix: Prefix of the frame names, such as `robot1/`. No separator is added.
+            keep: Frames without prefix, such as `["map"]`.
         """
         self._renaming = renaming(prefix, keep)
         if qos is None:
@@ -44,10 +44,10 @@ class TransformBroadcaster:
         self.pub_tf = node.create_publisher(TFMessage, tf_topic, qos)
 
     def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:
-        """Publish one transform or several, in one message."""
+        """Publish one or several transforms in one message."""
         self.pub_tf.publish(TFMessage(transforms=renamed(as_list(transform), self._renaming)))
 
 
 def as_list(transform: TransformStamped | Iterable[TransformStamped]) -> list[TransformStamped]:
-    """One transform or several, as a list."""
+    """Return one or several transforms as a list."""
     return list(transform) if isinstance(transform, Iterable) else [transform]

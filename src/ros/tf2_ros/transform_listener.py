@@ -1,6 +1,6 @@
-"""Filling a buffer with the transforms that arrive."""
+"""Listener that fills a buffer with received transforms."""
 
-# ruff: noqa: SLF001 - rclpy's nodes and tf2's buffers let this listener in, so that Python need not run
+# ruff: noqa: SLF001 - Native ingestion requires private members of rclpy's nodes and tf2's buffers.
 
 from collections.abc import Iterable
 from threading import Thread
@@ -25,19 +25,19 @@ _STATIC_QOS = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL,
 
 
 class TransformListener:
-    """Subscribes to `/tf` and `/tf_static` and fills a buffer.
+    """Listener that subscribes to `/tf` and `/tf_static` and fills a buffer.
 
-    Transforms go from the wire straight into the buffer: the node need not spin, and no Python runs for them. They go
-    through `callback` and `static_callback` only where someone changed what a buffer or a listener does with them. The
-    buffer is filled as long as the node lives, also if nobody keeps the listener.
+    Transforms are inserted natively: the node does not need to spin, and no Python code runs. `callback` and
+    `static_callback` are called only if a subclass or an instance overrides the methods of the listener or the buffer.
+    The buffer is filled as long as the node exists, even if there is no reference to the listener.
 
     Attributes:
-        node: The node that subscribes.
-        tf_sub: The subscription to `/tf`; None if only static transforms are listened to.
-        tf_static_sub: The subscription to `/tf_static`.
-        group: The callback group of both.
-        executor: Spins the node, if asked for with `spin_thread`; not there otherwise.
-        dedicated_listener_thread: The thread that does; not there otherwise.
+        node: Node of the subscriptions.
+        tf_sub: Subscription to `/tf`, or None if `static_only` is set.
+        tf_static_sub: Subscription to `/tf_static`.
+        group: Callback group of both subscriptions.
+        executor: Executor that spins the node. It exists only with `spin_thread`.
+        dedicated_listener_thread: Thread of the executor. It exists only with `spin_thread`.
     """
 
     def __init__(
@@ -54,22 +54,23 @@ class TransformListener:
         prefix: str = "",
         keep: Iterable[str] = (),
     ) -> None:
-        """Start listening.
+        """Create the subscriptions.
 
         Args:
-            buffer: The buffer to fill.
-            node: The node that subscribes; a hidden one is created if there is none.
-            spin_thread: Spin the node in a thread of its own. The buffer does not need that.
-            qos: Quality of service for `/tf`; reliable with a depth of 100 by default.
-            static_qos: Quality of service for `/tf_static`; the same and transient-local by default.
-            tf_topic: Topic of the transforms that change.
+            buffer: Buffer to fill.
+            node: Node of the subscriptions. None: an internal node is created.
+            spin_thread: Whether to spin the node in a separate thread. The buffer does not require this.
+            qos: QoS profile of `/tf`, or its depth. Default: reliable with a depth of 100.
+            static_qos: QoS profile of `/tf_static`, or its depth. Default: reliable and transient-local with a depth of
+                100.
+            tf_topic: Topic of the dynamic transforms.
             tf_static_topic: Topic of the static transforms.
-            static_only: Leave the transforms that change alone.
-            prefix: Goes in front of the names of frames in the buffer as it is, such as `robot1/`.
-            keep: Frames that get no prefix, such as `["map"]`.
+            static_only: Whether to subscribe to static transforms only.
+            prefix: Prefix of the frame names in the buffer, such as `robot1/`. No separator is added.
+            keep: Frames without prefix, such as `["map"]`.
         """
         self.__renaming = renaming(prefix, keep)
-        self.node = node if node is not None else _hidden_node(self)
+        self.node = node if node is not None else _create_internal_node(self)
         self.group = ReentrantCallbackGroup()
         self.__buffer = buffer
         self.__topics = {True: tf_static_topic} if static_only else {False: tf_topic, True: tf_static_topic}
@@ -79,7 +80,7 @@ class TransformListener:
         }
         self.__arrivals: _Arrivals | None = None
         self.__subscribe()
-        # A buffer without a node of its own knows no simulated time; this listener's node does.
+        # A buffer without a node uses the system clock. The clock of the listener's node may be simulated.
         self.__jump_handle = None
         if isinstance(buffer, Buffer) and buffer.clock is not self.node.get_clock():
             self.__jump_handle = clear_on_time_jump(buffer, self.node.get_clock())
@@ -90,22 +91,22 @@ class TransformListener:
 
     @property
     def buffer(self) -> tf2.BufferCore:
-        """The buffer to fill; another one may be put in its place, and is told the static transforms anew."""
+        """The buffer to fill. A new buffer receives the static transforms again."""
         return self.__buffer
 
     @buffer.setter
     def buffer(self, buffer: tf2.BufferCore) -> None:
         self.__buffer = buffer
         if self.__is_listening:
-            former = (self.tf_sub, self.tf_static_sub)
-            # The new subscriptions first, so that nothing falls in between.
+            previous = (self.tf_sub, self.tf_static_sub)
+            # The new subscriptions are created first, so that no message is lost in between.
             self.__subscribe()
-            self.__end(former)
+            self.__destroy(previous)
 
     def unregister(self) -> None:
-        """Stop listening; doing so twice does no harm."""
+        """Destroy the subscriptions. Repeated calls have no effect."""
         self.__is_listening = False
-        self.__end((self.tf_sub, self.tf_static_sub))
+        self.__destroy((self.tf_sub, self.tf_static_sub))
         self.__count_arrivals(None)
         if self.__jump_handle is not None:
             self.__jump_handle.unregister()
@@ -114,12 +115,12 @@ class TransformListener:
             self.executor.shutdown()
 
     def callback(self, data: TFMessage) -> None:
-        """Take in transforms that change."""
+        """Insert the dynamic transforms of a message."""
         for transform in renamed(data.transforms, self.__renaming):
             self.buffer.set_transform(transform, _AUTHORITY)
 
     def static_callback(self, data: TFMessage) -> None:
-        """Take in static transforms."""
+        """Insert the static transforms of a message."""
         for transform in renamed(data.transforms, self.__renaming):
             self.buffer.set_transform_static(transform, _AUTHORITY)
 
@@ -138,7 +139,7 @@ class TransformListener:
         )
 
     def __listen_natively(self, *, static: bool) -> Subscription:
-        """A subscription whose messages go into the buffer without passing through Python."""
+        """Create a subscription that inserts transforms into the buffer without Python code."""
         topic, qos = self.node.resolve_topic_name(self.__topics[static]), self.__qos[static]
         reader = self.node._participant.tf_reader(
             self.node._graph_node,
@@ -152,7 +153,7 @@ class TransformListener:
         callback = self.static_callback if static else self.callback
         return self.node._add_entity(Subscription(reader, TFMessage, topic, callback, self.group, qos, raw=False))
 
-    def __end(self, subscriptions: tuple[Subscription | None, ...]) -> None:
+    def __destroy(self, subscriptions: tuple[Subscription | None, ...]) -> None:
         for subscription in subscriptions:
             if subscription is not None:
                 self.node.destroy_subscription(subscription)
@@ -165,7 +166,7 @@ class TransformListener:
         self.__arrivals = arrivals
 
     def __is_plain(self) -> bool:
-        """Return whether nobody wants to see the transforms on their way into the buffer."""
+        """Return whether no method on the path of the transforms into the buffer is overridden."""
         ours: type[Any] = type(self)
         theirs: type[Any] = type(self.__buffer)
         return (
@@ -188,27 +189,27 @@ class TransformListener:
 
 
 class _Arrivals:
-    """The messages that a buffer is given natively, told to `spin_once`, one by one."""
+    """Polled subscription that reports natively inserted messages to `spin_once`, one by one."""
 
-    # More would not wait for an executor either.
+    # The depth of the subscription, which also limits the number of messages that an executor can take.
     _DEPTH = 100
 
     def __init__(self, buffer: tf2.BufferCore) -> None:
         self._buffer = buffer._coframe_buffer
-        self._told = self._count()
+        self._handled = self._count()
 
     def _count(self) -> int:
         return self._buffer.statistics["messages"]
 
     def _take_one(self) -> bool:
         count = self._count()
-        self._told = max(self._told, count - self._DEPTH)
-        if self._told == count:
+        self._handled = max(self._handled, count - self._DEPTH)
+        if self._handled == count:
             return False
-        self._told += 1
+        self._handled += 1
         return True
 
 
-def _hidden_node(listener: TransformListener) -> Node:
+def _create_internal_node(listener: TransformListener) -> Node:
     name = f"transform_listener_impl_{id(listener):010x}"
     return rclpy.create_node(name, start_parameter_services=False, enable_rosout=False)

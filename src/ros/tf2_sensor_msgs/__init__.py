@@ -1,6 +1,6 @@
-"""Sensor messages in tf2: point clouds, laser scans and inertial measurements seen from another frame.
+"""tf2 support for sensor messages: point clouds, laser scans and IMU data.
 
-Importing this package teaches `tf2_ros.Buffer.transform` the types `PointCloud2`, `LaserScan` and `Imu`.
+Importing this package registers the types `PointCloud2`, `LaserScan` and `Imu` for `tf2_ros.Buffer.transform`.
 """
 
 from coframe import ros_side

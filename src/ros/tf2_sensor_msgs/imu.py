@@ -1,12 +1,12 @@
-"""Inertial measurements as an IMU with the axes of another frame of the same body would make them.
+"""Transformation of IMU data into the axes of another frame of the same body.
 
-Upstream's Python does not have this; it follows the `imu_transformer` package. Angular velocity and linear acceleration
-are told in the sensor's axes: they are rotated, and so are their covariances. The orientation is that of the sensor in
-a fixed world (REP 145): it becomes that of the other frame in the same world, and its covariance, which is told in the
-world's axes, stays.
+Upstream's Python package does not provide this function. It follows the `imu_transformer` package. Angular velocity and
+linear acceleration are expressed in the axes of the sensor, so they and their covariances are rotated. The orientation
+is that of the sensor relative to a fixed world frame (REP 145). It becomes the orientation of the other frame relative
+to the same world frame. Its covariance is expressed in the axes of the world frame and does not change.
 
-What a mount away from the sensor adds to the acceleration by the body's rotation is left out: that takes the angular
-acceleration, which nobody measured.
+The acceleration that depends on the offset between the frames is not included, because it requires the angular
+acceleration, which is not measured.
 """
 
 from copy import deepcopy
@@ -22,26 +22,27 @@ from tf2_geometry_msgs.tf2_geometry_msgs import _get_mat_from_quat
 
 Array = NDArray[np.float64]
 
-# In the first element of a covariance: the IMU does not measure that.
+# This value as the first element of a covariance means that the IMU does not measure the quantity.
 _NOT_MEASURED = -1.0
 _NO_ORIENTATION = Quaternion(x=0.0, y=0.0, z=0.0, w=0.0)
 
 
 def do_transform_imu(imu: Imu, transform: TransformStamped) -> Imu:
-    """An IMU's measurements (rad/s, m/s^2) in the axes of the transform's frame; the header is the transform's.
+    """Transform IMU data (rad/s, m/s^2) into the axes of another frame. The header is that of the transform.
 
-    What its covariance says is not measured (-1) stays as it is, and so does an orientation of zeros, which is none.
+    Quantities that are not measured (first element of the covariance is -1) and an unset orientation (all zeros) are
+    not changed.
 
     Args:
-        imu: The measurements.
-        transform: To a frame that is fixed to the same body.
+        imu: Data to transform.
+        transform: Transform into a frame that is fixed to the same body.
     """
-    turn = _unit(transform.transform.rotation)
-    rotation = _get_mat_from_quat(np.roll(turn, 1))
+    frame_rotation = _unit(transform.transform.rotation)
+    rotation = _get_mat_from_quat(np.roll(frame_rotation, 1))
     result = deepcopy(imu)
     result.header = transform.header
     if imu.orientation_covariance[0] != _NOT_MEASURED and imu.orientation != _NO_ORIENTATION:
-        result.orientation = _turned_body(imu.orientation, turn)
+        result.orientation = _target_orientation(imu.orientation, frame_rotation)
     for name in ("angular_velocity", "linear_acceleration"):
         covariance = getattr(imu, f"{name}_covariance")
         if covariance[0] != _NOT_MEASURED:
@@ -52,16 +53,16 @@ def do_transform_imu(imu: Imu, transform: TransformStamped) -> Imu:
 
 
 def _unit(quaternion: Quaternion) -> Array:
-    """A quaternion (x, y, z, w), normalised; the identity for a zero quaternion, as elsewhere in tf2."""
+    """Return a normalized quaternion (x, y, z, w). A zero quaternion gives the identity, as elsewhere in tf2."""
     values = np.array([quaternion.x, quaternion.y, quaternion.z, quaternion.w], dtype=np.float64)
     length = float(np.linalg.norm(values))
     return values / length if length**2 >= np.finfo(np.float64).eps else np.array([0.0, 0.0, 0.0, 1.0])
 
 
-def _turned_body(orientation: Quaternion, turn: Array) -> Quaternion:
-    """The orientation in the world of a frame that is `turn` away from the one whose orientation is given."""
+def _target_orientation(orientation: Quaternion, frame_rotation: Array) -> Quaternion:
+    """Return the orientation of the target frame relative to the world, from that of the source frame."""
     result = Quaternion()
-    product = quaternions.multiply(_unit(orientation), quaternions.inverse(turn))
+    product = quaternions.multiply(_unit(orientation), quaternions.inverse(frame_rotation))
     result.x, result.y, result.z, result.w = product.tolist()
     return result
 

@@ -1,6 +1,7 @@
-"""Laser scans as points seen from another frame.
+"""Transformation of laser scans into point clouds in another frame.
 
-Upstream's Python does not have this. Which beams become points, and their fields, are those of `laser_geometry`.
+Upstream's Python package does not provide this function. The selection of beams and the fields of the points follow
+`laser_geometry`.
 """
 
 import tf2_ros
@@ -11,18 +12,18 @@ from tf2_sensor_msgs.tf2_sensor_msgs import do_transform_cloud
 
 
 def do_transform_laser_scan(scan: LaserScan, transform: Transform | TransformStamped) -> PointCloud2:
-    """The points a scan has hit, seen from the transform's frame: a scan itself is a scan in its own plane only.
+    """Return the points of a scan in the target frame. A scan can only represent points in its own plane.
 
-    Beams that hit nothing give no point: NaN, infinite, nearer than `range_min`, at `range_max` or beyond. All beams
-    are taken as measured at the scan's stamp, which is the result's, too.
+    Beams with a range that is NaN, infinite, below `range_min`, or not below `range_max` are skipped. All beams are
+    treated as measured at the stamp of the scan, which is also the stamp of the result.
 
     Args:
-        scan: The scan.
-        transform: Its frame becomes the result's if it is stamped.
+        scan: Scan to transform.
+        transform: Transform into the target frame. If it is stamped, its frame_id becomes that of the result.
 
     Returns:
-        A cloud with the float32 fields x, y, z in metres, the scan's intensities if it has any, and the int32 field
-        `index`: the number of the beam.
+        A cloud with the float32 fields x, y, z in meters, the intensities of the scan if it has any, and the int32
+        field `index`, which is the index of the beam.
     """
     return do_transform_cloud(project_scan(scan).to_cloud(), transform)
 

@@ -1,4 +1,4 @@
-"""Point clouds seen from another frame."""
+"""Transformation of point clouds."""
 
 import math
 import sys
@@ -19,17 +19,17 @@ _NORMAL = ("normal_x", "normal_y", "normal_z")
 
 
 def to_msg_msg(msg: PointCloud2) -> PointCloud2:
-    """The message itself: it needs no conversion."""
+    """Return the message itself, which needs no conversion."""
     return msg
 
 
 def from_msg_msg(msg: PointCloud2) -> PointCloud2:
-    """The message itself: it needs no conversion."""
+    """Return the message itself, which needs no conversion."""
     return msg
 
 
 def transform_points(point_cloud: NDArray[Any], transform: Transform) -> Array:
-    """Rotate and move points.
+    """Rotate and translate points.
 
     Args:
         point_cloud: Points, shape (N, 3).
@@ -43,24 +43,24 @@ def transform_points(point_cloud: NDArray[Any], transform: Transform) -> Array:
     """
     points = np.array(point_cloud, dtype=np.float64, order="C")
     if points.shape[-1:] != (3,):
-        raise ValueError(f"points must have the shape (N, 3), not {points.shape}")
+        raise ValueError(f"points must have the shape (N, 3), not {points.shape}.")
     move(points.reshape(-1, 3), _values(transform))
     return points
 
 
 def do_transform_cloud(cloud: PointCloud2, transform: Transform | TransformStamped) -> PointCloud2:
-    """A point cloud, seen from the transform's frame.
+    """Transform a point cloud.
 
-    Normals, the fields normal_x, normal_y and normal_z, are rotated along, as C++ does it since Humble's 0.25.14. Other
-    fields, the cloud's stamp and its layout stay as they are; the argument is not touched.
+    Normals in the fields normal_x, normal_y and normal_z are rotated as well, as in C++ since Humble's 0.25.14. Other
+    fields, the stamp and the layout of the cloud do not change. The argument is not modified.
 
     Args:
         cloud: A cloud with the fields x, y and z, float32 or float64.
-        transform: Its frame becomes the result's if it is stamped.
+        transform: Transform into the target frame. If it is stamped, its frame_id becomes that of the result.
 
     Raises:
-        AssertionError: The cloud lacks x, y or z.
-        ValueError: The cloud's sizes do not fit its data.
+        AssertionError: The cloud has no field x, y or z.
+        ValueError: The sizes of the cloud do not match its data.
     """
     assert {field.name for field in cloud.fields}.issuperset("xyz"), (
         "Point cloud needs the fields x, y, and z for the transformation"
@@ -74,7 +74,7 @@ def do_transform_cloud(cloud: PointCloud2, transform: Transform | TransformStamp
 
 
 def _values(transform: Transform) -> tuple[float, float, float, float, float, float, float]:
-    """A pose with a unit quaternion; the identity for a zero one, as elsewhere in tf2."""
+    """Return the pose values with a unit quaternion. A zero quaternion gives the identity, as elsewhere in tf2."""
     t, q = transform.translation, transform.rotation
     length = math.sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w)
     if length**2 < sys.float_info.epsilon:

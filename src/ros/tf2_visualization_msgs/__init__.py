@@ -1,7 +1,7 @@
-"""Visualization messages in tf2: markers seen from another frame.
+"""tf2 support for visualization messages: markers.
 
-Importing this package teaches `tf2_ros.Buffer.transform` the type `Marker`. ROS itself has no such package: this one
-stands on ROS names only, and works on a sourced ROS, too.
+Importing this package registers the type `Marker` for `tf2_ros.Buffer.transform`. ROS has no such package. This one
+only uses the API of ROS, so it also works with a sourced ROS installation.
 """
 
 from tf2_visualization_msgs.marker import do_transform_marker

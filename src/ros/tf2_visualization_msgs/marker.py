@@ -1,4 +1,4 @@
-"""Markers seen from another frame."""
+"""Transformation of markers."""
 
 from copy import deepcopy
 
@@ -9,16 +9,16 @@ from visualization_msgs.msg import Marker
 
 
 def do_transform_marker(marker: Marker, transform: TransformStamped) -> Marker:
-    """A marker, drawn where it was, but told in the transform's frame; the header is the transform's.
+    """Transform a marker. The header is that of the transform.
 
-    Its pose moves. Its points are told relative to the pose and stay, as do scale, colours, lifetime, ... A marker
-    with `frame_locked` is from then on locked to the new frame: that is the same only where the two frames do not
-    move against each other.
+    The pose is transformed. The points are expressed relative to the pose and do not change. A marker with
+    `frame_locked` is then locked to the new frame, which is equivalent only if the two frames do not move relative to
+    each other.
     """
     result = Marker()
     for field in marker.get_fields_and_field_types():
         value = getattr(marker, field)
-        # Thousands of points are not copied one by one.
+        # Lists are copied shallowly, because a deep copy of thousands of points would be slow.
         setattr(result, field, list(value) if isinstance(value, list) else deepcopy(value))
     result.header = transform.header
     result.pose = do_transform_pose(marker.pose, transform)

@@ -1,8 +1,8 @@
-"""Rotations, quaternions and homogeneous matrices with the names of `transformations.py`.
+"""Rotations, quaternions and homogeneous matrices with the API of `transformations.py`.
 
-Quaternions are (x, y, z, w), as in ROS. Angles are radians. Matrices are 4x4 and transform column vectors. Euler angles
-come with an axes string: `s` (static: about the axes of the fixed frame) or `r` (rotating: about the axes of the body),
-then three axes in the order of the angles. The default `sxyz` is roll, pitch, yaw.
+Quaternions are (x, y, z, w), as in ROS. Angles are in radians. Matrices are 4x4 and transform column vectors. The
+convention of Euler angles is a string: `s` (static, about the axes of the fixed frame) or `r` (rotating, about the axes
+of the body), followed by three axes in the order of the angles. The default `sxyz` is roll, pitch, yaw.
 """
 
 from tf_transformations.euler import (

@@ -1,7 +1,7 @@
 """Euler angles in all 24 conventions.
 
-Turning about the axes of the body in one order is turning about the fixed axes in the opposite order, so everything is
-computed for fixed ("static") axes i, j, k: the matrix is R_k(ak) R_j(aj) R_i(ai).
+Rotations about body axes are equivalent to rotations about fixed axes in the opposite order. All computations therefore
+use fixed ("static") axes i, j, k: the matrix is R_k(ak) R_j(aj) R_i(ai).
 """
 
 import math
@@ -24,7 +24,7 @@ _EPSILON = 4.0 * float(np.finfo(np.float64).eps)
 
 @dataclass(frozen=True)
 class _Axes:
-    """A convention: three fixed axes, and whether angles come in the opposite order."""
+    """A convention: three fixed axes, and whether the order of the angles is reversed."""
 
     i: int
     j: int
@@ -38,7 +38,7 @@ class _Axes:
 
     @property
     def sign(self) -> float:
-        """1 if first, second and third axis are right-handed, else -1."""
+        """1 if the first, second and third axis form a right-handed system, otherwise -1."""
         return 1.0 if (self.j - self.i) % 3 == 1 else -1.0
 
 
@@ -48,8 +48,8 @@ def _parse(axes: str) -> _Axes:
     well_formed = kind in {"s", "r"} and len(names) == 3 and -1 not in numbers
     if not well_formed or numbers[1] in (numbers[0], numbers[2]):
         raise ValueError(
-            f"axes {axes!r}: expected 's' or 'r' and three axes of which no two neighbours are equal, "
-            "for example 'sxyz' or 'rzyx'"
+            f"Invalid axes {axes!r}. Expected 's' or 'r' and three axes of which no two consecutive ones are equal, "
+            "for example 'sxyz' or 'rzyx'."
         )
     reverse = kind == "r"
     i, j, k = reversed(numbers) if reverse else numbers
@@ -57,13 +57,13 @@ def _parse(axes: str) -> _Axes:
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Array:
-    """The quaternion of three angles; by default roll, pitch and yaw.
+    """Return the quaternion of three Euler angles, by default roll, pitch and yaw.
 
     Args:
-        ai: First angle.
-        aj: Second angle.
-        ak: Third angle.
-        axes: The convention.
+        ai: First angle in radians.
+        aj: Second angle in radians.
+        ak: Third angle in radians.
+        axes: Convention of the angles.
     """
     convention = _parse(axes)
     angles = (ak, aj, ai) if convention.reverse else (ai, aj, ak)
@@ -76,14 +76,14 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -
 
 
 def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Array:
-    """The 4x4 rotation matrix of three angles; the arguments are those of `quaternion_from_euler`."""
+    """Return the 4x4 rotation matrix of three Euler angles. The arguments are those of `quaternion_from_euler`."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
 def euler_from_matrix(matrix: ArrayLike, axes: str = "sxyz") -> Angles:
-    """Three angles of a rotation matrix (3x3 or 4x4).
+    """Return the three Euler angles of a rotation matrix (3x3 or 4x4).
 
-    Where the first and the last axis coincide (gimbal lock), the last angle about fixed axes is 0.
+    In gimbal lock, where the first and the last axis coincide, the last angle about the fixed axes is 0.
     """
     convention = _parse(axes)
     rotation = np.asarray(matrix, dtype=np.float64)[:3, :3]
@@ -92,12 +92,12 @@ def euler_from_matrix(matrix: ArrayLike, axes: str = "sxyz") -> Angles:
 
 
 def euler_from_quaternion(quaternion: ArrayLike, axes: str = "sxyz") -> Angles:
-    """Three angles of a quaternion (x, y, z, w); by default roll, pitch and yaw."""
+    """Return the three Euler angles of a quaternion (x, y, z, w), by default roll, pitch and yaw."""
     return euler_from_matrix(quaternion_matrix(quaternion), axes)
 
 
 def _distinct(m: Array, axes: _Axes) -> Angles:
-    """Angles about three different axes (Tait-Bryan)."""
+    """Return the angles about three different axes (Tait-Bryan)."""
     i, j, k, sign = axes.i, axes.j, axes.k, axes.sign
     cosine = math.hypot(m[i, i], m[j, i])
     second = math.atan2(-sign * m[k, i], cosine)
@@ -107,7 +107,7 @@ def _distinct(m: Array, axes: _Axes) -> Angles:
 
 
 def _repeated(m: Array, axes: _Axes) -> Angles:
-    """Angles of which the last is about the first axis again (proper Euler)."""
+    """Return the angles of a convention whose first and last axis are equal (proper Euler)."""
     i, j, third, sign = axes.i, axes.j, axes.third, axes.sign
     sine = math.hypot(m[i, j], m[i, third])
     second = math.atan2(sine, m[i, i])

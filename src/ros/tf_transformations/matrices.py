@@ -15,29 +15,29 @@ _TOLERANCE = 1e-8
 
 
 def identity_matrix() -> Array:
-    """The matrix that changes nothing."""
+    """Return the 4x4 identity matrix."""
     return np.eye(4)
 
 
 def translation_matrix(direction: ArrayLike) -> Array:
-    """The matrix that moves by a vector."""
+    """Return the matrix of a translation by a vector."""
     matrix = np.eye(4)
     matrix[:3, 3] = np.asarray(direction, dtype=np.float64)[:3]
     return matrix
 
 
 def translation_from_matrix(matrix: ArrayLike) -> Array:
-    """The vector a matrix moves by."""
+    """Return the translation vector of a matrix."""
     return np.array(np.asarray(matrix, dtype=np.float64)[:3, 3])
 
 
 def inverse_matrix(matrix: ArrayLike) -> Array:
-    """The inverse."""
+    """Return the inverse of a matrix."""
     return np.linalg.inv(np.asarray(matrix, dtype=np.float64))
 
 
 def concatenate_matrices(*matrices: ArrayLike) -> Array:
-    """The product, in the order of the arguments; the identity if there are none."""
+    """Return the product of matrices in the order of the arguments, or the identity without arguments."""
     product = np.eye(4)
     for matrix in matrices:
         product = product @ np.asarray(matrix, dtype=np.float64)
@@ -45,13 +45,13 @@ def concatenate_matrices(*matrices: ArrayLike) -> Array:
 
 
 def is_same_transform(matrix0: ArrayLike, matrix1: ArrayLike) -> bool:
-    """Return whether two matrices do the same, up to a common factor."""
+    """Return whether two matrices represent the same transformation, up to a common factor."""
     first, second = (np.asarray(m, dtype=np.float64) for m in (matrix0, matrix1))
     return bool(np.allclose(first / first[3, 3], second / second[3, 3]))
 
 
 def rotation_matrix(angle: float, direction: ArrayLike, point: ArrayLike | None = None) -> Array:
-    """The rotation by an angle about an axis, through a point if one is given."""
+    """Return the matrix of a rotation by an angle about an axis, through the origin or through a point."""
     x, y, z = unit_direction(direction)
     cross = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
     rotation = np.eye(3) + math.sin(angle) * cross + (1.0 - math.cos(angle)) * cross @ cross
@@ -59,7 +59,7 @@ def rotation_matrix(angle: float, direction: ArrayLike, point: ArrayLike | None 
 
 
 def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Array, Array]:
-    """Angle, axis and a (homogeneous) point of a rotation, as `rotation_matrix` takes them.
+    """Return angle, axis and a homogeneous point of a rotation, the arguments of `rotation_matrix`.
 
     Raises:
         ValueError: The matrix is not a rotation.
@@ -77,13 +77,13 @@ def rotation_from_matrix(matrix: ArrayLike) -> tuple[float, Array, Array]:
 
 
 def reflection_matrix(point: ArrayLike, normal: ArrayLike) -> Array:
-    """The mirror image at the plane through a point."""
+    """Return the matrix of a reflection at the plane through a point with a normal."""
     unit = unit_direction(normal)
     return _about(np.eye(3) - 2.0 * np.outer(unit, unit), point)
 
 
 def reflection_from_matrix(matrix: ArrayLike) -> tuple[Array, Array]:
-    """A (homogeneous) point of the mirror and its normal, as `reflection_matrix` takes them.
+    """Return a homogeneous point and the normal of the plane of a reflection, the arguments of `reflection_matrix`.
 
     Raises:
         ValueError: The matrix is not a reflection.
@@ -94,7 +94,7 @@ def reflection_from_matrix(matrix: ArrayLike) -> tuple[Array, Array]:
 
 
 def scale_matrix(factor: float, origin: ArrayLike | None = None, direction: ArrayLike | None = None) -> Array:
-    """The scaling by a factor about an origin, in one direction only if one is given."""
+    """Return the matrix of a scaling by a factor about an origin, in all directions or in one direction."""
     if direction is None:
         return _about(factor * np.eye(3), origin)
     unit = unit_direction(direction)
@@ -102,7 +102,7 @@ def scale_matrix(factor: float, origin: ArrayLike | None = None, direction: Arra
 
 
 def scale_from_matrix(matrix: ArrayLike) -> tuple[float, Array, Array | None]:
-    """Factor, (homogeneous) origin and direction of a scaling, as `scale_matrix` takes them.
+    """Return factor, homogeneous origin and direction of a scaling, the arguments of `scale_matrix`.
 
     Raises:
         ValueError: The matrix is not a scaling.
@@ -123,13 +123,13 @@ def compose_matrix(
     translate: ArrayLike | None = None,
     perspective: ArrayLike | None = None,
 ) -> Array:
-    """The product perspective, translation, rotation (`sxyz`), shear and scaling; what is left out changes nothing.
+    """Return the product of perspective, translation, rotation (`sxyz`), shear and scaling. All parts are optional.
 
     Args:
         scale: Factors along x, y and z.
         shear: Factors for x-y, x-z and y-z.
-        angles: Roll, pitch and yaw.
-        translate: Vector to move by.
+        angles: Roll, pitch and yaw in radians.
+        translate: Translation vector.
         perspective: Last row of the matrix.
     """
     matrix = np.eye(4)
@@ -150,7 +150,7 @@ def compose_matrix(
 
 
 def decompose_matrix(matrix: ArrayLike) -> tuple[Array, list[float], Angles, Array, Array]:
-    """Scale, shear, angles, translation and perspective, as `compose_matrix` takes them.
+    """Return scale, shear, angles, translation and perspective, the arguments of `compose_matrix`.
 
     Raises:
         ValueError: The matrix is singular.
@@ -169,7 +169,7 @@ def decompose_matrix(matrix: ArrayLike) -> tuple[Array, list[float], Angles, Arr
     signs = np.where(np.diag(triangular) < 0.0, -1.0, 1.0)
     rotation, triangular = rotation * signs, triangular * signs[:, None]
     if np.linalg.det(rotation) < 0.0:
-        # A mirror image: the scaling takes the sign, so that a rotation is left.
+        # The sign of a reflection is moved to the scaling, so that the remaining matrix is a rotation.
         rotation, triangular = -rotation, -triangular
     scale = np.diag(triangular).copy()
     sheared = triangular / scale
@@ -178,7 +178,7 @@ def decompose_matrix(matrix: ArrayLike) -> tuple[Array, list[float], Angles, Arr
 
 
 def _about(linear: Array, point: ArrayLike | None) -> Array:
-    """The 4x4 matrix of a 3x3 one that leaves a point where it is."""
+    """Return the 4x4 matrix of a 3x3 matrix that is applied about a point, which it does not move."""
     matrix = np.eye(4)
     matrix[:3, :3] = linear
     if point is not None:
@@ -188,21 +188,21 @@ def _about(linear: Array, point: ArrayLike | None) -> Array:
 
 
 def _eigenvector(linear: Array, value: float, kind: str) -> Array:
-    """The unit eigenvector of an eigenvalue."""
+    """Return the unit eigenvector of an eigenvalue."""
     values, vectors = np.linalg.eig(linear)
     match = np.flatnonzero(np.abs(values - value) < _TOLERANCE)
     if not len(match):
-        raise ValueError(f"the matrix is not a {kind}: it has no eigenvalue {value:g}")
+        raise ValueError(f"The matrix is not a {kind}. It has no eigenvalue {value:g}.")
     vector = np.real(vectors[:, match[-1]])
     return np.asarray(vector / np.linalg.norm(vector))
 
 
 def _fixed_point(matrix: Array, kind: str) -> Array:
-    """A homogeneous point that the matrix leaves where it is."""
+    """Return a homogeneous point that the matrix does not move."""
     values, vectors = np.linalg.eig(matrix)
     match = np.flatnonzero(np.abs(values - 1.0) < _TOLERANCE)
     with_weight = [index for index in match if abs(vectors[3, index]) > _EPSILON]
     if not with_weight:
-        raise ValueError(f"the matrix is not a {kind}: it leaves no point where it is")
+        raise ValueError(f"The matrix is not a {kind}. It has no fixed point.")
     point = np.real(vectors[:, with_weight[-1]])
     return np.asarray(point / point[3])

@@ -13,12 +13,12 @@ _EPSILON = 4.0 * float(np.finfo(np.float64).eps)
 
 
 def quaternion_about_axis(angle: float, axis: ArrayLike) -> Array:
-    """The rotation by an angle about an axis."""
+    """Return the quaternion of a rotation by an angle about an axis."""
     return np.append(math.sin(angle / 2.0) * unit_direction(axis), math.cos(angle / 2.0))
 
 
 def quaternion_multiply(quaternion1: ArrayLike, quaternion0: ArrayLike) -> Array:
-    """The product: the rotation `quaternion0` followed by `quaternion1`."""
+    """Return the product, which is the rotation `quaternion0` followed by `quaternion1`."""
     x1, y1, z1, w1 = np.asarray(quaternion1, dtype=np.float64)
     x0, y0, z0, w0 = np.asarray(quaternion0, dtype=np.float64)
     return np.array(
@@ -32,19 +32,19 @@ def quaternion_multiply(quaternion1: ArrayLike, quaternion0: ArrayLike) -> Array
 
 
 def quaternion_conjugate(quaternion: ArrayLike) -> Array:
-    """The same with the opposite axis."""
+    """Return the conjugate of a quaternion."""
     x, y, z, w = np.asarray(quaternion, dtype=np.float64)
     return np.array([-x, -y, -z, w])
 
 
 def quaternion_inverse(quaternion: ArrayLike) -> Array:
-    """The quaternion that gives (0, 0, 0, 1) when multiplied with this one, which may have any length but 0."""
+    """Return the inverse of a quaternion, which need not be normalized but must not be zero."""
     q = np.asarray(quaternion, dtype=np.float64)
     return quaternion_conjugate(q) / (q @ q)
 
 
 def quaternion_matrix(quaternion: ArrayLike) -> Array:
-    """The 4x4 rotation matrix of a quaternion of any length; the identity for a zero quaternion."""
+    """Return the 4x4 rotation matrix of a quaternion, which is normalized. Zero gives the identity."""
     q = np.array(quaternion, dtype=np.float64)[:4]
     matrix = np.eye(4)
     squared = float(q @ q)
@@ -61,9 +61,9 @@ def quaternion_matrix(quaternion: ArrayLike) -> Array:
 
 
 def quaternion_from_matrix(matrix: ArrayLike) -> Array:
-    """The unit quaternion, w not negative, of a rotation matrix (3x3 or 4x4).
+    """Return the unit quaternion with w >= 0 of a rotation matrix (3x3 or 4x4).
 
-    Of the four ways to divide, the one by the largest component loses no digits.
+    Division by the largest component avoids a loss of precision.
     """
     m = np.asarray(matrix, dtype=np.float64)[:3, :3]
     trace = float(np.trace(m))
@@ -84,14 +84,14 @@ def quaternion_from_matrix(matrix: ArrayLike) -> Array:
 def quaternion_slerp(
     quat0: ArrayLike, quat1: ArrayLike, fraction: float, spin: int = 0, shortestpath: bool = True
 ) -> Array:
-    """The rotation between two, turning at constant speed.
+    """Return the spherical linear interpolation between two quaternions.
 
     Args:
-        quat0: The rotation at fraction 0.
-        quat1: The rotation at fraction 1.
-        fraction: Where between the two.
-        spin: Half turns to add on the way.
-        shortestpath: Go the short way round, even if the quaternions have opposite signs.
+        quat0: Quaternion at fraction 0.
+        quat1: Quaternion at fraction 1.
+        fraction: Fraction of the interpolation.
+        spin: Number of additional half turns.
+        shortestpath: Whether to use the shorter rotation, even if the quaternions have opposite signs.
     """
     first, last = (np.asarray(q, dtype=np.float64) / np.linalg.norm(q) for q in (quat0, quat1))
     if fraction in (0.0, 1.0):
@@ -109,10 +109,10 @@ def quaternion_slerp(
 
 
 def random_quaternion(rand: ArrayLike | None = None) -> Array:
-    """A random rotation, evenly spread.
+    """Return a uniformly distributed random unit quaternion.
 
     Args:
-        rand: Three numbers in [0, 1) to make it from.
+        rand: Three random numbers in [0, 1). None: they are generated.
     """
     u = np.random.default_rng().random(3) if rand is None else np.asarray(rand, dtype=np.float64)
     near, far = math.sqrt(1.0 - u[0]), math.sqrt(u[0])
@@ -121,5 +121,5 @@ def random_quaternion(rand: ArrayLike | None = None) -> Array:
 
 
 def random_rotation_matrix(rand: ArrayLike | None = None) -> Array:
-    """The 4x4 matrix of a random rotation; the argument is that of `random_quaternion`."""
+    """Return the 4x4 matrix of a random rotation. The argument is that of `random_quaternion`."""
     return quaternion_matrix(random_quaternion(rand))

@@ -1,4 +1,4 @@
-"""Lengths and directions."""
+"""Norms and unit vectors."""
 
 from typing import Any
 
@@ -9,7 +9,7 @@ Array = NDArray[np.float64]
 
 
 def vector_norm(data: ArrayLike, axis: int | None = None, out: Array | None = None) -> Any:
-    """Euclidean length, along an axis if one is given."""
+    """Return the Euclidean norm of all values, or along an axis."""
     length = np.linalg.norm(np.asarray(data, dtype=np.float64), axis=axis)
     if out is not None:
         out[...] = length
@@ -18,7 +18,7 @@ def vector_norm(data: ArrayLike, axis: int | None = None, out: Array | None = No
 
 
 def unit_vector(data: ArrayLike, axis: int | None = None, out: Array | None = None) -> Array | None:
-    """The vector of length 1 in the same direction; normalized along an axis if one is given."""
+    """Return the normalized vector, or the vectors normalized along an axis."""
     vector = np.asarray(data, dtype=np.float64)
     unit = vector / np.linalg.norm(vector, axis=axis, keepdims=axis is not None)
     if out is not None:
@@ -28,11 +28,11 @@ def unit_vector(data: ArrayLike, axis: int | None = None, out: Array | None = No
 
 
 def unit_direction(data: ArrayLike) -> Array:
-    """The first three numbers as a vector of length 1."""
+    """Return the first three values as a normalized vector."""
     vector = np.asarray(data, dtype=np.float64)[:3]
     return np.asarray(vector / np.linalg.norm(vector))
 
 
 def random_vector(size: int | tuple[int, ...]) -> Array:
-    """Random numbers, evenly spread over [0, 1)."""
+    """Return uniformly distributed random numbers in [0, 1)."""
     return np.random.default_rng().random(size)

@@ -1,4 +1,4 @@
-"""Buffers without a graph, in the manner of upstream's own tests: through upstream's names only."""
+"""Buffers without a graph, tested through upstream's names only, like upstream's own tests."""
 
 import copy
 import os
@@ -26,7 +26,7 @@ from rclpy.time import Time
 
 @pytest.fixture
 def buffer(stamped):
-    """foo -> bar, 3 m ahead at 1 s and 4 m ahead at 2 s; bar -> sensor, mounted 1 m above, looking back."""
+    """Return a buffer with foo -> bar, at x = 3 m at 1 s and 4 m at 2 s, and the static bar -> sensor."""
     buffer = tf2_ros.Buffer()
     buffer.set_transform(stamped("foo", "bar", 1.0, (3.0, 0.0, 0.0)), "unittest")
     buffer.set_transform(stamped("foo", "bar", 2.0, (4.0, 0.0, 0.0)), "unittest")
@@ -35,14 +35,14 @@ def buffer(stamped):
 
 
 def resumed(coroutine):
-    """What a coroutine returns that has nothing left to wait for."""
+    """Return the result of a coroutine that does not need to wait."""
     with pytest.raises(StopIteration) as stop:
         coroutine.send(None)
     return stop.value.value
 
 
-def test_a_buffer_needs_no_init():
-    """In a process of its own: here, others have called rclpy.init() before."""
+def test_buffer_requires_no_init():
+    """Run in a separate process, because other tests have called rclpy.init()."""
     code = """
 import tf2_ros
 from geometry_msgs.msg import TransformStamped
@@ -59,7 +59,7 @@ print(buffer.wait_for_transform_async("foo", "bar", Time()).result().child_frame
     assert done.stdout.split() == ["1", "bar"]
 
 
-def test_can_transform_answers_with_numbers(buffer):
+def test_can_transform_returns_numbers(buffer):
     for answer in (
         buffer.can_transform("foo", "bar", Time(seconds=1)),
         buffer.can_transform_full("foo", Time(seconds=1), "bar", Time(seconds=2), "foo"),
@@ -71,7 +71,7 @@ def test_can_transform_answers_with_numbers(buffer):
     assert reason == 'Invalid frame ID "baz" passed to canTransform argument source_frame - frame does not exist'
 
 
-def test_arguments_by_name(buffer):
+def test_keyword_arguments(buffer):
     found = buffer.lookup_transform(target_frame="foo", source_frame="bar", time=Time(seconds=1), timeout=Duration())
     assert found.transform.translation.x == 3.0
     found = buffer.lookup_transform_full(
@@ -86,12 +86,12 @@ def test_arguments_by_name(buffer):
 
 
 @pytest.mark.parametrize("time", [Time(seconds=1), TimeMessage(sec=1), Duration(seconds=1)])
-def test_times_of_all_kinds(buffer, time):
+def test_time_types(buffer, time):
     assert buffer.lookup_transform("foo", "bar", time).transform.translation.x == 3.0
     assert buffer.can_transform("foo", "bar", time) == 1
 
 
-def test_coroutines_driven_by_hand(stamped):
+def test_coroutines_run_by_send(stamped):
     buffer = tf2_ros.Buffer()
     coroutine = buffer.lookup_transform_async("foo", "bar", Time(seconds=1))
     coroutine.send(None)
@@ -105,7 +105,7 @@ def test_coroutines_driven_by_hand(stamped):
     assert (found.header.frame_id, found.child_frame_id) == ("foo", "baz")
 
 
-def test_a_coroutine_of_a_known_transform_does_not_wait(buffer):
+def test_coroutine_of_an_available_transform_does_not_wait(buffer):
     assert resumed(buffer.lookup_transform_async("foo", "bar", Time(seconds=1))).transform.translation.x == 3.0
 
 
@@ -141,7 +141,7 @@ def test_failed_lookups(buffer, stamped, target, source, seconds, kind):
         assert (type(copied), copied.args) == (type(caught.value), caught.value.args)
 
 
-def test_exceptions_of_ones_own_pickle_too():
+def test_subclasses_of_exceptions_can_be_pickled():
     error = pickle.loads(pickle.dumps(tf2_ros.TimeoutException("too", "late")))
     assert type(error) is tf2_ros.TimeoutException
     error = tf2_ros.LookupException("first")
@@ -149,7 +149,7 @@ def test_exceptions_of_ones_own_pickle_too():
     assert str(error) == "second"
 
 
-def test_a_latest_common_time_before_the_epoch(stamped):
+def test_latest_common_time_before_the_epoch(stamped):
     core = tf2_py.BufferCore()
     core.set_transform(stamped("foo", "bar", -2.5), "unittest")
     latest = core.get_latest_common_time("foo", "bar")
@@ -158,7 +158,7 @@ def test_a_latest_common_time_before_the_epoch(stamped):
     assert latest.to_msg() == TimeMessage(sec=-3, nanosec=500_000_000)
 
 
-def test_a_subclass_that_sets_transforms_its_own_way(stamped):
+def test_subclass_that_overrides_set_transform(stamped):
     class Upside(tf2_ros.Buffer):
         def set_transform(self, transform, authority):
             transform.transform.translation.z *= -1.0
@@ -171,7 +171,7 @@ def test_a_subclass_that_sets_transforms_its_own_way(stamped):
     assert buffer.lookup_transform("foo", "bar", Time()).transform.translation.z == -2.0
 
 
-def test_a_subclass_with_attributes_of_its_own(stamped):
+def test_subclass_with_additional_attributes(stamped):
     class Mine(tf2_ros.Buffer):
         def __init__(self):
             super().__init__()
@@ -186,7 +186,7 @@ def test_a_subclass_with_attributes_of_its_own(stamped):
     assert buffer.can_transform("foo", "bar", Time(), Duration(seconds=1))
 
 
-def test_a_subclass_that_looks_up_its_own_way(stamped):
+def test_subclass_that_overrides_lookup_transform(stamped):
     class Fixed(tf2_ros.BufferInterface):
         def lookup_transform(self, target_frame, source_frame, *_):
             return stamped(target_frame, source_frame, 1.0, (1.0, 0.0, 0.0))
@@ -201,7 +201,7 @@ STAMPED = [PointStamped, Vector3Stamped, PoseStamped, PoseWithCovarianceStamped,
 
 
 @pytest.mark.parametrize("kind", STAMPED)
-def test_stamped_data_in_another_frame(buffer, kind):
+def test_transform_of_stamped_data(buffer, kind):
     message = kind()
     message.header.frame_id, message.header.stamp.sec = "sensor", 1
     before = copy.deepcopy(message)
@@ -213,19 +213,19 @@ def test_stamped_data_in_another_frame(buffer, kind):
     assert message == before
 
 
-def test_a_point_in_another_frame(buffer):
+def test_transform_full_of_a_point(buffer):
     point = PointStamped()
     point.header.frame_id, point.header.stamp.sec = "sensor", 1
     point.point.x = 1.0
     moved = buffer.transform(point, "foo")
     assert [moved.point.x, moved.point.y, moved.point.z] == pytest.approx([2.0, 0.0, 1.0])
-    # What was at 2 m in foo at 1 s is 2 m behind bar at 2 s.
+    # A point at x = 2 m in foo at 1 s is at x = -2 m in bar at 2 s.
     assert buffer.transform_full(point, "bar", Time(seconds=2), "foo").point.x == pytest.approx(-2.0)
 
 
 def test_new_types(buffer):
     class Distance(float):
-        """Metres ahead."""
+        """A distance in meters."""
 
     conversions = tf2_ros.ConvertRegistration()
     conversions.add_convert((PointStamped, Distance), lambda point: Distance(point.point.x))
@@ -247,17 +247,17 @@ def test_registrations_are_shared():
     assert type(tf2_ros.ConvertRegistration().get_from_msg(Mine)(None)) is Mine
 
 
-def test_the_table_of_types_can_be_printed(capsys):
+def test_registry_can_be_printed(capsys):
     tf2_ros.TransformRegistration().print_me()
     assert "PoseStamped" in capsys.readouterr().out
 
 
-def test_types_that_nobody_registered(buffer):
+def test_unregistered_types(buffer):
     text = "Type <class 'geometry_msgs.msg.TransformStamped'> is not loaded or supported"
     with pytest.raises(tf2_ros.TypeException) as caught:
         buffer.transform(TransformStamped(), "foo")
     assert (str(caught.value), caught.value.errstr) == (text, text)
-    # Upstream looks for the way to a message first.
+    # Upstream looks for the converter to a message first.
     with pytest.raises(tf2_ros.TypeException, match="<class 'int'> is not"):
         tf2_ros.convert(3, str)
 
@@ -279,8 +279,8 @@ def test_velocities(buffer):
     assert full[0] == pytest.approx(linear)
 
 
-def test_relaxed_messages():
-    """Upstream's rolling tests need them: an rclpy Time as a stamp, an int as a float."""
+def test_messages_without_type_checks():
+    """Upstream's rolling tests assign an rclpy Time to a stamp and an int to a float field."""
     code = """
 import tf2_ros
 from geometry_msgs.msg import TransformStamped

@@ -1,4 +1,4 @@
-"""A node that listens to itself, in the manner of upstream's own tests: through upstream's names only.
+"""A node that receives its own transforms, tested through upstream's names only, like upstream's tests.
 
 Upstream needs one `spin_once` for each message, and so do these; none of them has a timeout, and all must return.
 """
@@ -55,7 +55,7 @@ def static_broadcaster(node):
 
 
 @pytest.mark.usefixtures("listener")
-def test_one_spin_once_brings_one_transform(buffer, node, broadcaster, stamped):
+def test_spin_once_receives_one_transform(buffer, node, broadcaster, stamped):
     sent = stamped("foo", "bar", 0.3, (1.0, 2.0, 3.0))
     broadcaster.sendTransform(sent)
     rclpy.spin_once(node)
@@ -85,8 +85,8 @@ def test_spin_once_waits_for_a_transform(buffer, node, broadcaster, stamped, kin
 
 
 @pytest.mark.usefixtures("listener")
-def test_other_callbacks_come_first(node, broadcaster, stamped):
-    """A flood of transforms keeps no timer from running."""
+def test_other_callbacks_take_precedence(node, broadcaster, stamped):
+    """Many transforms do not starve timers."""
     ticks = []
     node.create_timer(0.001, lambda: ticks.append(1))
     for number in range(50):
@@ -96,18 +96,18 @@ def test_other_callbacks_come_first(node, broadcaster, stamped):
     assert len(ticks) > 10
 
 
-def test_one_spin_once_delivers_a_message_of_the_same_process(node):
-    heard = []
-    node.create_subscription(String, "chatter", heard.append, 10)
+def test_spin_once_delivers_a_message_of_the_same_process(node):
+    received = []
+    node.create_subscription(String, "chatter", received.append, 10)
     publisher = node.create_publisher(String, "chatter", 10)
     for text in ("one", "two"):
         publisher.publish(String(data=text))
         rclpy.spin_once(node)
-        assert heard[-1].data == text
+        assert received[-1].data == text
 
 
-def test_a_fresh_buffer_for_each_test(node, listener, broadcaster, static_broadcaster, stamped):
-    """What upstream's set-up does, while the listener lives on."""
+def test_replacing_the_buffer(node, listener, broadcaster, static_broadcaster, stamped):
+    """Upstream's test setup replaces the buffer of an existing listener."""
     for number in range(3):
         listener.buffer = tf2_ros.Buffer()
         broadcaster.sendTransform(stamped("foo", f"bar{number}", 1.0))
@@ -119,7 +119,7 @@ def test_a_fresh_buffer_for_each_test(node, listener, broadcaster, static_broadc
     assert listener.buffer.lookup_transform("foo", "bar", Time()).transform.translation.x == 1.0
 
 
-def test_the_former_buffer_hears_no_more(buffer, listener, broadcaster, stamped):
+def test_previous_buffer_receives_no_transforms(buffer, listener, broadcaster, stamped):
     listener.buffer = tf2_ros.Buffer()
     broadcaster.sendTransform(stamped("foo", "bar", 1.0))
     assert listener.buffer.can_transform("foo", "bar", Time(), ENOUGH)
@@ -137,7 +137,7 @@ def test_extrapolation(buffer, node, broadcaster, stamped):
         buffer.lookup_transform("foo", "bar", Time(seconds=0.4))
 
 
-def test_nobody_keeps_the_listener(buffer, node, broadcaster, stamped):
+def test_listener_without_a_reference(buffer, node, broadcaster, stamped):
     listener = weakref.ref(tf2_ros.TransformListener(buffer, node))
     gc.collect()
     broadcaster.sendTransform(stamped("foo", "bar", 1.0))
@@ -146,7 +146,7 @@ def test_nobody_keeps_the_listener(buffer, node, broadcaster, stamped):
     assert listener() is not None, "upstream, the node's subscriptions hold it"
 
 
-def test_a_buffer_that_sets_transforms_its_own_way(node, broadcaster, static_broadcaster, stamped):
+def test_buffer_subclass_that_overrides_set_transform(node, broadcaster, static_broadcaster, stamped):
     class Renaming(tf2_ros.Buffer):
         def set_transform(self, transform, authority):
             assert authority == "default_authority"
@@ -163,7 +163,7 @@ def test_a_buffer_that_sets_transforms_its_own_way(node, broadcaster, static_bro
     assert buffer.can_transform("robot1/foo", "sensor", Time())
 
 
-def test_a_buffer_whose_method_was_replaced(node, broadcaster, stamped, monkeypatch):
+def test_buffer_with_a_replaced_method(node, broadcaster, stamped, monkeypatch):
     buffer, seen = tf2_ros.Buffer(), []
     monkeypatch.setattr(buffer, "set_transform", lambda *arguments: seen.append(arguments))
     tf2_ros.TransformListener(buffer, node)
@@ -172,7 +172,7 @@ def test_a_buffer_whose_method_was_replaced(node, broadcaster, stamped, monkeypa
     assert seen == [(stamped("foo", "bar", 1.0), "default_authority")]
 
 
-def test_a_listener_that_looks_at_messages(buffer, node, broadcaster, stamped):
+def test_listener_subclass_that_overrides_callback(buffer, node, broadcaster, stamped):
     class Counting(tf2_ros.TransformListener):
         count = 0
 
@@ -187,7 +187,7 @@ def test_a_listener_that_looks_at_messages(buffer, node, broadcaster, stamped):
     assert buffer.can_transform("foo", "baz", Time())
 
 
-def test_attributes_of_a_listener(buffer, node, listener):
+def test_attributes_of_listeners(buffer, node, listener):
     assert listener.buffer is buffer
     assert listener.node is node
     for subscription, topic in ((listener.tf_sub, "/tf"), (listener.tf_static_sub, "/tf_static")):
@@ -203,7 +203,7 @@ def test_attributes_of_a_listener(buffer, node, listener):
     listener.unregister()
 
 
-def test_attributes_of_a_buffer(node):
+def test_attributes_of_buffers(node):
     buffer = tf2_ros.Buffer(node=node)
     assert isinstance(buffer.srv, Service)
     assert buffer.srv.srv_name == "/tf2_frames"
@@ -213,9 +213,7 @@ def test_attributes_of_a_buffer(node):
     assert alone.clock.clock_type == ClockType.SYSTEM_TIME
 
 
-def test_a_subscription_of_a_listener_can_be_destroyed(
-    buffer, node, listener, broadcaster, static_broadcaster, stamped
-):
+def test_subscription_of_a_listener_can_be_destroyed(buffer, node, listener, broadcaster, static_broadcaster, stamped):
     assert node.destroy_subscription(listener.tf_sub)
     broadcaster.sendTransform(stamped("foo", "bar", 1.0))
     static_broadcaster.sendTransform(stamped("bar", "sensor"))
@@ -223,7 +221,7 @@ def test_a_subscription_of_a_listener_can_be_destroyed(
     assert not buffer.can_transform("foo", "bar", Time())
 
 
-def test_a_thread_of_its_own(buffer, node):
+def test_dedicated_thread(buffer, node):
     listener = tf2_ros.TransformListener(buffer, node, spin_thread=True)
     assert isinstance(listener.executor, SingleThreadedExecutor)
     ticked = threading.Event()
@@ -250,7 +248,7 @@ def test_attributes_of_broadcasters(node, broadcaster, static_broadcaster, stamp
 
 
 @pytest.mark.usefixtures("listener")
-def test_transforms_come_as_one_or_as_many(buffer, node, broadcaster, stamped):
+def test_send_one_or_several_transforms(buffer, node, broadcaster, stamped):
     for transforms in (
         stamped("foo", "one", 1.0),
         [stamped("foo", "two", 1.0)],
@@ -262,27 +260,27 @@ def test_transforms_come_as_one_or_as_many(buffer, node, broadcaster, stamped):
     assert {"one", "two", "three", "four", "five", "six"} <= set(buffer._getFrameStrings())
 
 
-def heard_late(node):
+def frames_of_a_late_listener(node):
     buffer = tf2_ros.Buffer()
     tf2_ros.TransformListener(buffer, node)
     rclpy.spin_once(node)
     return set(buffer._getFrameStrings())
 
 
-def test_a_static_transform_is_taken_back_by_way_of_net_message(node, static_broadcaster, stamped):
+def test_static_transform_is_withdrawn_through_net_message(node, static_broadcaster, stamped):
     other = tf2_ros.StaticTransformBroadcaster(node)
     other.sendTransform(stamped("foo", "others"))
     static_broadcaster.sendTransform([stamped("foo", "bar"), stamped("foo", "baz")])
-    assert heard_late(node) == {"foo", "others", "bar", "baz"}
+    assert frames_of_a_late_listener(node) == {"foo", "others", "bar", "baz"}
     static_broadcaster.net_message.transforms = static_broadcaster.net_message.transforms[1:]
     static_broadcaster.pub_tf.publish(static_broadcaster.net_message)
-    assert heard_late(node) == {"foo", "others", "baz"}
+    assert frames_of_a_late_listener(node) == {"foo", "others", "baz"}
     static_broadcaster.sendTransform(stamped("foo", "new"))
-    assert heard_late(node) == {"foo", "others", "baz", "new"}
+    assert frames_of_a_late_listener(node) == {"foo", "others", "baz", "new"}
 
 
-def test_a_static_broadcaster_of_ones_own(node, stamped):
-    """As people subclass Jazzy's to update transforms that were sent."""
+def test_subclass_of_the_static_broadcaster(node, stamped):
+    """Programs subclass the broadcaster of Jazzy to update transforms."""
 
     class Updating(tf2_ros.StaticTransformBroadcaster):
         def sendTransform(self, transform):  # noqa: N802 - upstream's name
@@ -304,8 +302,8 @@ def test_a_static_broadcaster_of_ones_own(node, stamped):
     assert buffer.lookup_transform("foo", "bar", Time()).transform.translation.x == 2.0
 
 
-def test_a_node_as_programs_write_it(domain_id, stamped):
-    """Listener, broadcaster and timer in one class, spun until shut down from a callback."""
+def test_typical_node(domain_id, stamped):
+    """A node with a listener, a broadcaster and a timer, whose callback shuts down."""
 
     class Robot(Node):
         def __init__(self):
@@ -336,8 +334,8 @@ REMAPS = ["--ros-args", "-r", "__ns:=/robot1", "-r", "/tf:=/robot1/tf", "-r", "/
 
 
 @pytest.mark.usefixtures("node")
-def test_a_robot_on_topics_of_its_own_by_remaps(stamped):
-    """Nav2's way: the same program for each robot, with other arguments."""
+def test_remapped_topics_of_a_robot(stamped):
+    """As in Nav2, each robot runs the same program with different remappings."""
     robot = rclpy.create_node("driver", cli_args=REMAPS)
     buffers = {name: tf2_ros.Buffer() for name in ("same node", "plain")}
     tf2_ros.TransformListener(buffers["same node"], robot)
@@ -357,7 +355,7 @@ def test_a_robot_on_topics_of_its_own_by_remaps(stamped):
 
 
 def test_prefixes_of_listeners_and_broadcasters(node, stamped):
-    """A plain listener, one that is watched on its way, and both broadcasters, whose messages stay as they were."""
+    """A native listener, a subclass, and both broadcasters, which do not modify the given messages."""
 
     class Watched(tf2_ros.TransformListener):
         def callback(self, data):

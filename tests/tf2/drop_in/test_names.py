@@ -1,4 +1,4 @@
-"""Every name of tf2's Python packages, where programs expect it, and every signature as programs use it."""
+"""Names and signatures of tf2's Python packages."""
 
 import importlib
 import inspect
@@ -7,13 +7,14 @@ import pytest
 
 import tf2_py
 import tf2_ros
+from coframe import CoframeError
 
 EXCEPTIONS = """
     TransformException LookupException ConnectivityException ExtrapolationException InvalidArgumentException
     TimeoutException
 """
 
-# What `from <module> import <name>` finds, also where upstream merely leaks it.
+# Names that programs import from each module, including those that upstream's modules only import.
 NAMES = {
     "tf2_py": f"BufferCore {EXCEPTIONS} add_dll_directories_from_env",
     "tf2_py._tf2_py": f"BufferCore {EXCEPTIONS}",
@@ -82,7 +83,7 @@ def test_name(module, name):
 
 @pytest.mark.parametrize("module", NAMES)
 def test_star_import(module):
-    """What a module leaks goes along: `from tf2_ros import *; TransformStamped()`."""
+    """Star imports include the imported names: `from tf2_ros import *; TransformStamped()`."""
     namespace = {}
     exec(f"from {module} import *", namespace)
     public = {name for name in NAMES[module].split() if not name.startswith("_")}
@@ -98,7 +99,7 @@ VELOCITY = (
 )
 LISTENER = "spin_thread=, qos=, static_qos=, tf_topic=, tf_static_topic=, static_only="
 
-# In their order; `/` ends the positional ones, `*` begins those by keyword only, `=` marks the optional ones.
+# Parameters in order. `/` ends positional-only ones, `*` begins keyword-only ones, `=` marks optional ones.
 SIGNATURES = {
     "tf2_py.BufferCore": "cache_time=, /",
     "tf2_py.BufferCore.set_transform": "transform, authority, /",
@@ -182,7 +183,7 @@ SIGNATURES = {
 
 
 def parsed(signature: str) -> list[tuple[str, str, bool]]:
-    """(kind, name, optional) of each parameter."""
+    """Return (kind, name, optional) of each parameter."""
     kind, parameters = "any", []
     for word in (word.strip() for word in signature.split(",") if word.strip()):
         if word == "/":
@@ -218,7 +219,7 @@ def test_signature(path):
             }[kind]
         ), f"{name} is {parameter.kind.description}"
         assert not is_optional or parameter.default is not inspect.Parameter.empty, f"{name} is optional upstream"
-    # What is ours alone must neither be needed nor be met by position.
+    # Additional parameters must be optional and keyword-only.
     variadic = {inspect.Parameter.VAR_POSITIONAL, inspect.Parameter.VAR_KEYWORD}
     for _, parameter in found.values():
         ours = parameter.kind is inspect.Parameter.KEYWORD_ONLY and parameter.default is not inspect.Parameter.empty
@@ -233,10 +234,10 @@ def test_modules_of_classes():
     assert tf2_py.BufferCore.__module__ == "_tf2"
 
 
-def test_exceptions_derive_from_one():
+def test_base_classes_of_exceptions():
     for name in EXCEPTIONS.split()[1:]:
         assert getattr(tf2_py, name).__bases__ == (tf2_py.TransformException,)
-    assert tf2_py.TransformException.__bases__ == (Exception,)
+    assert tf2_py.TransformException.__mro__[1:3] == (CoframeError, Exception)
     assert tf2_ros.TypeException.__bases__ == tf2_ros.NotImplementedException.__bases__ == (Exception,)
 
 
@@ -260,16 +261,16 @@ def test_classes_can_be_subclassed(name):
     assert issubclass(type("Mine", (parent,), {}), parent)
 
 
-def test_buffers_bases():
+def test_base_classes_of_buffers():
     assert tf2_ros.Buffer.__bases__ == (tf2_py.BufferCore, tf2_ros.BufferInterface)
 
 
-def test_velocities_are_asked_of_buffers_only():
+def test_velocity_methods_are_in_the_buffer():
     assert hasattr(tf2_ros.Buffer, "lookupVelocityCore")
     assert not any("elocity" in name for name in dir(tf2_ros.BufferInterface))
 
 
-def test_messages_have_upstreams_constants_and_fields():
+def test_constants_and_fields_of_messages():
     from tf2_msgs.action import LookupTransform
     from tf2_msgs.msg import TF2Error, TFMessage
     from tf2_msgs.srv import FrameGraph

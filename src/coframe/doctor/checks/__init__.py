@@ -1,4 +1,4 @@
-"""The checks: one module each, with its CODE and ``find``, a pure function from an observation to findings.
+"""The checks, one module each: a CODE and ``find``, a pure function from an observation to findings.
 
-A new one is a module here, a page of the same code beside, and a test.
+A new check is a module here, a page of the same code in ``code_pages``, and a test.
 """

@@ -1,4 +1,4 @@
-"""TF010: machines whose clocks differ."""
+"""TF010: machines with different clocks."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.phrases import listed
-from coframe.formatting import duration
+from coframe.formatting import duration, listed
+from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,20 +20,20 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF010"
-_MS = 1_000_000
 _LEAST = 20  # messages
-# What arrives before it was sent, by the two clocks, proves a difference; a network may well take a while.
-_AHEAD = 1 * _MS
-_BEHIND = 100 * _MS
-# Stamps of one machine are off by the same time, nearly.
-_STEADY = 20 * _MS
+# A message that arrives before it was sent proves that the clocks differ; a network may well take 100 ms.
+_AHEAD = 1 * MILLISECOND
+_BEHIND = 100 * MILLISECOND
+# The stamps of one machine are off by nearly the same time.
+_SPREAD = 20 * MILLISECOND
 _FIX = (
-    "Set the clocks of all machines right: install chrony and let one of them be the server; `chronyc tracking` tells."
+    "Synchronize the clocks of all machines: install chrony and make one machine the server of the others; check with "
+    "`chronyc tracking`."
 )
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """By the times at which messages were sent where these are known, else by stamps that are steadily off."""
+    """Yield findings by the times at which messages were sent if these are known, else by constant stamp offsets."""
     if observation.live:
         yield from _by_travel(observation)
     else:
@@ -47,11 +48,11 @@ def _by_travel(observation: Observation) -> Iterator[Finding]:
         if -_AHEAD < least < _BEHIND:
             continue
         frames = {name for edge in observation.edges if publisher in edge.publishers for name in edge.key}
-        off = f"{duration(abs(least))} {'ahead of' if least < 0 else 'behind'} this machine's"
+        offset = f"{duration(abs(least))} {'ahead of' if least < 0 else 'behind'}"
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"the clock of the machine of {publisher} is at least {off}",
+            text=f"the clock of the machine of {publisher} is at least {offset} the clock of this machine",
             fix=_FIX,
             frames=frozenset(frames),
             publishers=(publisher,),
@@ -59,28 +60,29 @@ def _by_travel(observation: Observation) -> Iterator[Finding]:
 
 
 def _by_stamps(observation: Observation) -> Iterator[Finding]:
-    """Two links or more that share an offset which the others do not have."""
+    """Yield a finding if two edges or more share an offset that the others do not have."""
     offsets: list[tuple[float, Edge]] = []
     for edge in observation.dynamic:
         lags = observation.lags(edge.stamp, edge.arrived)
         if lags is not None and edge.count >= _LEAST:
-            middle = float(np.median(lags))
-            if np.median(np.abs(lags - middle)) < _STEADY:
-                offsets.append((middle, edge))
-    right = [edge for offset, edge in offsets if abs(offset) < _BEHIND]
+            median = float(np.median(lags))
+            if np.median(np.abs(lags - median)) < _SPREAD:
+                offsets.append((median, edge))
+    correct = [edge for offset, edge in offsets if abs(offset) < _BEHIND]
     off = sorted(((offset, edge) for offset, edge in offsets if abs(offset) >= _BEHIND), key=lambda pair: pair[0])
-    if not right or len(off) < 2 or off[-1][0] - off[0][0] > _STEADY:
+    if not correct or len(off) < 2 or off[-1][0] - off[0][0] > _SPREAD:
         return
     edges = [edge for _, edge in off]
-    middle = float(np.median([offset for offset, _ in off]))
+    median = float(np.median([offset for offset, _ in off]))
     yield Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"{listed(f'{edge.parent} -> {edge.child}' for edge in edges)} are all {duration(abs(middle))} "
-        f"{'ahead' if middle < 0 else 'behind'} when they arrive, others are not: the clock of their machine is off",
+        text=f"the stamps of {listed(edge.name for edge in edges)} are all {duration(abs(median))} "
+        f"{'ahead of' if median < 0 else 'behind'} their arrival, those of other edges are not: the clock of their "
+        "machine is wrong",
         fix=_FIX,
         edge=edges[0].key,
         frames=frozenset(name for edge in edges for name in edge.key),
         first_stamp=edges[0].first_stamp,
-        publishers=tuple(dict.fromkeys(name for edge in edges for name in edge.publishers)),
+        publishers=publishers_of(edges),
     )

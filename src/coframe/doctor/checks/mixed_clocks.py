@@ -1,14 +1,13 @@
-"""TF009: stamps by several clocks in one system: the wall's, a simulation's, one of another day."""
+"""TF009: stamps on several clocks in one system: the system clock, simulated time, or the clock of another day."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from coframe.analysis.clocks import SAME_CLOCK
+from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.phrases import listed
-from coframe.formatting import duration, seconds
+from coframe.formatting import duration, listed, seconds
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,11 +17,10 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF009"
-_HOUR = 3_600_000_000_000
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """One finding for every clock but the usual one, and a note for static transforms."""
+    """Yield one finding for every clock but the most used one, and a note for static transforms."""
     by_clock: dict[str, list[str]] = {}
     for name, clock in observation.clocks.items():
         by_clock.setdefault(clock, []).append(name)
@@ -30,69 +28,67 @@ def find(observation: Observation) -> Iterator[Finding]:
     for clock in others:
         yield _finding(observation, usual, by_clock[usual], clock, by_clock[clock])
     if by_clock:
-        yield from _statics(observation, usual)
+        yield from _static(observation, usual)
 
 
 def _finding(observation: Observation, usual: str, usual_names: list[str], clock: str, names: list[str]) -> Finding:
-    edges = [edge for edge in observation.dynamic if f"{edge.parent} -> {edge.child}" in names]
+    edges = [edge for edge in observation.dynamic if edge.name in names]
     sensors = [sensor for sensor in observation.sensors if sensor.topic in names]
     frames = {name for edge in edges for name in edge.key} | {sensor.frame for sensor in sensors}
     stamps = [edge.first_stamp for edge in edges] + [int(sensor.stamp[0]) for sensor in sensors]
     first = edges[0] if edges else None
-    wrong_is_wall = clock == "wall"
+    should_be_simulated = clock == "wall" and observation.clock is not None
     return Finding(
         code=CODE,
         severity=Severity.ERROR,
-        text=f"two clocks: {listed(names)} {'is' if len(names) == 1 else 'are'} stamped by {_called(clock)} "
-        f"({seconds(stamps[0])}), {listed(usual_names)} by {_called(usual)}",
-        fix="Let all nodes use one clock. "
+        text=f"two clocks: the stamps of {listed(names)} are on {_called(clock)} ({seconds(stamps[0])}), those of "
+        f"{listed(usual_names)} on {_called(usual)}",
+        fix="Use one clock for all nodes. "
         + (
-            "Start these with --ros-args -p use_sim_time:=true."
-            if wrong_is_wall and observation.clock is not None
-            else "In a simulation start every node with --ros-args -p use_sim_time:=true; on a robot, none; replay a "
+            "Start these nodes with --ros-args -p use_sim_time:=true."
+            if should_be_simulated
+            else "In a simulation start every node with --ros-args -p use_sim_time:=true, on a robot none. Replay a "
             "recording with its own clock (ros2 bag play --clock)."
         ),
         edge=first.key if first else None,
         topic="" if first else sensors[0].topic,
         frames=frozenset(frames),
         first_stamp=stamps[0],
-        publishers=tuple(dict.fromkeys(name for edge in edges for name in edge.publishers)),
+        publishers=publishers_of(edges),
     )
 
 
-def _statics(observation: Observation, usual: str) -> Iterator[Finding]:
-    """Their stamps do not matter to tf2, but say that somebody does not use the simulation's time, or ran before."""
-    moving = [edge for edge in observation.dynamic if observation.clocks[f"{edge.parent} -> {edge.child}"] == usual]
+def _static(observation: Observation, usual: str) -> Iterator[Finding]:
+    """Yield a note for static transforms: tf2 ignores their stamps, but their publishers use another clock."""
+    moving = [edge for edge in observation.dynamic if observation.clocks[edge.name] == usual]
     if not moving or usual == "wall":
         return
     low = min(int(edge.stamp.min()) for edge in moving)
     high = max(int(edge.stamp.max()) for edge in moving)
-    odd = [edge for edge in observation.static if ((edge.stamp > high + _HOUR) | _before(edge.stamp, low)).any()]
+    off = [
+        edge
+        for edge in observation.static
+        if ((edge.stamp > high + SAME_CLOCK) | ((edge.stamp != 0) & (edge.stamp < low - SAME_CLOCK))).any()
+    ]
     zero = sum(int((edge.stamp == 0).all()) for edge in observation.static)
-    if odd:
+    if off:
         yield Finding(
             code=CODE,
             severity=Severity.NOTE,
-            text=f"{len(odd)} of {len(observation.static)} static transforms are stamped by another clock than /tf "
-            f"({seconds(odd[0].first_stamp)}, {duration(abs(odd[0].first_stamp - high))} off), {zero} with the "
-            "stamp 0; harmless to tf2",
-            fix="Start their publishers with --ros-args -p use_sim_time:=true, like the rest.",
-            harm="A static transform holds at all times whatever its stamp; but its publisher has another clock than "
-            "the rest, and whatever else it sends will not fit.",
-            edge=odd[0].key,
-            frames=frozenset(edge.child for edge in odd),
-            first_stamp=odd[0].first_stamp,
-            publishers=tuple(dict.fromkeys(name for edge in odd for name in edge.publishers)),
+            text=f"the stamps of {len(off)} of {len(observation.static)} static transforms are on another clock than "
+            f"/tf ({seconds(off[0].first_stamp)}, {duration(abs(off[0].first_stamp - high))} off), {zero} have the "
+            "stamp 0; tf2 ignores the stamps of static transforms",
+            fix="Start their publishers with --ros-args -p use_sim_time:=true, like the other nodes.",
+            harm="A static transform is valid at all times, whatever its stamp. But its publisher uses another clock "
+            "than the other nodes, and its other messages will not match theirs.",
+            edge=off[0].key,
+            frames=frozenset(edge.child for edge in off),
+            first_stamp=off[0].first_stamp,
+            publishers=publishers_of(off),
         )
 
 
-def _before(
-    stamp: np.ndarray[tuple[int, ...], np.dtype[np.int64]], low: int
-) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
-    return np.asarray((stamp != 0) & (stamp < low - _HOUR))
-
-
 def _called(clock: str) -> str:
-    return {"wall": "the wall's clock", "simulated": "the simulation's clock"}.get(
-        clock, "a clock hours off the wall's"
+    return {"wall": "the system clock", "simulated": "simulated time"}.get(
+        clock, "a clock that is hours off the system clock"
     )

@@ -1,4 +1,4 @@
-"""TF023: transforms that differ from what the robot's description and its joint states say."""
+"""TF023: transforms that differ from the robot description and the joint states."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ __all__ = ["CODE", "find"]
 CODE = "TF023"
 _METRES = 1e-3
 _RADIANS = 1e-3
-_MOST = 2000  # transforms a joint
+_MOST_COMPARED = 2000  # transforms per joint
 
 
 class _Difference(NamedTuple):
@@ -35,7 +35,7 @@ class _Difference(NamedTuple):
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """One finding a joint."""
+    """Yield one finding per joint."""
     robot = model(observation)
     if robot is None:
         return
@@ -48,11 +48,11 @@ def find(observation: Observation) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"differs from the joint {name!r} of the robot's description by {found.metres:.3g} m and "
-            f"{degrees(found.radians):.3g} degrees, the median of {found.compared}",
-            fix="Publish the links of the description by robot_state_publisher alone: stop the other broadcaster "
-            "of this "
-            "link; or correct <origin> in the URDF, and restart robot_state_publisher after changing it.",
+            text=f"differs from joint {name!r} of the robot description by {found.metres:.3g} m and "
+            f"{degrees(found.radians):.3g} degrees (median of {found.compared})",
+            fix="Publish the links of the robot description with robot_state_publisher only, and stop the other "
+            "publisher of this transform; or correct <origin> in the URDF, and restart robot_state_publisher after "
+            "the change.",
             edge=edge.key,
             first_stamp=edge.first_stamp,
             publishers=edge.publishers,
@@ -60,24 +60,24 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _difference(observation: Observation, robot: Robot, name: str, edge: Edge) -> _Difference | None:
-    """None where nothing can be compared."""
+    """Return the median difference between an edge and its joint; None if nothing can be compared."""
     joint = robot.joints[name]
     if joint.type == "fixed":
         rows = np.array([edge.count - 1])
-        told = robot.joint_transforms()[name]
-        translation, rotation = told.translation[None], told.quaternion[None]
+        expected = robot.joint_transforms()[name]
+        translation, rotation = expected.translation[None], expected.quaternion[None]
     else:
         if joint.size != 1:
             return None
-        matched = _positions(observation, name, edge.stamp[:_MOST])
+        matched = _positions(observation, name, edge.stamp[:_MOST_COMPARED])
         if matched is None:
             return None
         rows, positions = matched
         try:
-            told = robot.joint_transforms({name: positions})[name]
+            expected = robot.joint_transforms({name: positions})[name]
         except ValueError:
             return None
-        translation, rotation = told.translation, told.quaternion
+        translation, rotation = expected.translation, expected.quaternion
     metres = np.linalg.norm(edge.values[rows, :3] - translation, axis=1)
     radians = angles_between(edge.rotations[rows], rotation)
     return _Difference(float(np.median(metres)), float(np.median(radians)), len(rows))
@@ -86,7 +86,7 @@ def _difference(observation: Observation, robot: Robot, name: str, edge: Edge) -
 def _positions(
     observation: Observation, name: str, stamps: NDArray[np.int64]
 ) -> tuple[NDArray[np.intp], NDArray[np.float64]] | None:
-    """The rows whose stamps are exactly those of joint states that tell of the joint, once, and its positions there."""
+    """Return the rows whose stamp is that of exactly one joint state with this joint, and the positions there."""
     for states in observation.joint_states:
         if name not in states.positions:
             continue

@@ -1,4 +1,4 @@
-"""TF007: the order of earth, map, odom and base_link that REP-105 sets."""
+"""TF007: the order of earth, map, odom and base_link by REP-105."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _ORDER = {"earth": 0, "map": 1, "odom": 2, "base_footprint": 3, "base_link": 3}
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """One finding for every frame that stands above one it should stand below."""
+    """Yield one finding for every frame that is below a frame that should be below it."""
     for frame in observation.frames:
         prefix, _, name = frame.rpartition("/")
         if name not in _ORDER:
@@ -34,9 +34,9 @@ def find(observation: Observation) -> Iterator[Finding]:
             yield Finding(
                 code=CODE,
                 severity=Severity.WARNING,
-                text=f"{frame!r} stands below {wrong[0]!r}; REP-105 has map -> odom -> base_link",
-                fix=f"Turn the transform round: {wrong[0]!r} is the child, and what is sent is its pose in {frame!r} "
-                "(the inverse of what is sent now).",
+                text=f"{frame!r} is below {wrong[0]!r}; the order of REP-105 is map -> odom -> base_link",
+                fix=f"Make {wrong[0]!r} the child and {frame!r} the parent, and publish the inverse of the current "
+                "pose.",
                 edge=edge.key,
                 frames=frozenset({frame, wrong[0]}),
                 first_stamp=edge.first_stamp,

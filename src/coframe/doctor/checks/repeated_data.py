@@ -1,4 +1,4 @@
-"""TF011: stamps that come twice, and transforms that are too old to be taken."""
+"""TF011: repeated stamps, and transforms that are older than a buffer keeps."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _LEAST = 3
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Per link, repetitions and old data; per topic of joint states, repetitions."""
+    """Yield repetitions and old data per edge, and repetitions per topic of joint states."""
     for edge in observation.dynamic:
         yield from _repeated(edge.current)
         yield from _old(edge, observation.cache)
@@ -32,19 +32,19 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 def _repeated(edge: Edge) -> Iterator[Finding]:
     order = np.argsort(edge.stamp, kind="stable")
-    again = np.flatnonzero(np.diff(edge.stamp[order]) == 0)
-    if len(again) < _LEAST:
+    repeated = np.flatnonzero(np.diff(edge.stamp[order]) == 0)
+    if len(repeated) < _LEAST:
         return
-    differ = int(np.count_nonzero((edge.values[order[again]] != edge.values[order[again + 1]]).any(axis=1)))
+    first, second = edge.values[order[repeated]], edge.values[order[repeated + 1]]
+    differ = int(np.count_nonzero((first != second).any(axis=1)))
     yield Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"{len(again)} of {edge.count} transforms repeat a stamp, {differ} of them with another pose",
-        fix="Send each transform once: let the timer be no faster than what is measured, and stamp with the "
-        "measurement's "
-        "time; `if stamp > self.last_stamp: self.broadcaster.sendTransform(t)`.",
+        text=f"{len(repeated)} of {edge.count} transforms repeat a stamp, {differ} of them with another pose",
+        fix="Publish each transform once: run the timer no faster than the measurement, and use the stamp of the "
+        "measurement: `if stamp > self.last_stamp: self.broadcaster.sendTransform(t)`.",
         edge=edge.key,
-        first_stamp=int(edge.stamp[order[again[0]]]),
+        first_stamp=int(edge.stamp[order[repeated[0]]]),
         publishers=edge.publishers,
     )
 
@@ -56,10 +56,10 @@ def _old(edge: Edge, cache: int) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"{len(old)} of {edge.count} transforms are older than the newest one by more than a buffer of "
-            f"{duration(cache)} keeps: by up to {duration(int(behind.max()))}",
-            fix="Restart the listeners after a clock or a recording has begun anew, or find the second publisher whose "
-            "clock is behind.",
+            text=f"{len(old)} of {edge.count} transforms are older than a buffer of {duration(cache)} keeps: up to "
+            f"{duration(int(behind.max()))} older than the newest one",
+            fix="Restart the listeners after a clock was reset or a recording was restarted, or find the second "
+            "publisher whose clock is behind.",
             edge=edge.key,
             first_stamp=int(edge.stamp[old[0]]),
             publishers=edge.publishers,
@@ -68,21 +68,20 @@ def _old(edge: Edge, cache: int) -> Iterator[Finding]:
 
 def _repeated_states(states: JointStates) -> Iterator[Finding]:
     order = np.argsort(states.stamp, kind="stable")
-    again = np.flatnonzero(np.diff(states.stamp[order]) == 0)
-    if len(again) < _LEAST:
+    repeated = np.flatnonzero(np.diff(states.stamp[order]) == 0)
+    if len(repeated) < _LEAST:
         return
-    before, after = order[again], order[again + 1]
-    differ = np.zeros(len(again), dtype=bool)
+    before, after = order[repeated], order[repeated + 1]
+    differ = np.zeros(len(repeated), dtype=bool)
     for positions in states.positions.values():
         differ |= positions[before] != positions[after]
     yield Finding(
         code=CODE,
         severity=Severity.NOTE,
-        text=f"{len(again)} of {len(states.stamp)} joint states repeat a stamp, {np.count_nonzero(differ)} of "
-        "them with "
-        "other positions",
-        fix="Stamp each joint state when its joints are read; robot_state_publisher leaves repetitions out.",
-        harm="One time has two positions of a joint: which of them a program takes is chance.",
+        text=f"{len(repeated)} of {len(states.stamp)} joint states repeat a stamp, {np.count_nonzero(differ)} of them "
+        "with other positions",
+        fix="Stamp each joint state when the joints are read; robot_state_publisher skips repeated stamps.",
+        harm="At one time a joint has two positions, and it depends on chance which one a program uses.",
         topic=states.topic,
-        first_stamp=int(states.stamp[order[again[0]]]),
+        first_stamp=int(states.stamp[order[repeated[0]]]),
     )

@@ -1,12 +1,13 @@
-"""TF001: frames that no chain of transforms connects, and the link that is most likely missing."""
+"""TF001: trees that no chain of transforms connects, and the edge that is most likely missing."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from coframe.analysis.missing_edges import missing_edge, unknown_mount
+from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.phrases import listed
+from coframe.formatting import count, listed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -17,36 +18,37 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF001"
-_MOST = 50  # trees that are told of one by one
+_MOST = 50  # trees with a finding of their own
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """One finding for every tree but the largest, and one for all the rest of very many."""
+    """Yield one finding for every tree but the largest, and one for all trees beyond a limit."""
     main, *others = observation.trees or [""]
     by_root: dict[str, list[Edge]] = {}
     for edge in observation.edges:
         by_root.setdefault(observation.root(edge.child), []).append(edge)
     for root in others[:_MOST]:
-        link = missing_edge(_from_root(observation, main), _from_root(observation, root))
+        missing = missing_edge(_from_root(observation, main), _from_root(observation, root))
         members = [frame for frame in observation.trees[root] if frame != root]
         below = f" with {listed(members)}" if members else ""
         edges = by_root.get(root, [])
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"{len(observation.trees)} trees: {main!r} with {len(observation.trees[main]) - 1} frames below it, "
-            f"and {root!r}{below}; " + (link.text if link else f"nobody tells where {root!r} is"),
-            fix=link.fix if link else unknown_mount(root),
+            text=f"{len(observation.trees)} separate trees: {main!r} with "
+            f"{count(len(observation.trees[main]) - 1, 'frame')} below it, and {root!r}{below}; "
+            + (missing.text if missing else f"no transform to {root!r} is published"),
+            fix=missing.fix if missing else unknown_mount(root),
             frames=frozenset({root, *observation.trees[root]}),
             first_stamp=min((edge.first_stamp for edge in edges), default=None),
-            publishers=tuple(dict.fromkeys(name for edge in edges for name in edge.publishers)),
+            publishers=publishers_of(edges),
         )
     if rest := others[_MOST:]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"{len(rest)} more trees: {listed(rest)}; names that are made anew all the time make so many",
-            fix="Find the publisher that numbers its frames without end, or give those of one robot one root.",
+            text=f"{len(rest)} more trees: {listed(rest)}; a publisher may create new frame names all the time",
+            fix="Find the publisher that creates new frame names, or connect the frames of one robot to one root.",
             frames=frozenset(rest),
             first_stamp=min((edge.first_stamp for root in rest for edge in by_root.get(root, [])), default=None),
         )

@@ -1,4 +1,4 @@
-"""TF015: sensor messages that come when a buffer has forgotten their time."""
+"""TF015: sensor messages that arrive when a buffer no longer has the transforms of their time."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
 from coframe.formatting import duration
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -21,28 +22,28 @@ _LEAST = 3
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """One finding a sensor."""
+    """Yield one finding per sensor."""
     for sensor in observation.sensors:
         moving = [edge for edge in observation.path(sensor.frame) if not edge.static]
         behind = np.zeros(len(sensor.stamp), dtype=np.int64)
         for edge in moving:
-            # What the buffer had when the message came.
+            # The newest stamp in the buffer when the message arrived.
             newest = np.maximum.accumulate(edge.stamp)
             row = np.searchsorted(edge.arrived, sensor.arrived, side="right") - 1
             behind = np.maximum(behind, np.where(row >= 0, newest[np.maximum(row, 0)] - sensor.stamp, 0))
         late = np.flatnonzero((behind > observation.cache) & (sensor.stamp != 0))
-        if len(late) < _LEAST or f"{sensor.topic}" not in observation.clocks:
+        if len(late) < _LEAST or sensor.topic not in observation.clocks:
             continue
-        if any(observation.clocks[f"{e.parent} -> {e.child}"] != observation.clocks[sensor.topic] for e in moving):
-            continue  # no buffer is long enough for another clock
-        need = int(np.ceil(behind.max() / 1e9)) + 1
+        if any(observation.clocks[edge.name] != observation.clocks[sensor.topic] for edge in moving):
+            continue  # with stamps on another clock, no buffer is long enough
+        need = int(np.ceil(behind.max() / SECOND)) + 1
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"{len(late)} of {len(sensor.stamp)} messages come up to {duration(int(behind.max()))} after their "
-            f"stamps, when a buffer of {duration(observation.cache)} has forgotten them",
-            fix=f"Keep more: tf2_ros.Buffer(cache_time=Duration(seconds={need})), coframe.Buffer(cache='{need}s'); or "
-            "make the sensor's processing quicker.",
+            text=f"{len(late)} of {len(sensor.stamp)} messages arrive up to {duration(int(behind.max()))} after their "
+            f"stamps, but a buffer keeps transforms for {duration(observation.cache)} only",
+            fix=f"Use a longer cache: tf2_ros.Buffer(cache_time=Duration(seconds={need})) or "
+            f"coframe.Buffer(cache='{need}s'); or reduce the processing time of the sensor data.",
             topic=sensor.topic,
             frames=frozenset({sensor.frame}),
             first_stamp=int(sensor.stamp[late[0]]),

@@ -1,4 +1,4 @@
-"""TF021: mounts that look like degrees given for radians, millimetres for metres, or a forgotten optical rotation."""
+"""TF021: mounts that look like degrees for radians, millimetres for metres, or a missing optical rotation."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe import quaternion
+from coframe.analysis.static_command import static_command
 from coframe.doctor.finding import Finding, Severity
 
 if TYPE_CHECKING:
@@ -21,12 +22,12 @@ __all__ = ["CODE", "find"]
 CODE = "TF021"
 _ROUND_DEGREES = (30, 45, 60, 90, 120, 135, 150, 180, 270)
 _CLOSE = 2e-4  # radians
-_FAR = 10.0  # metres from a robot's frame to another
+_FAR = 10.0  # metres between two frames of a robot
 _WORLDS = ("world", "map", "odom", "earth", "utm", "ecef", "enu", "global", "ned")
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Links that do not move, whichever topic they come on."""
+    """Yield findings for edges that do not move, on any topic."""
     for edge in observation.edges:
         if edge.static or edge.constant:
             yield from _degrees(edge)
@@ -35,7 +36,7 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _degrees(edge: Edge) -> Iterator[Finding]:
-    """Turns about one axis by what a round number of degrees is when it is taken as radians."""
+    """Yield a finding for a rotation about one axis whose angle is a round number of degrees used as radians."""
     axis = np.abs(edge.rotations[-1, :3])
     if np.count_nonzero(axis > 1e-6) != 1:
         return
@@ -47,9 +48,9 @@ def _degrees(edge: Edge) -> Iterator[Finding]:
             name = ("roll", "pitch", "yaw")[about]
             yield _finding(
                 edge,
-                f"is turned by {degrees(angle) % 360:.1f} degrees about {'xyz'[about]}, which is {name} = "
-                f"{number} taken as radians: were degrees meant?",
-                f"Give radians: --{name} {number * pi / 180:.6f}; in code math.radians({number}).",
+                f"rotated by {degrees(angle) % 360:.1f} degrees about {'xyz'[about]}, which is {name} = {number} "
+                f"radians: was {number} degrees intended?",
+                f"Use radians: --{name} {number * pi / 180:.6f}; in code math.radians({number}).",
             )
             return
 
@@ -61,24 +62,23 @@ def _millimetres(edge: Edge) -> Iterator[Finding]:
     x, y, z = (edge.values[-1, :3] / 1000).tolist()
     yield _finding(
         edge,
-        f"is {edge.length:.4g} m long: were millimetres meant ({edge.length:.4g} mm)?",
-        f"Give metres: --x {x:g} --y {y:g} --z {z:g}.",
+        f"the frames are {edge.length:.4g} m apart: was {edge.length:.4g} mm intended?",
+        f"Use metres: --x {x:g} --y {y:g} --z {z:g}.",
     )
 
 
 def _optical(edge: Edge) -> Iterator[Finding]:
-    """By REP-103 an optical frame looks along z, its x to the right: turned against its body by -90, 0, -90 degrees."""
+    """Yield a finding for an optical frame without rotation: by REP-103 its z points forward and its x right."""
     if "optical" not in edge.child.lower() or "optical" in edge.parent.lower():
         return
     if edge.angle < 1e-3:
-        wanted = quaternion.from_rpy(np.array([-pi / 2, 0.0, -pi / 2]))
-        values = " ".join(f"--q{axis} {value:g}" for axis, value in zip("xyzw", wanted.tolist(), strict=True))
+        rotation = quaternion.from_rpy(np.array([-pi / 2, 0.0, -pi / 2]))
+        command = static_command(*edge.key, [*edge.values[-1, :3].tolist(), *rotation.tolist()])
         yield _finding(
             edge,
-            f"{edge.child!r} is called optical, but is not turned against {edge.parent!r}: z would point up instead of "
-            "forward",
-            f"Turn it by roll -90, pitch 0, yaw -90 degrees: coframe static --frame-id {edge.parent} --child-frame-id "
-            f"{edge.child} {values}.",
+            f"{edge.child!r} is named optical, but is not rotated relative to {edge.parent!r}: its z axis points up "
+            "instead of forward",
+            f"Rotate it by roll -90, pitch 0, yaw -90 degrees: `{command}`.",
         )
 
 

@@ -1,4 +1,4 @@
-"""TF012: time that went back: a recording that began anew, a simulation that was reset."""
+"""TF012: time that jumped back, as after a restarted recording or a reset simulation."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.phrases import listed, times
-from coframe.formatting import duration
+from coframe.formatting import duration, listed, times
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -20,16 +21,16 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF012"
-_JUMP = -1_000_000_000
-# Who sends by turns with another clock goes back all the time; a reset is rare.
+_JUMP = -SECOND
+# Two publishers on different clocks make the time go back all the time; a reset is rare.
 _RARE = 0.1
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """One finding in all: a reset shows on every link."""
+    """Yield one finding in all: a reset affects every edge."""
     found = [(edge, jumps) for edge in observation.dynamic if len(jumps := _jumps(edge.stamp))]
-    ticks = _jumps(observation.clock.stamp) if observation.clock is not None else np.zeros(0, dtype=np.intp)
-    if not found and not len(ticks):
+    on_clock = _jumps(observation.clock.stamp) if observation.clock is not None else np.zeros(0, dtype=np.intp)
+    if not found and not len(on_clock):
         return
     if found:
         edge, jumps = max(found, key=lambda pair: len(pair[1]))
@@ -37,28 +38,28 @@ def find(observation: Observation) -> Iterator[Finding]:
     else:
         assert observation.clock is not None
         stamps = observation.clock.stamp
-        back, first, count = -int(np.diff(stamps).min()), int(stamps[ticks[0] + 1]), len(ticks)
-    where = listed([*(f"{edge.parent} -> {edge.child}" for edge, _ in found), *(["/clock"] if len(ticks) else [])])
+        back, first, count = -int(np.diff(stamps).min()), int(stamps[on_clock[0] + 1]), len(on_clock)
+    names = listed([*(edge.name for edge, _ in found), *(["/clock"] if len(on_clock) else [])])
     yield Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"time jumped back {times(count)}, by up to {duration(back)}, on {where}: listeners clear their buffers "
-        "then, or refuse what comes as too old",
-        fix="Restart the listeners after a simulation was reset or a recording looped; play it once, or with "
-        "--clock and use_sim_time:=true, so that nodes notice.",
+        text=f"time jumped back {times(count)}, by up to {duration(back)}, on {names}: listeners clear their buffers, "
+        "or refuse the following transforms as too old",
+        fix="Restart the listeners after a simulation was reset or a recording was restarted; replay a recording once, "
+        "or with --clock and use_sim_time:=true, so that nodes detect the jump.",
         edge=found[0][0].key if found else None,
         topic="" if found else "/clock",
         frames=frozenset(name for edge, _ in found for name in edge.key),
         first_stamp=first,
-        publishers=tuple(dict.fromkeys(name for edge, _ in found for name in edge.publishers)),
+        publishers=publishers_of(edge for edge, _ in found),
     )
 
 
 def _jumps(stamps: NDArray[np.int64]) -> NDArray[np.intp]:
-    """The rows after which time goes back and does not come back at once."""
+    """Return the rows after which time goes back and does not return at once."""
     jumps = np.flatnonzero(np.diff(stamps) < _JUMP)
     if len(jumps) > max(3, _RARE * len(stamps)):
         return jumps[:0]
-    # Two clocks by turns: the next row is at the old time again.
+    # With two clocks that alternate, the next row is at the later time again.
     last = len(stamps) - 1
     return jumps[stamps[np.minimum(jumps + 2, last)] < stamps[jumps]]

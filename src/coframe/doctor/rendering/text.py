@@ -1,11 +1,10 @@
-"""A report for people: one finding a line, then why it matters and what to do."""
+"""A report as text: each finding in one line, followed by why it matters and what to do."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from coframe.doctor.phrases import listed
-from coframe.formatting import duration, seconds
+from coframe.formatting import count, duration, listed, seconds
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,7 +17,7 @@ __all__ = ["lines"]
 
 
 def lines(report: Report) -> Iterator[tuple[str, str]]:
-    """Pairs of a style (``error``, ``warning``, ``note``, ``good``, ``dim`` or ``plain``) and a line."""
+    """Yield pairs of a style (``error``, ``warning``, ``note``, ``good``, ``dim`` or ``plain``) and a line."""
     for finding in report.findings:
         yield str(finding.severity), headline(finding)
         yield "dim", f"      why: {finding.why}"
@@ -32,46 +31,41 @@ def lines(report: Report) -> Iterator[tuple[str, str]]:
 
 
 def headline(finding: Finding) -> str:
-    """Code, severity, edge, numbers, first stamp and publishers, in one line."""
+    """Return code, severity, subject, text, first stamp and publishers of a finding in one line."""
     subject = f"{finding.subject}: " if finding.subject else ""
     stamp = "" if finding.first_stamp is None else f"; first stamp {seconds(finding.first_stamp)}"
-    who = f"; published by {listed(finding.publishers)}" if finding.publishers else ""
-    return f"{finding.code} {finding.severity}: {subject}{finding.text}{stamp}{who}"
+    publishers = f"; published by {listed(finding.publishers)}" if finding.publishers else ""
+    return f"{finding.code} {finding.severity}: {subject}{finding.text}{stamp}{publishers}"
 
 
 def _summary(report: Report) -> Iterator[tuple[str, str]]:
     seen = report.observation
-    looked_at = (
-        f"{_count(len(seen.transforms), 'transform')} of {_count(len({edge.key for edge in seen.edges}), 'link')}, "
-        f"{_count(len(seen.frames), 'frame')} in {_count(len(seen.trees), 'tree')}, "
-        f"{_count(len(report.sensors), 'sensor')}, "
+    examined = (
+        f"{count(len(seen.transforms), 'transform')} of {count(len({edge.key for edge in seen.edges}), 'edge')}, "
+        f"{count(len(seen.frames), 'frame')} in {count(len(seen.trees), 'tree')}, "
+        f"{count(len(report.sensors), 'sensor')}, "
         f"{duration(seen.duration)}"
     )
     every = report.every_finding()
     if not len(seen.transforms):
-        yield (
-            "warning",
-            f"no transforms at all in {duration(seen.duration)}: nothing could be judged" + _elsewhere(seen),
-        )
+        yield "warning", f"no transforms in {duration(seen.duration)}: nothing to examine" + _elsewhere(seen)
     elif not every:
-        yield "good", f"healthy: {looked_at}"
+        yield "good", f"healthy: {examined}"
     else:
         counts = {
             kind: sum(str(finding.severity) == kind for finding in every) for kind in ("error", "warning", "note")
         }
-        told = ", ".join(_count(count, kind) for kind, count in counts.items() if count)
-        yield "plain", f"{told}; looked at {looked_at}. `coframe doctor --explain {every[0].code}` says more."
+        found = ", ".join(count(number, kind) for kind, number in counts.items() if number)
+        yield "plain", f"{found}; examined {examined}. For details: `coframe doctor --explain {every[0].code}`"
 
 
 def _elsewhere(seen: Observation) -> str:
-    """Where there are transforms, if not where they were looked for."""
-    told = (topic for topic in seen.topics.values() if topic.type.lower().endswith("/tfmessage"))  # ROS 1: tf/tfMessage
-    topics = [topic.name for topic in told if topic.messages]
-    return f"; there are some on {listed(topics)}" if topics else ""
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}" if number == 1 else f"{number} {what}s"
+    """Return which other topics have transforms."""
+    # The type is tf/tfMessage in ROS 1.
+    topics = [
+        topic.name for topic in seen.topics.values() if topic.type.lower().endswith("/tfmessage") and topic.messages
+    ]
+    return f"; there are transforms on {listed(topics)}" if topics else ""
 
 
 def _sensor(sensor: SensorFacts) -> str:
@@ -82,7 +76,8 @@ def _sensor(sensor: SensorFacts) -> str:
         else f" (median wait {duration(sensor.median_wait)}, longest {duration(sensor.longest_wait or 0)})"
     )
     return (
-        f"{sensor.topic}: {sensor.frame} to {sensor.root}: of {sensor.messages} messages {at_once} at once, "
-        + ", ".join(f"{count} after {after} ms" for count, after in zip(later, (50, 100, 200), strict=True))
+        f"{sensor.topic}: from {sensor.frame} to {sensor.root}: {at_once} of {sensor.messages} messages can be "
+        "transformed at once, "
+        + ", ".join(f"{number} after {after} ms" for number, after in zip(later, (50, 100, 200), strict=True))
         + waits
     )

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-import math
 import time
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from coframe import _core
+from coframe.analysis.liveness import LivenessTracker
+from coframe.analysis.tree import FrameTrees
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
     from coframe import Buffer, FrameInfo
@@ -19,10 +22,7 @@ __all__ = ["FRESH", "GONE", "OTHER_TREE", "STALE", "LocalOrigin", "Placed", "Sce
 
 FRESH, STALE, GONE, OTHER_TREE = 0, 1, 2, 3
 
-# A frame is stale when it was not heard of for so long, and for so many of its periods.
-STALE_AFTER, STALE_PERIODS = 1.0, 5.0
 _NS = 1_000_000_000
-_NEVER = -1
 
 
 class Structure(NamedTuple):
@@ -66,9 +66,10 @@ class Scene:
     Args:
         buffer: What is shown.
         ages: Whether frames that are not heard of any more become stale and go, as it is with a live buffer.
+        clock: Returns the monotonic time in nanoseconds.
     """
 
-    def __init__(self, buffer: Buffer, *, ages: bool) -> None:
+    def __init__(self, buffer: Buffer, *, ages: bool, clock: Callable[[], int] = time.monotonic_ns) -> None:
         self.buffer = buffer
         self.ages = ages
         self.revision = 0
@@ -77,10 +78,7 @@ class Scene:
         self.infos: list[FrameInfo] = []
         self._changes: int | None = None
         self._links: list[tuple[str, str, bool]] = []
-        self._newest: NDArray[np.int64] = np.zeros(0, np.int64)
-        self._heard: NDArray[np.float64] = np.zeros(0)  # of the monotonic clock
-        self._stale_from: NDArray[np.float64] = np.zeros(0)  # of the monotonic clock
-        self._first_stale = math.inf
+        self._liveness = LivenessTracker(buffer, clock)
         self._tables: dict[str, _core.PoseTable] = {}
 
     def refresh(self) -> None:
@@ -93,32 +91,20 @@ class Scene:
         self._note_structure()
         dynamic = [info for info in self.infos if info.samples and not info.static]
         self.span = (min(info.oldest for info in dynamic), max(info.newest for info in dynamic)) if dynamic else None
-        newest = np.array([info.newest for info in self.infos], np.int64)
-        heard = np.full(len(newest), time.monotonic())
-        known = min(len(newest), len(self._newest))
-        unchanged = newest[:known] == self._newest[:known]
-        heard[:known][unchanged] = self._heard[:known][unchanged]
-        self._newest, self._heard = newest, heard
-        if self.ages and len(heard):
-            periods = np.array([1.0 / info.rate if info.rate > 0.0 else 0.0 for info in self.infos])
-            self._stale_from = heard + np.maximum(STALE_AFTER, STALE_PERIODS * periods)
-            self._stale_from[np.array(self.structure.static, bool)] = math.inf
-            self._first_stale = float(self._stale_from.min())
+        self._liveness.update(self.infos)
 
     def ages_now(self) -> NDArray[np.float64]:
         """For how many seconds each frame was not heard of, (N,); 0 for those that need not be."""
-        ages = time.monotonic() - self._heard
-        ages[np.array(self.structure.static, bool)] = 0.0
-        return ages
+        return self._liveness.silences() / _NS
 
     def states_now(self, timeout: float) -> NDArray[np.uint8]:
         """Whether each frame is fresh, stale or gone, (N,): as old as the oldest link up to its root."""
         states = np.zeros(len(self.structure.names), np.uint8)
-        now = time.monotonic()
-        # Most of the time all are fresh, which costs a look at one number.
-        if now > self._first_stale:
-            states[now > self._stale_from] = STALE
-            states[self.ages_now() > timeout] = GONE
+        # Most of the time no frame is stale, which costs one comparison.
+        if self.ages and self._liveness.any_stale():
+            stale = self._liveness.stale()
+            states[stale] = STALE
+            states[stale & (self.ages_now() > timeout)] = GONE
             self._pass_on(states)
         return states
 
@@ -134,7 +120,7 @@ class Scene:
         poses = np.empty((count, 7))
         told = np.empty(count, np.uint8)
         self._table_of(fixed).look_up(stamp, round(timeout * _NS), poses, told)
-        if stamp == 0 and time.monotonic() > self._first_stale:
+        if stamp == 0 and self.ages and self._liveness.any_stale():
             connected = told == FRESH
             told[connected] = self.states_now(timeout)[connected]
         return Placed(poses, told)
@@ -170,32 +156,13 @@ class Scene:
 
 
 def _structure_of(infos: list[FrameInfo]) -> Structure:
-    index = {info.name: i for i, info in enumerate(infos)}
-    parents = [index.get(info.parent, _NEVER) if info.parent else _NEVER for info in infos]
+    trees = FrameTrees.from_parents({info.name: info.parent for info in infos})
     static = [info.static or not info.parent for info in infos]
-    children: list[list[int]] = [[] for _ in infos]
-    for frame, parent in enumerate(parents):
-        if parent >= 0:
-            children[parent].append(frame)
-    components = [_NEVER] * len(infos)
-    roots: list[str] = []
-    order: list[int] = []
-    # Roots first; what is left then are loops, which begin anywhere.
-    for start in (*(frame for frame, parent in enumerate(parents) if parent < 0), *range(len(infos))):
-        if components[start] >= 0:
-            continue
-        components[start] = len(roots)
-        waiting = [start]
-        while waiting:
-            frame = waiting.pop()
-            order.append(frame)
-            for child in children[frame]:
-                if components[child] < 0:
-                    components[child] = len(roots)
-                    waiting.append(child)
-        roots.append(infos[start].name)
-    largest = roots[int(np.bincount(components).argmax())] if roots else ""
-    return Structure([info.name for info in infos], index, parents, static, components, roots, order, largest)
+    roots = [trees.names[root] for root in trees.roots]
+    largest = roots[int(np.bincount(trees.components).argmax())] if roots else ""
+    return Structure(
+        list(trees.names), trees.index, trees.parents, static, trees.components, roots, trees.order, largest
+    )
 
 
 class LocalOrigin:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from coframe.analysis.liveness import usual_gap, usual_period
 from coframe.errors import TransformException
 
 if TYPE_CHECKING:
@@ -20,8 +21,6 @@ if TYPE_CHECKING:
 __all__ = ["MOST_BINS", "edge_rows", "next_stamp"]
 
 MOST_BINS = 2000
-# A gap is so many times as long as the mean interval, and at least that long.
-GAP_INTERVALS, SHORTEST_GAP = 5.0, 200_000_000
 _MOST_GAPS = 200
 _NS = 1_000_000_000
 
@@ -89,7 +88,5 @@ def _stamps(buffer: Buffer, info: FrameInfo, first: int, last: int) -> NDArray[n
 def _gaps(stamps: NDArray[np.int64], origin: int) -> list[list[int]]:
     if len(stamps) < 3:
         return []
-    intervals = np.diff(stamps)
-    longest_normal = max(float(np.median(intervals)) * GAP_INTERVALS, SHORTEST_GAP)
-    before = np.flatnonzero(intervals > longest_normal)[:_MOST_GAPS]
+    before = np.flatnonzero(np.diff(stamps) > usual_gap(usual_period(stamps)))[:_MOST_GAPS]
     return [[int(stamps[i]) - origin, int(stamps[i + 1]) - origin] for i in before]

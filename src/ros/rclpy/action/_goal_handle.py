@@ -139,7 +139,7 @@ class ServerGoalHandle:
 
         Raises:
             RCLError: No cancel request was accepted.
-            TypeError: The response is no result of the action's type.
+            TypeError: `response` is not a result of the action's type.
         """
         self._finish(GoalEvent.CANCELED, response)
 

@@ -1,6 +1,6 @@
-"""Answering look-ups for other nodes, so that they need no buffer and no listener of their own."""
+"""Server for lookups of other nodes, which then need no buffer and no listener."""
 
-# ruff: noqa: SLF001 - rclpy tells this server of a cancelled goal; users' callbacks have to look
+# ruff: noqa: SLF001 - The server uses a private future of rclpy's goal handles to react to cancel requests.
 
 from typing import Any
 
@@ -17,24 +17,25 @@ from tf2_ros.buffer import Buffer
 
 __all__ = ["BufferServer"]
 
-# Clients ask for a result as soon as their goal is accepted.
+# Clients request the result as soon as their goal is accepted.
 _RESULT_TIMEOUT = 10.0
 
 
 class BufferServer:
-    """Serves the action `tf2_msgs/LookupTransform` out of a buffer; `BufferClient` and C++'s ask it.
+    """Server of the action `tf2_msgs/LookupTransform` for the `BufferClient` of Python and C++.
 
-    A goal waits for its transform as long as its timeout says, without a thread of its own. One that fails at once
-    succeeds, with the error in its result; one whose time runs out is aborted, with the error that is left.
+    A goal waits for its transform up to its timeout without occupying a thread. A goal without timeout whose lookup
+    fails finishes as succeeded, with the error in its result. A goal whose timeout expires is aborted, with the error
+    in its result.
     """
 
     def __init__(self, buffer: Buffer, node: Node, ns: str) -> None:
-        """Start serving, while an executor spins the node.
+        """Create the action server. It responds while an executor spins the node.
 
         Args:
-            buffer: Where transforms are looked up.
-            node: The node that serves.
-            ns: The action's name; expanded and remapped.
+            buffer: Buffer for the lookups.
+            node: Node of the server.
+            ns: Name of the action, which is expanded and remapped.
         """
         self.buffer = buffer
         self.action_server = ActionServer(
@@ -51,7 +52,7 @@ class BufferServer:
         )
 
     def destroy(self) -> None:
-        """Stop serving; doing so twice does no harm. Goals that wait are not answered any more."""
+        """Destroy the action server without responding to waiting goals. Repeated calls have no effect."""
         self.action_server.destroy()
 
     async def _execute(self, goal_handle: ServerGoalHandle) -> Any:
@@ -63,11 +64,11 @@ class BufferServer:
             found = await wait
         except TransformException as error:
             result.error = error_message(error)
-            end = goal_handle.abort if timeout.nanoseconds > 0 else goal_handle.succeed
+            finish = goal_handle.abort if timeout.nanoseconds > 0 else goal_handle.succeed
         else:
-            end = goal_handle.canceled if found is None else goal_handle.succeed
+            finish = goal_handle.canceled if found is None else goal_handle.succeed
             result.transform = found or result.transform
-        end()
+        finish()
         return result
 
     def _wait_for(self, goal: Any, timeout: Duration) -> Future[Any]:

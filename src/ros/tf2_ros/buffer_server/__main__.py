@@ -1,4 +1,4 @@
-"""A node that answers look-ups for others: ``python -m tf2_ros.buffer_server --ros-args -p buffer_size:=60.0``."""
+"""Node with a buffer server: ``python -m tf2_ros.buffer_server --ros-args -p buffer_size:=60.0``."""
 
 import rclpy
 from rclpy.duration import Duration
@@ -9,12 +9,12 @@ from tf2_ros.transform_listener import TransformListener
 
 
 def main(args: list[str] | None = None) -> None:
-    """Run the node `tf_buffer`, which serves the action `tf2_buffer_server`, until it is stopped.
+    """Run the node `tf_buffer` with the action server `tf2_buffer_server` until shutdown.
 
-    Its parameter `buffer_size` says for how many seconds transforms are kept, 120 by default.
+    The parameter `buffer_size` is the cache time of the buffer in seconds. The default is 120.
 
     Args:
-        args: The command line; None takes `sys.argv`.
+        args: Command line. None: `sys.argv`.
     """
     with rclpy.init(args=args):
         node = rclpy.create_node("tf_buffer")

@@ -10,7 +10,7 @@ from coframe.messages.message import Message
 
 
 class Duration(Message):
-    """A span of time; nanosec always counts forward, also for negative seconds."""
+    """A duration; nanosec is added to sec, also if sec is negative."""
 
     ROS_TYPE = "builtin_interfaces/msg/Duration"
     SLOT_TYPES = (
@@ -33,7 +33,7 @@ class Duration(Message):
 
 
 class Time(Message):
-    """A point in time: whole seconds and the nanoseconds after them."""
+    """A point in time, in seconds and nanoseconds."""
 
     ROS_TYPE = "builtin_interfaces/msg/Time"
     SLOT_TYPES = (

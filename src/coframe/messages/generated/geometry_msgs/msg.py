@@ -515,7 +515,7 @@ class QuaternionStamped(Message):
 
 
 class Transform(Message):
-    """Rotation, then translation: takes points of a child frame to its parent."""
+    """Rotation, then translation: transforms points from the child frame to the parent frame."""
 
     ROS_TYPE = "geometry_msgs/msg/Transform"
     SLOT_TYPES = (

@@ -135,7 +135,7 @@ class Log(Message):
 
 
 class ParameterValue(Message):
-    """The value of a parameter; type says which member holds."""
+    """The value of a parameter; type selects the member that contains it."""
 
     ROS_TYPE = "rcl_interfaces/msg/ParameterValue"
     SLOT_TYPES = (

@@ -212,7 +212,7 @@ class ChannelFloat32(Message):
 
 
 class CompressedImage(Message):
-    """An image as a file's bytes; format names the codec."""
+    """An image as the bytes of a compressed file; format names the codec."""
 
     ROS_TYPE = "sensor_msgs/msg/CompressedImage"
     SLOT_TYPES = (

@@ -280,7 +280,7 @@ class Float64MultiArray(Message):
 
 
 class Header(Message):
-    """When and in which frame the data of a message holds."""
+    """Stamp and frame of the data in a message."""
 
     ROS_TYPE = "std_msgs/msg/Header"
     SLOT_TYPES = (

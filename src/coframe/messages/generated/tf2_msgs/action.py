@@ -229,7 +229,7 @@ class LookupTransform(Action):
     Feedback: TypeAlias = LookupTransform_Feedback
 
     class Impl:
-        """The services and messages that carry the action."""
+        """The services and messages of the action protocol."""
 
         SendGoalService: TypeAlias = LookupTransform_SendGoal
         GetResultService: TypeAlias = LookupTransform_GetResult

@@ -11,7 +11,7 @@ from coframe.messages.generated.geometry_msgs.msg import TransformStamped
 
 
 class TF2Error(Message):
-    """Which of tf2's errors a look-up ended with."""
+    """The tf2 error that a lookup ended with."""
 
     ROS_TYPE = "tf2_msgs/msg/TF2Error"
     SLOT_TYPES = (

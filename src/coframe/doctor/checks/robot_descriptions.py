@@ -1,13 +1,13 @@
-"""TF024: robot descriptions that are empty or broken, and meshes that are not there."""
+"""TF024: robot descriptions that are empty or invalid, and meshes that do not exist."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.phrases import listed
 from coframe.doctor.robot_model import parsed
 from coframe.errors import PackageError, RobotDescriptionError
+from coframe.formatting import listed
 from coframe.robots import Mesh, Packages
 
 if TYPE_CHECKING:
@@ -23,41 +23,38 @@ _TOPIC = "/robot_description"
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """One finding a description, and one for the meshes of the last one, on the machine where it runs."""
+    """Yield one finding per invalid description and, on the machine of the robot, one for the missing meshes."""
     last: Robot | None = None
     for number, text in enumerate(observation.descriptions):
-        which = f"description {number + 1} of {len(observation.descriptions)}"
+        name = f"description {number + 1} of {len(observation.descriptions)}"
         superseded = number + 1 < len(observation.descriptions)
-        severity = Severity.NOTE if superseded else Severity.WARNING
-        later = "; another one came after it" if superseded else ""
+        later = "; a later description replaces it" if superseded else ""
         try:
             last = parsed(text)
         except RobotDescriptionError as error:
             empty = not text.strip() or "no link" in str(error)
             yield Finding(
                 code=CODE,
-                severity=severity,
-                text=f"{which} {'is empty' if empty else 'is broken'}: {error}{later}",
-                fix=error.hint or "Check the file that is loaded: check_urdf FILE, or coframe robot FILE.",
-                harm="Programs that keep the first description that they are given have no robot."
-                if superseded
-                else "",
+                severity=Severity.NOTE if superseded else Severity.WARNING,
+                text=f"{name} {'is empty' if empty else 'is invalid'}: {error}{later}",
+                fix=error.hint or "Check the file that is loaded: `check_urdf FILE` or `coframe robot FILE`.",
+                harm="Programs that use only the first description have no robot model." if superseded else "",
                 topic=_TOPIC,
             )
     if last is not None and observation.live:
-        yield from _meshes(last)
+        yield from _missing_meshes(last)
 
 
-def _meshes(robot: Robot) -> Iterator[Finding]:
+def _missing_meshes(robot: Robot) -> Iterator[Finding]:
     packages = Packages()
-    shapes = {
+    meshes = {
         shape.filename
         for link in robot.links.values()
         for shape in [*(part.geometry for part in link.visuals), *(part.geometry for part in link.collisions)]
         if isinstance(shape, Mesh)
     }
     missing = []
-    for url in sorted(shapes):
+    for url in sorted(meshes):
         try:
             packages.resolve(url)
         except (PackageError, OSError, ValueError):
@@ -66,10 +63,9 @@ def _meshes(robot: Robot) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.NOTE,
-            text=f"{len(missing)} of {len(shapes)} meshes are not found on this machine: {listed(missing)}",
-            fix="Source the workspace that has the packages, or name their folder in ROS_PACKAGE_PATH; only "
-            "displays need "
-            "them.",
-            harm="Displays leave these parts of the robot out; its transforms are right all the same.",
+            text=f"{len(missing)} of {len(meshes)} meshes do not exist on this machine: {listed(missing)}",
+            fix="Source the workspace that contains the packages, or add their folder to ROS_PACKAGE_PATH. Only "
+            "visualization needs the meshes.",
+            harm="Visualization tools do not show these parts of the robot; its transforms are not affected.",
             topic=_TOPIC,
         )

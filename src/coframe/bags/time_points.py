@@ -1,4 +1,4 @@
-"""Points in time of a recording, as people write them, to the nanosecond."""
+"""Points in time as users write them (stamps, offsets and ISO 8601), parsed to nanoseconds."""
 
 from __future__ import annotations
 
@@ -7,33 +7,36 @@ import re
 
 from coframe import time
 
-__all__ = ["parse_instant"]
+__all__ = ["parse_time_point"]
 
-SECOND = time.SECOND
 _NUMBER = re.compile(r"(\d+)(?:\.(\d*))?", re.ASCII)
 _OFFSET = re.compile(r"([+-]?)\s*(\d.*[a-z])", re.ASCII)
 _ISO = re.compile(r"(\d{4}-\d\d-\d\d[T ]\d\d:\d\d(?::\d\d)?)(?:\.(\d*))?\s*(Z|[+-]\d\d:?\d\d)?", re.ASCII)
 _HINT = (
-    'write a stamp (1666859837.363141536), an offset ("10s", "-2s" from the end) or ISO time ("2022-10-27T08:43:57Z")'
+    'write a stamp (1666859837.363141536), an offset from the start ("10s") or the end ("-2s"), '
+    'or an ISO 8601 time ("2022-10-27T08:43:57Z")'
 )
 
 
-def parse_instant(text: str, span: tuple[int, int]) -> int:
-    """A point in time in nanoseconds.
+def parse_time_point(text: str, span: tuple[int, int]) -> int:
+    """Parse a point in time.
 
     Args:
-        text: Seconds with up to nine digits after the point; a whole number that is too large for seconds is
-            nanoseconds. Or an offset from the start, such as ``10s`` or ``1.5min``, with a minus from the end. Or ISO
-            8601 with a time zone. Or ``start`` or ``end``.
-        span: Start and end of the recording.
+        text: One of: seconds with up to nine decimals, where integers too large for seconds are nanoseconds; an
+            offset from the start such as ``10s`` or ``1.5min``, or from the end such as ``-2s``; ISO 8601 with a time
+            zone; ``start`` or ``end``.
+        span: Start and end of the recording in nanoseconds.
+
+    Returns:
+        Nanoseconds.
 
     Raises:
-        ValueError: It is none of these, has more digits than nanoseconds, or does not fit 64 bits.
+        ValueError: The text is none of these, has more than nine decimals, or does not fit 64 bits.
 
     Example:
-        >>> parse_instant("1666859837.363141536", (0, 0))
+        >>> parse_time_point("1666859837.363141536", (0, 0))
         1666859837363141536
-        >>> parse_instant("10s", (5_000_000_000, 60_000_000_000))
+        >>> parse_time_point("10s", (5_000_000_000, 60_000_000_000))
         15000000000
     """
     text = text.strip()
@@ -41,8 +44,8 @@ def parse_instant(text: str, span: tuple[int, int]) -> int:
         return span[0] if text == "start" else span[1]
     if match := _NUMBER.fullmatch(text):
         whole = int(match[1][:30])
-        too_large = match[2] is None and whole * SECOND >= 2**63
-        return _checked(text, whole if too_large else whole * SECOND + _fraction(text, match[2]))
+        is_nanoseconds = match[2] is None and whole * time.SECOND >= 2**63
+        return _checked(text, whole if is_nanoseconds else whole * time.SECOND + _fraction(text, match[2]))
     if match := _OFFSET.fullmatch(text):
         try:
             offset = time.duration_ns(match[2])
@@ -51,13 +54,13 @@ def parse_instant(text: str, span: tuple[int, int]) -> int:
         return _checked(text, span[1] - offset if match[1] == "-" else span[0] + offset)
     if match := _ISO.fullmatch(text):
         return _checked(text, _iso(text, match))
-    raise ValueError(f"{text[:60]!r} is no point in time: {_HINT}")
+    raise ValueError(f"{text[:60]!r} is not a point in time: {_HINT}")
 
 
 def _fraction(text: str, digits: str | None) -> int:
     digits = (digits or "").rstrip("0")
     if len(digits) > 9:
-        raise ValueError(f"{text!r} has more digits than there are nanoseconds: nine after the point at most")
+        raise ValueError(f"{text!r} has more than nine decimals; the resolution is one nanosecond")
     return int(digits.ljust(9, "0"))
 
 
@@ -69,11 +72,11 @@ def _iso(text: str, match: re.Match[str]) -> int:
     try:
         whole = datetime.datetime.fromisoformat(f"{match[1].replace(' ', 'T')}{zone}")
     except ValueError as error:
-        raise ValueError(f"{text!r} is no point in time: {error}") from None
+        raise ValueError(f"{text!r} is not a point in time: {error}") from None
     return time.stamp_ns(whole) + _fraction(text, match[2])
 
 
 def _checked(text: str, nanoseconds: int) -> int:
     if not -(2**63) <= nanoseconds < 2**63:
-        raise ValueError(f"{text[:60]!r} does not fit 64-bit nanoseconds, which end in 2262")
+        raise ValueError(f"{text[:60]!r} does not fit 64-bit nanoseconds, which end in the year 2262")
     return nanoseconds

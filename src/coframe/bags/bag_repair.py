@@ -1,4 +1,4 @@
-"""`mend`: a recording once more, whole: with an index and metadata, statics in front, and names as tf2 wants them."""
+"""Writes a repaired copy of a recording: with index and metadata, static transforms first and valid frame names."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.bags.as_cdr import as_cdr, transforms_of
+from coframe.bags.cdr_conversion import cdr_converter, decode_transforms
 from coframe.bags.message_frames import FrameNames
 from coframe.bags.offered_qos import OfferedQos, from_yaml, to_yaml
 from coframe.bags.recording import open_bag
@@ -30,32 +30,32 @@ if TYPE_CHECKING:
     from coframe.bags.recording import Recording
     from coframe.messages.generated.geometry_msgs.msg import TransformStamped
 
-__all__ = ["Mended", "mend"]
+__all__ = ["RepairReport", "repair"]
 
 _TF = "tf2_msgs/msg/TFMessage"
-_STEP = 1000  # messages between two reports of progress
+_PROGRESS_STEP = 1000  # messages between two calls of the progress function
 _STATIC_QOS = OfferedQos(1, transient_local=True)
 
 
-class Mended(NamedTuple):
-    """What `mend` did.
+class RepairReport(NamedTuple):
+    """The result of :func:`repair`.
 
     Attributes:
-        path: The new recording.
-        messages: How many it has.
-        found: What was wrong with the old one, a sentence each.
-        done: What is different, a sentence each.
-        left: What is still odd about the new one.
+        path: The repaired recording.
+        messages: Number of messages it contains.
+        problems: Problems of the original recording, one sentence each.
+        changes: Differences from the original recording, one sentence each.
+        remaining: Problems of the repaired recording, one sentence each.
     """
 
     path: Path
     messages: int
-    found: list[str]
-    done: list[str]
-    left: list[str]
+    problems: list[str]
+    changes: list[str]
+    remaining: list[str]
 
 
-def mend(
+def repair(
     source: str | os.PathLike[str],
     target: str | os.PathLike[str],
     *,
@@ -66,66 +66,67 @@ def mend(
     keep: Iterable[str] = (),
     compression: str = "zstd",
     progress: Callable[[str, int, int], object] = lambda _what, _done, _total: None,
-) -> Mended:
-    """Writes a recording anew, as far as it can be read: the old one stays as it is.
+) -> RepairReport:
+    """Write a repaired copy of a recording; the original is not changed.
 
-    The new one has an index and metadata, and descriptions of the types that coframe knows. Slashes in front of names
-    of frames go, and so do transforms that tf2 refuses. Static transforms come first. What ROS 1 wrote becomes ROS 2's.
+    The copy contains everything that can be read, with an index, metadata and the definitions of the types that coframe
+    knows. Leading slashes of frame names and transforms that tf2 rejects are removed. Static transforms come first.
+    Messages of ROS 1 are converted to ROS 2.
 
     Args:
         source: A file, or a folder of rosbag2.
-        target: The new folder, which must not be there yet.
-        statics: Another recording, whose static transforms are added to those of the robot, as far as its topics say
-            nothing of their children.
-        tf_topic: Where the transforms of the robot are that `prefix` is for; the other topics of its namespace are
-            that robot's, too: of ``/tf`` all.
-        tf_static_topic: Where its static transforms are.
-        prefix: Is put before all names of frames, such as "robot1/".
-        keep: Names that get no prefix, such as "map"; a text is one name, or several behind commas.
+        target: The new folder, which must not exist.
+        statics: Another recording, whose static transforms are added for child frames that the robot's topics do not
+            contain.
+        tf_topic: The topic with the robot's transforms. ``prefix`` applies to all topics in its namespace; for ``/tf``
+            these are all topics.
+        tf_static_topic: The topic with the robot's static transforms.
+        prefix: A prefix for all frame names, such as "robot1/".
+        keep: Frame names without the prefix, such as "map"; a list, or a text with commas.
         compression: ``zstd``, ``lz4`` or ``none``.
-        progress: Called now and then with what is under way (``reading``, ``writing``, ``checking``), how far it is,
-            and how far it will be: bytes, or messages that are written.
+        progress: Called regularly with the step (``reading``, ``writing`` or ``checking``) and with the amounts done
+            and in total, in bytes or messages.
 
     Raises:
-        RecordingError: Nothing can be read, or the new one cannot be written.
+        RecordingError: Nothing can be read, or the copy cannot be written.
         ValueError: The prefix begins with a slash.
     """
     robot = _Robot(absolute(tf_topic), absolute(tf_static_topic))
     rename = _Renaming(prefix, keep, robot)
     with open_bag(source, progress=partial(progress, "reading")) as recording:
         added = [] if statics is None else _statics_of(statics)
-        found = recording.problems
+        problems = recording.problems
         writer = Writer(target, compression=compression)
-        work = _Mending(recording, writer, robot, rename)
+        work = _Repair(recording, writer, robot, rename)
         try:
             with writer:
                 work.run(added, partial(progress, "writing"))
-        except KeyboardInterrupt:  # half a recording would look like a whole one
+        except KeyboardInterrupt:  # An incomplete recording would look like a complete one.
             shutil.rmtree(writer.path, ignore_errors=True)
             raise
-        found = list(dict.fromkeys([*found, *recording.problems]))
-    with open_bag(target, progress=partial(progress, "checking")) as anew:
-        left = summarize(anew).problems
-        return Mended(Path(target), writer.messages, found, work.done(), left)
+        problems = list(dict.fromkeys([*problems, *recording.problems]))
+    with open_bag(target, progress=partial(progress, "checking")) as repaired:
+        remaining = summarize(repaired).problems
+        return RepairReport(Path(target), writer.messages, problems, work.changes(), remaining)
 
 
 class _Robot(NamedTuple):
-    """Whose frames get the prefix, and are given the other recording's statics."""
+    """The topics of the robot whose frames get the prefix and the added static transforms."""
 
     tf_topic: str
     tf_static_topic: str
 
 
 class _Renaming:
-    """A frame's new name: without slashes in front, and with the prefix where one is wanted."""
+    """Maps a frame name to its new name: without leading slashes, and with the prefix if there is one."""
 
     def __init__(self, prefix: str, keep: Iterable[str], robot: _Robot) -> None:
         self._renamed = renaming(prefix, keep)
         self._robot = robot
-        self.what = f"put under {prefix!r}" if prefix else "freed of '/' in front"
+        self.change = f"given the prefix {prefix!r}" if prefix else "stripped of leading slashes"
 
     def on(self, topic: str) -> _Renaming:
-        """That of the messages of a topic: only those of the robot get the prefix."""
+        """Return the mapping for the messages of a topic: only those of the robot get the prefix."""
         return self if self._renamed is None or belongs(topic, *self._robot) else _Renaming("", (), self._robot)
 
     @property
@@ -138,7 +139,15 @@ class _Renaming:
 
 
 class _Route(NamedTuple):
-    """What becomes of a channel's messages."""
+    """How the messages of a channel are written.
+
+    Attributes:
+        topic: Number of the topic in the new recording.
+        convert: Converts a message to CDR.
+        names: The frame names in the messages; None if there are none to change.
+        rename: Maps frame names to new ones.
+        transforms: Whether the messages are TFMessages.
+    """
 
     topic: int
     convert: Callable[[bytes], bytes]
@@ -147,8 +156,8 @@ class _Route(NamedTuple):
     transforms: bool
 
 
-class _Mending:
-    """One recording on its way into another."""
+class _Repair:
+    """Copies one recording into another and repairs the messages."""
 
     def __init__(self, recording: Recording, writer: Writer, robot: _Robot, rename: _Renaming) -> None:
         self._recording = recording
@@ -156,7 +165,7 @@ class _Mending:
         self._robot = robot
         self._rename = rename
         self._routes: dict[Channel, _Route | None] = {}
-        self._counts: Counter[str] = Counter()  # by what was done, "{}" standing for how often
+        self._counts: Counter[str] = Counter()  # by sentence, with "{}" in place of the count
         self._copied = 0
         self._moving = {
             name: {edge.child for edge in buffer.edges() if edge.parent and not edge.static}
@@ -164,29 +173,29 @@ class _Mending:
         }
 
     def run(self, added: list[TransformStamped], progress: Callable[[int, int], object]) -> None:
-        """Copies everything, the static transforms first."""
-        self._put_statics_first(added)
+        """Copy all messages, the static transforms first."""
+        self._write_statics_first(added)
         total = sum(topic.messages for topic in self._recording.topics.values())
         for number, (channel, received, data) in enumerate(self._recording.in_order()):
-            if number % _STEP == 0:
+            if number % _PROGRESS_STEP == 0:
                 progress(number, total)
             route = self._route(channel)
             if route is None:
-                self._note(channel, "messages left out: ROS 2 has no such type as ROS 1 recorded it")
+                self._count(channel, "messages skipped: ROS 2 has no type with the definition recorded in ROS 1")
             elif not 0 <= received < 1 << 63:
-                self._note(channel, "messages left out whose times are none")
-            elif (message := self._mended(channel, route, data)) is not None:
+                self._count(channel, "messages skipped: invalid time of receipt")
+            elif (message := self._repaired(channel, route, data)) is not None:
                 self._writer.write(route.topic, message, received)
                 self._copied += 1
         progress(total, total)
 
-    def done(self) -> list[str]:
-        """What is different, in sentences."""
+    def changes(self) -> list[str]:
+        """Return the differences from the original, one sentence each."""
         topics = len({channel.topic for channel, route in self._routes.items() if route is not None})
-        told = [f"{self._copied} messages of {topics} topics written anew, with an index and metadata.yaml"]
-        return told + [sentence.format(count) for sentence, count in self._counts.items()]
+        copied = f"{self._copied} messages on {topics} topics copied, with an index and metadata.yaml"
+        return [copied, *(sentence.format(count) for sentence, count in self._counts.items())]
 
-    def _note(self, channel: Channel, what: str, count: int = 1) -> None:
+    def _count(self, channel: Channel, what: str, count: int = 1) -> None:
         self._counts[f"{channel.topic}: {{}} {what}"] += count
 
     def _route(self, channel: Channel) -> _Route | None:
@@ -197,7 +206,7 @@ class _Mending:
     def _new_route(self, channel: Channel) -> _Route | None:
         offered = from_yaml(channel.offered_qos)
         rename = self._rename.on(channel.topic)
-        converted = as_cdr(channel)
+        converted = cdr_converter(channel)
         if converted is None:
             if channel.encoding == "ros1":
                 return None
@@ -221,49 +230,49 @@ class _Mending:
             definition_format=channel.definition_format if described else "ros2msg",
         )
         names = FrameNames.of(channel, ros_type)
-        return _Route(topic, convert, names if names and names.are_there else None, rename, ros_type == _TF)
+        return _Route(topic, convert, names if names and names.exist else None, rename, ros_type == _TF)
 
-    def _mended(self, channel: Channel, route: _Route, data: bytes) -> bytes | None:
-        """The message as it is to be; None if it is to go."""
+    def _repaired(self, channel: Channel, route: _Route, data: bytes) -> bytes | None:
+        """Return the repaired message; None if it is damaged."""
         try:
-            message = self._amended(channel, route, route.convert(data))
-        except Exception:  # noqa: BLE001 - the libraries have many ways to say that bytes are damaged
-            self._note(channel, "damaged messages left out")
+            message = self._corrected(channel, route, route.convert(data))
+        except Exception:  # noqa: BLE001 - the libraries raise errors of many kinds for damaged bytes
+            self._count(channel, "damaged messages skipped")
             return None
         if channel.encoding == "ros1":
-            self._counts["{} messages of ROS 1 turned into ROS 2's"] += 1
+            self._counts["{} messages converted from ROS 1 to ROS 2"] += 1
         return message
 
-    def _amended(self, channel: Channel, route: _Route, message: bytes) -> bytes:
-        """A message of ROS 2 without what tf2 refuses, and with the new names of frames."""
+    def _corrected(self, channel: Channel, route: _Route, message: bytes) -> bytes:
+        """Return a message of ROS 2 with new frame names and without the transforms that tf2 rejects."""
         if route.transforms:
-            message = self._without_refused(channel, message)
+            message = self._without_rejected(channel, message)
         if route.names is not None and (route.rename.has_prefix or b"/" in message):
-            message, changed = route.names.renamed(message, route.rename)
+            message, changed = route.names.rename(message, route.rename)
             if changed:
-                self._note(channel, f"names of frames {route.rename.what}", changed)
+                self._count(channel, f"frame names {route.rename.change}", changed)
         return message
 
-    def _without_refused(self, channel: Channel, data: bytes) -> bytes:
-        """A message without the transforms that tf2 refuses, and without statics of what moves."""
+    def _without_rejected(self, channel: Channel, data: bytes) -> bytes:
+        """Return a TFMessage without transforms that tf2 rejects and without static ones of frames that also move."""
         message = deserialize(data, find(_TF))
-        good = [transform for transform in message.transforms if _is_taken(transform)]
-        if refused := len(message.transforms) - len(good):
-            self._note(channel, "transforms left out that tf2 refuses", refused)
+        good = [transform for transform in message.transforms if _is_accepted(transform)]
+        if rejected := len(message.transforms) - len(good):
+            self._count(channel, "transforms removed that tf2 rejects", rejected)
         if is_static(channel.topic):
             moving = self._moving.get(namespace_of(channel.topic), set())
-            still = [transform for transform in good if transform.child_frame_id.lstrip("/") not in moving]
-            if len(still) < len(good):
-                self._note(channel, "static transforms left out of frames that also move", len(good) - len(still))
-            good = still
+            fixed = [transform for transform in good if transform.child_frame_id.lstrip("/") not in moving]
+            if len(fixed) < len(good):
+                self._count(channel, "static transforms removed of frames that also move", len(good) - len(fixed))
+            good = fixed
         return data if len(good) == len(message.transforms) else serialize(find(_TF)(transforms=good))
 
-    def _put_statics_first(self, added: list[TransformStamped]) -> None:
-        """At the very beginning, the static transforms that were recorded later, and those that are to be added."""
+    def _write_statics_first(self, added: list[TransformStamped]) -> None:
+        """Write the static transforms that were recorded late and those to be added, at the start of the recording."""
         for channel, transforms in self._late_statics().items():
             route = self._route(channel)
             if route is not None:
-                self._write_statics(channel, route, transforms, "static transforms put in front, which came later")
+                self._write_statics(channel, route, transforms, "static transforms moved to the beginning")
         known = self._known()
         if new := [transform for transform in added if self._rename(transform.child_frame_id) not in known]:
             topic = self._robot.tf_static_topic
@@ -273,31 +282,30 @@ class _Mending:
             if route is not None:
                 self._write_statics(channel, route, new, "static transforms added")
         if len(new) < len(added):
-            self._counts["{} static transforms not added, since the recording tells of their frames"] += len(
-                added
-            ) - len(new)
+            skipped = len(added) - len(new)
+            self._counts["{} static transforms not added because the recording contains their frames"] += skipped
 
     def _known(self) -> set[str]:
-        """The new names of the frames that the robot's topics tell of, or the namespaces that these are in."""
+        """Return the new names of the child frames in the namespaces of the robot's topics."""
         buffers = self._recording.buffers
-        there = [buffers[name] for name in {*map(namespace_of, self._robot)} if name in buffers]
-        return {self._rename(edge.child) for buffer in there for edge in buffer.edges() if edge.parent}
+        of_robot = [buffers[name] for name in {*map(namespace_of, self._robot)} if name in buffers]
+        return {self._rename(edge.child) for buffer in of_robot for edge in buffer.edges() if edge.parent}
 
     def _write_statics(self, channel: Channel, route: _Route, transforms: list[TransformStamped], what: str) -> None:
-        message = self._amended(channel, route, serialize(find(_TF)(transforms=transforms)))
+        message = self._corrected(channel, route, serialize(find(_TF)(transforms=transforms)))
         self._writer.write(route.topic, message, self._recording.start, publisher=what)
-        self._note(channel, what, len(transforms))
+        self._count(channel, what, len(transforms))
 
     def _late_statics(self) -> dict[Channel, list[TransformStamped]]:
-        """The first value of each static transform that was not there from the beginning, by channel."""
+        """Return the first value of each static transform that is not at the start of the recording, by channel."""
         found: dict[str, tuple[Channel, dict[str, TransformStamped]]] = {}
         early: set[tuple[str, str]] = set()
         for channel, received, data in self._recording.in_order(filter(is_static, self._recording.topics)):
-            converted = as_cdr(channel)
+            converted = cdr_converter(channel)
             if converted is None or converted[0] != _TF:
                 continue
             known = found.setdefault(channel.topic, (channel, {}))[1]
-            for transform in transforms_of(converted[1], data):
+            for transform in decode_transforms(converted[1], data):
                 key = (channel.topic, transform.child_frame_id)
                 if received <= self._recording.start:
                     early.add(key)
@@ -307,21 +315,21 @@ class _Mending:
 
 
 def _statics_of(path: str | os.PathLike[str]) -> list[TransformStamped]:
-    """The static transforms of another recording.
+    """Return the static transforms of another recording.
 
     Raises:
-        RecordingError: It has none, or cannot be read.
+        RecordingError: There are none, or the recording cannot be read.
     """
     with open_bag(path) as other:
         statics = [edge for edge in other.buffer.edges() if edge.static and edge.parent]
         transforms = [(edge.parent, edge.child, other.buffer.lookup(edge.parent, edge.child)) for edge in statics]
     if not transforms:
-        raise RecordingError(f"{path} has no static transforms to add", hint="Give a recording that has /tf_static.")
+        raise RecordingError(f"{path} has no static transforms to add", hint="Give a recording with /tf_static.")
     return [to_transform_stamped(parent, child, transform, 0) for parent, child, transform in transforms]
 
 
-def _is_taken(transform: TransformStamped) -> bool:
-    """Whether tf2 takes a transform in."""
+def _is_accepted(transform: TransformStamped) -> bool:
+    """Return whether tf2 accepts a transform."""
     t, q = transform.transform.translation, transform.transform.rotation
     names = (transform.header.frame_id, transform.child_frame_id)
     return Buffer(None)._set_values(*names, 0, t.x, t.y, t.z, q.x, q.y, q.z, q.w, True, "") == 0

@@ -1,4 +1,4 @@
-"""TF014: sensor messages that no transform can be given for, not even after a while."""
+"""TF014: sensor messages that cannot be transformed, not even after a delay."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.analysis.static_command import static_command
 from coframe.doctor.finding import Finding, Severity
 from coframe.doctor.observation import NEVER
-from coframe.doctor.phrases import listed
-from coframe.formatting import duration
+from coframe.formatting import count, duration, listed
+from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,14 +23,13 @@ if TYPE_CHECKING:
 __all__ = ["CODE", "find"]
 
 CODE = "TF014"
-_MS = 1_000_000
-_PATIENCE = 200 * _MS
+_LONGEST_WAIT = 200 * MILLISECOND
 _TOO_MANY = 0.05
 _LEAST = 5
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """One finding a frame that nobody tells of, and one a sensor that is late all the same."""
+    """Yield one finding per frame that no transform contains, and one per sensor whose transforms are too late."""
     if not observation.edges:
         return
     unknown: dict[str, list[Sensor]] = {}
@@ -43,16 +43,18 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _unknown(observation: Observation, frame: str, sensors: list[Sensor]) -> Finding:
-    close = difflib.get_close_matches(frame, observation.frames, n=1)
-    some = next(iter(observation.trees))
+    similar = difflib.get_close_matches(frame, observation.frames, n=1)
+    root = next(iter(observation.trees))
+    messages = sum(len(sensor.stamp) for sensor in sensors)
     return Finding(
         code=CODE,
         severity=Severity.WARNING,
-        text=f"no transform tells of {frame!r}, in which {sum(len(sensor.stamp) for sensor in sensors)} messages of "
-        f"{listed(sensor.topic for sensor in sensors)} are told" + (f"; did you mean {close[0]!r}?" if close else ""),
-        fix=f"In the sensor's node: msg.header.frame_id = {close[0]!r}"
-        if close
-        else f"Tell where the sensor is: coframe static --frame-id {some} --child-frame-id {frame} --x ... --yaw ...",
+        text=f"{count(messages, 'message')} of {listed(sensor.topic for sensor in sensors)} "
+        f"{'is' if messages == 1 else 'are'} expressed in frame {frame!r}, but no transform connects {frame!r} to the "
+        f"tree" + (f"; did you mean {similar[0]!r}?" if similar else ""),
+        fix=f"In the node of the sensor: msg.header.frame_id = {similar[0]!r}"
+        if similar
+        else f"Publish the pose of the sensor: `{static_command(root, frame)}`.",
         topic=sensors[0].topic,
         frames=frozenset({frame}),
         first_stamp=int(sensors[0].stamp[0]) if len(sensors[0].stamp) else None,
@@ -63,7 +65,7 @@ def _unknown(observation: Observation, frame: str, sensors: list[Sensor]) -> Fin
 def _late(observation: Observation, sensor: Sensor) -> Iterator[Finding]:
     waits = observation.waits(sensor)
     counted = _countable(observation, sensor)
-    missing = np.flatnonzero(counted & (waits > _PATIENCE))
+    missing = np.flatnonzero(counted & (waits > _LONGEST_WAIT))
     if np.count_nonzero(counted) < _LEAST or len(missing) <= _TOO_MANY * np.count_nonzero(counted):
         return
     never = int(np.count_nonzero(waits[missing] == NEVER))
@@ -75,12 +77,12 @@ def _late(observation: Observation, sensor: Sensor) -> Iterator[Finding]:
         code=CODE,
         severity=Severity.WARNING,
         text=f"{len(missing)} of {np.count_nonzero(counted)} messages cannot be transformed from {sensor.frame!r} to "
-        f"{root!r} even 200 ms after they came"
+        f"{root!r} within 200 ms of their arrival"
         + (f", {never} of them never" if never else "")
         + (f"; the others take up to {duration(longest)}" if longest is not None else "")
-        + f"; the rarest link is {slowest.parent} -> {slowest.child}, every {duration(slowest.period)}",
-        fix=f"Send {slowest.parent} -> {slowest.child} more often and at once; wait for it in the consumer: "
-        f"lookup_transform({root!r}, {sensor.frame!r}, msg.header.stamp, timeout=Duration(seconds=1.0)), or a "
+        + f"; the edge with the lowest rate is {slowest.name}, every {duration(slowest.period)}",
+        fix=f"Publish {slowest.name} at a higher rate and without delay. In the consumer, wait for the transform: "
+        f"lookup_transform({root!r}, {sensor.frame!r}, msg.header.stamp, timeout=Duration(seconds=1.0)), or use a "
         "tf2_ros.MessageFilter.",
         topic=sensor.topic,
         frames=frozenset({sensor.frame, *slowest.key}),
@@ -90,11 +92,11 @@ def _late(observation: Observation, sensor: Sensor) -> Iterator[Finding]:
 
 
 def _countable(observation: Observation, sensor: Sensor) -> NDArray[np.bool_]:
-    """Whether the link's first transform was there, and whether there was time for the next one."""
+    """Return which messages arrived after the first transform, and early enough for a later one, (N,)."""
     edges = [edge for edge in observation.path(sensor.frame) if not edge.static]
     if not edges:
         return np.zeros(len(sensor.stamp), dtype=bool)
-    begun = max(int(edge.arrived[0]) for edge in edges)
+    begin = max(int(edge.arrived[0]) for edge in edges)
     first = max(int(edge.stamp.min()) for edge in edges)
-    early = (sensor.arrived < begun) | ((sensor.stamp < first) & (sensor.stamp > first - observation.cache))
-    return np.asarray(~early & (sensor.arrived < observation.end - _PATIENCE))
+    early = (sensor.arrived < begin) | ((sensor.stamp < first) & (sensor.stamp > first - observation.cache))
+    return np.asarray(~early & (sensor.arrived < observation.end - _LONGEST_WAIT))

@@ -1,4 +1,4 @@
-"""TF018: what never changes sent as moving, and what changes sent as static."""
+"""TF018: constant transforms that are published as dynamic, and changing transforms that are published as static."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.analysis.static_command import static_command
 from coframe.doctor.finding import Finding, Severity
-from coframe.doctor.phrases import static_arguments
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,25 +20,26 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF018"
 _LEAST = 10  # transforms
-_LONG = 5_000_000_000  # nanoseconds
-# Joints at rest are told of in one message with others, at the same stamps.
+_LONG = 5 * SECOND
+# Joints at rest are published in one message with moving ones, with the same stamps.
 _TOGETHER = 0.5
-_MOVES_BY_HABIT = ("odom", "base_link", "base_footprint")
+_USUALLY_MOVING = ("odom", "base_link", "base_footprint")
 _CHANGES = 3
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """One finding a link."""
+    """Yield one finding per edge."""
     moving = [edge.stamp for edge in observation.dynamic if not edge.constant]
     for edge in filter(_should_be_static, observation.dynamic):
         stamps = np.concatenate(moving) if moving else edge.stamp[:0]
         if np.mean(np.isin(edge.stamp, stamps)) < _TOGETHER:
+            command = static_command(*edge.key, edge.values[-1].tolist())
             yield Finding(
                 code=CODE,
                 severity=Severity.NOTE,
-                text=f"did not change in {edge.count} transforms on /tf: if it never does, it is a static one",
-                fix=f"Send it once: coframe static {static_arguments(edge)}; in code "
-                "StaticTransformBroadcaster(self) instead of TransformBroadcaster(self), and no timer.",
+                text=f"constant in all {edge.count} transforms on /tf; if it never changes, it should be static",
+                fix=f"Publish it once: `{command}`; in code use StaticTransformBroadcaster(self) instead of "
+                "TransformBroadcaster(self), without a timer.",
                 edge=edge.key,
                 first_stamp=edge.first_stamp,
                 publishers=edge.publishers,
@@ -48,11 +50,10 @@ def find(observation: Observation) -> Iterator[Finding]:
             yield Finding(
                 code=CODE,
                 severity=Severity.WARNING,
-                text=f"changed {changes} times on /tf_static: the past changes with it, nothing is interpolated, "
-                "and the "
-                "topic is made for what is sent once",
-                fix="Send it as a moving one: TransformBroadcaster(self) instead of StaticTransformBroadcaster(self), "
-                "stamped with the time of the measurement.",
+                text=f"changed {changes} times on /tf_static; each change also applies to the past, and nothing is "
+                "interpolated",
+                fix="Publish it as a dynamic transform: TransformBroadcaster(self) instead of "
+                "StaticTransformBroadcaster(self), stamped with the time of the measurement.",
                 edge=edge.key,
                 first_stamp=edge.first_stamp,
                 publishers=edge.publishers,
@@ -60,6 +61,6 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _should_be_static(edge: Edge) -> bool:
-    if edge.child.rpartition("/")[2] in _MOVES_BY_HABIT or edge.count < _LEAST:
+    if edge.child.rpartition("/")[2] in _USUALLY_MOVING or edge.count < _LEAST:
         return False
     return edge.constant and int(edge.stamp.max() - edge.stamp.min()) >= _LONG

@@ -1,4 +1,4 @@
-"""TF025: listeners that come too late: look-ups that fail again and again, messages that come in heaps."""
+"""TF025: listeners that are too slow: lookups that keep failing, and messages that are received in bursts."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
 from coframe.formatting import duration
+from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,38 +20,38 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF025"
 _LEAST = 3
-_STALL = 500_000_000
-_NEXT = (
-    "Ask for the latest: lookup_transform(target, source, rclpy.time.Time()), or wait for the time that is wanted: "
-    "lookup_transform(target, source, stamp, timeout=Duration(seconds=0.1))."
+_STALL = 500 * MILLISECOND
+_WAIT = (
+    "Request the latest transform: lookup_transform(target, source, rclpy.time.Time()), or wait for the requested "
+    "time: lookup_transform(target, source, stamp, timeout=Duration(seconds=0.1))."
 )
-# tf2's words, and the line to change.
+# The messages of tf2, and the line to change.
 _FAILURES = (
-    (re.compile(r"would require extrapolation (?:into the future|at time)", re.IGNORECASE), _NEXT),
+    (re.compile(r"would require extrapolation (?:into the future|at time)", re.IGNORECASE), _WAIT),
     (
         re.compile(r"would require extrapolation into the past", re.IGNORECASE),
-        "Ask for a newer time, or keep more: tf2_ros.Buffer(cache_time=Duration(seconds=30)).",
+        "Request a newer time, or use a longer cache: tf2_ros.Buffer(cache_time=Duration(seconds=30)).",
     ),
     (
         re.compile(r"passed to lookupTransform argument \w+ does not exist", re.IGNORECASE),
-        "Check the frame's spelling in lookup_transform(...); `coframe echo TARGET SOURCE` lists those that there are.",
+        "Check the spelling of the frame in lookup_transform(...); `coframe echo TARGET SOURCE` lists the frames.",
     ),
     (
         re.compile(r"not part of the same tree|unconnected trees|could not find a connection", re.IGNORECASE),
-        "Start the publisher of the missing link; TF001 and `coframe echo TARGET SOURCE` name it.",
+        "Start the publisher of the missing transform; TF001 and `coframe echo TARGET SOURCE` name it.",
     ),
 )
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """What nodes complain of, and heaps."""
-    yield from _complaints(observation)
+    """Yield the errors that nodes log, and in recordings bursts of messages."""
+    yield from _logged_errors(observation)
     if not observation.live:
-        yield from _heaps(observation)
+        yield from _bursts(observation)
 
 
-def _complaints(observation: Observation) -> Iterator[Finding]:
-    """Look-ups that still fail when listening ends: at the start of a system some always do."""
+def _logged_errors(observation: Observation) -> Iterator[Finding]:
+    """Yield the lookups that still fail at the end; at the start of a system some lookups always fail."""
     middle = observation.start + observation.duration // 2
     by_kind: dict[tuple[str, int], list[LogLine]] = {}
     for line in observation.log:
@@ -63,7 +64,7 @@ def _complaints(observation: Observation) -> Iterator[Finding]:
             yield Finding(
                 code=CODE,
                 severity=Severity.WARNING,
-                text=f"{node} complains {len(lines)} times, the last time: {_short(lines[-1].text)}",
+                text=f"{node} logged {len(lines)} failed lookups, the last one: {_short(lines[-1].text)}",
                 fix=f"In {node}: {_FAILURES[number][1]}",
                 topic="/rosout",
                 frames=frozenset(frame for frame in observation.frames if frame in _names(lines[-1].text)),
@@ -71,8 +72,8 @@ def _complaints(observation: Observation) -> Iterator[Finding]:
             )
 
 
-def _heaps(observation: Observation) -> Iterator[Finding]:
-    """All links silent at once, and then all that was sent meanwhile: the recorder did not come to listen."""
+def _bursts(observation: Observation) -> Iterator[Finding]:
+    """Yield a pause of all edges at once after which the delayed messages arrive together: the recorder was blocked."""
     edges = [edge for edge in observation.dynamic if edge.count > 10 and edge.period < _STALL / 5]
     if not edges:
         return
@@ -83,17 +84,18 @@ def _heaps(observation: Observation) -> Iterator[Finding]:
     pauses = np.flatnonzero(np.diff(arrived) > _STALL)
     for row in pauses.tolist():
         pause = int(arrived[row + 1] - arrived[row])
-        # What came within a tenth of the pause after it was stamped over most of the pause.
-        heap = stamps[row + 1 :][arrived[row + 1 :] < arrived[row + 1] + pause // 10]
-        if len(heap) > 3 and int(heap.max() - heap.min()) > pause // 2:
+        # The stamps of the messages that arrive within a tenth of the pause after it cover most of the pause.
+        burst = stamps[row + 1 :][arrived[row + 1 :] < arrived[row + 1] + pause // 10]
+        if len(burst) > 3 and int(burst.max() - burst.min()) > pause // 2:
             yield Finding(
                 code=CODE,
                 severity=Severity.WARNING,
-                text=f"nothing came for {duration(pause)}, and then {len(heap)} transforms at once that had been sent "
-                "meanwhile: the recorder, or the network to it, was held up",
-                fix="Record less (ros2 bag record /tf /tf_static ...), to a faster disk, or with a larger cache "
-                "(--max-cache-size); look-ups by receipt time are wrong there, by stamp they are right.",
-                first_stamp=int(heap.min()),
+                text=f"no transform was received for {duration(pause)}, and then {len(burst)} transforms at once that "
+                "had been published in the meantime: the recorder or its network connection was blocked",
+                fix="Record fewer topics (ros2 bag record /tf /tf_static ...), use a faster disk or a larger cache "
+                "(--max-cache-size). In this recording, lookups by time of receipt are wrong there, those by stamp "
+                "are correct.",
+                first_stamp=int(burst.min()),
             )
             return
 

@@ -1,4 +1,7 @@
-"""From a path to the files of a recording, whatever their names and whatever metadata.yaml says."""
+"""Finds the files of a recording below a path and opens each with the reader for its format.
+
+The first bytes of a file decide its format. Names and metadata.yaml only help to find and order the files.
+"""
 
 from __future__ import annotations
 
@@ -23,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["open_files"]
 
 _ZSTD = b"\x28\xb5\x2f\xfd"
-_KINDS: dict[bytes, type[Storage]] = {
+_READERS: dict[bytes, type[Storage]] = {
     mcap_file.MAGIC: mcap_file.McapStorage,
     sqlite_file.MAGIC: sqlite_file.SqliteStorage,
     ros1_file.MAGIC: ros1_file.Ros1Storage,
@@ -34,15 +37,15 @@ _LARGEST_METADATA = 64 << 20
 
 
 def open_files(path: Path, problems: Problems, closing: ExitStack) -> list[Storage]:
-    """The files of a recording, in order.
+    """Open the files of a recording, in order.
 
     Args:
-        path: A file, a folder with files, or a folder's ``metadata.yaml``.
-        problems: Gets what is odd about them.
-        closing: What has to be done when the recording is closed.
+        path: A file, a folder with files, or the ``metadata.yaml`` of a folder.
+        problems: Receives the problems found.
+        closing: Receives the clean-up that closing the recording requires.
 
     Raises:
-        RecordingError: There is nothing that can be read.
+        RecordingError: No file can be read.
     """
     if path.name == _METADATA:
         path = path.parent
@@ -52,13 +55,13 @@ def open_files(path: Path, problems: Problems, closing: ExitStack) -> list[Stora
         found = [storage for file in candidates if (storage := _open(file, problems, closing)) is not None]
     except OSError as error:
         raise RecordingError(
-            f"{path} cannot be read: {error.strerror or error}", hint="Check the path, and who may read it."
+            f"{path} cannot be read: {error.strerror or error}", hint="Check the path and the permission to read it."
         ) from None
     if not found:
-        said = problems.sentences()
+        reasons = problems.sentences()
         raise RecordingError(
-            f"{path} is no recording" + (f": {said[0].removeprefix(f'{path}: ')}" if said else ""),
-            hint="Give a .mcap, .db3 or .bag file, or the folder that holds such files.",
+            f"{path} is not a recording" + (f": {reasons[0].removeprefix(f'{path}: ')}" if reasons else ""),
+            hint="Give a .mcap, .db3 or .bag file, or the folder that contains such files.",
         )
     if str(metadata.get("compression_mode", "")).lower() == "message":
         compression = str(metadata.get("compression_format", ""))
@@ -67,19 +70,20 @@ def open_files(path: Path, problems: Problems, closing: ExitStack) -> list[Stora
 
 
 def _candidates(folder: Path, metadata: dict[str, Any], problems: Problems) -> list[Path]:
-    """The files of a folder that may be part of the recording: those of the metadata first, then others."""
-    there = sorted((file for file in folder.iterdir() if file.is_file() and _is_candidate(file)), key=_natural)
+    """Return the files of a folder that may be part of the recording: those in the metadata first, then others."""
+    existing = sorted((file for file in folder.iterdir() if file.is_file() and _is_candidate(file)), key=_natural)
     listed: list[Path] = []
     for name in _listed(metadata):
         file = folder / Path(name).name
-        same = [other for other in there if other.name in {file.name, f"{file.name}.zstd"}]
+        same = [other for other in existing if other.name in {file.name, f"{file.name}.zstd"}]
         listed += same
         if not same:
-            problems.add(f"{_METADATA} names {Path(name).name}, which is not there")
-    others = [file for file in there if file not in listed]
-    # A file's neighbours in the wrong order would do no harm: messages are sorted by their times.
+            problems.add(f"{_METADATA} lists {Path(name).name}, which does not exist")
+    others = [file for file in existing if file not in listed]
+    # The order of these files does not matter, because messages are sorted by time.
     if metadata and others:
-        problems.add(f"{_METADATA} does not name {', '.join(file.name for file in others)}: read all the same")
+        names = ", ".join(file.name for file in others)
+        problems.add(f"{_METADATA} does not list {names}; {'it was' if len(others) == 1 else 'they were'} read as well")
     return list(dict.fromkeys([*listed, *others]))
 
 
@@ -87,14 +91,14 @@ def _is_candidate(file: Path) -> bool:
     try:
         with file.open("rb") as opened:
             start = opened.read(16)
-    except FileNotFoundError:  # gone since it was listed: a recorder at work renames its new metadata
+    except FileNotFoundError:  # A running recorder renames its metadata between the listing and this line.
         return False
     suffixes = [suffix for suffix in file.suffixes if suffix != ".zstd"]
-    return any(start.startswith(magic) for magic in _KINDS) or bool(suffixes and suffixes[-1] in _SUFFIXES)
+    return any(start.startswith(magic) for magic in _READERS) or bool(suffixes and suffixes[-1] in _SUFFIXES)
 
 
 def _natural(file: Path) -> list[tuple[int, int, str]]:
-    """Numbers in names count as numbers: run_2 comes before run_10."""
+    """Return a key that sorts numbers in names by value: run_2 before run_10."""
     return [
         (1, int(part), "") if part.isascii() and part.isdigit() else (0, 0, part)
         for part in re.split(r"(\d+)", file.name)
@@ -106,22 +110,24 @@ def _open(file: Path, problems: Problems, closing: ExitStack) -> Storage | None:
         start = opened.read(16)
     if start.startswith(_ZSTD):
         file, start = _unpacked(file, closing)
-    for magic, kind in _KINDS.items():
+    for magic, reader in _READERS.items():
         if start.startswith(magic):
-            storage = kind(file, problems)
+            storage = reader(file, problems)
             closing.callback(storage.close)
             return storage
     if start.startswith(b"#ROSBAG V1"):
-        problems.add(f"{file.name}: bags of version 1 are not read; `rosbag fix` of ROS 1 makes them version 2.0")
-    else:
         problems.add(
-            f"{file.name}: {'it is empty' if not start else 'it is neither MCAP nor SQLite nor a bag of ROS 1'}"
+            f"{file.name}: bags of version 1 are not supported; convert it to version 2.0 with `rosbag fix` of ROS 1"
         )
+    elif not start:
+        problems.add(f"{file.name}: the file is empty")
+    else:
+        problems.add(f"{file.name}: the file is neither MCAP nor SQLite nor a bag of ROS 1")
     return None
 
 
 def _unpacked(file: Path, closing: ExitStack) -> tuple[Path, bytes]:
-    """A file that was compressed as a whole, in a folder that lasts as long as the recording is open."""
+    """Unpack a file that was compressed as a whole, into a folder that exists while the recording is open."""
     try:
         zstandard: Any = importlib.import_module("zstandard")
     except ModuleNotFoundError:
@@ -130,7 +136,7 @@ def _unpacked(file: Path, closing: ExitStack) -> tuple[Path, bytes]:
         ) from None
     folder = Path(closing.enter_context(tempfile.TemporaryDirectory(prefix="coframe-")))
     target = folder / file.name.removesuffix(".zstd")
-    # What comes out of a damaged file is cut off, and will say so.
+    # A damaged file yields a truncated one, and reading that reports the damage.
     with file.open("rb") as packed, target.open("wb") as whole, suppress(zstandard.ZstdError):
         shutil.copyfileobj(zstandard.ZstdDecompressor().stream_reader(packed), whole)
     with target.open("rb") as opened:
@@ -138,7 +144,7 @@ def _unpacked(file: Path, closing: ExitStack) -> tuple[Path, bytes]:
 
 
 def _metadata(file: Path, problems: Problems) -> dict[str, Any]:
-    """What metadata.yaml says; nothing if it is not there or not readable, which does no harm."""
+    """Return the contents of metadata.yaml; empty if it is missing or damaged, because it is not required."""
     if not file.is_file():
         return {}
     try:
@@ -153,7 +159,7 @@ def _metadata(file: Path, problems: Problems) -> dict[str, Any]:
         found = dict(yaml.load(text, Loader=loader)["rosbag2_bagfile_information"])
     except (yaml.YAMLError, ValueError, TypeError, KeyError, RecursionError, OverflowError) as error:
         reason = " ".join(str(error).split())[:200]
-        problems.add(f"{_METADATA} is damaged ({reason}): the files were read without it")
+        problems.add(f"{_METADATA} is damaged ({reason}); the files were read without it")
         found = {}
     return found
 

@@ -1,4 +1,4 @@
-"""Recorded messages as ROS 2 sends them: those of ROS 1 are turned into CDR where ROS 2 has the type."""
+"""Conversion of recorded messages to CDR: those of ROS 1 are converted if ROS 2 has the type."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ if TYPE_CHECKING:
     from coframe.bags.storage import Channel
     from coframe.messages.generated.geometry_msgs.msg import TransformStamped
 
-__all__ = ["as_cdr", "transforms_of"]
+__all__ = ["cdr_converter", "decode_transforms"]
 
 
-def as_cdr(channel: Channel) -> tuple[str, Callable[[bytes], bytes]] | None:
-    """The ROS 2 type of a channel, and what turns its messages into CDR; None where that is not possible.
+def cdr_converter(channel: Channel) -> tuple[str, Callable[[bytes], bytes]] | None:
+    """Return the ROS 2 type of a channel and the function that converts its messages to CDR.
 
-    Raises:
-        Exception: (What is returned, when it is called.) The bytes are damaged.
+    Returns:
+        None if the messages cannot be converted. The function raises an Exception if the bytes are damaged.
     """
     if channel.encoding == "cdr":
         return channel.type, bytes
@@ -33,16 +33,16 @@ def as_cdr(channel: Channel) -> tuple[str, Callable[[bytes], bytes]] | None:
     return name, functools.partial(_from_ros1, name)
 
 
-def transforms_of(convert: Callable[[bytes], bytes], data: bytes) -> list[TransformStamped]:
-    """The transforms in a message of them; none of a damaged one, which is told of when it is dealt with itself.
+def decode_transforms(convert: Callable[[bytes], bytes], data: bytes) -> list[TransformStamped]:
+    """Return the transforms of a TFMessage; an empty list if it is damaged.
 
     Args:
-        convert: As `as_cdr` gives it.
-        data: The message as it was recorded.
+        convert: The function of :func:`cdr_converter`.
+        data: The message as recorded.
     """
     try:
         return list(deserialize(convert(data), find("tf2_msgs/msg/TFMessage")).transforms)
-    except Exception:  # noqa: BLE001 - the libraries have many ways to say that bytes are damaged
+    except Exception:  # noqa: BLE001 - rosbags raises errors of many kinds; reading the message itself reports them
         return []
 
 

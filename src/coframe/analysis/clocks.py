@@ -1,0 +1,85 @@
+"""The one rule for which clock stamps are on: the system clock, simulated time, or another clock."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Literal
+
+from coframe.time import HOUR, MINUTE
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["SAME_CLOCK", "ClockName", "clock_of", "group_by_clock", "is_same_clock", "present_for"]
+
+ClockName = Literal["wall", "simulated", "other"]
+
+SAME_CLOCK = HOUR
+"""Times that differ by at least this much, in nanoseconds, are not on one clock: no delay explains the difference."""
+# Simulated time is compared with /clock at the time of receipt, which leaves much less room.
+_SAME_SIMULATED_CLOCK = MINUTE
+
+
+def is_same_clock(first: float, second: float) -> bool:
+    """Return whether two times can be on one clock, both in nanoseconds."""
+    return abs(first - second) < SAME_CLOCK
+
+
+def clock_of(wall_lag: float, simulated_lag: float | None = None) -> ClockName:
+    """Return which clock stamps are on.
+
+    Args:
+        wall_lag: The median of the times of receipt minus the stamps, in nanoseconds.
+        simulated_lag: The median of the simulated time at receipt minus the stamps, in nanoseconds; None without
+            simulated time.
+
+    Returns:
+        "wall" for the system clock, "simulated" for the time of /clock, else "other".
+
+    Example:
+        >>> clock_of(20e6), clock_of(1.7e18, 5e6), clock_of(1.7e18)
+        ('wall', 'simulated', 'other')
+    """
+    if simulated_lag is not None and abs(simulated_lag) < _SAME_SIMULATED_CLOCK:
+        return "simulated"
+    return "wall" if abs(wall_lag) < SAME_CLOCK else "other"
+
+
+def group_by_clock(spans: Sequence[tuple[int, int]]) -> list[list[int]]:
+    """Group spans of time by clock: spans that are less than :data:`SAME_CLOCK` apart are on one clock.
+
+    Args:
+        spans: The first and the last time of each span, in nanoseconds.
+
+    Returns:
+        The positions of the spans of each clock; the clock with the earliest time first.
+
+    Example:
+        >>> from coframe.time import DAY, SECOND
+        >>> group_by_clock([(0, SECOND), (DAY, DAY + SECOND), (2 * SECOND, 3 * SECOND)])
+        [[0, 2], [1]]
+    """
+    groups: list[list[int]] = []
+    latest = 0
+    for position in sorted(range(len(spans)), key=lambda position: spans[position]):
+        first, last = spans[position]
+        if not groups or first > latest + SAME_CLOCK:
+            groups.append([])
+            latest = last
+        groups[-1].append(position)
+        latest = max(latest, last)
+    return groups
+
+
+def present_for(newest: int, wall: int | None = None) -> int | None:
+    """Return the present time by the clock of the stamps that are being received.
+
+    Args:
+        newest: The newest stamp, in nanoseconds.
+        wall: The system time in nanoseconds; None to read the clock.
+
+    Returns:
+        The system time if the newest stamp can be on that clock; else None, as the present is not known.
+    """
+    now = time.time_ns() if wall is None else wall
+    return now if is_same_clock(now, newest) else None

@@ -1,0 +1,110 @@
+"""TrajectoryQuery: the poses of one frame relative to another, requested in the same way from any recording."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from coframe import time
+from coframe.bags.time_points import parse_time_point
+from coframe.errors import RecordingError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from coframe.bags.recording import Recording
+    from coframe.transform import Transform
+
+__all__ = ["MAX_RATE", "TrajectoryQuery"]
+
+MAX_RATE = 1e6  # Hz
+
+
+@dataclass(frozen=True)
+class TrajectoryQuery:
+    """Describes which poses of ``source`` relative to ``target`` to look up.
+
+    Attributes:
+        target: The frame in which the poses are expressed.
+        source: The frame that moves.
+        rate: Poses per second (Hz); None: one pose per recorded sample.
+        stamps_of: A topic. One pose at the stamp of each of its messages, instead of a rate.
+        start: The first stamp: nanoseconds, or text that :func:`coframe.bags.parse_time_point` reads for each
+            recording.
+        stop: The last stamp, as nanoseconds or text.
+        namespace: Passed to :func:`coframe.open_bag`, as are the three attributes below.
+        tf_topics: The topics of transforms to read.
+        prefix: The prefix for the names of frames.
+        keep: Frames without the prefix, separated by commas.
+
+    Raises:
+        ValueError: Both ``rate`` and ``stamps_of`` are given, or the rate is out of range.
+    """
+
+    target: str
+    source: str
+    rate: float | None = None
+    stamps_of: str | None = None
+    start: int | str | None = None
+    stop: int | str | None = None
+    namespace: str | None = None
+    tf_topics: tuple[str, ...] | None = None
+    prefix: str = ""
+    keep: str = ""
+
+    def __post_init__(self) -> None:
+        if self.rate is not None and self.stamps_of is not None:
+            raise ValueError("rate and stamps_of are mutually exclusive: give one of them")
+        if self.rate is not None and not 0 < self.rate <= MAX_RATE:
+            raise ValueError(f"rate must be above 0 and at most {MAX_RATE:g} Hz, not {self.rate:g}")
+
+    def run(self, recording: Recording) -> tuple[Transform, int]:
+        """Return the poses, at least one, and the number of stamps omitted because there is no transform.
+
+        Raises:
+            RecordingError: There are no stamps between ``start`` and ``stop``, or the topic does not exist.
+            TransformException: A frame does not exist, or the frames are not connected.
+            ValueError: ``start`` or ``stop`` is not a point in time.
+        """
+        buffer = recording.buffer
+        start, stop = _nanoseconds(self.start, recording), _nanoseconds(self.stop, recording)
+        if self.rate is None and self.stamps_of is None:
+            poses = buffer.trajectory(self.target, self.source, start, stop)
+            if not len(poses):
+                raise _no_stamps(recording)
+            return poses, 0
+        if self.stamps_of is not None:
+            stamps = np.unique(recording.stamps(self.stamps_of))
+            first, last = stamps[:1] if start is None else start, stamps[-1:] if stop is None else stop
+            stamps = stamps[(stamps >= first) & (stamps <= last)]
+        else:
+            stamps = _stamps_at_rate(buffer.span(self.target, self.source), start, stop, self.rate or 1.0)
+        if not stamps.size:
+            raise _no_stamps(recording)
+        poses = buffer.lookup_many(self.target, self.source, stamps, on_error="nan")
+        found = ~np.isnan(poses.translation[:, 0])
+        return poses[found], int(np.count_nonzero(~found))
+
+
+def _no_stamps(recording: Recording) -> RecordingError:
+    first, last = (f"{stamp / time.SECOND:.3f} s" for stamp in recording.span)
+    return RecordingError(
+        "No stamps between the start and the stop of the query.",
+        hint=f"The transforms of the recording have stamps from {first} to {last}.",
+    )
+
+
+def _nanoseconds(when: int | str | None, recording: Recording) -> int | None:
+    return parse_time_point(when, recording.span) if isinstance(when, str) else when
+
+
+def _stamps_at_rate(span: tuple[int, int], start: int | None, stop: int | None, rate: float) -> NDArray[np.int64]:
+    first = span[0] if start is None else max(start, span[0])
+    last = span[1] if stop is None else min(stop, span[1])
+    if last < first:
+        return np.empty(0, dtype=np.int64)
+    count = int((last - first) * rate / time.SECOND) + 1
+    offsets = np.rint(np.arange(count) * (time.SECOND / rate))
+    return np.asarray(first + offsets.astype(np.int64))

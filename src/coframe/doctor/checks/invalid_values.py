@@ -1,0 +1,100 @@
+"""TF019: quaternions that are not rotations, and values that are not finite."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from coframe.doctor.finding import Finding, Severity
+from coframe.doctor.transforms import NORM_TOLERANCE
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+    from coframe.doctor.observation import Observation
+    from coframe.doctor.transforms import Transforms
+
+__all__ = ["CODE", "find"]
+
+CODE = "TF019"
+# Quaternions that are computed in single precision are off by less.
+_ROUNDING = 1e-6
+_NORMALIZE = "normalize it before publishing: q / numpy.linalg.norm(q)"
+
+
+def find(observation: Observation) -> Iterator[Finding]:
+    """Yield one finding per edge and kind of problem."""
+    transforms = observation.transforms
+    if not len(transforms):
+        return
+    with np.errstate(invalid="ignore", over="ignore"):
+        off = np.abs(np.sqrt(transforms.squared_norms) - 1.0)
+        zero = transforms.finite & (transforms.squared_norms == 0.0)
+        refused = transforms.finite & ~zero & (np.abs(transforms.squared_norms - 1.0) >= NORM_TOLERANCE)
+        rounded = transforms.finite & ~zero & ~refused & (off > _ROUNDING)
+    yield from _kind(
+        transforms,
+        ~transforms.finite,
+        Severity.ERROR,
+        "{count} of {all} transforms contain NaN or infinity; tf2 refuses them",
+        "Find the division by zero or the field that was not set, and check before publishing: "
+        "if all(map(math.isfinite, values)): broadcaster.sendTransform(t)",
+        off,
+    )
+    yield from _kind(
+        transforms,
+        zero,
+        Severity.ERROR,
+        "{count} of {all} transforms have the quaternion 0, 0, 0, 0, which means that the rotation was not set; tf2 "
+        "refuses them",
+        "Set it: t.transform.rotation.w = 1.0",
+        off,
+    )
+    yield from _kind(
+        transforms,
+        refused,
+        Severity.ERROR,
+        "{count} of {all} transforms have a quaternion that is not a rotation, its length is off by up to {off:.3g}; "
+        "tf2 refuses them",
+        f"Check the order x, y, z, w, and {_NORMALIZE}.",
+        off,
+    )
+    yield from _kind(
+        transforms,
+        rounded,
+        Severity.NOTE,
+        "{count} of {all} quaternions are not exactly normalized, their length is off by up to {off:.2g}; tf2 accepts "
+        "them",
+        f"Use more digits (0.70710678 instead of 0.707), or {_NORMALIZE}.",
+        off,
+        "The error grows along the chain, and other programs accept less than the half percent that tf2 accepts.",
+    )
+
+
+def _kind(
+    transforms: Transforms,
+    affected: NDArray[np.bool_],
+    severity: Severity,
+    text: str,
+    fix: str,
+    off: NDArray[np.float64],
+    harm: str = "",
+) -> Iterator[Finding]:
+    rows = np.flatnonzero(affected)
+    for number in np.unique(transforms.edge[rows]).tolist():
+        own = rows[transforms.edge[rows] == number]
+        parent, child = transforms.pair(number)
+        worst = float(off[own].max()) if np.isfinite(off[own]).all() else float("nan")
+        yield Finding(
+            code=CODE,
+            severity=severity,
+            text=text.format(count=len(own), all=int(np.count_nonzero(transforms.edge == number)), off=worst),
+            fix=fix,
+            harm=harm,
+            edge=(parent.lstrip("/"), child.lstrip("/")),
+            first_stamp=int(transforms.stamp[own[0]]),
+            publishers=transforms.publishers_of(own),
+        )

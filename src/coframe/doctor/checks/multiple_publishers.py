@@ -1,0 +1,71 @@
+"""TF003: an edge with several publishers whose poses differ, so that it flickers."""
+
+from __future__ import annotations
+
+from math import degrees
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from coframe.doctor.finding import Finding, Severity
+from coframe.doctor.flicker import flicker
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from coframe.doctor.edge import Edge
+    from coframe.doctor.observation import Observation
+
+__all__ = ["CODE", "find"]
+
+CODE = "TF003"
+_CHANGES = 3
+
+
+def find(observation: Observation) -> Iterator[Finding]:
+    """Yield one finding per edge, by its publishers if they are known, else by its poses."""
+    for edge in (edge.current for edge in observation.edges):
+        if len(edge.publishers) > 1:
+            yield from _known_publishers(edge)
+        elif not edge.publishers and not edge.static:
+            yield from _unknown_publishers(edge)
+
+
+def _known_publishers(edge: Edge) -> Iterator[Finding]:
+    changes = int(np.count_nonzero(np.diff(edge.publisher)))
+    if not edge.static and changes < _CHANGES:
+        return  # one publisher has replaced the other
+    found = flicker(edge)
+    differ = found is not None or (edge.static and not edge.constant)
+    first, second, *_ = edge.publishers
+    jumps = f": the pose jumps by {_size(found.distance, found.angle)} {found.jumps} times" if found else ""
+    yield Finding(
+        code=CODE,
+        severity=Severity.ERROR if differ else Severity.NOTE,
+        text=f"{len(edge.publishers)} publishers"
+        + (f" with different poses{jumps}" if differ else " with equal or nearly equal poses"),
+        fix=f"Stop {first} or {second}, or disable the transform in one of them (lab: publish_arm:=false; "
+        "robot_localization: publish_tf: false; diff_drive_controller: enable_odom_tf: false).",
+        harm="" if differ else "As soon as one of them lags behind or publishes another pose, the transform flickers.",
+        edge=edge.key,
+        first_stamp=edge.first_stamp,
+        publishers=edge.publishers,
+    )
+
+
+def _unknown_publishers(edge: Edge) -> Iterator[Finding]:
+    found = flicker(edge)
+    if found is not None:
+        yield Finding(
+            code=CODE,
+            severity=Severity.ERROR,
+            text=f"the pose jumps by {_size(found.distance, found.angle)} and back {found.jumps} times, as with two "
+            "publishers that disagree; the recording does not contain their names",
+            fix=f"On the running robot, `coframe doctor` names the publishers of {edge.name}: stop one of them.",
+            edge=edge.key,
+            first_stamp=int(edge.stamp[found.first]),
+        )
+
+
+def _size(distance: float, angle: float) -> str:
+    return f"{distance:.3g} m and {degrees(angle):.3g} degrees"

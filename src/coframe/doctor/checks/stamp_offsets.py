@@ -1,0 +1,93 @@
+"""TF008: stamps that are ahead of the clock or far behind it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from coframe.doctor.finding import Finding, Severity
+from coframe.formatting import duration
+from coframe.time import MILLISECOND, SECOND
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from numpy.typing import NDArray
+
+    from coframe.doctor.edge import Edge
+    from coframe.doctor.observation import Observation
+
+__all__ = ["CODE", "find"]
+
+CODE = "TF008"
+_AHEAD = 20 * MILLISECOND
+_BEHIND = 500 * MILLISECOND
+# Localization nodes stamp map -> odom ahead of time, by their parameter transform_tolerance.
+_TOLERANCE = 2 * SECOND
+_LEAST = 5
+
+
+def find(observation: Observation) -> Iterator[Finding]:
+    """Yield one finding per dynamic edge, and one per sensor whose stamps are not set."""
+    for edge in observation.dynamic:
+        lags = observation.lags(edge.stamp, edge.arrived)
+        if lags is None or edge.count < _LEAST:
+            continue
+        if np.mean(lags < -_AHEAD) > 0.05:
+            yield _ahead(edge, lags)
+        elif np.median(lags) > _BEHIND:
+            yield _behind(edge, lags)
+    for sensor in observation.sensors:
+        unset = int(np.count_nonzero(sensor.stamp == 0))
+        # A few stamps of 0 are right: simulations begin at 0.
+        if unset >= _LEAST and unset > 0.05 * len(sensor.stamp):
+            yield Finding(
+                code=CODE,
+                severity=Severity.WARNING,
+                text=f"{unset} of {len(sensor.stamp)} messages have the stamp 0, which means that it was not set",
+                fix="In the node of the sensor: msg.header.stamp = self.get_clock().now().to_msg()",
+                harm="tf2 interprets time 0 as the latest: the data is transformed with the pose at the time of the "
+                "lookup, not of the measurement.",
+                topic=sensor.topic,
+                frames=frozenset({sensor.frame}),
+                first_stamp=0,
+                publishers=(sensor.publisher,) if sensor.publisher else (),
+            )
+
+
+def _ahead(edge: Edge, lags: NDArray[np.int64]) -> Finding:
+    most, median = -int(lags.min()), -float(np.median(lags))
+    usual = most <= _TOLERANCE and (edge.constant or edge.child.rpartition("/")[2] == "odom")
+    row = int(np.argmax(lags < -_AHEAD))
+    return Finding(
+        code=CODE,
+        severity=Severity.NOTE if usual else Severity.WARNING,
+        text=f"{np.count_nonzero(lags < 0)} of {edge.count} stamps are ahead of the clock on arrival, by up to "
+        f"{duration(most)}, median {duration(median)}"
+        + ("; this is usual for localization and for constant transforms that are repeated" if usual else ""),
+        fix="Nothing needs to be done if this is the transform_tolerance of the localization or the period of an old "
+        "static_transform_publisher."
+        if usual
+        else "Use the time of the measurement as stamp: t.header.stamp = self.get_clock().now().to_msg(). With several "
+        "machines, synchronize their clocks (chronyc tracking).",
+        edge=edge.key,
+        first_stamp=int(edge.stamp[row]),
+        publishers=edge.publishers,
+    )
+
+
+def _behind(edge: Edge, lags: NDArray[np.int64]) -> Finding:
+    timeout = np.ceil(lags.max() / (100 * MILLISECOND)) / 10
+    return Finding(
+        code=CODE,
+        severity=Severity.WARNING,
+        text=f"arrives {duration(float(np.median(lags)))} after its stamp (median; at most "
+        f"{duration(int(lags.max()))})",
+        fix="Publish the transform as soon as it is measured, with the stamp of the measurement; with several "
+        "machines, synchronize their clocks (chronyc tracking). Consumers have to wait for it: "
+        f"lookup_transform(..., timeout=Duration(seconds={timeout:g})).",
+        edge=edge.key,
+        first_stamp=edge.first_stamp,
+        publishers=edge.publishers,
+    )
