@@ -62,6 +62,7 @@ lint: $(STAMP) ## check style, words, import directions and generated files
 	$(BIN)/python scripts/check_words.py
 	$(BIN)/lint-imports --no-cache
 	$(BIN)/python scripts/generate_messages.py --check
+	$(BIN)/python scripts/generate_protocol.py --check
 
 typecheck: $(STAMP) ## run mypy --strict, and compare the stub with the native module
 	$(BIN)/mypy
@@ -80,8 +81,9 @@ $(VENV)/.bench: pyproject.toml | $(STAMP)
 bench: $(VENV)/.bench ## compare coframe with its peers in one table; fail when a target is missed
 	@$(BIN)/python -E -m benchmarks $(ARGS)
 
-generate: $(STAMP) ## generate the message classes from interfaces/
+generate: $(STAMP) ## generate the message classes from interfaces/, and the page's side of the viewer's protocol
 	$(BIN)/python scripts/generate_messages.py
+	$(BIN)/python scripts/generate_protocol.py
 
 page: ## build the viewer's page from viewer/ into src/coframe/viewer/static (needs Node.js and npm)
 	cd viewer && npm ci --silent && npm run --silent build

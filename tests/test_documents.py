@@ -98,5 +98,5 @@ coframe.cli.main()
 """
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert "pip install 'coframe[" in result.stdout
-    assert "pip install 'coframe[all]'" in result.stderr
+    assert "pip install 'coframe[cli]'" in result.stderr
     assert "Traceback" not in result.stderr

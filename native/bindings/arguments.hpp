@@ -8,6 +8,7 @@
 #endif
 
 #include <string_view>
+#include <vector>
 
 #include "bindings/buffer.hpp"
 #include "core/query.hpp"
@@ -57,6 +58,12 @@ std::int64_t to_duration(nb::handle duration);
 LookupQuery query_of(BufferObject& buffer, nb::handle target, nb::handle source, nb::handle stamp);
 LookupQuery full_query_of(BufferObject& buffer, nb::handle target, nb::handle target_stamp, nb::handle source,
                           nb::handle source_stamp, nb::handle fixed);
+
+// The numbers of an array as bytes.
+template <class Number>
+nb::bytes array_bytes(const std::vector<Number>& numbers) {
+  return nb::bytes(numbers.data(), numbers.size() * sizeof(Number));
+}
 
 // An object with the buffer protocol, held while its memory is used.
 class Memory {

@@ -17,11 +17,6 @@ namespace coframe::bindings {
 
 namespace {
 
-template <class T>
-nb::bytes bytes_of(const std::vector<T>& values) {
-  return nb::bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-}
-
 nb::tuple mcap_records(nb::handle data) {
   const Memory bytes(data, PyBUF_SIMPLE);
   McapRecords found;
@@ -31,8 +26,8 @@ nb::tuple mcap_records(nb::handle data) {
   }
   nb::list definitions;
   for (const auto& [opcode, start, end] : found.definitions) definitions.append(nb::make_tuple(opcode, start, end));
-  return nb::make_tuple(bytes_of(found.channels), bytes_of(found.times), bytes_of(found.records),
-                        bytes_of(found.starts), bytes_of(found.ends), definitions, found.size);
+  return nb::make_tuple(array_bytes(found.channels), array_bytes(found.times), array_bytes(found.records),
+                        array_bytes(found.starts), array_bytes(found.ends), definitions, found.size);
 }
 
 TransformStream::Encoding encoding_of(std::string_view name) {
@@ -90,8 +85,8 @@ class TransformColumns {
       names.append(nb::steal<nb::str>(
           PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace")));
     }
-    return nb::make_tuple(bytes_of(messages_), bytes_of(stamps_), bytes_of(parents_), bytes_of(children_),
-                          bytes_of(values_), names, damaged_, nb::str(reason_));
+    return nb::make_tuple(array_bytes(messages_), array_bytes(stamps_), array_bytes(parents_), array_bytes(children_),
+                          array_bytes(values_), names, damaged_, nb::str(reason_));
   }
 
  private:

@@ -117,14 +117,14 @@ PyObject* describe(PyObject* object) {
   return guarded([&] { return name_of(text_of(failure_of(object))).release().ptr(); });
 }
 
-void deallocate(PyObject* object) {
+void deallocate_failure(PyObject* object) {
   PyTypeObject* type = Py_TYPE(object);
   failure_of(object).~FailureObject();
   type->tp_free(object);
   Py_DECREF(type);
 }
 
-PyGetSetDef properties[] = {{"code", &get<&code>, nullptr, nullptr, nullptr},
+PyGetSetDef failure_properties[] = {{"code", &get<&code>, nullptr, nullptr, nullptr},
                             {"target", &get<&target>, nullptr, nullptr, nullptr},
                             {"source", &get<&source>, nullptr, nullptr, nullptr},
                             {"requested", &get<&requested>, nullptr, nullptr, nullptr},
@@ -136,14 +136,14 @@ PyGetSetDef properties[] = {{"code", &get<&code>, nullptr, nullptr, nullptr},
                             {"parents", &get<&parents>, nullptr, nullptr, nullptr},
                             {nullptr, nullptr, nullptr, nullptr, nullptr}};
 
-PyType_Slot slots[] = {{Py_tp_doc, const_cast<char*>("The facts of a failed look-up; str() gives tf2's text.")},
-                       {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate)},
+PyType_Slot failure_slots[] = {{Py_tp_doc, const_cast<char*>("The facts of a failed look-up; str() gives tf2's text.")},
+                       {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate_failure)},
                        {Py_tp_str, reinterpret_cast<void*>(&describe)},
-                       {Py_tp_getset, properties},
+                       {Py_tp_getset, failure_properties},
                        {0, nullptr}};
 
-PyType_Spec spec = {"coframe._core.Failure", sizeof(Object), 0,
-                    Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
+PyType_Spec failure_spec = {"coframe._core.Failure", sizeof(Object), 0,
+                    Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, failure_slots};
 
 nb::object make_failure(FailureObject&& failure) {
   nb::object object = nb::steal(failure_class->tp_alloc(failure_class, 0));
@@ -185,7 +185,7 @@ void raise_decode_error(const DecodeFailure& failure) {
 }
 
 void define_failure(nb::module_& module) {
-  const nb::object type = nb::steal(PyType_FromSpec(&spec));
+  const nb::object type = nb::steal(PyType_FromSpec(&failure_spec));
   if (!type.is_valid()) throw nb::python_error();
   module.attr("Failure") = type;
   failure_class = reinterpret_cast<PyTypeObject*>(type.inc_ref().ptr());

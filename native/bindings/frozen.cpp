@@ -21,11 +21,6 @@ const Buffer& frozen_core(nb::handle buffer) {
   return core;
 }
 
-template <class T>
-nb::bytes bytes_of(const std::vector<T>& values) {
-  return nb::bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-}
-
 // (table, number of chunks).
 nb::tuple frozen_parts(nb::handle buffer) {
   return frozen_core(buffer).read([](const Tree& tree) {
@@ -88,7 +83,7 @@ nb::tuple samples_of(nb::handle buffer, std::string_view child) {
       if (is_new) names.append(tree.name(sample.parent));
       parents[i] = place->second;
     }
-    return nb::make_tuple(bytes_of(stamps), bytes_of(poses), bytes_of(parents), names);
+    return nb::make_tuple(array_bytes(stamps), array_bytes(poses), array_bytes(parents), names);
   });
 }
 

@@ -20,7 +20,7 @@ std::int64_t now() {
 }
 
 // What Relay passes on is UTF-8, but examples of names may be cut anywhere.
-nb::str text_of(const std::string& name) {
+nb::str to_str(const std::string& name) {
   return nb::steal<nb::str>(
       PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace"));
 }
@@ -32,7 +32,7 @@ void add(Relay& self, Relay::SourceId source, Relay::WriterId writer, nb::bytes 
            now<std::chrono::system_clock>());
 }
 
-nb::object take(Relay& self) {
+nb::object take_relayed(Relay& self) {
   const std::string message = self.take();
   return message.empty() ? nb::object(nb::none()) : nb::object(nb::bytes(message.data(), message.size()));
 }
@@ -43,14 +43,14 @@ nb::list edges(const Relay& self) {
     const Relay::Claim& claim = self.claim(edge);
     if (edge.passed == 0 && claim.rival == Relay::kNobody) continue;
     const bool contested = claim.rival != Relay::kNobody;
-    list.append(nb::make_tuple(text_of(edge.parent), text_of(claim.child), claim.source, edge.writer,
+    list.append(nb::make_tuple(to_str(edge.parent), to_str(claim.child), claim.source, edge.writer,
                                contested ? nb::int_(claim.rival) : nb::object(nb::none()), claim.contested,
                                edge.passed, edge.thinned, edge.newest, edge.received_at));
   }
   return list;
 }
 
-nb::list writers(const Relay& self, Relay::SourceId source) {
+nb::list relay_writers(const Relay& self, Relay::SourceId source) {
   if (source >= self.sources()) throw nb::index_error("there is no such source");
   nb::list list;
   for (const auto& [handle, writer] : self.writers(source)) {
@@ -66,8 +66,8 @@ nb::tuple writer_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_
                        const ArrivalPeriod& period, const StampDelay& delay,
                       const NameProblems& name_problems) {
   const nb::object behind = delay.known() ? nb::object(nb::int_(delay.typical())) : nb::object(nb::none());
-  return nb::make_tuple(writer, messages, received_at, period.median(), behind, text_of(name_problems.slashed), text_of(name_problems.prefixed),
-                        text_of(name_problems.plain));
+  return nb::make_tuple(writer, messages, received_at, period.median(), behind, to_str(name_problems.slashed), to_str(name_problems.prefixed),
+                        to_str(name_problems.plain));
 }
 
 void define_relay(nb::module_& module) {
@@ -88,10 +88,10 @@ void define_relay(nb::module_& module) {
           nb::arg("renaming"), nb::arg("split"), "The number of another source.")
       .def("add", &add, nb::arg("source"), nb::arg("writer"), nb::arg("message"), nb::arg("at") = -1,
            "Takes a message in that came from a writer of a source.")
-      .def("take", &take, "One message of what was taken in since the last one, or None.")
+      .def("take", &take_relayed, "One message of what was taken in since the last one, or None.")
       .def("forget_writer", &Relay::forget_writer, nb::arg("source"), nb::arg("writer"), "The writer has left.")
       .def("edges", &edges, "What is known of each edge.")
-      .def("writers", &writers, nb::arg("source"), "What each writer of a source has sent.");
+      .def("writers", &relay_writers, nb::arg("source"), "What each writer of a source has sent.");
 }
 
 }  // namespace coframe::bindings

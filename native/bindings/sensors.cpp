@@ -8,6 +8,7 @@
 
 #include "bindings/arguments.hpp"
 #include "bindings/bindings.hpp"
+#include "kernels/levels.hpp"
 #include "sensors/deskew.hpp"
 #include "sensors/transform.hpp"
 

@@ -51,7 +51,7 @@ int initialise(PyObject* object, PyObject* arguments, PyObject* keywords) {
   return 0;
 }
 
-void deallocate(PyObject* object) {
+void deallocate_transform(PyObject* object) {
   TransformObject* self = self_of(object);
   PyTypeObject* type = Py_TYPE(object);
   Py_XDECREF(self->target);
@@ -61,39 +61,39 @@ void deallocate(PyObject* object) {
   Py_DECREF(type);
 }
 
-PyObject* values(PyObject* object, void*) {
+PyObject* get_values(PyObject* object, void*) {
   const Pose& pose = self_of(object)->pose;
   return Py_BuildValue("(ddddddd)", pose.p[0], pose.p[1], pose.p[2], pose.q[0], pose.q[1], pose.q[2], pose.q[3]);
 }
 
-PyObject* stamp(PyObject* object, void*) {
+PyObject* get_stamp(PyObject* object, void*) {
   const TransformObject* self = self_of(object);
   return self->has_stamp ? PyLong_FromLongLong(self->stamp) : Py_NewRef(Py_None);
 }
 
-PyObject* beyond(PyObject* object, void*) { return PyLong_FromLongLong(self_of(object)->beyond); }
-PyObject* target(PyObject* object, void*) { return or_none(self_of(object)->target); }
-PyObject* source(PyObject* object, void*) { return or_none(self_of(object)->source); }
-PyObject* batch(PyObject* object, void*) { return or_none(self_of(object)->batch); }
+PyObject* get_beyond(PyObject* object, void*) { return PyLong_FromLongLong(self_of(object)->beyond); }
+PyObject* get_target(PyObject* object, void*) { return or_none(self_of(object)->target); }
+PyObject* get_source(PyObject* object, void*) { return or_none(self_of(object)->source); }
+PyObject* get_batch(PyObject* object, void*) { return or_none(self_of(object)->batch); }
 
-PyGetSetDef properties[] = {
-    {"values", values, nullptr, "(x, y, z, qx, qy, qz, qw) as floats; of a batch: the identity.", nullptr},
-    {"stamp", stamp, nullptr, "Nanoseconds, or None.", nullptr},
-    {"target", target, nullptr, "The frame that the values are told in, or None.", nullptr},
-    {"source", source, nullptr, "The frame that the values are of, or None.", nullptr},
-    {"_beyond", beyond, nullptr, "How many nanoseconds beyond the data of a link it was extrapolated.", nullptr},
-    {"_batch", batch, nullptr, "None, or (translations, quaternions, stamps, extrapolated) as arrays.", nullptr},
+PyGetSetDef transform_properties[] = {
+    {"values", get_values, nullptr, "(x, y, z, qx, qy, qz, qw) as floats; of a batch: the identity.", nullptr},
+    {"stamp", get_stamp, nullptr, "Nanoseconds, or None.", nullptr},
+    {"target", get_target, nullptr, "The frame that the values are told in, or None.", nullptr},
+    {"source", get_source, nullptr, "The frame that the values are of, or None.", nullptr},
+    {"_beyond", get_beyond, nullptr, "How many nanoseconds beyond the data of a link it was extrapolated.", nullptr},
+    {"_batch", get_batch, nullptr, "None, or (translations, quaternions, stamps, extrapolated) as arrays.", nullptr},
     {nullptr, nullptr, nullptr, nullptr, nullptr}};
 
-PyType_Slot slots[] = {{Py_tp_doc, const_cast<char*>("One pose with its frames and stamp, or a batch of them.")},
+PyType_Slot transform_slots[] = {{Py_tp_doc, const_cast<char*>("One pose with its frames and stamp, or a batch of them.")},
                        {Py_tp_init, reinterpret_cast<void*>(&initialise)},
                        {Py_tp_new, reinterpret_cast<void*>(&PyType_GenericNew)},
-                       {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate)},
-                       {Py_tp_getset, properties},
+                       {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate_transform)},
+                       {Py_tp_getset, transform_properties},
                        {0, nullptr}};
 
-PyType_Spec spec = {"coframe._core.Transform", sizeof(TransformObject), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE,
-                    slots};
+PyType_Spec transform_spec = {"coframe._core.Transform", sizeof(TransformObject), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE,
+                    transform_slots};
 
 }  // namespace
 
@@ -136,14 +136,14 @@ void make_light(PyTypeObject* type) {
   type->tp_traverse = nullptr;
   type->tp_clear = nullptr;
   type->tp_free = PyObject_Free;
-  type->tp_dealloc = &deallocate;
+  type->tp_dealloc = &deallocate_transform;
   PyType_Modified(type);
 }
 
 }  // namespace
 
 void define_transform(nb::module_& module) {
-  const nb::object type = nb::steal(PyType_FromSpec(&spec));
+  const nb::object type = nb::steal(PyType_FromSpec(&transform_spec));
   if (!type.is_valid()) throw nb::python_error();
   module.attr("Transform") = type;
   auto* base = reinterpret_cast<PyTypeObject*>(type.inc_ref().ptr());  // for as long as the process lives

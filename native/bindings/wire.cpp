@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "bindings/arguments.hpp"
 #include "bindings/bindings.hpp"
 #include "bindings/buffer.hpp"
 #include "bindings/relay.hpp"
@@ -76,7 +77,7 @@ nb::bytes to_bytes(const dds::Sample& sample) {
   return copy;
 }
 
-nb::list take(PyReader& reader, std::uint32_t limit) {
+nb::list take_messages(PyReader& reader, std::uint32_t limit) {
   std::vector<dds::Sample> samples;
   {
     WithoutGil release;
@@ -90,19 +91,14 @@ nb::list take(PyReader& reader, std::uint32_t limit) {
   return messages;
 }
 
-template <class Number>
-nb::bytes to_bytes(const std::vector<Number>& numbers) {
-  return nb::bytes(numbers.data(), numbers.size() * sizeof(Number));
-}
-
 nb::tuple take_tapped(PyTap& tap) {
   Tap::Messages tapped;
   {
     WithoutGil release;
     tapped = tap.take();
   }
-  return nb::make_tuple(nb::bytes(tapped.bytes.data(), tapped.bytes.size()), to_bytes(tapped.ends),
-                        to_bytes(tapped.arrived), to_bytes(tapped.sent), to_bytes(tapped.writers));
+  return nb::make_tuple(nb::bytes(tapped.bytes.data(), tapped.bytes.size()), array_bytes(tapped.ends),
+                        array_bytes(tapped.arrived), array_bytes(tapped.sent), array_bytes(tapped.writers));
 }
 
 nb::list take_endpoints(PyEndpointReader& reader) {
@@ -125,7 +121,7 @@ nb::list take_endpoints(PyEndpointReader& reader) {
   return list;
 }
 
-nb::list writers(const PyTfReader& reader) {
+nb::list writers_of(const PyTfReader& reader) {
   std::vector<TfReader::WriterStatistics> all;
   {
     WithoutGil release;
@@ -185,7 +181,7 @@ void define_readers(nb::module_& wire) {
       .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, std::shared_ptr<Event>>(),
            nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("on_data").none(),
            ReleaseGil())
-      .def("take", &take, nb::arg("limit"), "Up to `limit` tuples (bytes, source timestamp in ns, writer's handle).")
+      .def("take", &take_messages, nb::arg("limit"), "Up to `limit` tuples (bytes, source timestamp in ns, writer's handle).")
       .def_prop_ro("pending", &PyReader::pending, "Whether messages may be waiting.");
   define_reader_properties<PyReader>(reader);
 
@@ -214,7 +210,7 @@ void define_readers(nb::module_& wire) {
            "The buffer notes `authority` for what the writer with this handle has sent and will send.")
       .def("forget_writer", &PyTfReader::forget_writer, nb::arg("writer"), ReleaseGil(),
            "The writer with this handle has left.")
-      .def("writers", &writers, "What each writer has sent.")
+      .def("writers", &writers_of, "What each writer has sent.")
       .def_prop_ro("stored_at", &PyTfReader::stored_at,
                    "When the newest message's transforms were in the buffer, in nanoseconds of the steady clock; 0: never.");
   define_reader_properties<PyTfReader>(tf_reader);

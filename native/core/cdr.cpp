@@ -16,9 +16,9 @@ constexpr std::size_t kLargestPadding = 3;  // some writers fill the last 4 byte
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
 // Reads primitives; positions are relative to the end of the header, as CDR aligns them.
-class Reader {
+class CdrReader {
  public:
-  Reader(const std::uint8_t* body, std::size_t size, bool swap) : body_(body), size_(size), swap_(swap) {}
+  CdrReader(const std::uint8_t* body, std::size_t size, bool swap) : body_(body), size_(size), swap_(swap) {}
 
   std::size_t position() const { return position_; }
   std::size_t left() const { return size_ - position_; }
@@ -105,7 +105,7 @@ class Reader {
   const char* reason_ = nullptr;
 };
 
-bool read_transform(Reader& reader, TransformView& view) {
+bool read_transform(CdrReader& reader, TransformView& view) {
   std::int32_t seconds;
   std::uint32_t nanoseconds;
   if (!reader.number(seconds) || !reader.number(nanoseconds)) return false;
@@ -122,7 +122,7 @@ template <class Read>
 DecodeFailure read_message(const std::uint8_t* data, std::size_t size, std::uint32_t& count, Read&& read) {
   if (size < kHeader) return {size, "the message is shorter than its 4-byte header"};
   if (data[0] != 0 || data[1] > 1) return {0, "the header does not say plain CDR (00 01 or 00 00)"};
-  Reader reader(data + kHeader, size - kHeader, data[1] == 0);
+  CdrReader reader(data + kHeader, size - kHeader, data[1] == 0);
   bool complete = reader.number(count);
   for (std::uint32_t i = 0; complete && i < count; ++i) complete = read(reader, i);
   if (!complete) return {kHeader + reader.position(), reader.reason()};
@@ -132,9 +132,9 @@ DecodeFailure read_message(const std::uint8_t* data, std::size_t size, std::uint
   return {};
 }
 
-class Writer {
+class CdrWriter {
  public:
-  Writer() : bytes_({'\0', '\1', '\0', '\0'}) {}
+  CdrWriter() : bytes_({'\0', '\1', '\0', '\0'}) {}
 
   template <class T>
   void number(T value) {
@@ -162,7 +162,7 @@ class Writer {
 DecodeFailure decode_tf_message(const std::uint8_t* data, std::size_t size, std::vector<TransformView>& out,
                                 std::span<const ExpectedNames> expected) {
   std::uint32_t count = 0;
-  const DecodeFailure failure = read_message(data, size, count, [&](Reader& reader, std::uint32_t i) {
+  const DecodeFailure failure = read_message(data, size, count, [&](CdrReader& reader, std::uint32_t i) {
     if (i == out.size()) out.emplace_back();  // else that of an earlier message is written over
     return (i < expected.size() && reader.transform(expected[i], out[i])) || read_transform(reader, out[i]);
   });
@@ -173,11 +173,11 @@ DecodeFailure decode_tf_message(const std::uint8_t* data, std::size_t size, std:
 DecodeFailure check_tf_message(const std::uint8_t* data, std::size_t size) {
   std::uint32_t count;
   TransformView view;
-  return read_message(data, size, count, [&](Reader& reader, std::uint32_t) { return read_transform(reader, view); });
+  return read_message(data, size, count, [&](CdrReader& reader, std::uint32_t) { return read_transform(reader, view); });
 }
 
 std::string encode_tf_message(const std::vector<TransformView>& transforms) {
-  Writer writer;
+  CdrWriter writer;
   writer.number(static_cast<std::uint32_t>(transforms.size()));
   for (const TransformView& view : transforms) {
     std::int64_t seconds = view.stamp / kNanosecondsPerSecond;

@@ -17,7 +17,7 @@ const char* argument_text(Argument argument) {
   }
 }
 
-std::string seconds(Stamp stamp) {
+std::string seconds_text(Stamp stamp) {
   char text[64];
   const int length = std::snprintf(text, sizeof text, "%.6f", static_cast<double>(stamp) * 1e-9);
   return std::string(text, static_cast<std::size_t>(length));
@@ -38,14 +38,14 @@ bool is_name_error(ErrorCode code) {
 std::string extrapolation_head(const Failure& failure) {
   switch (failure.code) {
     case ErrorCode::only_other:
-      return "Lookup would require extrapolation at time " + seconds(failure.requested) + ", but only time " +
-             seconds(failure.latest) + " is in the buffer";
+      return "Lookup would require extrapolation at time " + seconds_text(failure.requested) + ", but only time " +
+             seconds_text(failure.latest) + " is in the buffer";
     case ErrorCode::too_new:
-      return "Lookup would require extrapolation into the future.  Requested time " + seconds(failure.requested) +
-             " but the latest data is at time " + seconds(failure.latest);
+      return "Lookup would require extrapolation into the future.  Requested time " + seconds_text(failure.requested) +
+             " but the latest data is at time " + seconds_text(failure.latest);
     case ErrorCode::too_old:
-      return "Lookup would require extrapolation into the past.  Requested time " + seconds(failure.requested) +
-             " but the earliest data is at time " + seconds(failure.earliest);
+      return "Lookup would require extrapolation into the past.  Requested time " + seconds_text(failure.requested) +
+             " but the earliest data is at time " + seconds_text(failure.earliest);
     default: return "";
   }
 }

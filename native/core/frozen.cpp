@@ -22,7 +22,7 @@ std::uint64_t chunks_of(const History::View& samples) {
   return samples.is_static() ? 0 : chunks_for(samples.size());
 }
 
-class Writer {
+class TableWriter {
  public:
   template <class T>
   void number(T value) {
@@ -41,7 +41,7 @@ class Writer {
 // Python shows names as text.
 bool read_name(ByteReader& reader, std::string_view& name) { return reader.text(name) && is_utf8(name); }
 
-void write_sample(Writer& writer, const Sample& sample) {
+void write_sample(TableWriter& writer, const Sample& sample) {
   for (const double number : sample.pose.q) writer.number(number);
   for (const double number : sample.pose.p) writer.number(number);
   writer.number(sample.parent);
@@ -55,17 +55,17 @@ bool read_sample(ByteReader& reader, Sample& sample) {
 }
 
 // In the table as well, so that opening a file need not look at its samples.
-void write_reach(Writer& writer, const History::Span& span) {
+void write_span(TableWriter& writer, const History::Span& span) {
   writer.number(span.first);
   writer.number(span.last);
   writer.number(span.parent);
 }
 
-bool read_reach(ByteReader& reader, History::Span& span) {
+bool read_span(ByteReader& reader, History::Span& span) {
   return reader.number(span.first) && reader.number(span.last) && reader.number(span.parent);
 }
 
-void write_frame(Writer& writer, const Frame& frame) {
+void write_frame(TableWriter& writer, const Frame& frame) {
   const History::View samples = frame.history.view();
   const HistoryKind kind = !samples.exists()      ? HistoryKind::none
                            : samples.is_static() ? HistoryKind::fixed
@@ -78,7 +78,7 @@ void write_frame(Writer& writer, const Frame& frame) {
   writer.number(static_cast<std::uint64_t>(samples.size()));
   for (const auto count : kCounts) writer.number((frame.counts.*count).get());
   if (kind == HistoryKind::fixed && !samples.empty()) write_sample(writer, samples.sample(0));
-  if (kind == HistoryKind::dynamic) write_reach(writer, frame.history.span());
+  if (kind == HistoryKind::dynamic) write_span(writer, frame.history.span());
 }
 
 // Takes chunks of a file, one frame after the other.
@@ -107,7 +107,7 @@ bool read_history(ByteReader& reader, std::uint8_t kind, bool one_parent, std::u
   if (kind == static_cast<std::uint8_t>(HistoryKind::dynamic)) {
     History::Span span;
     const Chunk* first = chunks.take(samples);
-    if (!first || !read_reach(reader, span)) return false;
+    if (!first || !read_span(reader, span)) return false;
     history.map(first, samples, one_parent, span);
     return true;
   }
@@ -144,7 +144,7 @@ bool read_frame(ByteReader& reader, Tree& tree, const std::vector<AuthorityId>& 
 }  // namespace
 
 std::string frozen_table(const Tree& tree) {
-  Writer writer;
+  TableWriter writer;
   writer.number(static_cast<std::uint32_t>(tree.authority_count()));
   for (AuthorityId id = 0; id < tree.authority_count(); ++id) writer.text(tree.authority_name(id));
   writer.number(static_cast<std::uint32_t>(tree.frame_count() - 1));

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "core/pose.hpp"
 
@@ -98,7 +97,5 @@ struct Kernels {
 
 // std::runtime_error if the environment variable COFRAME_CPU_LEVEL names a level that is not there.
 const Kernels& kernels();
-// Those that this processor and this build have, the best one last.
-std::vector<const Kernels*> all_kernels();
 
 }  // namespace coframe

@@ -1,9 +1,9 @@
+#include "kernels/levels.hpp"
+
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-
-#include "kernels/kernels.hpp"
 
 namespace coframe {
 
@@ -13,16 +13,11 @@ extern const Kernels table;
 
 #ifdef COFRAME_X86_LEVELS
 // The features that CMakeLists.txt compiles them with.
-namespace x86_64_v2 {
-extern const Kernels table;
-bool is_here() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
-}  // namespace x86_64_v2
-
 namespace x86_64_v3 {
 extern const Kernels table;
 bool is_here() {
-  return x86_64_v2::is_here() && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-         __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+  return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt") && __builtin_cpu_supports("avx2") &&
+         __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
 }
 }  // namespace x86_64_v3
 
@@ -39,7 +34,6 @@ std::vector<const Kernels*> all_kernels() {
   std::vector<const Kernels*> all{&plain::table};
 #ifdef COFRAME_X86_LEVELS
   __builtin_cpu_init();
-  if (x86_64_v2::is_here()) all.push_back(&x86_64_v2::table);
   if (x86_64_v3::is_here()) all.push_back(&x86_64_v3::table);
   if (x86_64_v4::is_here()) all.push_back(&x86_64_v4::table);
 #endif

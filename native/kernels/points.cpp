@@ -7,13 +7,13 @@ namespace coframe::COFRAME_LEVEL {
 
 namespace {
 
-struct Vector {
+struct Point {
   double x, y, z;
 };
 
 // v + 2 w (u x v) + 2 u x (u x v), u the vector part. Sums are in such an order that each product is added by the same
 // instruction that makes it; so below.
-COFRAME_INLINE Vector rotated(double qx, double qy, double qz, double qw, const Vector& v) {
+COFRAME_INLINE Point rotated(double qx, double qy, double qz, double qw, const Point& v) {
   const double tx = 2.0 * (qy * v.z - qz * v.y);
   const double ty = 2.0 * (qz * v.x - qx * v.z);
   const double tz = 2.0 * (qx * v.y - qy * v.x);
@@ -21,12 +21,12 @@ COFRAME_INLINE Vector rotated(double qx, double qy, double qz, double qw, const 
 }
 
 // Where a frame is, and where it is on the way between two places.
-struct Place {
+struct FixedOffset {
   const double* p;
   COFRAME_INLINE double add_to(double number, int k) const { return number + p[k]; }
   COFRAME_INLINE double take_from(double number, int k) const { return number - p[k]; }
 };
-struct Between {
+struct MovingOffset {
   double first, second;  // what each is weighed by
   const double *ap, *bp;
   COFRAME_INLINE double add_to(double number, int k) const { return number + first * ap[k] + second * bp[k]; }
@@ -35,11 +35,11 @@ struct Between {
 
 // One point seen from the other end of a link that is turned by q.
 template <bool kInverse, class Offset>
-COFRAME_INLINE Vector seen(double qx, double qy, double qz, double qw, const Offset& offset, const Vector& v) {
+COFRAME_INLINE Point seen(double qx, double qy, double qz, double qw, const Offset& offset, const Point& v) {
   if constexpr (kInverse) {
     return rotated(-qx, -qy, -qz, qw, {offset.take_from(v.x, 0), offset.take_from(v.y, 1), offset.take_from(v.z, 2)});
   }
-  const Vector turned = rotated(qx, qy, qz, qw, v);
+  const Point turned = rotated(qx, qy, qz, qw, v);
   return {offset.add_to(turned.x, 0), offset.add_to(turned.y, 1), offset.add_to(turned.z, 2)};
 }
 
@@ -56,9 +56,9 @@ void transform_moving_by(const Motion& motion, const Arc& between, const double*
   for (std::size_t i = 0; i < n; ++i) {
     const double t = shares[i], rest = 1.0 - t;
     const double a = weight(rest), b = weight(t);
-    const Vector point =
+    const Point point =
         seen<kInverse>(a * aq[0] + b * bq[0], a * aq[1] + b * bq[1], a * aq[2] + b * bq[2], a * aq[3] + b * bq[3],
-                       Between{rest, t, ap, bp}, {xs[i], ys[i], zs[i]});
+                       MovingOffset{rest, t, ap, bp}, {xs[i], ys[i], zs[i]});
     xs[i] = point.x;
     ys[i] = point.y;
     zs[i] = point.z;
@@ -70,7 +70,7 @@ void transform_each_by(const Pose* poses, std::size_t n, const Points& points) {
   double *__restrict xs = points.x, *__restrict ys = points.y, *__restrict zs = points.z;
   for (std::size_t i = 0; i < n; ++i) {
     const double* q = poses[i].q;
-    const Vector point = seen<kInverse>(q[0], q[1], q[2], q[3], Place{poses[i].p}, {xs[i], ys[i], zs[i]});
+    const Point point = seen<kInverse>(q[0], q[1], q[2], q[3], FixedOffset{poses[i].p}, {xs[i], ys[i], zs[i]});
     xs[i] = point.x;
     ys[i] = point.y;
     zs[i] = point.z;

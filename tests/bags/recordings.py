@@ -1,4 +1,4 @@
-"""Small recordings of one walk in every format, written by `mcap`, `rosbags` and by hand."""
+"""Small recordings of the same robot motion (the "walk") in all formats, written by `mcap`, `rosbags` and by hand."""
 
 import json
 import sqlite3
@@ -23,7 +23,7 @@ noetic = get_typestore(Stores.ROS1_NOETIC)
 
 
 def walk():
-    """(topic, stamp, parent, child, transform): a robot that goes round, and a lidar on it."""
+    """Yield (topic, stamp, parent, child, transform) of a robot that drives in a circle, with a lidar."""
     yield "/tf_static", START, "base", "lidar", coframe.Transform.from_rpy([0.1, 0, 0.3], [0, 0, 1])
     for i in range(COUNT):
         at = START + i * SECOND // 20 + i
@@ -32,7 +32,7 @@ def walk():
 
 
 def expected():
-    """The walk in a buffer."""
+    """Return a buffer with the transforms of the walk."""
     buffer = coframe.Buffer(None)
     for topic, at, parent, child, transform in walk():
         buffer.set(parent, child, transform, at, static=topic == "/tf_static")
@@ -40,7 +40,7 @@ def expected():
 
 
 def assert_same(buffer):
-    """That a buffer gives the answers of the walk."""
+    """Assert that lookups in a buffer return the poses of the walk."""
     reference = expected()
     stamps = START + np.linspace(0, (COUNT - 1) * SECOND // 20, 200).astype(np.int64)
     ours, theirs = (b.lookup_many("odom", "lidar", stamps) for b in (buffer, reference))
@@ -49,14 +49,14 @@ def assert_same(buffer):
 
 
 def cdr(parent, child, transform, at):
-    """A TFMessage of one transform."""
+    """Return a TFMessage with one transform, in CDR."""
     one = coframe.Buffer(None)
     one.set(parent, child, transform, at)
     return one.encode(static=False)
 
 
 def ros1(parent, child, transform, at):
-    """The same as ROS 1 writes it."""
+    """Return a TFMessage with one transform, in the encoding of ROS 1."""
     data = struct.pack("<IIII", 1, 7, *divmod(at, SECOND))
     for name in (parent, child):
         data += struct.pack("<I", len(name)) + name.encode()
@@ -64,12 +64,12 @@ def ros1(parent, child, transform, at):
 
 
 def messages(encode=cdr):
-    """(topic, time of receipt, bytes) of the walk."""
+    """Return (topic, time of receipt, bytes) of the messages of the walk."""
     return [(topic, at + 1000, encode(parent, child, t, at)) for topic, at, parent, child, t in walk()]
 
 
 def write_mcap(path, compression=CompressionType.ZSTD, *, chunked=True, rows=None, finish=True, types=None, **options):
-    """With the channels and messages of ``rows``; by default a ROS 2 recording of the walk."""
+    """Write an MCAP file with the messages of ``rows``; by default the walk as ROS 2 records it."""
     with path.open("wb") as stream:
         writer = McapWriter(stream, compression=compression, use_chunking=chunked, chunk_size=2000, **options)
         writer.start(profile="ros2", library="test")
@@ -86,7 +86,7 @@ def write_mcap(path, compression=CompressionType.ZSTD, *, chunked=True, rows=Non
 
 
 def write_rosbag2(path, plugin=StoragePlugin.SQLITE3, compression=None, rows=None, types=None):
-    """A folder as rosbag2 makes it."""
+    """Write a folder of rosbag2."""
     writer = Rosbag2Writer(path, version=9, storage_plugin=plugin)
     if compression is not None:
         writer.set_compression(compression, CompressionFormat.ZSTD)
@@ -101,7 +101,7 @@ def write_rosbag2(path, plugin=StoragePlugin.SQLITE3, compression=None, rows=Non
 
 
 def write_rosbag1(path, compression=None, rows=None, types=None):
-    """A bag of ROS 1."""
+    """Write a bag of ROS 1."""
     writer = Rosbag1Writer(path)
     writer.chunk_threshold = 2000
     if compression is not None:
@@ -118,7 +118,7 @@ def write_rosbag1(path, compression=None, rows=None, types=None):
 
 
 def write_sqlite(path, version, rows=None, type_=TF):
-    """A database as the versions 1 to 4 of rosbag2's schema have it."""
+    """Write a database with one of the versions 1 to 4 of rosbag2's schema."""
     rows = messages() if rows is None else rows
     path.parent.mkdir(exist_ok=True)
     with sqlite3.connect(path) as database:
@@ -187,7 +187,7 @@ def _part(number, data):
 
 
 def _doubles(values):
-    """Numbered from 1; zeros are left out, as proto3 does."""
+    """Encode fields numbered from 1; zeros are omitted, as in proto3."""
     pairs = [(i + 1, value) for i, value in enumerate(values) if value]
     return b"".join(_varint(number << 3 | 1) + struct.pack("<d", value) for number, value in pairs)
 
@@ -209,7 +209,7 @@ def foxglove_protobuf_many(*facts):
 
 
 def foxglove_protobuf_definition():
-    """Foxglove's FrameTransform and what it is made of, the last one first, as a compiler may give them."""
+    """Return the descriptors of Foxglove's FrameTransform, dependent files first, as a compiler may order them."""
     from google.protobuf import descriptor_pb2, timestamp_pb2
 
     found = descriptor_pb2.FileDescriptorSet()

@@ -1,4 +1,4 @@
-"""coframe lookup, trajectory and bag info, as a user types them."""
+"""The commands coframe lookup, trajectory and bag info."""
 
 import json
 
@@ -19,7 +19,7 @@ def bag(tmp_path_factory):
 
 
 def run(*arguments):
-    """(exit code, stdout, stderr)."""
+    """Run a command; return (exit code, stdout, stderr)."""
     result = CliRunner().invoke(app, [str(argument) for argument in arguments])
     assert result.exception is None or isinstance(result.exception, SystemExit)
     assert "Traceback" not in result.output
@@ -41,7 +41,7 @@ def run(*arguments):
         ("end", START + (COUNT - 1) * (SECOND // 20 + 1)),
     ],
 )
-def test_no_digit_of_a_time_is_lost(bag, text, stamp):
+def test_times_keep_their_nanoseconds(bag, text, stamp):
     code, out, _ = run("lookup", bag, "odom", "lidar", "--at", text, "--json")
     assert code == 0
     found = json.loads(out)
@@ -65,14 +65,14 @@ def test_no_digit_of_a_time_is_lost(bag, text, stamp):
         ("", "is not a point in time"),
     ],
 )
-def test_times_that_are_none(bag, text, reason):
+def test_invalid_times_are_errors(bag, text, reason):
     code, out, error = run("lookup", bag, "odom", "lidar", "--at", text)
     assert (code, out) == (2, "")
     assert reason in error
     assert error.startswith("coframe: --at: ")
 
 
-def test_lookup_prints_as_echo_does(bag):
+def test_lookup_prints_like_echo(bag):
     code, out, error = run("lookup", bag, "base", "lidar", "-p", "2")
     assert (code, error) == (0, "")
     assert "- Translation: [0.10, 0.00, 0.30]\n" in out
@@ -95,7 +95,7 @@ def test_time_travel(bag):
         (("odom", "base", "--at", "1h"), "Lookup would require extrapolation into the future", "base, odom from"),
     ],
 )
-def test_what_cannot_be_looked_up_is_one_sentence_and_a_hint(bag, arguments, reason, hint):
+def test_a_failed_lookup_prints_one_sentence_and_a_hint(bag, arguments, reason, hint):
     code, out, error = run("lookup", bag, *arguments)
     assert (code, out) == (1, "")
     assert reason in error
@@ -110,12 +110,14 @@ def test_what_cannot_be_looked_up_is_one_sentence_and_a_hint(bag, arguments, rea
         (("lidar", "base", "--at", "1s", "--fixed", "odom", "--source-time", "-1h"), "base, lidar, odom"),
     ],
 )
-def test_a_time_outside_of_the_recording_tells_which_times_are_inside(bag, arguments, frames):
+def test_a_time_outside_the_recording_prints_the_valid_range(bag, arguments, frames):
     last = (COUNT - 1) * (SECOND // 20 + 1)
     code, _, error = run("lookup", bag, *arguments)
     assert code == 1
-    told = f"The recording has transforms between {frames} from 1700000000.000000000 to 1700000002.{last % SECOND:09d}"
-    assert f"{told}, i.e. --at 0s to 2.{last % SECOND:09d}s." in error
+    expected = (
+        f"The recording has transforms between {frames} from 1700000000.000000000 to 1700000002.{last % SECOND:09d}"
+    )
+    assert f"{expected}, i.e. --at 0s to 2.{last % SECOND:09d}s." in error
     assert "wait for it" not in error
 
 
@@ -226,7 +228,7 @@ def test_trajectories_at_other_times(bag, tmp_path):
         (("-o", "/nowhere/x.tum"), 1, "cannot be written: No such file"),
     ],
 )
-def test_trajectories_that_are_refused(bag, arguments, code, reason):
+def test_invalid_trajectory_options_are_errors(bag, arguments, code, reason):
     found, out, error = run("trajectory", bag, "odom", "base", *arguments)
     assert (found, out) == (code, "")
     assert reason in error
@@ -248,7 +250,7 @@ def test_bag_info(bag):
     assert {topic["name"]: topic["messages"] for topic in summary["topics"]} == {"/tf": COUNT, "/tf_static": 1}
 
 
-def test_bag_info_tells_which_sensors_could_be_transformed(shared):
+def test_bag_info_shows_which_sensors_can_be_transformed(shared):
     code, out, _ = run("bag", "info", shared / "recordings" / "tilt_laser.bag", "--json")
     assert code == 0
     sensors = {sensor["topic"]: sensor for sensor in json.loads(out)["sensors"]}
@@ -273,11 +275,11 @@ def test_problems_go_to_stderr(bag, tmp_path):
     assert error.endswith("coframe: cut.mcap: truncated at byte 4000 of 4000; the recorder may have been killed\n")
 
 
-def test_names_cannot_harm_the_terminal(tmp_path):
+def test_control_characters_in_names_are_not_printed(tmp_path):
     evil = "\x1b]0;evil\x07"
     rows = [(topic, at, data.replace(b"lidar", b"\x1b[2Jx")) for topic, at, data in recordings.messages()]
     rows.append((f"/{evil}", START, b"?"))
-    path = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={f"/{evil}": ("a/msg/B", "", b"", "odd")})
+    path = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types={f"/{evil}": ("a/msg/B", "", b"", "other")})
     code, out, error = run("bag", "info", path)
     assert code == 0
     assert "\x1b" not in out + error

@@ -1,4 +1,4 @@
-"""Recordings that were cut off, scratched and made up: what is left of them is read, the rest is told of."""
+"""Truncated, damaged and malicious recordings: the intact part is read, and problems describe the rest."""
 
 import itertools
 import random
@@ -31,7 +31,7 @@ KINDS = [
 
 
 def write(folder, kind):
-    """A recording of that kind; its path."""
+    """Write a recording of a kind; return its path."""
     name, _, suffix = kind.partition(".")
     path = folder / kind
     if suffix == "mcap":
@@ -54,7 +54,7 @@ def write(folder, kind):
 
 
 def survives(path):
-    """How many transforms there are; None if the recording was refused. All messages are decoded."""
+    """Decode all messages; return the number of transforms, or None if the recording cannot be opened."""
     started = time.monotonic()
     try:
         recording = coframe.open_bag(path)
@@ -75,7 +75,7 @@ def survives(path):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_a_recording_that_is_cut_off_is_read_up_to_there(tmp_path, kind):
+def test_a_truncated_recording_is_read_up_to_its_end(tmp_path, kind):
     whole = write(tmp_path, kind).read_bytes()
     path = tmp_path / f"cut_{kind}"
     found = []
@@ -84,13 +84,13 @@ def test_a_recording_that_is_cut_off_is_read_up_to_there(tmp_path, kind):
         found.append(survives(path) or 0)
     assert found[0] == 0
     assert found[-1] == COUNT + 1
-    if "db3" not in kind:  # of a database the first page alone may be all that is left
+    if "db3" not in kind:  # Only the first page of a database may be left.
         assert all(a <= b for a, b in itertools.pairwise(found))
         assert any(0 < count < COUNT for count in found)
 
 
 @pytest.mark.parametrize("chunked", [True, False])
-def test_an_mcap_whose_recorder_was_killed(tmp_path, chunked):
+def test_an_mcap_file_of_a_killed_recorder(tmp_path, chunked):
     path = recordings.write_mcap(tmp_path / "a.mcap", CompressionType.NONE, chunked=chunked, finish=False)
     recording = coframe.open_bag(path)
     assert 40 < recording.topics["/tf"].messages <= COUNT
@@ -98,7 +98,7 @@ def test_an_mcap_whose_recorder_was_killed(tmp_path, chunked):
     assert "truncated at byte" in problem
 
 
-def test_a_damaged_chunk_costs_only_itself(tmp_path):
+def test_only_the_damaged_chunk_is_lost(tmp_path):
     path = recordings.write_mcap(tmp_path / "a.mcap")
     data = bytearray(path.read_bytes())
     with path.open("rb") as stream:
@@ -111,7 +111,7 @@ def test_a_damaged_chunk_costs_only_itself(tmp_path):
     assert "cannot be unpacked: zstd reports" in recording.problems[0]
 
 
-def test_a_length_that_lies_is_skipped_with_the_help_of_the_index(tmp_path):
+def test_a_record_with_a_wrong_length_is_skipped_using_the_index(tmp_path):
     path = recordings.write_mcap(tmp_path / "a.mcap")
     data = bytearray(path.read_bytes())
     first = data.index(b"zstd") - 4 - 28 - 9  # opcode and length of the first chunk
@@ -123,7 +123,7 @@ def test_a_length_that_lies_is_skipped_with_the_help_of_the_index(tmp_path):
     assert "are damaged" in recording.problems[0]
 
 
-def test_a_flipped_bit_is_noticed(tmp_path):
+def test_a_flipped_bit_is_reported(tmp_path):
     path = recordings.write_mcap(tmp_path / "a.mcap", CompressionType.NONE)
     data = bytearray(path.read_bytes())
     data[data.index(b"odom") + 60] ^= 1
@@ -141,7 +141,7 @@ def test_a_bag_of_ros_1_without_its_index(tmp_path):
     recordings.assert_same(coframe.open_bag(path).buffer)
 
 
-def test_a_damaged_chunk_of_ros_1_costs_only_itself(tmp_path):
+def test_only_the_damaged_chunk_of_a_ros_1_bag_is_lost(tmp_path):
     path = recordings.write_rosbag1(tmp_path / "a.bag")
     data = bytearray(path.read_bytes())
     second = data.index(b"op=\x05", data.index(b"op=\x05") + 1)
@@ -152,7 +152,7 @@ def test_a_damaged_chunk_of_ros_1_costs_only_itself(tmp_path):
     assert "are damaged" in recording.problems[0]
 
 
-def test_damaged_messages_are_counted_and_left_out(tmp_path):
+def test_damaged_messages_are_skipped_and_counted(tmp_path):
     rows = [*messages(), *[("/tf", START + i, b"\0\1\0\0\xff\xff\xff\xff") for i in range(5)]]
     recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows))
     recordings.assert_same(recording.buffer)
@@ -161,7 +161,7 @@ def test_damaged_messages_are_counted_and_left_out(tmp_path):
     assert problem.endswith("(5 times)")
 
 
-def test_transforms_that_tf2_refuses_are_told_of(tmp_path):
+def test_transforms_that_tf2_rejects_are_reported(tmp_path):
     good = messages()[1][2]
     rows = [*messages(), ("/tf", START, good[:-8] + np.array(np.nan).tobytes())]
     recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows))
@@ -169,14 +169,14 @@ def test_transforms_that_tf2_refuses_are_told_of(tmp_path):
     assert recording.problems == ["transforms that tf2 refuses: no numbers, no rotation, no name, or a frame in itself"]
 
 
-def test_two_clocks_are_told_of(tmp_path):
+def test_mixed_clocks_are_reported(tmp_path):
     later = recordings.cdr("odom", "ball", coframe.Transform(), START + 10_000 * recordings.SECOND)
     recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=[*messages(), ("/tf", START, later)]))
     assert recording.problems == ["two clocks are mixed: odom -> ball is told hours apart from odom -> base"]
     assert recording.span[1] < START + 10 * recordings.SECOND
 
 
-def test_what_claims_to_be_huge_is_not_believed(tmp_path):
+def test_a_huge_stated_size_allocates_no_memory(tmp_path):
     import zstandard
 
     bomb = zstandard.compress(bytes(1 << 28), 19)
@@ -190,8 +190,8 @@ def test_what_claims_to_be_huge_is_not_believed(tmp_path):
     assert "the stated size of a chunk is 1099511627776 bytes" in recording.problems[0]
 
 
-def test_databases_that_are_traps(tmp_path):
-    """Views that never end, tables without what is needed, values of other types."""
+def test_malicious_databases_are_problems(tmp_path):
+    """They have views that never end, missing columns, or values of other types."""
     trap = tmp_path / "view.db3"
     with sqlite3.connect(trap) as database:
         database.execute("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT, type TEXT, serialization_format TEXT)")
@@ -201,14 +201,14 @@ def test_databases_that_are_traps(tmp_path):
         )
     database.close()
     assert "no table messages" in coframe.open_bag(trap).problems[0]
-    odd = tmp_path / "odd.db3"
-    with sqlite3.connect(odd) as database:
+    other = tmp_path / "other.db3"
+    with sqlite3.connect(other) as database:
         database.execute("CREATE TABLE topics(id, name, type, serialization_format)")
         database.execute("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id, timestamp, data)")
         database.execute("INSERT INTO topics VALUES (1, '/tf', 'tf2_msgs/msg/TFMessage', 'cdr'), ('x', 2, 3, NULL)")
         database.execute("INSERT INTO messages VALUES (1, 1, 'soon', x'00'), (2, 1, 5, NULL), (3, 1, 5, 'text')")
     database.close()
-    assert coframe.open_bag(odd).problems == ["odd.db3: rows with a time or data of the wrong type (3 times)"]
+    assert coframe.open_bag(other).problems == ["other.db3: rows with a time or data of the wrong type (3 times)"]
 
 
 @pytest.mark.parametrize(
@@ -223,7 +223,7 @@ def test_databases_that_are_traps(tmp_path):
         "!!python/object/apply:os.system ['true']",
     ],
 )
-def test_damaged_metadata_do_no_harm(tmp_path, text):
+def test_a_recording_with_damaged_metadata_is_read(tmp_path, text):
     bag = recordings.write_rosbag2(tmp_path / "bag")
     (bag / "metadata.yaml").write_text(text)
     recording = coframe.open_bag(bag)
@@ -232,7 +232,7 @@ def test_damaged_metadata_do_no_harm(tmp_path, text):
 
 
 def mutated(rng, data):
-    """The bytes with some of them changed, left out, doubled or swapped."""
+    """Return the bytes with some of them changed, removed, repeated or swapped."""
     out = bytearray(data)
     for _ in range(rng.choice([1, 1, 2, 4, 16])):
         if not out:
@@ -255,7 +255,7 @@ def mutated(rng, data):
 
 
 def most_memory():
-    """Bytes that this process had at its worst."""
+    """Return the peak memory of this process in bytes."""
     resource = pytest.importorskip("resource")
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
 
@@ -265,24 +265,24 @@ def fuzz(folder, kind, cases, seed):
     whole = write(folder, kind).read_bytes()
     path = folder / f"mutated_{kind}"
     rng = random.Random(seed)
-    refused = partly = 0
+    rejected = partly = 0
     for _ in range(cases):
         path.write_bytes(mutated(rng, whole))
         count = survives(path)
-        refused += count is None
+        rejected += count is None
         partly += count is not None and 0 < count < COUNT + 1
-    assert refused < cases
+    assert rejected < cases
     assert partly > 0
     assert most_memory() - before < 1 << 30
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_mutated_recordings_are_survived(tmp_path, kind):
+def test_mutated_recordings_raise_only_recording_errors(tmp_path, kind):
     fuzz(tmp_path, kind, 200, 5)
 
 
 @pytest.mark.slow
 @pytest.mark.timeout(1200)
 @pytest.mark.parametrize("kind", KINDS)
-def test_twenty_thousand_mutated_recordings_are_survived(tmp_path, kind):
+def test_twenty_thousand_mutated_recordings_raise_only_recording_errors(tmp_path, kind):
     fuzz(tmp_path, kind, 20_000 // len(KINDS), time.time_ns())

@@ -1,4 +1,4 @@
-"""One walk in every format that there is gives the same answers."""
+"""The same transforms in all formats give the same lookups."""
 
 import itertools
 import sys
@@ -36,7 +36,7 @@ uint32 nanosec
 
 
 def read(path):
-    """The recording, which has nothing to complain of."""
+    """Open a recording and assert that it has no problems."""
     recording = coframe.open_bag(path)
     assert recording.problems == []
     return recording
@@ -44,7 +44,7 @@ def read(path):
 
 @pytest.mark.parametrize("chunked", [True, False])
 @pytest.mark.parametrize("compression", CompressionType)
-def test_mcap_of_any_compression(tmp_path, compression, chunked):
+def test_mcap_with_all_compressions(tmp_path, compression, chunked):
     with read(recordings.write_mcap(tmp_path / "a.mcap", compression, chunked=chunked)) as recording:
         recordings.assert_same(recording.buffer)
         assert recording.topics["/tf"].messages == COUNT
@@ -56,7 +56,7 @@ def test_mcap_of_any_compression(tmp_path, compression, chunked):
 
 @pytest.mark.parametrize("plugin", StoragePlugin)
 @pytest.mark.parametrize("compression", [None, CompressionMode.FILE, CompressionMode.MESSAGE, CompressionMode.STORAGE])
-def test_rosbag2_of_any_compression(tmp_path, plugin, compression):
+def test_rosbag2_with_all_compressions(tmp_path, plugin, compression):
     if compression is CompressionMode.STORAGE and plugin is not StoragePlugin.MCAP:
         pytest.skip("SQLite has no compression of its own")
     with read(recordings.write_rosbag2(tmp_path / "bag", plugin, compression)) as recording:
@@ -66,7 +66,7 @@ def test_rosbag2_of_any_compression(tmp_path, plugin, compression):
 
 
 @pytest.mark.parametrize("version", range(4, 10))
-def test_metadata_of_every_version(tmp_path, version):
+def test_all_versions_of_the_metadata(tmp_path, version):
     bag = recordings.write_rosbag2(tmp_path / "bag")
     text = yaml.safe_load((bag / "metadata.yaml").read_text())
     about = text["rosbag2_bagfile_information"]
@@ -87,7 +87,7 @@ def test_metadata_of_every_version(tmp_path, version):
 
 
 @pytest.mark.parametrize("plugin", [StoragePlugin.SQLITE3, StoragePlugin.MCAP])
-def test_a_closed_recording_has_its_transforms_only(tmp_path, plugin):
+def test_a_closed_recording_keeps_its_transforms(tmp_path, plugin):
     with read(recordings.write_rosbag2(tmp_path / "bag", plugin)) as recording:
         messages = recording.messages("/tf")
         next(messages)
@@ -97,7 +97,7 @@ def test_a_closed_recording_has_its_transforms_only(tmp_path, plugin):
             next(late)
 
 
-def test_rosbag2_without_its_metadata_and_by_the_name_of_the_metadata(tmp_path):
+def test_rosbag2_without_metadata_and_by_the_path_of_the_metadata(tmp_path):
     bag = recordings.write_rosbag2(tmp_path / "bag")
     recordings.assert_same(read(bag / "metadata.yaml").buffer)
     (bag / "metadata.yaml").unlink()
@@ -107,7 +107,7 @@ def test_rosbag2_without_its_metadata_and_by_the_name_of_the_metadata(tmp_path):
 
 
 @pytest.mark.parametrize("version", [1, 2, 3, 4])
-def test_every_schema_of_sqlite(tmp_path, version):
+def test_all_schema_versions_of_sqlite(tmp_path, version):
     with read(recordings.write_sqlite(tmp_path / "bag" / "a.db3", version)) as recording:
         recordings.assert_same(recording.buffer)
         assert next(recording.messages("/tf")).message.transforms[0].header.frame_id == "odom"
@@ -135,7 +135,7 @@ def test_bags_of_ros_1(tmp_path, compression):
         ("tf/tfMessage", "ros1", ros1),
     ],
 )
-def test_transforms_of_others_in_mcap(tmp_path, name, encoding, encode):
+def test_foxglove_transforms_in_mcap(tmp_path, name, encoding, encode):
     types = dict.fromkeys(["/tf", "/tf_static"], (name, "", b"", encoding))
     with read(recordings.write_mcap(tmp_path / "a.mcap", rows=messages(encode), types=types)) as recording:
         recordings.assert_same(recording.buffer)
@@ -148,7 +148,11 @@ def test_a_recording_in_many_files(tmp_path, metadata):
     bag = tmp_path / "bag"
     bag.mkdir()
     rows = messages()
-    parts = [rows[0:1] + rows[1:20], rows[0:1] + rows[20:40], rows[0:1] + rows[40:]]  # statics again in every file
+    parts = [
+        rows[0:1] + rows[1:20],
+        rows[0:1] + rows[20:40],
+        rows[0:1] + rows[40:],
+    ]  # each file repeats the static transforms
     names = ["run_2.mcap", "run_9.mcap", "run_10.mcap"]
     for name, part in zip(names, parts, strict=True):
         recordings.write_mcap(bag / name, rows=part)
@@ -161,7 +165,7 @@ def test_a_recording_in_many_files(tmp_path, metadata):
         assert len(list(recording.messages("/tf"))) == COUNT
 
 
-def test_a_file_that_was_compressed_as_a_whole(tmp_path):
+def test_a_compressed_file(tmp_path):
     plain = recordings.write_mcap(tmp_path / "a.mcap")
     packed = tmp_path / "packed.mcap.zstd"
     packed.write_bytes(zstandard.compress(plain.read_bytes()))
@@ -169,14 +173,14 @@ def test_a_file_that_was_compressed_as_a_whole(tmp_path):
         recordings.assert_same(recording.buffer)
 
 
-def test_statics_that_are_told_again_do_not_wipe_what_moved(tmp_path):
+def test_repeated_static_transforms_do_not_clear_dynamic_ones(tmp_path):
     rows = messages()
     rows.insert(40, ("/tf_static", rows[40][1], cdr("base", "lidar", coframe.Transform([9, 9, 9]), 0)))
     rows.insert(41, rows[0])
     recordings.assert_same(read(recordings.write_mcap(tmp_path / "a.mcap", rows=rows)).buffer)
 
 
-def test_a_frame_that_is_static_and_moves_keeps_moving(tmp_path):
+def test_a_frame_with_static_and_dynamic_transforms_is_dynamic(tmp_path):
     rows = [*messages(), ("/tf_static", START, cdr("odom", "base", coframe.Transform(), 0))]
     recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows))
     recordings.assert_same(recording.buffer)
@@ -185,8 +189,8 @@ def test_a_frame_that_is_static_and_moves_keeps_moving(tmp_path):
 
 
 @pytest.mark.parametrize("kind", ["ros2", "ros1"])
-def test_the_frames_of_one_robot_among_those_of_others(tmp_path, kind):
-    """The bytes of ROS 2 go straight into the buffer, those of ROS 1 through Python: the names are the same."""
+def test_a_prefix_renames_the_frames_of_one_robot(tmp_path, kind):
+    """Messages of ROS 1 and ROS 2 get the same names."""
     write = {"ros2": recordings.write_mcap, "ros1": recordings.write_rosbag1}[kind]
     with coframe.open_bag(write(tmp_path / "run"), prefix="robot1/", keep="odom") as bag:
         assert sorted(bag.buffer.frame_names()) == ["odom", "robot1/base", "robot1/lidar"]
@@ -227,7 +231,7 @@ def imu(at, frame="imu"):
 
 @pytest.mark.parametrize("kind", ["mcap", "sqlite", "message"])
 def test_messages_by_their_stamps(tmp_path, kind):
-    """Stamps 100 ms before they are received, two of them the wrong way round."""
+    """The stamps are 100 ms before the times of receipt, and two of them are swapped."""
     order = [0, 1, 3, 2, 4, 5]
     rows = [("/imu", START + i * SECOND, imu(START + at * SECOND - SECOND // 10)) for i, at in enumerate(order)]
     types = {"/imu": "sensor_msgs/msg/Imu"}
@@ -258,8 +262,8 @@ def test_messages_by_their_stamps(tmp_path, kind):
         assert "/imu" in caught.value.hint
 
 
-def test_messages_without_a_header_are_on_the_clock_of_the_simulation(tmp_path):
-    """Half as fast as the wall's."""
+def test_times_of_messages_without_a_header_follow_the_recorded_clock(tmp_path):
+    """The recorded clock runs at half the speed of the system clock."""
     Clock, Time = humble.types["rosgraph_msgs/msg/Clock"], humble.types["builtin_interfaces/msg/Time"]  # noqa: N806
     String = humble.types["std_msgs/msg/String"]  # noqa: N806
     rows = [
@@ -277,7 +281,7 @@ CLOCK = "rosgraph_msgs/msg/Clock"
 
 
 @pytest.mark.parametrize("damaged", [False, True])
-def test_protobuf_is_read_as_the_recording_describes_it(tmp_path, damaged):
+def test_protobuf_is_decoded_with_the_recorded_descriptors(tmp_path, damaged):
     pytest.importorskip("google.protobuf")
     definition = recordings.foxglove_protobuf_definition()
     types = {"/tf": ("foxglove.FrameTransform", "protobuf", definition[: -40 if damaged else None], "protobuf")}
@@ -289,13 +293,13 @@ def test_protobuf_is_read_as_the_recording_describes_it(tmp_path, damaged):
         assert first.message == rows[0][2]
         assert "returned as bytes: its definition cannot be used" in recording.problems[-1]
         return
-    told = first.message
-    assert (told.parent_frame_id, told.translation.y, told.timestamp.nanos) == ("a", 2.0, 5)
+    decoded = first.message
+    assert (decoded.parent_frame_id, decoded.translation.y, decoded.timestamp.nanos) == ("a", 2.0, 5)
     with pytest.raises(coframe.DecodeError, match=r"foxglove\.FrameTransform: "):
         _ = second.message
 
 
-def test_protobuf_without_its_package_stays_bytes(tmp_path, monkeypatch):
+def test_protobuf_messages_are_bytes_without_the_package(tmp_path, monkeypatch):
     types = {"/tf": ("foxglove.FrameTransform", "protobuf", b"", "protobuf")}
     rows = [("/tf", START, recordings.foxglove_protobuf("a", "b", coframe.Transform(), START))]
     recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types=types))
@@ -304,7 +308,7 @@ def test_protobuf_without_its_package_stays_bytes(tmp_path, monkeypatch):
     assert recording.problems[-1].endswith("the package protobuf is not installed (pip install 'coframe[protobuf]')")
 
 
-def test_json_is_read_as_it_is(tmp_path):
+def test_json_is_decoded_to_dictionaries(tmp_path):
     types = {"/tf": ("foxglove.FrameTransform", "jsonschema", b"{}", "json")}
     rows = [("/tf", START, recordings.foxglove_json("a", "b", coframe.Transform(), START + 5))]
     recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types=types))
@@ -312,8 +316,8 @@ def test_json_is_read_as_it_is(tmp_path):
     assert (message["parent_frame_id"], message["timestamp"]["nsec"]) == ("a", 5)
 
 
-def test_types_are_read_as_the_recording_describes_them(tmp_path):
-    """Range has a field more since Iron; one type nobody else knows; one nobody describes."""
+def test_types_are_decoded_with_the_recorded_definitions(tmp_path):
+    """Range has another field since Iron, one type is unknown elsewhere, and one has no definition."""
     iron = b"\0\1\0\0" + bytes(4) + bytes(4) + b"\2\0\0\0u\0" + b"\1\0" + np.arange(5, dtype="<f4").tobytes()
     types = {
         "/range": ("sensor_msgs/msg/Range", "ros2msg", RANGE_OF_IRON, "cdr"),
@@ -339,7 +343,7 @@ def test_types_are_read_as_the_recording_describes_them(tmp_path):
     )
 
 
-def test_ros_1_messages_come_as_our_classes_where_they_fit(tmp_path):
+def test_ros_1_messages_become_coframe_classes_if_they_match(tmp_path):
     scan = b"\1\0\0\0" + b"\5\0\0\0\6\0\0\0" + b"\5\0\0\0laser" + np.arange(7, dtype="<f4").tobytes()
     scan += b"\2\0\0\0" + np.array([1.5, 2.5], "<f4").tobytes() + bytes(4)
     types = {"/scan": "sensor_msgs/msg/LaserScan", "/note": "diagnostic_msgs/msg/KeyValue"}
@@ -352,21 +356,21 @@ def test_ros_1_messages_come_as_our_classes_where_they_fit(tmp_path):
         assert next(recording.messages("/note")).message.value == "vv"
 
 
-def test_progress_goes_up_to_the_end(tmp_path):
+def test_progress_increases_to_the_total(tmp_path):
     bag = tmp_path / "bag"
     bag.mkdir()
     for name in ("a", "b"):
         recordings.write_mcap(bag / f"{name}.mcap")
     recordings.write_sqlite(bag / "c.db3", 3)
-    told = []
-    coframe.open_bag(bag, progress=lambda done, total: told.append((done, total)))
+    reported = []
+    coframe.open_bag(bag, progress=lambda done, total: reported.append((done, total)))
     size = sum(file.stat().st_size for file in bag.iterdir())
-    assert told[-1] == (size, size)
-    assert all(a[0] <= b[0] for a, b in itertools.pairwise(told))
-    assert len(told) > 6
+    assert reported[-1] == (size, size)
+    assert all(a[0] <= b[0] for a, b in itertools.pairwise(reported))
+    assert len(reported) > 6
 
 
-def test_any_thread_may_read(tmp_path):
+def test_reading_is_thread_safe(tmp_path):
     from concurrent.futures import ThreadPoolExecutor
 
     for path in (recordings.write_mcap(tmp_path / "a.mcap"), recordings.write_sqlite(tmp_path / "b" / "b.db3", 3)):
@@ -376,7 +380,7 @@ def test_any_thread_may_read(tmp_path):
             assert found == stamps * 20
 
 
-def test_a_folder_that_cannot_be_written_to(tmp_path):
+def test_a_read_only_folder(tmp_path):
     bag = recordings.write_rosbag2(tmp_path / "bag")
     before = sorted(bag.iterdir())
     bag.chmod(0o555)
@@ -387,7 +391,7 @@ def test_a_folder_that_cannot_be_written_to(tmp_path):
         bag.chmod(0o755)
 
 
-def test_what_is_no_recording(tmp_path):
+def test_files_that_are_not_recordings_are_errors(tmp_path):
     (tmp_path / "empty.mcap").touch()
     (tmp_path / "text.db3").write_text("hello, here is no database")
     (tmp_path / "old.bag").write_bytes(b"#ROSBAG V1.2\n")

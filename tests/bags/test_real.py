@@ -1,4 +1,4 @@
-"""The recordings of `shared/recordings`, each with its oddities, beside `rosbags`."""
+"""Real recordings with their peculiarities, compared with `rosbags`."""
 
 import numpy as np
 import pytest
@@ -21,7 +21,7 @@ def folder(shared):
 
 
 def assert_close(ours, theirs, tolerance):
-    """Poses (..., 7); a quaternion and its negative are one rotation, and tf2 makes them of unit length."""
+    """Compare poses (..., 7): a quaternion and its negative are the same rotation, and tf2 normalises them."""
     theirs = theirs.copy()
     theirs[..., 3:] /= np.linalg.norm(theirs[..., 3:], axis=-1, keepdims=True)
     theirs[..., 3:] *= np.sign((ours[..., 3:] * theirs[..., 3:]).sum(axis=-1, keepdims=True))
@@ -29,7 +29,7 @@ def assert_close(ours, theirs, tolerance):
 
 
 def by_rosbags(path):
-    """(topic, received, [(parent, child, stamp, seven numbers)]) of every message with transforms."""
+    """Yield (topic, received, [(parent, child, stamp, seven numbers)]) of each message with transforms."""
     with AnyReader([path], default_typestore=get_typestore(Stores.ROS2_HUMBLE)) as reader:
         connections = [c for c in reader.connections if c.msgtype in {"tf2_msgs/msg/TFMessage", "tf/msg/tfMessage"}]
         for connection, received, data in reader.messages(connections):
@@ -55,7 +55,7 @@ def by_rosbags(path):
         "world_talk_1hz",
     ],
 )
-def test_every_transform_is_there(folder, name):
+def test_every_transform_is_in_the_buffer(folder, name):
     with coframe.open_bag(folder / name) as recording:
         statics, moving, last = {}, {}, {}
         for topic, received, transforms in by_rosbags(folder / name):
@@ -64,7 +64,7 @@ def test_every_transform_is_there(folder, name):
                 if topic == "/tf_static":
                     statics[parent, child] = values
                 else:
-                    moving.setdefault((parent, child), {})[stamp] = values  # the last one said of a stamp holds
+                    moving.setdefault((parent, child), {})[stamp] = values  # the last transform with a stamp is valid
         for (parent, child), values in statics.items():
             found = recording.buffer.lookup(parent, child)
             assert_close(np.array([*found.translation, *found.quaternion]), np.array(values), 1e-12)
@@ -80,7 +80,7 @@ def test_every_transform_is_there(folder, name):
             assert list(recording.messages(topic))[-1].received == received
 
 
-def test_compressed_bags_of_ros_1_are_the_same(folder):
+def test_compressed_bags_of_ros_1_have_the_same_transforms(folder):
     plain, *packed = (coframe.open_bag(folder / f"turtlesim_tf_demo{kind}.bag") for kind in ("", "_lz4", "_bz2"))
     assert (plain.topics["/tf"].messages, plain.topics["/tf_static"].messages) == (2688, 1)
     assert plain.topics["/tf"].type == "tf/msg/tfMessage"
@@ -96,7 +96,7 @@ def test_compressed_bags_of_ros_1_are_the_same(folder):
 
 
 def test_tilt_laser(folder):
-    """Real hardware: slashes, types that nobody knows, one sensor without any transform."""
+    """A recording of hardware, with leading slashes, unknown types and one sensor without a transform."""
     with coframe.open_bag(folder / "tilt_laser.bag") as recording:
         assert recording.problems == ["/tf: names of frames begin with '/': it is left off, as tf2 does"]
         counts = {name: recording.topics[name].messages for name in ("/scan", "/imu_data", "/position_gps", "/tf")}
@@ -105,12 +105,12 @@ def test_tilt_laser(folder):
         assert type(scan).__module__ == "sensor_msgs.msg"
         assert recording.buffer.lookup("tilt_base", scan.header.frame_id.lstrip("/"), recording.span[0] + SECOND)
         (temperature, *_) = recording.messages("/temperature")
-        assert type(temperature.message).__name__.endswith("Thermistor")  # as the bag describes it
+        assert type(temperature.message).__name__.endswith("Thermistor")  # defined in the bag
         assert "base_imu" not in recording.buffer
 
 
-def test_forward_kinematics_give_what_robot_state_publisher_sent(folder):
-    """The oracle: its description and joint states, and its own transforms."""
+def test_forward_kinematics_match_robot_state_publisher(folder):
+    """The recording contains its description, its joint states and its transforms."""
     with coframe.open_bag(folder / "tb3_gazebo_walker") as recording:
         robot = parse_urdf(next(recording.messages("/robot_description")).message.data)
         states = {message.stamp: message.message for message in recording.messages("/joint_states")}
@@ -135,11 +135,11 @@ def test_forward_kinematics_give_what_robot_state_publisher_sent(folder):
             assert ours.target == edge.parent
             assert_close(np.array(ours.values), sent, 1e-12)
         assert compared + len(fixed) == 768
-        assert recording.span[0] < 60 * SECOND < recording.start  # simulated time, received in the wall's
+        assert recording.span[0] < 60 * SECOND < recording.start  # simulated stamps, received on the system clock
 
 
 def test_epuck(folder):
-    """An empty message, statics of earlier runs by the wall's clock, doubled stamps, an empty description."""
+    """The recording has an empty message, old static transforms, duplicate stamps and an empty description."""
     with coframe.open_bag(folder / "epuck_webots") as recording:
         assert len(recording.buffer.frames()) == 64
         assert recording.span == (280_000_000, 16_160_000_000)
@@ -151,7 +151,7 @@ def test_epuck(folder):
         robot = parse_urdf(described)
         stamps = recording.stamps("/joint_states")
         assert len(stamps) - len(np.unique(stamps)) == 184
-        # The same as above, where a stamp was used once: a state beats what its joint mimics.
+        # The same comparison for stamps that occur once: a joint state has priority over a mimicked value.
         unique, counts = np.unique(stamps, return_counts=True)
         once = set(unique[counts == 1].tolist())
         states = {m.stamp: m.message for m in recording.messages("/joint_states") if m.stamp in once}
@@ -171,23 +171,23 @@ def test_epuck(folder):
         assert compared > 100
 
 
-def test_the_nodes_core_survives_epuck(folder):
-    """Stamps that come twice with other values, as robot_state_publisher takes them: at every stamp one of the two."""
+def test_the_core_of_robot_state_publisher_handles_duplicate_stamps(folder):
+    """For a stamp that occurs twice with different values, either of the two is accepted."""
     with coframe.open_bag(folder / "epuck_webots") as recording:
         described = list(recording.messages("/robot_description"))[-1].message.data
         publisher = StatePublisher(parse_urdf(described), ignore_stamps=True)
-        told: dict[tuple[int, str], list[np.ndarray]] = {}
+        sent_by_us: dict[tuple[int, str], list[np.ndarray]] = {}
         for state in recording.messages("/joint_states"):
             message = state.message
             for transform in publisher.moving(state.stamp, message.name, message.position):
-                told.setdefault((state.stamp, transform.source), []).append(np.array(transform.values))
+                sent_by_us.setdefault((state.stamp, transform.source), []).append(np.array(transform.values))
         compared = doubled = 0
         for message in recording.messages("/tf"):
             for sent in message.message.transforms:
                 stamp = sent.header.stamp.sec * SECOND + sent.header.stamp.nanosec
-                candidates = told.get((stamp, sent.child_frame_id), [])
+                candidates = sent_by_us.get((stamp, sent.child_frame_id), [])
                 if not candidates:
-                    continue  # odom's, or a state that was not recorded
+                    continue  # of odom, or of a state that was not recorded
                 p, q = sent.transform.translation, sent.transform.rotation
                 values = np.array([p.x, p.y, p.z, q.x, q.y, q.z, q.w])
                 opposite = values * [1, 1, 1, -1, -1, -1, -1]  # the same rotation
@@ -207,7 +207,7 @@ def test_missing_statics_are_two_trees(folder):
         assert "wheel_left_link" in caught.value.hint
 
 
-def test_renamed_files_are_read_with_a_warning(folder):
+def test_renamed_files_are_read_and_reported(folder):
     with coframe.open_bag(folder / "broken" / "db3_renamed_metadata_stale") as recording:
         assert recording.problems == [
             "metadata.yaml lists rosbag2_2023_11_29-19_52_49_0.db3, which does not exist",
@@ -218,8 +218,8 @@ def test_renamed_files_are_read_with_a_warning(folder):
         assert recording.buffer.lookup("world", "talk") == whole.buffer.lookup("world", "talk")
 
 
-def test_a_static_transform_that_was_sent_as_a_moving_one(folder):
-    """It has samples, a span and a rate, and says the same at every time of it."""
+def test_a_constant_transform_on_tf(folder):
+    """It has samples, a span and a rate, and the same value at all times."""
     with coframe.open_bag(folder / "world_talk_1hz") as recording:
         (edge,) = [edge for edge in recording.buffer.edges() if edge.parent]
         assert (edge.parent, edge.child, edge.static, edge.samples) == ("world", "talk", False, 60)
@@ -230,7 +230,7 @@ def test_a_static_transform_that_was_sent_as_a_moving_one(folder):
             recording.buffer.lookup("world", "talk", edge.newest + 1)
 
 
-def test_statics_of_earlier_runs_and_of_no_time_hold_for_all_of_it(folder):
+def test_static_transforms_with_old_or_zero_stamps_are_valid_at_all_times(folder):
     with coframe.open_bag(folder / "epuck_webots") as recording:
         statics = [transform for m in recording.messages("/tf_static") for transform in m.message.transforms]
         footprints = [s for s in statics if (s.header.frame_id, s.child_frame_id) == ("base_link", "base_footprint")]
@@ -258,8 +258,8 @@ def test_statics_of_earlier_runs_and_of_no_time_hold_for_all_of_it(folder):
         ("epuck_webots", "/scan", "odom", None, None),
     ],
 )
-def test_scans_in_a_frame_that_stands_still(folder, name, topic, frame, messages, reason):
-    """None is lost silently: each one is among the clouds or among what was left out."""
+def test_scans_in_a_fixed_frame(folder, name, topic, frame, messages, reason):
+    """Each scan is either among the clouds or counted as skipped."""
     with coframe.open_bag(folder / name) as recording:
         clouds = coframe.bags.Clouds(recording, topic, frame)
         given = sum(1 for _ in clouds)
@@ -270,7 +270,7 @@ def test_scans_in_a_frame_that_stands_still(folder, name, topic, frame, messages
 
 
 @pytest.mark.parametrize("name", ["turtlesim_tf_demo.bag", "tilt_laser.bag", "tb3_gazebo_walker", "epuck_webots"])
-def test_a_frozen_recording_answers_as_the_recording_does(folder, tmp_path, name):
+def test_a_frozen_buffer_gives_the_same_lookups(folder, tmp_path, name):
     with coframe.open_bag(folder / name) as recording:
         recording.buffer.save(tmp_path / "run.cfz")
         frozen = coframe.load(tmp_path / "run.cfz", verify=True)

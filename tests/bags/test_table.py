@@ -1,4 +1,4 @@
-"""Every transform of a recording as one table."""
+"""All transforms of a recording as one table."""
 
 import sys
 
@@ -19,7 +19,7 @@ def recording(tmp_path_factory):
 
 
 def rows_of(columns):
-    """(topic, stamp, parent, child, seven numbers) of each row."""
+    """Return (topic, stamp, parent, child, seven numbers) of each row."""
     poses = zip(*(columns[name] for name in ("x", "y", "z", "qx", "qy", "qz", "qw")), strict=True)
     names = (columns[name] for name in ("topic", "stamp_ns", "parent", "child"))
     return [(*facts, pose) for *facts, pose in zip(*names, poses, strict=True)]
@@ -35,20 +35,20 @@ def assert_is_the_walk(columns):
     assert columns["static"] == [row[0] == "/tf_static" for row in rows_of(columns)]
 
 
-def test_as_arrow(recording):
+def test_arrow_table(recording):
     table = recording.table()
     assert table.num_rows == COUNT + 1
     assert_is_the_walk(table.to_pydict())
 
 
-def test_as_pandas(recording):
+def test_pandas_data_frame(recording):
     pytest.importorskip("pandas")
     frame = recording.table("pandas")
     assert frame["stamp_ns"].dtype == np.int64
     assert_is_the_walk({name: frame[name].tolist() for name in frame})
 
 
-def test_a_frame_that_changed_its_parent_and_one_in_another_namespace(tmp_path):
+def test_a_frame_with_two_parents_and_a_frame_in_another_namespace(tmp_path):
     rows = []
     for topic, shift in (("/a/tf", 0), ("/b/tf", 10)):
         for i, parent in enumerate(["map", "odom", "map"]):
@@ -67,7 +67,7 @@ def test_an_empty_recording(tmp_path):
 
 
 @pytest.mark.parametrize(("format_", "package"), [("arrow", "pyarrow"), ("pandas", "pandas")])
-def test_a_package_that_is_missing(recording, monkeypatch, format_, package):
+def test_a_missing_package_is_an_error(recording, monkeypatch, format_, package):
     monkeypatch.setitem(sys.modules, package, None)
     with pytest.raises(coframe.RecordingError, match=f"needs the package {package}") as caught:
         recording.table(format_)

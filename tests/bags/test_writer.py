@@ -1,4 +1,4 @@
-"""Recordings as coframe writes them, read by programs that others wrote."""
+"""Recordings written by coframe, read by other programs."""
 
 import errno
 import io
@@ -33,7 +33,7 @@ COMPRESSIONS = ("none", "zstd", "lz4")
 
 
 def write_walk(path, *, close=True, flush_every=10, **options):
-    """The walk; without the end, as a recorder leaves it that is killed."""
+    """Write the walk; without closing the files, as if the recorder were killed."""
     writer = Writer(path, **options)
     topics = {name: writer.add_topic(name, TF) for name in ("/tf_static", "/tf")}
     for i, (topic, at, data) in enumerate(recordings.messages()):
@@ -53,7 +53,7 @@ def read_by_rosbags(path):
 
 
 def read_by_mcap(file):
-    """Every message, with all checksums looked at."""
+    """Read all messages and check all checksums."""
     with file.open("rb") as stream:
         list(StreamReader(stream, validate_crcs=True).records)
         stream.seek(0)
@@ -67,10 +67,10 @@ def read_by_mcap(file):
 
 @pytest.mark.parametrize("compression", COMPRESSIONS)
 @pytest.mark.parametrize(("close", "has_index"), [(True, True), (False, True), (False, False)])
-def test_other_programs_open_it_finished_or_not(tmp_path, monkeypatch, compression, close, has_index):
-    """Whose recorder was killed has an index, too, unless that is so large that each chunk cannot bring it."""
+def test_other_programs_open_finished_and_unfinished_recordings(tmp_path, monkeypatch, compression, close, has_index):
+    """An unfinished recording has an index, too, unless it is too large to write with each chunk."""
     if not has_index:
-        monkeypatch.setattr(mcap_writer, "_LARGEST_INDEX", 700)  # some chunks have one before it is too large
+        monkeypatch.setattr(mcap_writer, "_LARGEST_INDEX", 700)  # the first chunks still have an index
     write_walk(tmp_path / "run", compression=compression, close=close)
     folder = tmp_path / ("run" if close else "killed")
     assert read_by_rosbags(folder) == recordings.messages()
@@ -82,7 +82,7 @@ def test_other_programs_open_it_finished_or_not(tmp_path, monkeypatch, compressi
         recordings.assert_same(bag.buffer)
 
 
-def test_the_index_says_what_is_there(tmp_path):
+def test_the_index_matches_the_contents(tmp_path):
     writer = write_walk(tmp_path / "run")
     _, summary = read_by_mcap(tmp_path / "run" / "run_0.mcap")
     counts = {
@@ -96,8 +96,8 @@ def test_the_index_says_what_is_there(tmp_path):
 
 
 @pytest.mark.parametrize("close", [True, False])
-def test_every_record_agrees_with_the_others(tmp_path, close):
-    """What `mcap doctor` looks at: order, times, counts, offsets and checksums."""
+def test_all_records_are_consistent(tmp_path, close):
+    """Check what `mcap doctor` checks: order, times, counts, offsets and checksums."""
     write_walk(tmp_path / "run", close=close)
     data = (tmp_path / ("run" if close else "killed") / "run_0.mcap").read_bytes()
     records = list(StreamReader(io.BytesIO(data), emit_chunks=True, validate_crcs=True).records)
@@ -141,7 +141,7 @@ def record_at(data, offset):
 
 
 def placed(chunk):
-    """Each message of a chunk, and where its record begins."""
+    """Yield each message of a chunk and the offset of its record."""
     data, place = zstandard.decompress(chunk.data), 0
     while place < len(data):
         if data[place] == Opcode.MESSAGE:
@@ -150,13 +150,13 @@ def placed(chunk):
 
 
 def shape(value):
-    """The names in it, in their order, and of what kind their values are; of many alike the first."""
+    """Return the keys in their order and the types of their values; of a list only the first element."""
     if isinstance(value, dict):
         return [(name, shape(part)) for name, part in value.items()]
     return [shape(part) for part in value[:1]] if isinstance(value, list) else type(value)
 
 
-def test_metadata_have_what_rosbag2_writes_in_its_order(tmp_path, shared):
+def test_metadata_have_the_keys_of_rosbag2_in_the_same_order(tmp_path, shared):
     offered = [OfferedQos(1, transient_local=True)]
     with Writer(tmp_path / "run") as writer:
         writer.write(writer.add_topic("/tf_static", TF, offered_qos=offered), recordings.messages()[0][2], START)
@@ -175,7 +175,7 @@ def test_metadata_have_what_rosbag2_writes_in_its_order(tmp_path, shared):
 @pytest.mark.slow
 @pytest.mark.parametrize("folder", ["run", "killed"])
 def test_rerun_opens_it(tmp_path, folder):
-    """By the program of `pip install rerun-sdk`, where that is installed: it is a hundred megabytes."""
+    """The test needs `pip install rerun-sdk`, which has a hundred megabytes."""
     rerun = shutil.which("rerun", path=os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]]))
     if rerun is None:
         pytest.skip("Rerun is not installed (pip install rerun-sdk)")
@@ -188,26 +188,26 @@ def test_rerun_opens_it(tmp_path, folder):
     assert out.stat().st_size > 10_000
 
 
-def test_types_are_described_and_latched_topics_known_as_such(tmp_path):
+def test_recordings_contain_definitions_and_offered_qos(tmp_path):
     with Writer(tmp_path / "run") as writer:
         writer.write(writer.add_topic("/tf_static", TF), recordings.messages()[0][2], START)
-        writer.write(writer.add_topic("/odd", "my_pkg/msg/Odd"), b"\0\1\0\0abcd", START)
+        writer.write(writer.add_topic("/own", "my_pkg/msg/Own"), b"\0\1\0\0abcd", START)
         qos = [OfferedQos(3, reliable=False, transient_local=True, keep_all=True)]
         writer.write(writer.add_topic("/map", "nav_msgs/msg/OccupancyGrid", offered_qos=qos), b"\0\1\0\0", START)
-    assert writer.undescribed == ["my_pkg/msg/Odd"]
+    assert writer.undescribed == ["my_pkg/msg/Own"]
     with Reader(tmp_path / "run") as reader:
         by_topic = {connection.topic: connection for connection in reader.connections}
         assert "string child_frame_id" in by_topic["/tf_static"].msgdef.data
         assert by_topic["/tf_static"].ext.offered_qos_profiles[0].durability is QosDurability.TRANSIENT_LOCAL
-        assert by_topic["/odd"].msgdef.data == ""
+        assert by_topic["/own"].msgdef.data == ""
         assert len(list(reader.messages())) == 3
     with coframe.open_bag(tmp_path / "run") as bag:
         offered = {channel.topic: from_yaml(channel.offered_qos) for channel in bag.channels()}
-    assert offered == {"/tf_static": (OfferedQos(1, transient_local=True),), "/odd": (), "/map": tuple(qos)}
+    assert offered == {"/tf_static": (OfferedQos(1, transient_local=True),), "/own": (), "/map": tuple(qos)}
 
 
 @pytest.mark.parametrize("limit", [{"max_duration": "1s"}, {"max_size": 4000, "compression": "none"}])
-def test_every_file_begins_with_the_statics(tmp_path, limit):
+def test_every_file_begins_with_the_static_transforms(tmp_path, limit):
     writer = write_walk(tmp_path / "run", **limit)
     files = sorted((tmp_path / "run").glob("*.mcap"))
     assert writer.files == len(files) >= 3
@@ -223,7 +223,7 @@ def test_every_file_begins_with_the_statics(tmp_path, limit):
     assert [row for row in read_by_rosbags(tmp_path / "run") if row[0] == "/tf"] == recordings.messages()[1:]
 
 
-def test_latched_messages_are_those_that_still_hold(tmp_path):
+def test_latched_messages_are_the_valid_ones(tmp_path):
     def static(*children):
         buffer = coframe.Buffer(None)
         for child in children:
@@ -246,8 +246,8 @@ def test_latched_messages_are_those_that_still_hold(tmp_path):
     assert second == [static("b"), static("a", "c"), b"\0\1\0\0cut", b"\0\1\0\0two", b"\0\1\0\0new"]
 
 
-def test_what_a_killed_writer_leaves_can_be_read_wherever_it_was_killed(tmp_path):
-    """Not only between two writes: the operating system may have done a part of one."""
+def test_a_file_is_readable_wherever_its_writer_was_killed(tmp_path):
+    """This includes positions inside a write, which the operating system may perform in part."""
     file = tmp_path / "a.mcap"
     writer = McapWriter(file)
     channel = writer.add_channel("/tf", TF, encoding="cdr", definition="", definition_format="", metadata={})
@@ -270,7 +270,7 @@ def test_what_a_killed_writer_leaves_can_be_read_wherever_it_was_killed(tmp_path
             assert next(bag.messages("/tf")).data == rows[0][2]
 
 
-def test_it_can_be_read_while_it_is_written(tmp_path):
+def test_a_recording_can_be_read_while_it_is_written(tmp_path):
     stopped = threading.Event()
     with Writer(tmp_path / "run", compression="none") as writer:
         tf = writer.add_topic("/tf", TF)
@@ -299,7 +299,7 @@ def test_it_can_be_read_while_it_is_written(tmp_path):
     assert counts == sorted(counts)
 
 
-def test_a_folder_that_is_there_is_refused(tmp_path):
+def test_an_existing_folder_is_not_overwritten(tmp_path):
     (tmp_path / "run").mkdir()
     with pytest.raises(coframe.RecordingError, match="already exists and is not overwritten"):
         Writer(tmp_path / "run")
@@ -335,14 +335,14 @@ print(writer.messages)
 
 
 def fill_a_limited_file(path):
-    """The operating system refuses to let the child's files grow: what it says, and how the child ends."""
+    """Limit the size of the child's files; return its output and its exit code."""
     pytest.importorskip("resource")
     command = [sys.executable, "-c", FILLING, path, Path(recordings.__file__).parent, "30000"]
     return errno.EFBIG, subprocess.run(command, capture_output=True, text=True, check=True).stdout
 
 
 def fill_a_small_disk(path):
-    """A disk of the child's own, in a namespace that goes with it."""
+    """Run the child with a small disk of its own, in a mount namespace."""
     in_namespace = ["unshare", "--user", "--map-root-user", "--mount", "sh", "-c"]
     mount = 'mkdir "$0" && mount -t tmpfs -o size=32k small "$0"'
     if not shutil.which("unshare") or subprocess.run([*in_namespace, mount, path], check=False).returncode != 0:
@@ -356,7 +356,7 @@ def fill_a_small_disk(path):
 
 
 @pytest.mark.parametrize("disk", ["limited file", "small disk"])
-def test_a_full_disk_ends_it_with_a_sentence_and_leaves_what_was_written(tmp_path, disk):
+def test_a_full_disk_is_an_error_and_keeps_what_was_written(tmp_path, disk):
     if disk == "limited file":
         reason, text = fill_a_limited_file(tmp_path / "run")
     else:
@@ -364,25 +364,25 @@ def test_a_full_disk_ends_it_with_a_sentence_and_leaves_what_was_written(tmp_pat
     first, *_, count = text.splitlines()
     assert first == f"{tmp_path / 'run'} cannot be written: {os.strerror(reason)}"
     walks, rest = divmod(int(count), COUNT + 1)
-    assert (walks > 0, rest) == (True, 0)  # what was flushed, a walk at a time
+    assert (walks > 0, rest) == (True, 0)  # each flush writes one walk
     found, summary = read_by_mcap(tmp_path / "run" / "run_0.mcap")
     assert [data for *_, data in found] == walks * [data for *_, data in recordings.messages()]
     assert summary.statistics.message_count == int(count)
     assert len(read_by_rosbags(tmp_path / "run")) == int(count)
 
 
-def test_times_of_sending_that_are_none_do_no_harm(tmp_path):
-    """Publishers may say anything, and DDS has numbers for "invalid" and "for ever"."""
+def test_invalid_times_of_publication_are_replaced(tmp_path):
+    """Publishers can send any value, and DDS has values for "invalid" and "infinite"."""
     with Writer(tmp_path / "run") as writer:
         topic = writer.add_topic("/words", "std_msgs/msg/String")
         for published in (-(2**63), -1, 2**63 - 1, 2**64):
             writer.write(topic, b"\0\1\0\0", START, published=published)
     with (tmp_path / "run" / "run_0.mcap").open("rb") as stream:
-        told = [message.publish_time for *_, message in make_reader(stream).iter_messages()]
-    assert told == [START, START, 2**63 - 1, START]
+        written = [message.publish_time for *_, message in make_reader(stream).iter_messages()]
+    assert written == [START, START, 2**63 - 1, START]
 
 
-def test_quality_of_service_of_every_version():
+def test_offered_qos_of_all_metadata_versions():
     profiles = (OfferedQos(), OfferedQos(7, reliable=False, transient_local=True), OfferedQos(keep_all=True))
     assert from_yaml(to_yaml(profiles)) == profiles
     words = [{"history": "keep_last", "depth": 7, "reliability": "best_effort", "durability": "transient_local"}]

@@ -137,9 +137,9 @@ def test_who_watches_is_told_what_changes(inside, tmp_path, eventually):
     with told.open("w") as output:
         node = inside.start("-m", "coframe.lab.complete_tf_tree")
         inside.start("-m", "coframe.cli", "frames", "--watch", "--duration", "2s", stdout=output)
-        eventually(lambda: "11 frames in 1 tree" in told.read_text() or "end_effector came" in told.read_text())
+        eventually(lambda: "11 frames in 1 tree" in told.read_text() or "end_effector is new" in told.read_text())
         inside.start("-m", "coframe.cli", "static", "--frame-id", "base_link", "--child-frame-id", "mug")
-        eventually(lambda: "mug came, below base_link" in told.read_text())
+        eventually(lambda: "mug is new: below base_link" in told.read_text())
         node.kill()
         eventually(lambda: "link1 is stale: no transform for" in told.read_text())
         eventually(lambda: "link1 is gone; it was below base_link" in told.read_text())

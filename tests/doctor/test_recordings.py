@@ -11,7 +11,7 @@ EXPECTED = {
     "turtlesim_tf_demo_bz2.bag": set(),
     "tb3_gazebo_walker": set(),
     "tilt_laser.bag": {
-        ("TF006", "warning", "", "4 names begin with a slash"),
+        ("TF006", "warning", "", "4 frame names with a leading slash"),
         ("TF014", "warning", "/gravity_vector", "no transform connects 'base_imu' to the tree"),
         # All topics pause early on for 0.68 s and then arrive at once. The manifest does not mention it.
         ("TF025", "warning", "", "no transform was received for 683 ms"),

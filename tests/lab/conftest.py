@@ -31,10 +31,12 @@ class Observer:
 
     def hear(self, message_type: type, topic: str, *, latched: bool = False) -> list:
         """Return a list that receives the messages of a topic."""
-        heard: list = []
+        received: list = []
         durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
-        self.node.create_subscription(message_type, topic, heard.append, QoSProfile(depth=1000, durability=durability))
-        return heard
+        self.node.create_subscription(
+            message_type, topic, received.append, QoSProfile(depth=1000, durability=durability)
+        )
+        return received
 
     def hear_tf(self) -> tuple[list, list]:
         """Return the lists of messages on /tf and on /tf_static."""

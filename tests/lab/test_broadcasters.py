@@ -44,10 +44,10 @@ def angle(transform):
 def test_sensor_mounts_have_the_default_values_of_the_lab(start):
     observer = start()
     observer.add(StaticFramePublisher())
-    _, heard = observer.hear_tf()
-    observer.until(lambda: heard)
-    assert len(heard) == 1
-    mounts = by_child(heard[0])
+    _, received = observer.hear_tf()
+    observer.until(lambda: received)
+    assert len(received) == 1
+    mounts = by_child(received[0])
     assert numbers(mounts["camera_link"]) == pytest.approx([0.05, 0, 0.02, 0, ROOT_HALF, 0, ROOT_HALF], abs=1e-15)
     assert numbers(mounts["imu_link"]) == [0, 0, 0.1, 0, 0, 0, 1]
     assert numbers(mounts["lidar_link"]) == [0, 0, 0.5, 0, 0, 0, 1]
@@ -61,29 +61,29 @@ def test_sensor_mounts_have_the_default_values_of_the_lab(start):
 def test_sensor_mounts_can_be_set_by_parameters(start):
     observer = start("lidar_translation:=[0.1, 0.2, 0.3]", "lidar_rotation:=[0.0, 0.0, 2.0, 0.0]", "lidar_frame:=laser")
     observer.add(StaticFramePublisher())
-    _, heard = observer.hear_tf()
-    observer.until(lambda: heard)
-    assert numbers(by_child(heard[0])["laser"]) == [0.1, 0.2, 0.3, 0, 0, 1, 0]
+    _, received = observer.hear_tf()
+    observer.until(lambda: received)
+    assert numbers(by_child(received[0])["laser"]) == [0.1, 0.2, 0.3, 0, 0, 1, 0]
 
 
 def test_the_arm_is_simulated_without_joint_states(start):
     observer = start()
     observer.add(DynamicFramePublisher())
-    heard, _ = observer.hear_tf()
-    observer.until(lambda: len(heard) >= 50)
-    assert all(children(message) == ARM for message in heard)
-    first, second, third = heard[0].transforms
-    assert [t.header.frame_id for t in heard[0].transforms] == ["base_link", "link1", "link2"]
+    received, _ = observer.hear_tf()
+    observer.until(lambda: len(received) >= 50)
+    assert all(children(message) == ARM for message in received)
+    first, second, third = received[0].transforms
+    assert [t.header.frame_id for t in received[0].transforms] == ["base_link", "link1", "link2"]
     assert numbers(first)[:3] == [0, 0, 0.1]
     assert numbers(second)[:3] == [0.5, 0, 0]
     assert numbers(third) == [0.4, 0, 0, 0, 0, 0, 1]
 
-    stamps = np.array([nanoseconds(message.transforms[0].header.stamp) for message in heard])
+    stamps = np.array([nanoseconds(message.transforms[0].header.stamp) for message in received])
     assert np.all(np.diff(stamps) > 0)
     assert np.median(np.diff(stamps)) == pytest.approx(20e6, rel=0.1)
-    # The lab's law of motion, with one unknown: when it began.
-    q1 = np.array([angle(message.transforms[0]) for message in heard])
-    q2 = np.array([angle(message.transforms[1]) for message in heard])
+    # The motion of the lab, whose start time is unknown.
+    q1 = np.array([angle(message.transforms[0]) for message in received])
+    q2 = np.array([angle(message.transforms[1]) for message in received])
     begins = np.linspace(-0.1, 3.0, 31001)
     elapsed = (stamps - stamps[0]) * 1e-9
     begin = begins[np.argmin([np.abs(0.5 * np.sin(0.4 * np.pi * (b + elapsed)) - q1).max() for b in begins])]
@@ -94,9 +94,9 @@ def test_the_arm_is_simulated_without_joint_states(start):
 def test_joint_states_replace_the_simulation_until_they_stop(start):
     observer = start("joint_timeout:=0.3")
     node = observer.add(DynamicFramePublisher())
-    heard, _ = observer.hear_tf()
+    received, _ = observer.hear_tf()
     robot = observer.node.create_publisher(JointState, "/joint_states", 10)
-    observer.until(lambda: robot.get_subscription_count() and len(heard) > 5)
+    observer.until(lambda: robot.get_subscription_count() and len(received) > 5)
 
     sent: list[int] = []
 
@@ -108,23 +108,23 @@ def test_joint_states_replace_the_simulation_until_they_stop(start):
         robot.publish(state)
 
     timer = observer.node.create_timer(0.05, send)
-    observer.until(lambda: any(angle(message.transforms[0]) > 1.0 for message in heard))
-    begin = len(heard)
+    observer.until(lambda: any(angle(message.transforms[0]) > 1.0 for message in received))
+    begin = len(received)
     paused_at = node.sim_time
-    observer.until(lambda: len(heard) >= begin + 15)
+    observer.until(lambda: len(received) >= begin + 15)
     timer.cancel()
-    driven = heard[begin : begin + 15]
-    # Nothing simulated in between: no flicker.
+    driven = received[begin : begin + 15]
+    # No simulated transforms are in between.
     assert all(angle(message.transforms[0]) == pytest.approx(1.1) for message in driven)
     assert all(angle(message.transforms[1]) == pytest.approx(-0.7) for message in driven)
     assert all(children(message) == ARM for message in driven)
     assert {nanoseconds(t.header.stamp) for message in driven for t in message.transforms} <= set(sent)
     assert node.sim_time == paused_at
 
-    observer.until(lambda: angle(heard[-1].transforms[0]) < 1.0)
-    resumed = heard[-1].transforms[0]
+    observer.until(lambda: angle(received[-1].transforms[0]) < 1.0)
+    resumed = received[-1].transforms[0]
     assert nanoseconds(resumed.header.stamp) - sent[-1] >= 0.3e9
-    # The simulation goes on from where it stopped.
+    # The simulation resumes at the position where it stopped.
     assert angle(resumed) == pytest.approx(0.5 * math.sin(0.4 * math.pi * (paused_at + 0.02)), abs=0.1)
 
 
@@ -133,14 +133,14 @@ def arm_after(start, *states):
     observer = start()
     node = observer.add(DynamicFramePublisher())
     node.timer.cancel()
-    heard, _ = observer.hear_tf()
+    received, _ = observer.hear_tf()
     observer.until(node.tf_broadcaster.pub_tf.get_subscription_count)
     for state in states:
         node.joint_callback(state)
-    observer.until(lambda: heard)
+    observer.until(lambda: received)
     return [
         (round(angle(m.transforms[0]), 9), round(angle(m.transforms[1]), 9), m.transforms[0].header.stamp.sec)
-        for m in heard
+        for m in received
     ]
 
 
@@ -184,10 +184,10 @@ def test_the_complete_tree(start):
     observer.add(CompleteTFTree())
     buffer = tf2_ros.Buffer()
     tf2_ros.TransformListener(buffer, observer.node)
-    heard, heard_static = observer.hear_tf()
-    observer.until(lambda: len(heard) >= 10 and heard_static)
-    assert all(children(message) == ["odom", "base_link", *ARM] for message in heard)
-    mounts = by_child(heard_static[0])
+    received, received_static = observer.hear_tf()
+    observer.until(lambda: len(received) >= 10 and received_static)
+    assert all(children(message) == ["odom", "base_link", *ARM] for message in received)
+    mounts = by_child(received_static[0])
     assert {child: mount.header.frame_id for child, mount in mounts.items()} == {
         "map": "world",
         "imu_link": "base_link",
@@ -200,8 +200,8 @@ def test_the_complete_tree(start):
     for frame in ("imu_link", "lidar_link", "camera_link", "gripper_link"):
         assert buffer.can_transform("world", frame, Time(), Duration(seconds=10))
 
-    transforms = by_child(heard[-1])
-    # Forward motion of 0.1 m/s tells the simulated time; everything else follows from it.
+    transforms = by_child(received[-1])
+    # The forward motion of 0.1 m/s gives the simulated time, from which everything else follows.
     time = transforms["base_link"].transform.translation.x / 0.1
     assert numbers(transforms["odom"])[:3] == pytest.approx([0.001 * time, 0.0005 * time, 0])
     assert transforms["base_link"].transform.translation.y == pytest.approx(0.05 * math.sin(0.5 * time))
@@ -216,10 +216,10 @@ def test_the_complete_tree(start):
 def test_arm_and_mounts_can_be_disabled(start):
     observer = start("publish_arm:=false", "publish_mounts:=false")
     observer.add(CompleteTFTree())
-    heard, heard_static = observer.hear_tf()
-    observer.until(lambda: heard and heard_static)
-    assert children(heard[0]) == ["odom", "base_link"]
-    assert children(heard_static[0]) == ["map", "gripper_link"]
+    received, received_static = observer.hear_tf()
+    observer.until(lambda: received and received_static)
+    assert children(received[0]) == ["odom", "base_link"]
+    assert children(received_static[0]) == ["map", "gripper_link"]
 
 
 @pytest.mark.parametrize(

@@ -42,17 +42,17 @@ def broadcast(start, commands):
     nodes = [observer.add(CLASSES[command.name]()) for command in commands if command.name in CLASSES]
     if any(command.name == "robot_state_publisher" for command in commands):
         nodes.append(observer.add(arm_publisher()))
-    heard, heard_static = observer.hear_tf()
+    received, received_static = observer.hear_tf()
     clock = observer.node.create_publisher(Clock, "/clock", 10)
     observer.until(lambda: clock.get_subscription_count() == len(nodes) + 1)
     dynamic = {}
 
     def stamps_of(child):
-        for message in heard:
+        for message in received:
             for t in message.transforms:
                 stamp = t.header.stamp.sec * NS + t.header.stamp.nanosec
                 dynamic[t.header.frame_id, t.child_frame_id, stamp] = values(t)
-        heard.clear()
+        received.clear()
         return {stamp for _, name, stamp in dynamic if name == child}
 
     for tick in range(TICKS):
@@ -61,7 +61,7 @@ def broadcast(start, commands):
         message.clock.sec, message.clock.nanosec = divmod(now, NS)
         clock.publish(message)
         observer.until(lambda now=now: now in stamps_of("base_link") & stamps_of("end_effector"))
-    static = {(t.header.frame_id, t.child_frame_id): values(t) for m in heard_static for t in m.transforms}
+    static = {(t.header.frame_id, t.child_frame_id): values(t) for m in received_static for t in m.transforms}
     observer.close()
     rclpy.try_shutdown()
     return dynamic, static

@@ -44,7 +44,7 @@ class Reference:
             position, quaternion = samples[times[-1]]
             return np.array(position), Rotation.from_quat(quaternion)
         after = next(index for index, time in enumerate(times) if time >= stamp)
-        assert after > 0, "the scan is older than what this test heard"
+        assert after > 0, "the scan is older than the first received transform"
         before, later = times[after - 1], times[after]
         fraction = (stamp - before) / (later - before)
         (p0, q0), (p1, q1) = samples[before], samples[later]
@@ -97,7 +97,7 @@ def test_scans_are_transformed_correctly_while_the_robot_moves(start, run, frame
     run("complete_tf_tree")
     run("sensor_transform", f"target_frame:={target}")
     run("simulated_lidar", f"frame:={frame}")
-    # Transforms on both sides of every scan that is compared.
+    # Every compared scan needs transforms before and after it.
     observer.until(lambda: len(clouds) >= 25)
     first, last = (nanoseconds(clouds[index].header.stamp) for index in (0, 24))
     observer.until(lambda: dynamic and nanoseconds(dynamic[-1].transforms[0].header.stamp) > last)
@@ -110,7 +110,7 @@ def test_scans_are_transformed_correctly_while_the_robot_moves(start, run, frame
     assert reference.covers(nanoseconds(between[5].header.stamp))
     for scan in between:
         if not reference.covers(nanoseconds(scan.header.stamp)):
-            continue  # the first ones may be older than what this test heard
+            continue  # the first scans can be older than the first received transform
         cloud = by_stamp[nanoseconds(scan.header.stamp)]
         assert cloud.header.frame_id == target
         points, intensities = expected_points(scan, reference, target)
@@ -253,7 +253,7 @@ def test_the_lidar_measures_from_the_pose_of_the_robot(start, run):
     scans = observer.hear(LaserScan, "/scan")
     run("simulated_lidar")
     observer.until(lambda: len(scans) >= 2)
-    # Nobody knows where the robot is: the origin, again and again.
+    # The pose of the robot is not available, so every scan is measured from the origin.
     assert scans[0].ranges == scans[1].ranges
     assert (scans[0].header.frame_id, len(scans[0].ranges), len(scans[0].intensities)) == ("lidar_link", 360, 360)
     moved = TransformStamped()

@@ -36,7 +36,7 @@ def test_the_pose_belongs_to_its_stamp(start, run):
     for pose in poses:
         assert pose.header.frame_id == "base_link"
         if nanoseconds(pose.header.stamp) not in joints:
-            continue  # from before this test heard the arm
+            continue  # older than the first received transform of the arm
         q1, q2 = joints[nanoseconds(pose.header.stamp)]
         position = pose.pose.position
         assert position.x == pytest.approx(0.5 * math.cos(q1) + 0.4 * math.cos(q1 + q2), abs=1e-12)

@@ -1,4 +1,4 @@
-"""Real processes on a network of their own, and an independent program that listens to them."""
+"""Processes in a separate network, and an independent program that subscribes to their topics."""
 
 import json
 import os
@@ -17,7 +17,7 @@ OBSERVER = Path(__file__).with_name("observer.py")
 
 
 class Processes:
-    """Starts processes in the test's network and domain."""
+    """Starts processes in the network and domain of the test."""
 
     def __init__(self, network, domain_id, folder):
         self.network = network
@@ -26,7 +26,7 @@ class Processes:
         self._running = {}
 
     def start(self, name, *command):
-        """Starts a command, `python` standing for this Python; what it writes goes to a file."""
+        """Start a command, where `python` is this Python. Its output goes to a file."""
         command = [sys.executable if part == "python" else part for part in command]
         log = self._folder / f"{name}.log"
         with log.open("wb") as output:
@@ -39,14 +39,14 @@ class Processes:
             )
 
     def text(self, name):
-        """What a process has written so far."""
+        """Return the output of a process so far."""
         return (self._folder / f"{name}.log").read_text()
 
     def running(self, name):
         return self._running[name].poll() is None
 
     def end(self, name, how=signal.SIGINT):
-        """Sends a signal and waits for the end: the exit code and what was written."""
+        """Send a signal, wait for the process to exit, and return its exit code and output."""
         process = self._running[name]
         process.send_signal(how)
         code = process.wait(20)
@@ -59,9 +59,9 @@ class Processes:
                 process.wait()
 
     def observe(self, seconds, *topics, patience=30.0):
-        """What the independent program hears on TOPIC:TYPE:DURABILITY ... within some seconds from the first message.
+        """Return the messages that the independent program receives on TOPIC:TYPE:DURABILITY ... topics.
 
-        It waits for the first one no longer than `patience` seconds.
+        It receives for some seconds after the first message, for which it waits at most `patience` seconds.
         """
         command = self.network.command(sys.executable, OBSERVER, self.domain_id, patience, seconds, *topics)
         result = subprocess.run(command, capture_output=True, text=True, timeout=90, check=False)

@@ -1,4 +1,4 @@
-"""An independent RTPS program (rosless, in Rust): writes down what it hears.
+"""An independent RTPS program (rosless, in Rust), which prints the messages that it receives.
 
     python observer.py DOMAIN PATIENCE SECONDS TOPIC:TYPE:DURABILITY ...
 
@@ -14,36 +14,36 @@ import time
 import rosless
 
 
-def listen(node, topic, type_name, durability, patience, seconds, heard):
+def listen(node, topic, type_name, durability, patience, seconds, received):
     subscription = node.subscribe(
         topic, type_name, reliability="reliable", durability=durability, history="keep_last", depth=1000
     )
     message = subscription.read(patience)
     end = time.monotonic() + seconds
     while message is not None:
-        heard.append([time.monotonic(), message.to_dict()])
+        received.append([time.monotonic(), message.to_dict()])
         message = subscription.read(max(0.001, end - time.monotonic())) if time.monotonic() < end else None
 
 
 def main():
     domain, patience, seconds, *topics = sys.argv[1:]
     node = rosless.Node(int(domain))
-    heard = {}
+    received = {}
     threads = []
     for spec in topics:
         topic, type_name, durability = spec.split(":")
-        heard[topic] = []
+        received[topic] = []
         threads.append(
             threading.Thread(
                 target=listen,
-                args=(node, topic, type_name, durability, float(patience), float(seconds), heard[topic]),
+                args=(node, topic, type_name, durability, float(patience), float(seconds), received[topic]),
             )
         )
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    json.dump(heard, sys.stdout, default=list)
+    json.dump(received, sys.stdout, default=list)
 
 
 main()

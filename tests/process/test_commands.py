@@ -1,4 +1,4 @@
-"""The commands as a user types them: what they print, and how they end."""
+"""The commands as a user runs them: their output and exit codes."""
 
 import re
 import signal
@@ -10,7 +10,7 @@ import pytest
 def eventually(condition, what, patience=30.0):
     deadline = time.monotonic() + patience
     while not condition():
-        assert time.monotonic() < deadline, f"waited in vain for {what()}"
+        assert time.monotonic() < deadline, f"timed out after {patience:g} s: {what()}"
         time.sleep(0.05)
 
 
@@ -18,11 +18,11 @@ def start_echo(processes, *arguments):
     processes.start("echo", "python", "-m", "coframe.cli", "echo", *arguments)
 
 
-def test_echo_with_the_labs_broadcasters(processes, shared):
+def test_echo_of_the_transforms_of_the_lab(processes, shared):
     processes.start("static", "python", shared / "lab" / "static_tf_broadcaster.py")
     start_echo(processes, "base_link", "camera_link", "5", "--limit", "3")
-    # With the static broadcaster alone: two trees, which, and what is missing.
-    eventually(lambda: "missing link" in processes.text("echo"), lambda: processes.text("echo"))
+    # With only the static broadcaster, there are two trees. The hint names them.
+    eventually(lambda: "The two trees are" in processes.text("echo"), lambda: processes.text("echo"))
     text = processes.text("echo")
     assert "Could not find a connection between 'base_link' and 'camera_link'" in text
     assert "'base_link' with imu_link, lidar_link" in text
@@ -33,13 +33,13 @@ def test_echo_with_the_labs_broadcasters(processes, shared):
     eventually(lambda: not processes.running("echo"), lambda: processes.text("echo"))
     found = re.findall(r"- Translation: \[(-?\d\.\d{3}), (-?\d\.\d{3}), 0\.120\]", processes.text("echo"))
     assert len(found) == 3
-    # Two links of 0.5 and 0.4 m and the camera 0.05 m further: nearly stretched out.
+    # Two links of 0.5 and 0.4 m and the camera 0.05 m further, with the arm almost fully extended.
     for x, y in found:
         assert 0.85 < (float(x) ** 2 + float(y) ** 2) ** 0.5 < 0.951
     assert "- Rotation: in RPY (degree) [" in processes.text("echo")
 
 
-def test_echo_of_an_unknown_frame_says_what_there_is(processes):
+def test_echo_of_an_unknown_frame_lists_the_known_frames(processes):
     processes.start("static", "python", "-m", "coframe.cli", "static", "--frame-id", "a", "--child-frame-id", "lidar")
     start_echo(processes, "a", "lider")
     eventually(lambda: "Did you mean" in processes.text("echo"), lambda: processes.text("echo"))
@@ -81,8 +81,12 @@ def test_static_with_both_argument_styles(processes):
         (["static", "--frame-id", "b"], 1, "Child frame id must not be empty"),
         (["static", "--frame-id=a", "--colour=red"], 1, "Extra unparsed arguments on command-line: --colour"),
         (["static", "--frame-id", "a", "--child-frame-id", "\udcff"], 1, "Frame ids must be valid UTF-8"),
-        (["static", "--frame-id=a", "--child-frame-id=b", "--tf-static-topic", "x y"], 1, "Check the topic's name"),
-        (["echo", "a", "b", "--tf-topic", "x y"], 1, "Check the topic's name"),
+        (
+            ["static", "--frame-id=a", "--child-frame-id=b", "--tf-static-topic", "x y"],
+            1,
+            "Check the name of the topic",
+        ),
+        (["echo", "a", "b", "--tf-topic", "x y"], 1, "Check the name of the topic"),
         (["echo", "a", "b", "inf"], 1, "Rate must be at most 10000"),
         (["echo", "a", "b", "1e-300"], 1, "Period must be at most"),
         (["echo", "a", "b", "-c", "inf"], 1, "Cache time must be at most"),
@@ -91,7 +95,7 @@ def test_static_with_both_argument_styles(processes):
         (["frobnicate"], 2, "No such command"),
     ],
 )
-def test_wrong_usage_is_a_sentence_and_an_exit_code(processes, arguments, code, text):
+def test_wrong_usage_gives_an_error_and_an_exit_code(processes, arguments, code, text):
     processes.start("command", "python", "-m", "coframe.cli", *arguments)
     eventually(lambda: not processes.running("command"), lambda: processes.text("command"))
     assert text in processes.text("command")
@@ -107,11 +111,11 @@ def test_help_has_an_example(processes, command):
     assert processes.end("help")[0] == 0
 
 
-def test_demo_shows_the_whole_tree_and_ends_its_nodes(processes):
+def test_demo_shows_the_complete_tree_and_stops_its_nodes(processes):
     processes.start("demo", "python", "-m", "coframe.cli", "demo", "--duration", "8", "--no-browser")
     processes.start("other", "python", "-m", "coframe.lab.simulated_lidar")
-    heard = processes.observe(1.0, "/scan_base_frame:sensor_msgs/msg/PointCloud2:volatile")
-    assert len(heard["/scan_base_frame"]) > 1
+    received = processes.observe(1.0, "/scan_base_frame:sensor_msgs/msg/PointCloud2:volatile")
+    assert len(received["/scan_base_frame"]) > 1
     eventually(lambda: not processes.running("demo"), lambda: processes.text("demo"))
     code, text = processes.end("demo")
     assert code == 0, text
@@ -126,8 +130,8 @@ def test_demo_shows_the_whole_tree_and_ends_its_nodes(processes):
 def test_demo_from_a_description_shows_the_same_tree(processes):
     pytest.importorskip("xacro", reason="the lab's robot is described in xacro")
     processes.start("demo", "python", "-m", "coframe.cli", "demo", "--urdf", "--duration", "12", "--no-browser")
-    heard = processes.observe(1.0, "/robot_description:std_msgs/msg/String:transient_local")
-    assert "two_link_arm" in heard["/robot_description"][0][1]["data"]
+    received = processes.observe(1.0, "/robot_description:std_msgs/msg/String:transient_local")
+    assert "two_link_arm" in received["/robot_description"][0][1]["data"]
     eventually(lambda: not processes.running("demo"), lambda: processes.text("demo"))
     code, text = processes.end("demo")
     assert code == 0, text
@@ -140,9 +144,9 @@ def test_demo_from_a_description_shows_the_same_tree(processes):
 @pytest.mark.parametrize(
     ("how", "code"), [pytest.param(signal.SIGHUP, 0, marks=pytest.mark.slow), (signal.SIGKILL, -signal.SIGKILL)]
 )
-def test_no_node_outlives_the_demo(processes, how, code, tmp_path, monkeypatch):
-    """A closed terminal or a kill must not leave a second arm behind for the next demo."""
-    monkeypatch.setenv("TMPDIR", str(tmp_path))  # who is killed leaves the nodes' logs behind
+def test_all_nodes_stop_with_the_demo(processes, how, code, tmp_path, monkeypatch):
+    """A closed terminal or a kill must not leave a second arm running for the next demo."""
+    monkeypatch.setenv("TMPDIR", str(tmp_path))  # a killed demo does not delete the logs of its nodes
     processes.start("demo", "python", "-m", "coframe.cli", "demo")
     assert processes.observe(1.0, "/tf:tf2_msgs/msg/TFMessage:volatile")["/tf"]
     assert processes.end("demo", how)[0] == code
@@ -152,7 +156,7 @@ def test_no_node_outlives_the_demo(processes, how, code, tmp_path, monkeypatch):
     )
 
 
-def test_options_take_their_value_behind_an_equals_sign_and_topics_need_no_slash(processes):
+def test_options_accept_an_equals_sign_and_topics_without_a_slash(processes):
     static = ["--frame-id=a", "--child-frame-id=b", "--x=-1.5", "--tf-static-topic=other_static"]
     processes.start("static", "python", "-m", "coframe.cli", "static", *static)
     start_echo(processes, "a", "b", "--limit=1", "--tf-static-topic=other_static")

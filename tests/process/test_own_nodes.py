@@ -1,4 +1,4 @@
-"""Our own nodes as processes: every scan becomes a cloud, exact at the scan's own time, while arm and base move."""
+"""The nodes of coframe in processes: every scan becomes a correct cloud at its own stamp while the robot moves."""
 
 import bisect
 import signal
@@ -19,7 +19,7 @@ NODES = {
     "dynamic_tf_broadcaster": [],
     "tf_listener": [],
     "simulated_lidar": [],
-    # The lidar's frame does not move in base_link; seen from odom it does, with the whole base.
+    # The lidar does not move relative to base_link. Relative to odom, it moves with the base.
     "sensor_transform": ["--ros-args", "-p", "target_frame:=odom"],
 }
 
@@ -30,12 +30,12 @@ def nanoseconds(message):
 
 
 class Tree:
-    """What was heard on /tf and /tf_static, composed with scipy."""
+    """The transforms received on /tf and /tf_static, composed with SciPy."""
 
-    def __init__(self, heard):
+    def __init__(self, received):
         self.links = {}
         for topic in ("/tf", "/tf_static"):
-            for _, message in heard[topic]:
+            for _, message in received[topic]:
                 for transform in message["transforms"]:
                     parent, child = transform["header"]["frame_id"], transform["child_frame_id"]
                     t, r = transform["transform"]["translation"], transform["transform"]["rotation"]
@@ -50,7 +50,7 @@ class Tree:
             values = np.array(samples[-1][1])
         else:
             i = bisect.bisect_left([s for s, _ in samples], stamp)
-            assert 0 < i < len(samples), "the scan's time must lie within what was heard"
+            assert 0 < i < len(samples), "the scan's time must lie within what was received"
             (start, a), (end, b) = samples[i - 1], samples[i]
             share = (stamp - start) / (end - start)
             rotation = Slerp([0, 1], Rotation.from_quat([a[3:], b[3:]]))(share).as_quat()
@@ -77,25 +77,25 @@ def expected_points(scan, tree):
 
 
 @pytest.mark.timeout(120)
-def heard_by_stamp(heard):
-    """The tree, and the scans and clouds that belong together."""
-    tree = Tree(heard)
+def by_stamp(received):
+    """Return the tree, and the scans and clouds by stamp."""
+    tree = Tree(received)
     moving = [samples for _, static, samples in tree.links.values() if not static]
-    clouds = {nanoseconds(cloud): cloud for _, cloud in heard["/scan_base_frame"]}
+    clouds = {nanoseconds(cloud): cloud for _, cloud in received["/scan_base_frame"]}
     if not moving or not clouds:
         return tree, {}, clouds
     first, last = max(s[0][0] for s in moving), min(s[-1][0] for s in moving)
-    scans = {nanoseconds(scan): scan for _, scan in heard["/scan"] if first < nanoseconds(scan) < last - 500_000_000}
-    # Whoever listens first hears some scans before the first cloud: from then on every one must be there.
+    scans = {nanoseconds(scan): scan for _, scan in received["/scan"] if first < nanoseconds(scan) < last - 500_000_000}
+    # Some scans arrive before the first cloud. From then on, every scan must have a cloud.
     return tree, {stamp: scan for stamp, scan in scans.items() if stamp >= min(clouds)}, clouds
 
 
-def test_every_scan_becomes_an_exact_cloud(processes):
+def test_every_scan_is_published_as_a_correct_cloud(processes):
     for name, arguments in NODES.items():
         processes.start(name, "python", "-m", f"coframe.lab.{name}", *arguments)
-    for seconds in (6.0, 15.0, 30.0):  # a busy machine takes longer
-        heard = processes.observe(seconds, *TOPICS)
-        tree, scans, clouds = heard_by_stamp(heard)
+    for seconds in (6.0, 15.0, 30.0):  # a busy machine needs more time
+        received = processes.observe(seconds, *TOPICS)
+        tree, scans, clouds = by_stamp(received)
         if len(scans) >= 40:
             break
     assert len(scans) >= 40
@@ -112,7 +112,7 @@ def test_every_scan_becomes_an_exact_cloud(processes):
         np.testing.assert_allclose(values[:, :3], expected, rtol=0, atol=1e-6)
         positions.append(tree.lookup("odom", "base_link", stamp)[:3, 3])
     assert np.ptp(positions, axis=0)[0] > 0.2, "the base must have moved"
-    assert np.ptp([p["pose"]["position"]["y"] for _, p in heard["/end_effector_pose"]]) > 0.1, "so must the arm"
+    assert np.ptp([p["pose"]["position"]["y"] for _, p in received["/end_effector_pose"]]) > 0.1, "so must the arm"
 
     for name in NODES:
         code, text = processes.end(name, signal.SIGINT)

@@ -1,4 +1,4 @@
-"""`coframe record` and `coframe play` as a user runs them, killed, starved of disk and steered by keys."""
+"""`coframe record` and `coframe play` as a user runs them: killed, with a full disk, and controlled by keys."""
 
 import os
 import signal
@@ -42,7 +42,7 @@ def eventually(condition, what, patience=40.0):
 
 
 def count(path):
-    """How many messages of /tf there are in a folder that is being written."""
+    """Return the number of messages on /tf in a folder that is being written."""
     try:
         with coframe.open_bag(path) as bag:
             return bag.topics["/tf"].messages if "/tf" in bag.topics else 0
@@ -56,7 +56,7 @@ def start_recording(processes, path, *options, messages=100):
 
 
 def assert_others_open_it(path):
-    """That the libraries of others read it to its end: the number of messages."""
+    """Read a recording with other libraries and return the number of messages."""
     with Reader(path) as reader:
         by_rosbags = len(list(reader.messages()))
     by_mcap = 0
@@ -71,7 +71,7 @@ def statics(bag):
     return {edge.child for edge in bag.buffer.edges() if edge.static}
 
 
-def test_a_killed_recorder_loses_the_last_second_at_most(processes, tmp_path):
+def test_a_killed_recorder_loses_at_most_the_last_second(processes, tmp_path):
     processes.start("tree", *TREE)
     start_recording(processes, tmp_path / "run", messages=150)
     killed = time.time_ns()
@@ -86,7 +86,7 @@ def test_a_killed_recorder_loses_the_last_second_at_most(processes, tmp_path):
         assert moving.longest_gap < 1_000_000_000
 
 
-def test_ctrl_c_ends_it_with_an_index_and_a_sentence(processes, tmp_path):
+def test_ctrl_c_writes_the_index_and_a_summary(processes, tmp_path):
     processes.start("tree", *TREE)
     start_recording(processes, tmp_path / "run", "/tf", "/gone", messages=20)
     code, text = processes.end("record")
@@ -102,7 +102,7 @@ def test_ctrl_c_ends_it_with_an_index_and_a_sentence(processes, tmp_path):
     assert processes.text("again").startswith(f"coframe: {tmp_path / 'run'} already exists and is not overwritten")
 
 
-def test_a_full_disk_ends_it_with_a_sentence(processes, tmp_path):
+def test_a_full_disk_stops_recording_with_an_error(processes, tmp_path):
     processes.start("tree", *TREE)
     record = f"{sys.executable} -m coframe.cli record -o {tmp_path / 'run'} --compression none"
     processes.start("record", "sh", "-c", f"ulimit -f 80; exec {record}")
@@ -110,7 +110,7 @@ def test_a_full_disk_ends_it_with_a_sentence(processes, tmp_path):
     code, text = processes.end("record")
     assert code == 1
     assert f"coframe: {tmp_path / 'run'} cannot be written: " in text
-    assert "What was written before can be read." in text
+    assert "The messages written before this error can be read." in text
     assert "Traceback" not in text
     assert assert_others_open_it(tmp_path / "run") > 10
     with coframe.open_bag(tmp_path / "run") as bag:
@@ -119,7 +119,7 @@ def test_a_full_disk_ends_it_with_a_sentence(processes, tmp_path):
 
 
 @pytest.mark.usefixtures("domain_id")
-def test_keys_steer_what_is_played(network, shared):
+def test_keys_control_the_replay(network, shared):
     pty = pytest.importorskip("pty")
     master, terminal = pty.openpty()
     bag = shared / "recordings" / "world_talk_1hz"
@@ -136,7 +136,7 @@ def test_keys_steer_what_is_played(network, shared):
     try:
         read_until(b"0 messages, paused")
         os.write(master, b"\x1b[C")
-        read_until(b"1 messages, paused")
+        read_until(b"1 message, paused")
         os.write(master, b"\x1b[A")
         os.write(master, b" ")
         read_until(b"rate 1.1")
@@ -153,7 +153,7 @@ def test_keys_steer_what_is_played(network, shared):
     ("arguments", "code", "reason"),
     [
         (("record", "--max-size", "big"), 2, "--max-size: 'big' is not a size"),
-        (("record", "--compression", "zip"), 2, "there is no compression 'zip'"),
+        (("record", "--compression", "zip"), 2, "No compression named 'zip'"),
         (("record", "-a", "/tf"), 2, "--all cannot be combined with TOPIC"),
         (("record", "-e", "["), 2, "is not a valid regular expression"),
         (("play", "gone"), 1, "gone cannot be read"),
@@ -161,7 +161,7 @@ def test_keys_steer_what_is_played(network, shared):
         (("play", "gone", "--remap", "/tf"), 2, "is not OLD:=NEW"),
     ],
 )
-def test_wrong_usage_is_told(arguments, code, reason, tmp_path, monkeypatch):
+def test_wrong_usage_gives_an_error(arguments, code, reason, tmp_path, monkeypatch):
     from typer.testing import CliRunner
 
     from coframe.cli.app import app
@@ -173,24 +173,24 @@ def test_wrong_usage_is_told(arguments, code, reason, tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-def test_an_independent_program_hears_what_is_played(processes, shared):
+def test_an_independent_program_receives_the_replay(processes, shared):
     bag = shared / "recordings" / "tb3_gazebo_walker"
     processes.start("play", *CLI, "play", bag, "--rate", "4", "--delay", "5s")
     topics = ("/tf:tf2_msgs/msg/TFMessage:volatile", "/tf_static:tf2_msgs/msg/TFMessage:transient_local")
-    heard = processes.observe(8.0, *topics)
+    received = processes.observe(8.0, *topics)
     with coframe.open_bag(bag) as recording:
         children = {
-            transform["child_frame_id"] for _, message in heard["/tf_static"] for transform in message["transforms"]
+            transform["child_frame_id"] for _, message in received["/tf_static"] for transform in message["transforms"]
         }
         assert children == statics(recording)
-        assert len(heard["/tf"]) == recording.topics["/tf"].messages
+        assert len(received["/tf"]) == recording.topics["/tf"].messages
     code, text = processes.end("play")
     assert code == 0, text
 
 
 @pytest.mark.slow
-def test_the_demo_recorded_killed_and_played_gives_the_same_answers(processes, tmp_path):
-    """What a listener heard of the demo itself, and what one hears of the recording that a killed recorder left."""
+def test_the_replay_of_a_killed_recording_gives_the_same_transforms(processes, tmp_path):
+    """Compare the transforms of the demo with those of the replay of a recording whose recorder was killed."""
     bag, wanted = tmp_path / "run", tmp_path / "stamps.npy"
     answers = {name: tmp_path / f"{name}.npy" for name in ("original", "played")}
 

@@ -1,4 +1,4 @@
-"""The service that upstream's view_frames draws its picture from, asked as view_frames does, from another process."""
+"""The service that tf2's view_frames calls, called from another process."""
 
 import json
 
@@ -34,7 +34,7 @@ print("FRAMES", json.dumps(text), flush=True)
 
 
 @pytest.mark.slow
-def test_another_process_gets_all_frames_as_yaml(processes, eventually):
+def test_another_process_receives_all_frames_as_yaml(processes, eventually):
     processes.start("tree", "python", "-m", "coframe.lab.complete_tf_tree")
     processes.start("holder", "python", "-c", HOLDER)
     processes.start("asker", "python", "-c", ASKER)
@@ -43,7 +43,7 @@ def test_another_process_gets_all_frames_as_yaml(processes, eventually):
     assert data["link1"]["parent"] == "base_link"
     assert 40 < data["link1"]["rate"] < 60
     assert data["lidar_link"]["oldest_transform"] == 0.0
-    # What view_frames makes a label of.
+    # The text from which view_frames makes a label.
     keys = {"parent", "broadcaster", "rate", "most_recent_transform", "oldest_transform", "buffer_length"}
     assert all(keys <= set(frame) for frame in data.values())
     (root,) = {frame["parent"] for frame in data.values()} - set(data)

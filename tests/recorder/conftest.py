@@ -1,10 +1,10 @@
-"""A participant that publishes and listens, beside the recorder or the player."""
+"""A participant that publishes and subscribes next to the recorder or the player."""
 
 from collections.abc import Iterator
 
 import pytest
 
-pytest.importorskip("cyclonedds", reason="recording and playing need the wire")
+pytest.importorskip("cyclonedds", reason="recording and replay need DDS")
 
 from coframe.wire import GraphNode, Participant
 

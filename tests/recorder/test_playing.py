@@ -1,4 +1,4 @@
-"""What a graph hears of a recording that is played."""
+"""The messages that a graph receives when a recording is replayed."""
 
 import time
 
@@ -27,7 +27,7 @@ def text(words):
 
 @pytest.fixture
 def bag(tmp_path):
-    """The walk with words at 20 Hz, and descriptions at 0 s, 1 s and 2 s."""
+    """The moving robot with words at 20 Hz, and descriptions at 0 s, 1 s and 2 s."""
     rows = [(topic, TF, at, data, ()) for topic, at, data in recordings.messages()]
     rows += [("/words", STRING, START + 5000 + i * SECOND // 20, text(f"{i}"), ()) for i in range(COUNT)]
     rows += [("/robot", STRING, START + 7000 + i * SECOND, text(f"robot {i}"), (LATCHED,)) for i in range(3)]
@@ -38,16 +38,16 @@ def bag(tmp_path):
 
 
 @pytest.fixture
-def hear(participant, node):
-    """Subscribes: a function that gives the samples so far."""
+def listen(participant, node):
+    """Return a function that subscribes to a topic and returns a function that returns the samples so far."""
 
     def subscribe(topic, ros_type=STRING, qos=DEEP):
         subscription = participant.raw_subscription(node, topic, ros_type, qos)
-        heard = []
+        received = []
 
         def samples():
-            heard.extend(subscription.take(1000))
-            return heard
+            received.extend(subscription.take(1000))
+            return received
 
         return samples
 
@@ -58,18 +58,19 @@ def words(samples):
     return [deserialize(sample.data, find(STRING)).data for sample in samples]
 
 
-def test_order_and_pace(bag, hear):
-    said, moved = hear("/words"), hear("/tf", TF)
+def test_order_and_timing_of_a_replay(bag, listen):
+    received_words, moved = listen("/words"), listen("/tf", TF)
     with coframe.play(bag, delay=SETTLED, rate=3.0) as player:
         assert player.wait(20)
         assert player.played == 1 + 2 * COUNT + 3
         assert player.problems == []
-    assert words(said()) == [f"{i}" for i in range(COUNT)]
+    assert words(received_words()) == [f"{i}" for i in range(COUNT)]
     assert [sample.data for sample in moved()] == [data for topic, _, data in recordings.messages() if topic == "/tf"]
     sent = {
-        topic: np.array([s.source_timestamp for s in samples]) for topic, samples in (("w", said()), ("t", moved()))
+        topic: np.array([s.source_timestamp for s in samples])
+        for topic, samples in (("w", received_words()), ("t", moved()))
     }
-    # As they were recorded: a transform, then the words 4 us later, then the next transform.
+    # The order of the recording: a transform, then the words 4 us later, then the next transform.
     assert (sent["t"] < sent["w"]).all()
     assert (sent["w"][:-1] < sent["t"][1:]).all()
     late = (sent["w"] - sent["w"][0]) - np.arange(COUNT) * SECOND / 20 / 3
@@ -77,14 +78,14 @@ def test_order_and_pace(bag, hear):
     assert late.min() > -0.02 * SECOND
 
 
-def test_a_recording_is_played_as_one_robot_of_many(hear, tmp_path):
+def test_a_recording_is_replayed_with_a_prefix_and_other_topics(listen, tmp_path):
     odometry = find("nav_msgs/msg/Odometry")()
     odometry.header.frame_id, odometry.child_frame_id = "odom", "base"
     with Writer(tmp_path / "run") as writer:
         for topic, at, data in recordings.messages():
             writer.write(writer.add_topic(topic, TF), data, at)
         writer.write(writer.add_topic("/odom", type(odometry).ROS_TYPE), serialize(odometry), START + SECOND)
-    said, unprefixed = hear("/odom", type(odometry).ROS_TYPE), hear("/tf", TF)
+    received_words, unprefixed = listen("/odom", type(odometry).ROS_TYPE), listen("/tf", TF)
     words = [
         "--tf-topic",
         "/robot1/tf",
@@ -102,12 +103,12 @@ def test_a_recording_is_played_as_one_robot_of_many(hear, tmp_path):
     poses = ros.buffer.trajectory("odom", "robot1/lidar").matrix
     np.testing.assert_allclose(poses, recordings.expected().trajectory("odom", "lidar").matrix, rtol=0, atol=1e-14)
     assert not unprefixed()
-    [heard] = [deserialize(sample.data, type(odometry)) for sample in said()]
-    assert (heard.header.frame_id, heard.child_frame_id) == ("odom", "robot1/base")
+    [received] = [deserialize(sample.data, type(odometry)) for sample in received_words()]
+    assert (received.header.frame_id, received.child_frame_id) == ("odom", "robot1/base")
 
 
 @pytest.mark.usefixtures("participant")
-def test_a_listener_gets_the_answers_of_the_original_also_from_the_middle(bag):
+def test_a_listener_gets_the_transforms_of_the_original_from_any_start(bag):
     for start, first in (("0s", 0), ("1500ms", 30)):
         with (
             coframe.connect("listener", cache=None) as ros,
@@ -117,28 +118,32 @@ def test_a_listener_gets_the_answers_of_the_original_also_from_the_middle(bag):
             stamps = START + np.linspace((first + 1) * SECOND // 20 + 100, (COUNT - 1) * SECOND // 20, 200).astype(
                 np.int64
             )
-            heard = ros.buffer.lookup_many("odom", "lidar", stamps).matrix
+            received = ros.buffer.lookup_many("odom", "lidar", stamps).matrix
             np.testing.assert_allclose(
-                heard, recordings.expected().lookup_many("odom", "lidar", stamps).matrix, rtol=0, atol=1e-14
+                received, recordings.expected().lookup_many("odom", "lidar", stamps).matrix, rtol=0, atol=1e-14
             )
 
 
-def test_what_is_latched_comes_first_and_to_those_who_come_late(bag, hear, eventually):
+def test_latched_messages_are_published_first_and_reach_late_subscribers(bag, listen, eventually):
     with coframe.play(bag, delay=SETTLED, start_offset="1500ms", paused=True, rate=4.0) as player:
         late = QoS(depth=10, transient_local=True)
-        statics, robot, said = hear("/tf_static", TF, late), hear("/robot", STRING, late), hear("/words")
+        statics, robot, received_words = (
+            listen("/tf_static", TF, late),
+            listen("/robot", STRING, late),
+            listen("/words"),
+        )
         eventually(lambda: statics() and robot())
         (transform,) = deserialize(statics()[0].data, find(TF)).transforms
         assert (transform.header.frame_id, transform.child_frame_id) == ("base", "lidar")
         assert words(robot()) == ["robot 1"]
-        assert said() == []
+        assert received_words() == []
         player.resume()
         assert player.wait(20)
         assert words(robot()) == ["robot 1", "robot 2"]
-        assert words(said()) == [f"{i}" for i in range(30, COUNT)]
+        assert words(received_words()) == [f"{i}" for i in range(30, COUNT)]
 
 
-def test_statics_have_the_values_that_held_at_the_start(tmp_path, hear):
+def test_static_transforms_have_their_values_at_the_start(tmp_path, listen):
     def static(**frames):
         buffer = coframe.Buffer(None)
         for child, x in frames.items():
@@ -149,23 +154,23 @@ def test_statics_have_the_values_that_held_at_the_start(tmp_path, hear):
         topic = writer.add_topic("/tf_static", TF)
         for i, data in enumerate([static(a=1.0), static(b=1.0), static(a=2.0), static(a=3.0, c=1.0)]):
             writer.write(topic, data, START + i * SECOND)
-    heard = hear("/tf_static", TF)
+    received = listen("/tf_static", TF)
     with coframe.play(tmp_path / "run", delay=SETTLED, rate=20, start_offset="2500ms") as player:
         assert player.wait(20)
     told = [
         {t.child_frame_id: t.transform.translation.x for t in deserialize(sample.data, find(TF)).transforms}
-        for sample in heard()
+        for sample in received()
     ]
     assert told == [{"a": 2.0, "b": 1.0, "c": 1.0}, {"a": 3.0, "b": 1.0, "c": 1.0}]
 
 
-def test_pause_step_and_rate(bag, hear, eventually):
-    said = hear("/words")
+def test_pause_step_and_rate(bag, listen, eventually):
+    received_words = listen("/words")
     with coframe.play(bag, topics=["words"], delay=SETTLED, paused=True) as player:
         player.step()
         player.step()
-        eventually(lambda: len(said()) == 2)
-        assert words(said()) == ["0", "1"]
+        eventually(lambda: len(received_words()) == 2)
+        assert words(received_words()) == ["0", "1"]
         assert player.clock.paused
         assert player.is_playing
         player.set_rate(100)
@@ -173,17 +178,17 @@ def test_pause_step_and_rate(bag, hear, eventually):
         begun = time.monotonic()
         assert player.wait(20)
         assert time.monotonic() - begun < 2.0
-        assert len(words(said())) == COUNT
+        assert len(words(received_words())) == COUNT
         with pytest.raises(ValueError, match="above 0 and at most 1000"):
             player.set_rate(0)
 
 
-def test_loop_and_clock(bag, hear, eventually):
-    said, ticks = hear("/words"), hear("/clock", CLOCK)
+def test_loop_and_clock(bag, listen, eventually):
+    received_words, ticks = listen("/words"), listen("/clock", CLOCK)
     with coframe.play(bag, topics=["/words", "/tf_static"], delay=SETTLED, rate=30, loop=True, clock=200) as player:
-        eventually(lambda: len(said()) > 2 * COUNT + 10)
+        eventually(lambda: len(received_words()) > 2 * COUNT + 10)
         assert player.is_playing
-    assert words(said())[: 2 * COUNT] == 2 * [f"{i}" for i in range(COUNT)]
+    assert words(received_words())[: 2 * COUNT] == 2 * [f"{i}" for i in range(COUNT)]
     told = [deserialize(sample.data, find(CLOCK)).clock for sample in ticks()]
     times = np.array([clock.sec * SECOND + clock.nanosec for clock in told])
     assert times[0] == START + 1000
@@ -193,16 +198,16 @@ def test_loop_and_clock(bag, hear, eventually):
     assert np.median(jumps[jumps > 0]) == pytest.approx(30 * SECOND / 200, rel=0.5)
 
 
-def test_other_names(bag, hear):
-    said, nothing = hear("/robot1/words"), hear("/words")
+def test_remapped_topics(bag, listen):
+    received_words, nothing = listen("/robot1/words"), listen("/words")
     with coframe.play(bag, delay=SETTLED, rate=50, remap={"words": "/robot1/words"}) as player:
         assert player.wait(20)
-    assert len(said()) == COUNT
+    assert len(received_words()) == COUNT
     assert nothing() == []
 
 
-def test_topics_that_were_recorded_without_a_slash(hear, tmp_path):
-    moved = hear("/robot1/tf", TF)
+def test_topics_that_were_recorded_without_a_slash(listen, tmp_path):
+    moved = listen("/robot1/tf", TF)
     rows = [(topic.strip("/"), at, data) for topic, at, data in recordings.messages()]
     types = {topic: (TF, "ros2msg", b"", "cdr") for topic, *_ in rows}
     bag = recordings.write_mcap(tmp_path / "a.mcap", rows=rows, types=types)
@@ -211,8 +216,8 @@ def test_topics_that_were_recorded_without_a_slash(hear, tmp_path):
     assert (result.exit_code, len(moved())) == (0, COUNT), result.output
 
 
-def test_a_bag_of_ros_1(shared, hear):
-    moved, scans = hear("/tf", TF), hear("/scan", "sensor_msgs/msg/LaserScan")
+def test_a_bag_of_ros_1(shared, listen):
+    moved, scans = listen("/tf", TF), listen("/scan", "sensor_msgs/msg/LaserScan")
     with coframe.play(shared / "recordings" / "tilt_laser.bag", delay=SETTLED, rate=30) as player:
         assert player.wait(20)
         assert [problem.partition(" ")[0] for problem in player.problems] == ["/info_gps", "/temperature"]
@@ -220,30 +225,30 @@ def test_a_bag_of_ros_1(shared, hear):
     assert deserialize(scans()[0].data, find("sensor_msgs/msg/LaserScan")).header.frame_id == "/laser"
 
 
-def test_damaged_messages_are_left_out_and_told_of(tmp_path, hear):
+def test_damaged_messages_are_skipped_and_reported(tmp_path, listen):
     with Writer(tmp_path / "run") as writer:
         topics = [writer.add_topic("/words", STRING), writer.add_topic("/tf_static", TF)]
         for i, data in enumerate((text("a"), b"", b"xy", text("b"))):
             for topic in topics:
                 writer.write(topic, data, START + i)
-    said = hear("/words")
+    received_words = listen("/words")
     with coframe.play(tmp_path / "run", delay=SETTLED) as player:
         assert player.wait(20)
         assert len(player.problems) == 2
         assert all("damaged messages are skipped" in problem for problem in player.problems)
-    assert words(said()) == ["a", "b"]
+    assert words(received_words()) == ["a", "b"]
 
 
-def test_names_that_dds_does_not_take_are_left_out_and_told_of(tmp_path, hear):
+def test_invalid_topic_names_are_skipped_and_reported(tmp_path, listen):
     with Writer(tmp_path / "run") as writer:
         for topic in ("words", "", "/words", "/a b\x1b[2J"):
             writer.write(writer.add_topic(topic, STRING), text(topic), START)
         writer.write(writer.add_topic("/typeless", ""), text("x"), START)
-    said = hear("/words")
+    received_words = listen("/words")
     with coframe.play(tmp_path / "run", delay=SETTLED) as player:
         assert player.wait(20)
         assert [problem.partition(" is not replayed")[0] for problem in player.problems[:2]] == ["words", ""]
-    assert words(said()) == ["/words"]
+    assert words(received_words()) == ["/words"]
 
 
 @pytest.mark.parametrize(
@@ -257,12 +262,12 @@ def test_names_that_dds_does_not_take_are_left_out_and_told_of(tmp_path, hear):
         ({"clock": 1e9}, "above 0 Hz and at most 1000 Hz"),
     ],
 )
-def test_what_makes_no_sense_is_refused(bag, options, reason):
+def test_invalid_arguments_raise_an_error(bag, options, reason):
     with pytest.raises(ValueError, match=reason):
         coframe.play(bag, **options)
 
 
-def test_recorded_time_stands_still_goes_on_and_jumps():
+def test_the_playback_clock_pauses_resumes_and_jumps():
     clock = PlaybackClock(100, 2.0, paused=False)
     assert clock.now == 100  # not yet begun
     clock.jump(1000)

@@ -1,4 +1,4 @@
-"""What is said on a graph, and what of it is on the disk."""
+"""The messages that are published on a graph, and those in the recording."""
 
 import time
 
@@ -36,7 +36,7 @@ def data_by_topic(path):
         return {name: [message.data for message in bag.messages(name)] for name in bag.topics}
 
 
-def test_messages_of_any_type_are_there_as_they_were_sent(participant, node, eventually, tmp_path):
+def test_messages_of_any_type_are_recorded_unchanged(participant, node, eventually, tmp_path):
     early = participant.publisher(node, "/words", STRING, QoS(depth=50))
     odd = participant.raw_publisher(node, "/odd", "my_pkg/msg/Odd", QoS(depth=3, reliable=False))
     hidden = participant.publisher(node, "/fibonacci/_action/status", STRING, QoS())
@@ -70,12 +70,12 @@ def test_messages_of_any_type_are_there_as_they_were_sent(participant, node, eve
     assert not offered["/odd"].reliable
 
 
-def test_publishers_that_offer_different_things_are_each_heard_once(participant, node, eventually, tmp_path):
+def test_messages_of_publishers_with_different_qos_are_recorded_once(participant, node, eventually, tmp_path):
     qualities = [QoS(1, transient_local=True), QoS(10), QoS(10, reliable=False)]
     publishers = [participant.raw_publisher(node, "/tf_static", TF_MESSAGE.ROS_TYPE, qos) for qos in qualities]
     publishers[0].write(static("before"))
     with coframe.record(tmp_path / "run") as recorder:
-        # The one that offers most is heard by those that ask for less, too.
+        # The one that offers most is received by those that ask for less, too.
         eventually(lambda: [publisher.matched for publisher in publishers] == [3, 2, 1])
         for i, publisher in enumerate(publishers):
             publisher.write(static(f"frame{i}"))
@@ -84,7 +84,7 @@ def test_publishers_that_offer_different_things_are_each_heard_once(participant,
     assert sorted(data_by_topic(tmp_path / "run")["/tf_static"]) == sorted(expected)
 
 
-def test_topics_that_are_not_ros_harm_nothing(participant, node, eventually, tmp_path):
+def test_topics_without_a_ros_type_are_refused(participant, node, eventually, tmp_path):
     from coframe import _core
     from coframe.wire import types
 
@@ -113,26 +113,26 @@ def test_topics_that_are_not_ros_harm_nothing(participant, node, eventually, tmp
         ((None, ".*", "/scan"), {"/tf", "/tf_static", "/a/_action/feedback"}),
     ],
 )
-def test_which_topics_are_wanted(choice, chosen):
+def test_topic_filter(choice, chosen):
     wanted = TopicFilter(*choice)
     assert {topic for topic in ("/tf", "/tf_static", "/scan", "/a/_action/feedback") if wanted(topic)} == chosen
 
 
-def test_topics_that_nobody_publishes_on_are_told_of():
+def test_requested_topics_without_a_publisher_are_missing():
     assert TopicFilter(["/tf", "gone"], None, None).missing({"/tf"}) == ["/gone"]
     with pytest.raises(ValueError, match="is not a valid regular expression"):
         TopicFilter(None, "(", None)
 
 
 class SlowDisk(Writer):
-    """A writer that takes its time."""
+    """A slow writer."""
 
     def write(self, *arguments, **options):
         time.sleep(0.01)
         super().write(*arguments, **options)
 
 
-def test_a_slow_disk_costs_the_oldest_messages_but_no_statics(participant, node, eventually, tmp_path):
+def test_a_slow_disk_drops_the_oldest_messages_but_no_static_transforms(participant, node, eventually, tmp_path):
     count, size = 300, 10_000
     publisher = participant.publisher(node, "/words", STRING, QoS(depth=count))
     statics = participant.raw_publisher(node, "/tf_static", TF_MESSAGE.ROS_TYPE, QoS(depth=1, transient_local=True))
@@ -155,11 +155,11 @@ def test_a_slow_disk_costs_the_oldest_messages_but_no_statics(participant, node,
     data = data_by_topic(tmp_path / "run")
     assert data["/tf_static"] == [static("lidar")]
     assert len(data["/words"]) == count - dropped
-    # The newest are there.
+    # The newest messages are recorded.
     assert data["/words"][-40:] == [text(f"{i:{size}}") for i in range(count - 40, count)]
 
 
-def test_what_cannot_be_started_leaves_nothing_behind(participant, tmp_path):
+def test_a_failed_start_leaves_no_files_and_no_node(participant, tmp_path):
     (tmp_path / "run").mkdir()
     with pytest.raises(coframe.RecordingError, match="already exists"):
         coframe.record(tmp_path / "run")
@@ -198,7 +198,7 @@ def test_one_robot_is_recorded_under_a_prefix(participant, node, eventually, tmp
         assert [one.data for one in bag.messages("/robot1/odd")] == [b"\0\1\0\0bytes"]
 
 
-def test_a_topic_of_two_unknown_types_is_told_of_once():
+def test_a_topic_with_two_unknown_types_is_reported_once():
     frames = FrameRenamer(renaming("robot1/"), "/robot1/tf", "/robot1/tf_static")
     for kind in ("my_pkg/msg/Odd", "my_pkg/msg/Other"):
         for topic in ("/robot1/odd", "/robot1/b", "/robot2/odd"):
@@ -206,7 +206,7 @@ def test_a_topic_of_two_unknown_types_is_told_of_once():
     assert list(frames.not_renamed) == ["/robot1/odd", "/robot1/b"]
 
 
-def test_a_recorded_walk_gives_the_same_answers(participant, node, eventually, tmp_path):
+def test_recorded_transforms_give_the_same_lookups(participant, node, eventually, tmp_path):
     publishers = {
         "/tf": participant.raw_publisher(node, "/tf", TF_MESSAGE.ROS_TYPE, QoS(100)),
         "/tf_static": participant.raw_publisher(node, "/tf_static", TF_MESSAGE.ROS_TYPE, QoS(1, transient_local=True)),

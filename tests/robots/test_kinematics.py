@@ -1,4 +1,4 @@
-"""Where links are: by hand, by scipy, by finite differences, and on a real robot's recording."""
+"""Forward kinematics, compared with SciPy, with finite differences and with the recording of a real robot."""
 
 import itertools
 from concurrent.futures import ThreadPoolExecutor
@@ -50,14 +50,14 @@ def about(axis, angle):
 
 
 def by_hand(turn, slide, spin, push):
-    """The pose of the tip, by scipy and 4x4 matrices."""
+    """Return the pose of the tip from SciPy and 4x4 matrices."""
     x, y, angle = push
     motions = [
         about((1, 2, 3), turn),
         matrix((0, -slide, 0)),
         np.eye(4),
         about((0, 0.6, 0.8), spin),
-        # The plane across y: its axes are x and z turned with the normal from z to y.
+        # The plane is perpendicular to y. Its axes x and y are rotated like the normal, from z to y.
         matrix((x, 0, -y)) @ about((0, 1, 0), angle),
     ]
     tip = np.eye(4)
@@ -66,7 +66,7 @@ def by_hand(turn, slide, spin, push):
     return tip
 
 
-def test_every_type_of_joint_moves_as_scipy_says():
+def test_every_type_of_joint_agrees_with_scipy():
     robot = parse_urdf(ALL_TYPES)
     rng = np.random.default_rng(1)
     for turn, slide, spin, *push in rng.uniform(-3, 3, (50, 6)):
@@ -76,7 +76,7 @@ def test_every_type_of_joint_moves_as_scipy_says():
         np.testing.assert_allclose(frames["tip"].matrix, by_hand(turn, slide, spin, push), atol=1e-13)
 
 
-def test_a_floating_joint_takes_a_pose():
+def test_a_floating_joint_has_a_pose():
     robot = parse_urdf(described(joint("free", "floating", "base", "a")))
     pose = [1, 2, 3, 0.1, 0.2, 0.3, 2.0]
     expected = ORIGIN @ matrix(pose[:3], Rotation.from_quat(pose[3:]))
@@ -90,7 +90,7 @@ def test_a_planar_joint_without_an_axis_moves_in_x_and_y():
     np.testing.assert_allclose(robot.frames({"push": [1, 2, 0.5]})["a"].matrix, expected, atol=1e-15)
 
 
-def test_many_configurations_at_once_equal_one_after_another():
+def test_a_batch_equals_single_configurations():
     robot = parse_urdf(ALL_TYPES)
     rng = np.random.default_rng(2)
     turn, push = rng.uniform(-3, 3, 40), rng.uniform(-3, 3, (40, 3))
@@ -105,7 +105,7 @@ def test_many_configurations_at_once_equal_one_after_another():
     np.testing.assert_allclose((together["c"] @ links["spin"]).matrix, together["d"].matrix, atol=1e-14)
 
 
-def test_angles_of_any_size_turn_as_numpy_says():
+def test_large_angles_agree_with_numpy():
     robot = parse_urdf(described(joint("spin", "continuous", "base", "a", "<axis xyz='0 0.6 0.8'/>")))
     quarters = np.arange(-2000, 2000) * (np.pi / 4)
     angles = np.concatenate((quarters, np.nextafter(quarters, 9e9), [1e5, 2e5, -2e5 - 1e-3, 1e9, -1e15, 1e-300, -0.0]))
@@ -117,7 +117,7 @@ def test_angles_of_any_size_turn_as_numpy_says():
 
 
 @pytest.mark.parametrize("threads", [1, 3])
-def test_many_configurations_into_an_array(threads):
+def test_a_batch_into_an_array(threads):
     robot = parse_urdf(ALL_TYPES)
     rng = np.random.default_rng(3)
     table = rng.uniform(-3, 3, (1000, 6))  # columns of a table are not contiguous
@@ -133,7 +133,7 @@ def test_many_configurations_into_an_array(threads):
 
 
 def test_kinematics_in_many_threads_at_once():
-    """The native tree is shared and holds nothing that a call changes."""
+    """Threads can share the native tree, because calls do not modify it."""
     robot = parse_urdf(ALL_TYPES)
     angles = np.linspace(-3, 3, 200_000)
     expected = robot.frames({"turn": angles})["tip"].translation
@@ -142,7 +142,7 @@ def test_kinematics_in_many_threads_at_once():
             np.testing.assert_array_equal(found, expected)
 
 
-def test_a_robot_of_links_alone():
+def test_a_robot_without_joints():
     lone = parse_urdf("<robot name='r'><link name='base'/></robot>")
     assert list(lone.frames()) == ["base"]
     assert lone.joint_transforms() == {}
@@ -170,7 +170,7 @@ def test_a_chain_of_mimics_in_any_order(order):
     assert robot.free_joints == ("z",)
 
 
-def test_joints_rest_at_zero_or_amid_their_limits():
+def test_default_positions_are_zero_or_the_middle_of_the_limits():
     inside = joint("turn", "revolute", "base", "a")
     outside = joint("slide", "prismatic", "a", "b").replace("lower='-3'", "lower='1'")
     assert parse_urdf(described(inside, outside)).zeros() == {"turn": 0.0, "slide": 2.0}
@@ -215,6 +215,6 @@ def test_the_jacobian_is_the_derivative():
         ({"turn": np.zeros(2), "spin": np.zeros(3)}, "shape mismatch"),
     ],
 )
-def test_positions_that_make_no_sense(positions, reason):
+def test_invalid_positions_raise_an_error(positions, reason):
     with pytest.raises(ValueError, match=reason.replace("?", r"\?")):
         parse_urdf(ALL_TYPES).frames(positions)

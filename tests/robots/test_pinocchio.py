@@ -1,4 +1,4 @@
-"""Real robots, beside Pinocchio: an implementation we did not write. `make test-slow` installs both."""
+"""Kinematics of real robots, compared with Pinocchio. `make test-slow` installs both."""
 
 import importlib.metadata
 
@@ -24,7 +24,7 @@ def robots():
     return sorted(file.locate() for file in files if file.suffix == ".urdf")
 
 
-def test_all_example_robots_load_or_are_refused_for_a_true_reason():
+def test_all_valid_example_robots_are_loaded():
     if not robots():
         pytest.skip("example-robot-data is not installed")
     refused = {}
@@ -38,7 +38,7 @@ def test_all_example_robots_load_or_are_refused_for_a_true_reason():
 
 
 @pytest.mark.parametrize("path", [p for p in robots() if p.name not in BROKEN], ids=lambda p: p.stem)
-def test_a_hundred_configurations_equal_pinocchio(path):
+def test_a_hundred_configurations_agree_with_pinocchio(path):
     robot = load(path)
     model = pinocchio.buildModelFromUrdf(str(path))
     data = model.createData()

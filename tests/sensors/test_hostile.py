@@ -67,10 +67,10 @@ def test_it_is_honest_without_a_lie():
         ({"fields": [LyingField(name, LARGEST, 7, 1) for name in "xyz"]}, "'x' ends at byte"),
         ({"fields": [LyingField(name, -4, 7, 1) for name in "xyz"]}, "must not be negative"),
         ({"fields": [LyingField(name, 0, 9, 1) for name in "xyz"]}, "datatype 9"),
-        ({"fields": [LyingField(name, 0, 7, 3) for name in "xyz"]}, "'x' has 3 numbers a point"),
+        ({"fields": [LyingField(name, 0, 7, 3) for name in "xyz"]}, "'x' must have one number per point, not 3"),
         ({"fields": [LyingField(name, 0, 5, 1) for name in "xyz"]}, "float32 or float64, not int32"),
         ({"fields": [LyingField(name, 9, 8, 1) for name in "xyz"]}, "'x' ends at byte 17"),
-        ({"fields": []}, "no field 'x'; they have none"),
+        ({"fields": []}, "no field 'x'. Their fields: none"),
     ],
 )
 def test_what_does_not_fit_is_said(lies, text):
@@ -78,7 +78,7 @@ def test_what_does_not_fit_is_said(lies, text):
         transform_cloud(honest(**lies), TRANSFORM)
     buffer = coframe.Buffer()
     buffer.set("base", "lidar", TRANSFORM, static=True)
-    with pytest.raises(ValueError, match=f"{text}|data has|times for points|must not be negative"):
+    with pytest.raises(ValueError, match=f"{text}|data has|times must have one value per point|must not be negative"):
         deskew(honest(**lies), np.ones(3, np.int64), buffer, "base", source="lidar")
 
 

@@ -88,7 +88,7 @@ def test_changes(plant):
 def test_becoming_stale_and_fresh_are_changes(plant):
     fresh, stale = (plant(moving(moving(Run(), "odom", "base", 8), "base", "arm", seconds)) for seconds in (8, 4))
     assert [(change.kind, change.frame) for change in changes(fresh, stale)] == [("stale", "arm")]
-    assert [(change.kind, change.frame) for change in changes(stale, fresh)] == [("fresh", "arm")]
+    assert [(change.kind, change.frame) for change in changes(stale, fresh)] == [("resumed", "arm")]
 
 
 @pytest.mark.parametrize("shape", ["wide", "deep"])

@@ -1,10 +1,11 @@
-"""Viewers on loopback, and tabs: real WebSocket clients that read the protocol by themselves."""
+"""Viewers on loopback, and tabs: real WebSocket clients without a browser."""
 
 import json
 import struct
 import time
 from collections.abc import Callable, Iterator
 from types import SimpleNamespace
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -14,52 +15,73 @@ pytest.importorskip("websockets", reason="the viewer needs websockets")
 from websockets.sync.client import connect
 
 import coframe
+from coframe.viewer.protocol import messages
+from coframe.viewer.protocol.layout import Layout
+from coframe.viewer.protocol.schema import record
 
-_PATIENCE = 20.0  # seconds; two cores that others use too
+TIMEOUT = 20.0  # Seconds; the machine may be busy.
 SECOND = 1_000_000_000
 
 
+def by_literal(types, field):
+    """Return the record of each TypedDict by the literal value of a field."""
+    records = [record(one) for one in get_args(types)]
+    return {value: one for one in records for part in one.fields if part.name == field for value in part.type.values}
+
+
+SERVER_MESSAGES = by_literal(messages.ServerMessage, "type")
+SHAPES_BY_KIND = by_literal(messages.ShapesDescription, "kind")
+CLIENT_FIELDS = {one.type: {part.name for part in record(one).fields} for one in get_args(messages.ClientMessage)}
+
+
 class Tab:
-    """A browser tab without a browser: draws nothing, remembers the last of each kind."""
+    """A browser tab without a browser: draws nothing, remembers the last message of each kind.
+
+    All messages in both directions are checked against the definition of the protocol.
+    """
 
     def __init__(self, url, **options):
         address = url.replace("http://", "ws://") + "ws"
         self._connection = connect(address, max_size=None, compression=None, **options)
-        self.socket = self._connection.__enter__()  # closed by close()
+        self.socket = self._connection.__enter__()  # close() exits it.
         self.last = {}
-        self.heard = []
-        self.drawings = {}  # (display, sequence) -> decoded binary message
+        self.received = []
+        self.drawings = {}  # Decoded binary messages by display and sequence.
 
     def send(self, kind, **fields):
+        assert fields.keys() <= CLIENT_FIELDS[kind], "the protocol has no such field"
         self.socket.send(json.dumps({"type": kind, **fields}))
 
     def read(self):
-        """The next message, decoded; a tick is said to be drawn at once."""
-        message = self.socket.recv(_PATIENCE)
+        """Return the next message, decoded; confirm frame updates immediately."""
+        message = self.socket.recv(TIMEOUT)
         if isinstance(message, str):
             told = json.loads(message)
             kind = told["type"]
+            record = SERVER_MESSAGES[kind]
+            record.check(told, kind)
+            assert told.keys() <= {field.name for field in record.fields}, "the protocol has no such field"
         else:
             kind, told = decode(message)
             if kind == "tick":
-                self.send("ready", drawn=told.time)
+                self.send("ready", drawn=None if np.isnan(told.time) else told.time)
             else:
                 self.drawings[told.display, told.sequence] = told
         self.last[kind] = told
-        self.heard.append(kind)
+        self.received.append(kind)
         return kind, told
 
     def wait(self, kind, condition=lambda _message: True):
-        """The next message of a kind that meets a condition."""
-        deadline = time.monotonic() + _PATIENCE
+        """Return the next message of a kind that meets a condition."""
+        deadline = time.monotonic() + TIMEOUT
         while time.monotonic() < deadline:
-            heard, told = self.read()
-            if heard == kind and condition(told):
+            kind_read, told = self.read()
+            if kind_read == kind and condition(told):
                 return told
-        raise AssertionError(f"waited in vain for {kind}; the last: {self.last}")
+        raise AssertionError(f"no {kind} arrived; the last messages: {self.last}")
 
     def has(self, kind):
-        """The last message of a kind, if need be the first one that comes."""
+        """Return the last message of a kind, or wait for the first one."""
         return self.last.get(kind) or self.wait(kind)
 
     def ask(self, answer, kind, **fields):
@@ -70,7 +92,7 @@ class Tab:
         return self.wait("tick", condition)
 
     def world(self, tick, name):
-        """A frame's pose in the fixed frame, (7,) float64."""
+        """Return a frame's pose in the fixed frame, (7,) float64."""
         index = next(i for i, frame in enumerate(self.last["tree"]["frames"]) if frame["name"] == name)
         pose = tick.poses[index].astype(np.float64)
         pose[:3] += tick.origin
@@ -83,48 +105,69 @@ class Tab:
         self._connection.__exit__(None, None, None)
 
 
+FRAMES, ENTRY = Layout(messages.FramesHeader), Layout(messages.EntryRecord)
+CLOUD, GRID = Layout(messages.CloudHeader), Layout(messages.GridHeader)
+SHAPES, IMAGE = Layout(messages.ShapesHeader), Layout(messages.ImageHeader)
+
+
 def decode(data):
-    """A binary message by the protocol's documentation."""
+    """Return the kind and the content of a binary message."""
     (kind,) = struct.unpack_from("<I", data)
-    if kind == 1:
-        _, revision, moment, x, y, z, frames, entries = struct.unpack_from("<IId3dII", data)
-        poses = np.frombuffer(data, "<f4", frames * 7, 48).reshape(-1, 7)
-        states = np.frombuffer(data, np.uint8, frames, 48 + frames * 28)
-        at = 48 + frames * 28 + (frames + 3) // 4 * 4
-        shown = [struct.unpack_from("<II7fI", data, at + 40 * i) for i in range(entries)]
-        assert len(data) == at + 40 * entries
-        displays = {(one[0], one[1]): np.array(one[2:9]) if one[9] == 0 else None for one in shown}
-        tick = {"revision": revision, "time": moment, "origin": np.array([x, y, z]), "poses": poses, "states": states}
-        return "tick", SimpleNamespace(**tick, displays=displays)
+    if kind == messages.BinaryKind.FRAMES:
+        return "tick", decode_frames(data)
     display, sequence = struct.unpack_from("<II", data, 4)
     told = SimpleNamespace(display=display, sequence=sequence, size=len(data))
-    if kind == 2:
-        count, flags, told.stamp, *told.range = struct.unpack_from("<IIdff", data, 12)
-        told.points = np.frombuffer(data, "<f4", count * 3, 36).reshape(-1, 3)
-        at = 36 + 12 * count
-        told.step = flags >> 8
-        told.scalars = np.frombuffer(data, "<f4", count, at) if flags & 1 else None
-        told.colours = np.frombuffer(data, np.uint8, count * 4, at).reshape(-1, 4) if flags & 2 else None
+    if kind == messages.BinaryKind.CLOUD:
+        head = CLOUD.unpack(data)
+        told.stamp, told.range, told.step = head.stamp, list(head.range), head.flags >> 8
+        told.points = np.frombuffer(data, "<f4", head.points * 3, CLOUD.size).reshape(-1, 3)
+        at = CLOUD.size + told.points.nbytes
+        has_scalars, has_colors = head.flags & messages.CloudFlag.SCALARS, head.flags & messages.CloudFlag.COLORS
+        told.scalars = np.frombuffer(data, "<f4", head.points, at) if has_scalars else None
+        told.colours = np.frombuffer(data, np.uint8, head.points * 4, at).reshape(-1, 4) if has_colors else None
         return "cloud", told
-    if kind == 3:
-        width, height, told.resolution, *told.corner = struct.unpack_from("<II8f", data, 12)
-        told.cells = np.frombuffer(data, np.int8, width * height, 52).reshape(height, width)
+    if kind == messages.BinaryKind.GRID:
+        head = GRID.unpack(data)
+        told.resolution, told.corner = head.resolution, list(head.corner)
+        cells = np.frombuffer(data, np.int8, head.width * head.height, GRID.size)
+        told.cells = cells.reshape(head.height, head.width)
         return "grid", told
-    if kind == 5:
-        told.width, told.height, flags, told.stamp = struct.unpack_from("<IIId", data, 12)
-        told.format, told.step = flags & 255, flags >> 8
-        told.data = np.frombuffer(data, np.uint8, offset=32)
+    if kind == messages.BinaryKind.IMAGE:
+        head = IMAGE.unpack(data)
+        told.width, told.height, told.stamp = head.width, head.height, head.stamp
+        told.format, told.step = head.format & 255, head.format >> 8
+        told.data = np.frombuffer(data, np.uint8, offset=IMAGE.size)
         return "image", told
-    assert kind == 4
-    (length,) = struct.unpack_from("<I", data, 12)
-    told.head = json.loads(data[16 : 16 + length])
-    told.payload = np.frombuffer(data, "<f4", offset=16 + length)
+    assert kind == messages.BinaryKind.SHAPES
+    length = SHAPES.unpack(data).length
+    told.head = json.loads(data[SHAPES.size : SHAPES.size + length])
+    SHAPES_BY_KIND[told.head["kind"]].check(told.head, "shapes")
+    told.payload = np.frombuffer(data, "<f4", offset=SHAPES.size + length)
     return "shapes", told
+
+
+def decode_frames(data):
+    """Return a frame update."""
+    head = FRAMES.unpack(data)
+    poses = np.frombuffer(data, "<f4", head.frames * 7, FRAMES.size).reshape(-1, 7)
+    states = np.frombuffer(data, np.uint8, head.frames, FRAMES.size + poses.nbytes)
+    at = FRAMES.size + poses.nbytes + (head.frames + 3) // 4 * 4
+    entries = [ENTRY.unpack(data, at + ENTRY.size * i) for i in range(head.entries)]
+    assert len(data) == at + ENTRY.size * head.entries
+    displays = {(one.display, one.sequence): None if one.missing else np.array(one.pose) for one in entries}
+    return SimpleNamespace(
+        revision=head.revision,
+        time=head.time,
+        origin=np.array(head.origin),
+        poses=poses,
+        states=states,
+        displays=displays,
+    )
 
 
 @pytest.fixture
 def view() -> Iterator[Callable[..., object]]:
-    """Shows something on a port of its own."""
+    """Start a viewer on a free port."""
     viewers = []
 
     def start(source, **options):
@@ -138,7 +181,7 @@ def view() -> Iterator[Callable[..., object]]:
 
 @pytest.fixture
 def open_tab() -> Iterator[Callable[..., Tab]]:
-    """Opens a tab of a viewer."""
+    """Open a tab of a viewer."""
     tabs = []
 
     def start(viewer, **options):
@@ -152,5 +195,5 @@ def open_tab() -> Iterator[Callable[..., Tab]]:
 
 @pytest.fixture
 def decoded() -> Callable[[bytes], SimpleNamespace]:
-    """Reads a binary message by the protocol's documentation."""
+    """Decode a binary message."""
     return lambda data: decode(bytes(data))[1]

@@ -67,10 +67,10 @@ def test_of_a_recording_that_is_too_long_all_namespaces_are_counted(tmp_path, mo
     for robot in ("/r1", "/r2"):
         for i in range(6):
             run.tf("odom", "base", START + i * SECOND, topic=f"{robot}/tf")
-    monkeypatch.setattr("coframe.viewer.recorded._MOST_EXAMINED", 10)
+    monkeypatch.setattr("coframe.viewer.sources.recorded._MAX_EXAMINED_SAMPLES", 10)
     with (
         coframe.open_bag(run.write(tmp_path)) as recording,
-        pytest.raises(ViewerError, match="has 12 samples, too many"),
+        pytest.raises(ViewerError, match="has 12 samples, but the viewer examines at most 10"),
     ):
         next(RecordedSource(recording).examine())
 

@@ -39,7 +39,7 @@ def test_live_poses_are_the_buffers_latest(view, open_tab):
     buffer = turning_tree()
     tab = open_tab(view(buffer, fixed="map"))
     tick = tab.tick()
-    assert tab.heard[:3] == ["hello", "tree", "stats"]
+    assert tab.received[:3] == ["hello", "tree", "stats"]
     hello, tree = tab.last["hello"], tab.last["tree"]
     assert (hello["mode"], hello["fixed"], tree["fixed"]) == ("buffer", "map", "map")
     assert [frame["name"] for frame in tree["frames"]] == buffer.frame_names()
@@ -195,7 +195,7 @@ def test_frames_that_come_and_go(view, open_tab):
     assert tick.revision == tab.last["tree"]["revision"]
     # Its time is years ago: what the first origin could not tell exactly, a new one can.
     assert int(tab.last["hello"]["origin"]) + tick.time == BEGIN
-    assert tab.heard.count("hello") == 2
+    assert tab.received.count("hello") == 2
     buffer.set("map", "second", coframe.Transform(), BEGIN)
     tab.tick(lambda tick: len(tick.poses) == 3)
     buffer.remove_frame("second")

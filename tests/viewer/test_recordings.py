@@ -15,7 +15,7 @@ def test_a_recording_is_travelled_through(shared, view, open_tab):
     assert (hello["mode"], hello["title"], hello["can_publish"]) == ("recording", "tb3_gazebo_walker", False)
     assert {"topic": "/scan", "type": "sensor_msgs/msg/LaserScan", "display": "LaserScan"} in hello["topics"]
     first, last = hello["span"]
-    tab.send("subscribe", id=1, topic="/scan", display="LaserScan", options={})
+    tab.send("subscribe", id=1, topic="/scan", options={})
     bag = coframe.open_bag(path)
     origin = int(hello["origin"])
     stamps = np.sort(bag.stamps("/scan"))
@@ -48,9 +48,9 @@ def test_a_recording_is_travelled_through(shared, view, open_tab):
 
 def test_a_topic_that_no_display_is_for_is_told_and_ends_nothing(shared, view, open_tab):
     tab = open_tab(view(shared / "recordings" / "tb3_gazebo_walker"))
-    tab.send("subscribe", id=1, topic="/robot_description", display="any", options={})
+    tab.send("subscribe", id=1, topic="/robot_description", options={})
     told = tab.wait("display", lambda told: told["state"] == "error")
-    assert "there is no display for std_msgs/msg/String" in told["text"]
+    assert "the viewer has no display for std_msgs/msg/String" in told["text"]
     tab.tick()
 
 
@@ -58,7 +58,7 @@ def test_a_bag_of_ros_1_with_slashes_before_its_names(shared, view, open_tab):
     tab = open_tab(view(shared / "recordings" / "tilt_laser.bag"))
     hello = tab.wait("hello")
     (topic,) = [topic for topic in hello["topics"] if topic["display"] == "LaserScan"]
-    tab.send("subscribe", id=1, topic=topic["topic"], display="LaserScan", options={})
+    tab.send("subscribe", id=1, topic=topic["topic"], options={})
     first, last = hello["span"]
     tab.send("time", mode="at", at=(first + last) / 2)
     tab.tick(lambda tick: tick.displays)
@@ -69,7 +69,7 @@ def test_scans_are_drawn_in_the_tree_that_was_given_a_prefix(shared, view, open_
     with coframe.open_bag(shared / "recordings" / "tb3_gazebo_walker", prefix="r1/", keep=["odom"]) as bag:
         tab = open_tab(view(bag, fixed="odom"))
         first, last = tab.wait("hello")["span"]
-        tab.send("subscribe", id=1, topic="/scan", display="LaserScan", options={})
+        tab.send("subscribe", id=1, topic="/scan", options={})
         tab.send("time", mode="at", at=(first + last) / 2)
         tick = tab.tick(lambda tick: tick.displays)
         assert np.isfinite(tab.world(tick, "r1/base_scan")).all()

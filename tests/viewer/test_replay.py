@@ -14,9 +14,9 @@ import pytest
 import coframe
 from coframe.messages import find
 from coframe.viewer.displays import Options
-from coframe.viewer.replay.displays import Pictures, ReplayDisplay, display_blocks
+from coframe.viewer.replay.displays import ReplayDisplay, ReplayTimes, record_displays
 from coframe.viewer.server.http import STATIC
-from coframe.viewer.sources.messages import Sighting
+from coframe.viewer.sources.topic_messages import StampedMessage
 
 SECOND = 1_000_000_000
 BEGIN = 1_700_000_000 * SECOND
@@ -59,7 +59,7 @@ def fetch(viewer, **query):
         return answer.headers, answer.read().decode()
 
 
-def test_a_replay_holds_what_the_buffer_says(buffer, view, open_tab):
+def test_a_replay_contains_the_poses_of_the_buffer(buffer, view, open_tab):
     viewer = view(buffer, fixed="utm")
     hello = open_tab(viewer).wait("hello")
     first, _ = hello["span"]
@@ -88,7 +88,7 @@ def test_a_replay_holds_what_the_buffer_says(buffer, view, open_tab):
             assert abs(abs(poses[row, column, 3:] @ expected.quaternion) - 1.0) < 1e-5
 
 
-def test_a_robot_goes_with_its_meshes(buffer, view, tmp_path):
+def test_a_replay_contains_robots_with_their_meshes(buffer, view, tmp_path):
     (tmp_path / "a.stl").write_bytes(b"solid")
     link = '<link name="base"><visual><geometry><mesh filename="a.stl"/></geometry></visual></link>'
     (tmp_path / "r.urdf").write_text(f'<robot name="r">{link}</robot>')
@@ -101,21 +101,21 @@ def test_a_robot_goes_with_its_meshes(buffer, view, tmp_path):
 @pytest.mark.parametrize(
     ("query", "says"),
     [
-        ({"rate": "fast"}, "are numbers"),
-        ({"rate": 0}, "up to 100 pictures a second"),
-        ({"rate": "nan"}, "up to 100 pictures a second"),
+        ({"rate": "fast"}, "must be numbers"),
+        ({"rate": 0}, "at most 100 frames per second"),
+        ({"rate": "nan"}, "at most 100 frames per second"),
         ({"from": 5, "to": 1}, "must end after it begins"),
-        ({"from": "inf"}, "are numbers"),
+        ({"from": "inf"}, "must be numbers"),
     ],
 )
-def test_what_cannot_be_replayed_is_a_sentence(buffer, view, query, says):
+def test_an_invalid_replay_request_is_rejected_with_a_message(buffer, view, query, says):
     with pytest.raises(urllib.error.HTTPError, match="400") as refused:
         fetch(view(buffer), **query)
     with refused.value:
         assert says in refused.value.read().decode()
 
 
-def test_too_much_for_one_file_is_a_sentence(view):
+def test_a_replay_that_is_too_large_is_rejected_with_a_message(view):
     buffer = coframe.Buffer(None)
     for frame in range(1000):
         buffer.set("map", f"f{frame}", coframe.Transform(), BEGIN)
@@ -134,7 +134,7 @@ class Replayed:
             return np.frombuffer(base64.b64decode(block[name]), kind)
 
         self.block = block
-        self.pictures, counts = numbers("pictures", "<u4"), numbers("counts", "<u4")
+        self.changes, counts = numbers("changes", "<u4"), numbers("counts", "<u4")
         self.drawings = {int(key): decoded(base64.b64decode(text)) for key, text in block["drawings"].items()}
         self.bytes = sum(len(base64.b64decode(text)) for text in block["drawings"].values())
         poses = numbers("poses", "<f4").reshape(-1, 7)
@@ -144,7 +144,7 @@ class Replayed:
 
     def at(self, picture):
         """(drawing, pose, stamp) of all that is to be seen."""
-        index = np.searchsorted(self.pictures, picture, side="right") - 1
+        index = np.searchsorted(self.changes, picture, side="right") - 1
         return [(self.drawings[sequence], pose, stamp) for sequence, pose, stamp in self.listings[index]]
 
 
@@ -159,17 +159,21 @@ def replay_of(viewer, open_tab, *displays, seconds=4, rate=5):
     """A replay from the middle of a recording, with the looks that a tab has told of."""
     tab = open_tab(viewer)
     first, last = tab.wait("hello")["span"]
-    rviz = {"displays": [{"class": "LaserScan", "name": HOSTILE}], "global": {}, "view": None}
-    looks = tab.ask("replay", "replay", displays=list(displays), rviz=rviz)["looks"]
+    rviz = {
+        "displays": [{"class": "LaserScan", "name": HOSTILE, "enabled": True, "topic": None, "options": {}}],
+        "global": {},
+        "view": None,
+    }
+    settings = tab.ask("replay", "replay", displays=list(displays), rviz=rviz)["settings"]
     begin = (first + last) // 2
     span = {"from": begin, "to": begin + seconds * SECOND}
-    _, page = fetch(viewer, **span, rate=rate, fixed="odom", looks=looks)
+    _, page = fetch(viewer, **span, rate=rate, fixed="odom", settings=settings)
     (block,) = [text for told, text in Scripts(page).scripts if told.get("id") == "replay"]
     assert json.loads(block)["rviz"] == rviz
     return json.loads(block)
 
 
-def test_displays_go_with_a_replay_as_a_tab_would_see_them(walker, view, open_tab, decoded):
+def test_a_replay_contains_displays_as_a_tab_shows_them(walker, view, open_tab, decoded):
     replay = replay_of(
         view(walker),
         open_tab,
@@ -200,21 +204,21 @@ def test_displays_go_with_a_replay_as_a_tab_would_see_them(walker, view, open_ta
     assert np.frombuffer(base64.b64decode(edge["counts"]), "<u2").sum() > 10
 
 
-def test_a_display_that_is_too_much_for_the_file_is_thinned_or_left_out(walker, view, open_tab, decoded, monkeypatch):
+def test_a_display_that_is_too_large_for_the_file_is_thinned_or_omitted(walker, view, open_tab, decoded, monkeypatch):
     scan = {"topic": "/scan", "options": {}}
     viewer = view(walker)
     for most, left in ((30_000, 2), (2000, 0)):
-        monkeypatch.setattr("coframe.viewer.replay_displays.MOST_BYTES", most)
+        monkeypatch.setattr("coframe.viewer.replay.displays.MAX_BYTES", most)
         (block,) = replay_of(viewer, open_tab, scan)["displays"]
         scans = Replayed(block, decoded)
         assert scans.bytes <= most
         assert len(scans.drawings) >= left
         if left:
             assert block["every"] > 1
-            assert all(picture % block["every"] == 0 for picture in scans.pictures)
+            assert all(picture % block["every"] == 0 for picture in scans.changes)
         else:
             assert block["statuses"][0][1] == "error"
-            assert "left out of this replay" in block["statuses"][0][2]
+            assert "omitted from this replay" in block["statuses"][0][2]
 
 
 class AtHand:
@@ -222,22 +226,22 @@ class AtHand:
 
     def __init__(self, message):
         self.type = message.ROS_TYPE
-        self._sighting = Sighting(1, BEGIN, lambda: message)
+        self._message = StampedMessage(1, BEGIN, lambda: message)
 
     def frame(self, name):
         return name
 
     def at(self, time):
-        return self._sighting if time == 0 or time >= BEGIN else None
+        return self._message if time == 0 or time >= BEGIN else None
 
     def pending(self):
         return False
 
     def before(self, time, _count):
-        return [self._sighting] if self.at(time) else []
+        return [self._message] if self.at(time) else []
 
 
-def test_large_clouds_are_thinned_and_say_by_how_much(decoded):
+def test_large_clouds_are_thinned_and_contain_the_step(decoded):
     count = 25_000
     field = find("sensor_msgs/msg/PointField")
     cloud = find("sensor_msgs/msg/PointCloud2")(height=1, width=count, point_step=12, row_step=12 * count)
@@ -247,8 +251,8 @@ def test_large_clouds_are_thinned_and_say_by_how_much(decoded):
     buffer = coframe.Buffer(None)
     buffer.set("map", "base", coframe.Transform(), BEGIN)
     times = np.arange(3) * SECOND + BEGIN - SECOND
-    pictures = Pictures(buffer, "map", times, np.zeros(3))
-    (block,) = display_blocks([ReplayDisplay("/cloud", Options())], {"/cloud": AtHand(cloud)}, pictures)
+    replay_times = ReplayTimes(buffer, "map", times, np.zeros(3))
+    (block,) = record_displays([ReplayDisplay("/cloud", Options())], {"/cloud": AtHand(cloud)}, replay_times)
     replayed = Replayed(block, decoded)
     assert replayed.at(0) == []
     ((drawing, _, _),) = replayed.at(2)
@@ -260,18 +264,18 @@ def test_large_clouds_are_thinned_and_say_by_how_much(decoded):
 @pytest.mark.parametrize(
     ("fields", "says"),
     [
-        ({"displays": [7]}, "is an object with a topic"),
+        ({"displays": [7]}, "displays[0] of a message 'replay' must be an object"),
         ({"displays": [{"topic": "/scan"}] * 101}, "at most"),
         ({"displays": {}}, "must be an array"),
-        ({"displays": [], "rviz": {"x": float("nan")}}, "is no JSON"),
+        ({"displays": [], "rviz": {"x": float("nan")}}, "is not valid JSON"),
     ],
 )
-def test_looks_that_are_none_are_a_sentence(buffer, view, open_tab, fields, says):
+def test_invalid_replay_settings_are_rejected_with_a_message(buffer, view, open_tab, fields, says):
     assert says in open_tab(view(buffer)).ask("problem", "replay", **fields)["text"]
 
 
-def test_looks_that_nobody_told_of_are_a_sentence(buffer, view):
+def test_unknown_replay_settings_are_rejected_with_a_message(buffer, view):
     with pytest.raises(urllib.error.HTTPError, match="400") as refused:
-        fetch(view(buffer), looks="guessed")
+        fetch(view(buffer), settings="guessed")
     with refused.value:
         assert "Save the replay again." in refused.value.read().decode()

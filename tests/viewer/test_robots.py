@@ -144,7 +144,7 @@ def test_declared_folders_and_the_largest_file(tmp_path, monkeypatch):
     url = table.url(f"file://{tmp_path}/a.stl")
     assert table.file(url.removeprefix("/mesh/")) == (tmp_path / "a.stl").resolve()
     assert table.url_or_problem("relative.stl") == (None, "'relative.stl' is neither package:// nor file://")
-    monkeypatch.setattr("coframe.viewer.meshes.LARGEST_FILE", 1000)
+    monkeypatch.setattr("coframe.viewer.robots.meshes.LARGEST_FILE", 1000)
     with pytest.raises(MeshError, match="MB are served"):
         table.url(f"file://{tmp_path}/a.stl")
 
@@ -172,11 +172,11 @@ def test_descriptions_come_from_the_topic_and_joint_states_go_back(domain_id, vi
         tab = open_tab(view(ros, **options))
         publisher.publish(text(data=BOMB))
         problem = tab.wait("problem")
-        assert problem["text"].startswith("/robot_description tells of no robot: ")
+        assert problem["text"].startswith("/robot_description contains no valid robot description: ")
         publisher.publish(text(data=URDF.replace("{mesh}", "package://none/x.dae")))
         robot = tab.wait("robot")
         assert (robot["name"], robot["description_topic"]) == ("arm", "/robot_description")
-        assert robot["problems"] == ["there is no ROS package 'none' here"]
+        assert robot["problems"] == ["ROS package 'none' not found"]
 
         heard = ros.subscribe(topic, find("sensor_msgs/msg/JointState"))
         tab.send("joints", robot=robot["id"], positions={"turn": 1.0}, publish=True)
@@ -187,7 +187,7 @@ def test_descriptions_come_from_the_topic_and_joint_states_go_back(domain_id, vi
         tab.send("joints", robot=robot["id"], positions={"elbow": 1.0}, publish=True)
         assert "No joint named 'elbow'" in tab.wait("problem")["text"]
         tab.send("joints", robot=robot["id"], positions={"turn": float("nan")}, publish=True)
-        assert "not finite" in tab.wait("problem")["text"]
+        assert "not valid JSON" in tab.wait("problem")["text"]
         tab.send("joints", robot=robot["id"], positions={}, publish=False)
         tab.wait("stats")
         while heard.receive("300ms") is not None:
@@ -199,4 +199,4 @@ def test_without_a_graph_joint_states_cannot_be_sent(package, view, open_tab):
     tab = open_tab(view(coframe.Buffer(None), robot=Path(file)))
     tab.wait("robot")
     tab.send("joints", robot=0, positions={"turn": 1.0}, publish=True)
-    assert "only a live viewer sends joint states" in tab.wait("problem")["text"]
+    assert "joint states can only be published on a live ROS graph" in tab.wait("problem")["text"]

@@ -116,7 +116,7 @@ def test_the_labs_file_is_applied_to_every_tab(shared, view, open_tab):
     assert hello["rviz"]["unknown"] == []
 
 
-def test_saving_keeps_what_was_not_understood(view, open_tab):
+def test_saving_preserves_unknown_parts(view, open_tab):
     viewer = view(coframe.Buffer(None))
     tab = open_tab(viewer)
     told = tab.ask("rviz", "load_rviz", text=RVIZ_2)
@@ -127,7 +127,7 @@ def test_saving_keeps_what_was_not_understood(view, open_tab):
     saved = tab.ask(
         "saved",
         "save_rviz",
-        displays=[scan, added, {"class": "Teapot"}, 3],
+        displays=[scan, added, {**added, "class": "Teapot"}],
         **{"global": {"fixed_frame": "map", "background": [1, 2, 3]}},
         view={"class": "Orbit", "options": {"Distance": 4.0}},
     )
@@ -156,14 +156,19 @@ def test_saving_keeps_what_was_not_understood(view, open_tab):
         assert answer.read().decode() == saved["text"]
 
 
-def test_saving_what_was_never_loaded_makes_a_file_that_rviz_reads():
-    saved = RvizConfig().merged([{"class": "TF", "name": "TF", "options": {"Marker Scale": 1}}], {}, {}).text()
+DISPLAY = {"enabled": True, "topic": None, "options": {}}
+
+
+def test_saving_without_a_loaded_file_writes_a_file_that_rviz_reads():
+    saved = (
+        RvizConfig().merged([{**DISPLAY, "class": "TF", "name": "TF", "options": {"Marker Scale": 1}}], {}, {}).text()
+    )
     manager = yaml.safe_load(saved)["Visualization Manager"]
     assert manager["Displays"] == [
         {"Class": "rviz_default_plugins/TF", "Name": "TF", "Enabled": True, "Marker Scale": 1}
     ]
     assert RvizConfig.parse(saved).description()["unknown"] == []
-    one = RvizConfig.parse(RVIZ_1).merged([{"class": "Path", "name": "P", "topic": "/p"}], {}, {})
+    one = RvizConfig.parse(RVIZ_1).merged([{**DISPLAY, "class": "Path", "name": "P", "topic": "/p"}], {}, {})
     assert "Class: rviz/Path\n" in one.text()
     assert "    Topic: /p\n" in one.text()
 
@@ -171,33 +176,36 @@ def test_saving_what_was_never_loaded_makes_a_file_that_rviz_reads():
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("", "no configuration of RViz"),
-        ("a: 1", "no configuration of RViz"),
-        ("Visualization Manager: 3", "no configuration of RViz"),
-        ("a: [b", "no YAML"),
-        ("a: !!python/object/apply:os.system ['true']", "no YAML"),
+        ("", "is not an RViz configuration"),
+        ("a: 1", "is not an RViz configuration"),
+        ("Visualization Manager: 3", "is not an RViz configuration"),
+        ("a: [b", "is not valid YAML"),
+        ("a: !!python/object/apply:os.system ['true']", "is not valid YAML"),
         ("a0: &a0 [x]\n" + "".join(f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]\n" for i in range(1, 40)), "aliases"),
-        ("a0: &a0 {k: v}\n" + "".join(f"a{i}: &a{i} {{x: *a{i - 1}}}\n" for i in range(1, 150)), "nested too deeply"),
+        (
+            "a0: &a0 {k: v}\n" + "".join(f"a{i}: &a{i} {{x: *a{i - 1}}}\n" for i in range(1, 150)),
+            "nested more than 100 levels deep",
+        ),
         (
             "a0: &a0 {k: v}\n" + "".join(f"a{i}: &a{i} {{<<: [*a{i - 1}, *a{i - 1}]}}\n" for i in range(1, 40)),
             "aliases",
         ),
-        ("a: &a [*a]", "stands for what it is in"),
-        ("a: *b", "no YAML"),
-        ("[" * 500_000, "nested too deeply"),
-        ("- " * 250_000, "nested too deeply"),
-        ("? " * 250_000, "nested too deeply"),
-        ("{a: " * 200_000, "nested too deeply"),
-        ("x" * (2 << 20), "more than the 1 MiB"),
-        ("a: 2020-99-99", "no YAML"),
+        ("a: &a [*a]", "refers to a node that contains it"),
+        ("a: *b", "is not valid YAML"),
+        ("[" * 500_000, "nested more than 100 levels deep"),
+        ("- " * 250_000, "nested more than 100 levels deep"),
+        ("? " * 250_000, "nested more than 100 levels deep"),
+        ("{a: " * 200_000, "nested more than 100 levels deep"),
+        ("x" * (2 << 20), "more than 1 MiB"),
+        ("a: 2020-99-99", "is not valid YAML"),
     ],
 )
-def test_what_is_no_file_of_rviz_is_a_sentence(text, says):
+def test_an_invalid_rviz_file_is_rejected_with_a_message(text, says):
     with pytest.raises(coframe.ViewerError, match=says):
         RvizConfig.parse(text)
 
 
-def test_aliases_are_written_out():
+def test_aliases_become_copies():
     config = RvizConfig.parse("""
 Common: &common {Class: rviz_default_plugins/Axes, Enabled: true, Length: 1}
 Visualization Manager:
@@ -216,11 +224,11 @@ Visualization Manager:
     ]
     told[2]["enabled"] = False
     again = RvizConfig.parse(config.merged(told, {}, {}).text()).description()["displays"]
-    assert [one["enabled"] for one in again] == [True, True, False, True], "a change of one is none of the other"
+    assert [one["enabled"] for one in again] == [True, True, False, True], "the copies are independent"
 
 
 @pytest.mark.parametrize(("rate", "least", "most"), [(5, 3, 7), (1000, 35, 70)])
-def test_the_frame_rate_of_a_file_is_that_of_the_ticks(view, open_tab, tmp_path, rate, least, most):
+def test_the_frame_rate_of_a_file_limits_the_updates(view, open_tab, tmp_path, rate, least, most):
     file = tmp_path / "rate.rviz"
     file.write_text(f"Visualization Manager: {{Global Options: {{Fixed Frame: map, Frame Rate: {rate}}}}}")
     buffer = coframe.Buffer(None)
@@ -237,7 +245,7 @@ def test_the_frame_rate_of_a_file_is_that_of_the_ticks(view, open_tab, tmp_path,
     assert f"Frame Rate: {rate}" in tab.wait("saved")["text"], "what the file said stays"
 
 
-def test_odd_values_hurt_nobody():
+def test_unusual_values_are_ignored():
     odd = """
 Visualization Manager:
   Displays: [3, ~, {Class: 7}, {Name: x}, {Class: rviz/TF, Name: [1], Enabled: maybe, Topic: 5, When: 2020-01-01}]

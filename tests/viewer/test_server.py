@@ -17,10 +17,10 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import connect
 
 import coframe
-from coframe.viewer.server.http import Visitors
+from coframe.viewer.server.http import AccessPolicy
 from coframe.viewer.server.server import ViewerServer
 from coframe.viewer.sources.source import BufferSource
-from coframe.viewer.state import Stage
+from coframe.viewer.state import ViewerState
 
 SECOND = 1_000_000_000
 
@@ -55,7 +55,7 @@ def page(tmp_path):
     (folder / "assets" / "viewer.js").write_text("1")
     (folder / "assets" / "link.js").symlink_to(tmp_path / "secret.js")
     (tmp_path / "secret.js").write_text("secret")
-    with ViewerServer(Stage(BufferSource(small_buffer())), port=0, static=folder) as server:
+    with ViewerServer(ViewerState(BufferSource(small_buffer())), port=0, static=folder) as server:
         yield server.url
 
 
@@ -118,11 +118,11 @@ def test_pages_of_other_sites_cannot_talk_to_it(page, origin):
 
 
 def test_on_all_addresses_any_of_them_is_ours_but_no_strange_name():
-    visitors = Visitors("0.0.0.0", 7676)
-    assert visitors.host_is_ours("192.168.1.5:7676")
-    assert visitors.host_is_ours("[::1]:7676")
-    assert not visitors.host_is_ours("evil.example:7676")
-    assert not Visitors("127.0.0.1", 7676).host_is_ours("192.168.1.5:7676")
+    access = AccessPolicy("0.0.0.0", 7676)
+    assert access.allows_host("192.168.1.5:7676")
+    assert access.allows_host("[::1]:7676")
+    assert not access.allows_host("evil.example:7676")
+    assert not AccessPolicy("127.0.0.1", 7676).allows_host("192.168.1.5:7676")
 
 
 GARBAGE = [
@@ -167,7 +167,7 @@ def test_garbage_is_answered_and_survived(view, open_tab):
         "type": "display",
         "id": 1,
         "state": "waiting",
-        "text": "nobody publishes /no_such_topic",
+        "text": "no node publishes /no_such_topic",
     }
     assert tab.tick().time is not None
     tab.socket.send("x" * (2 << 20))
@@ -312,7 +312,7 @@ def test_a_port_that_is_taken_is_a_sentence_and_the_usual_one_gives_way(view):
     port = urlsplit(viewer.url).port
     with pytest.raises(coframe.ViewerError, match=f"cannot listen on 127.0.0.1:{port}") as error:
         coframe.show(small_buffer(), port=port)
-    assert "--port" in error.value.hint
+    assert "another port" in error.value.hint
     with coframe.show(small_buffer()) as first, coframe.show(small_buffer()) as second:
         assert first.url != second.url
         assert get(second.url)[0] == 200
@@ -345,7 +345,7 @@ for options in ({}, {"rviz": sys.argv[1]}):
     assert result.stderr == ""
     assert result.stdout.splitlines() == [
         "the viewer needs the package websockets: pip install 'coframe[viewer]'",
-        "RViz's files need the package PyYAML: pip install 'coframe[viewer]'",
+        "RViz files need the package PyYAML: pip install 'coframe[viewer]'",
     ]
 
 

@@ -39,7 +39,7 @@ def test_the_demo_in_a_tab(open_tab):
         assert rows["link1"]["publisher"] == "/dynamic_tf_broadcaster"
         assert rows["link1"]["age"] < 5.0
         tab.send("fixed", frame="world")
-        tab.send("subscribe", id=1, topic="/scan", display="LaserScan", options={})
+        tab.send("subscribe", id=1, topic="/scan", options={})
         tick = tab.tick(lambda tick: tick.displays)
         drawn = tab.drawings[next(iter(tick.displays))]
         # The lab's hall: all walls and pillars are within ten metres.
@@ -72,7 +72,8 @@ def test_what_is_not_there_is_a_sentence():
     result = subprocess.run([*COMMAND, "view", "nowhere.mcap"], capture_output=True, text=True, check=False)
     assert (result.returncode, result.stdout) == (1, "")
     assert result.stderr == (
-        "coframe: nowhere.mcap cannot be read: No such file or directory\n  Check the path, and who may read it.\n"
+        "coframe: nowhere.mcap cannot be read: No such file or directory\n"
+        "  Check the path and the permission to read it.\n"
     )
 
 
@@ -81,5 +82,6 @@ def test_an_address_of_another_machine_is_a_sentence():
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (result.returncode, result.stdout) == (1, "")
     assert result.stderr == (
-        "coframe: cannot listen on 192.0.2.1: it is no address of this machine\n  Choose another host, or 127.0.0.1.\n"
+        "coframe: cannot listen on 192.0.2.1: it is not an address of this machine\n"
+        "  Choose another host, or 127.0.0.1.\n"
     )

@@ -1,4 +1,4 @@
-"""Other processes to talk to, and waiting for what they do."""
+"""Child processes to communicate with."""
 
 import os
 import subprocess
@@ -18,7 +18,7 @@ _PATIENCE = 20.0  # seconds; two cores that others use too
 
 @pytest.fixture
 def domain_id(domain_id: int, monkeypatch: pytest.MonkeyPatch) -> int:
-    """A domain that no earlier test of this process has left open: the numbers come round."""
+    """A domain ID that no earlier test of this process has left open. IDs are reused."""
     number = domain_id
     while number in Participant._instances:
         number = 1 + (number + _WORKERS - 1) % 200
@@ -28,7 +28,7 @@ def domain_id(domain_id: int, monkeypatch: pytest.MonkeyPatch) -> int:
 
 @pytest.fixture
 def participant(domain_id: int) -> Iterator[Participant]:
-    """This process's participant in the test's own domain."""
+    """The participant of this process in the domain of the test."""
     joined = Participant.get(domain_id)
     yield joined
     joined.close()
@@ -40,7 +40,7 @@ def node(participant: Participant) -> GraphNode:
 
 
 class Child:
-    """A process that talks by lines."""
+    """A child process that communicates by lines on standard input and output."""
 
     def __init__(self, command: list[str], environment: dict[str, str]) -> None:
         self.process = subprocess.Popen(
@@ -53,7 +53,7 @@ class Child:
         )
 
     def read(self) -> str:
-        """The next line it prints."""
+        """Return the next line of its output."""
         assert self.process.stdout
         line = self.process.stdout.readline()
         if not line:
@@ -61,7 +61,7 @@ class Child:
         return line.rstrip("\n")
 
     def finish(self) -> tuple[int, str]:
-        """Lets it go on past `input()`, waits for its end: the exit code and what it wrote to stderr."""
+        """Let it continue after `input()`, wait for its exit, and return the exit code and stderr."""
         _, errors = self.process.communicate("\n", timeout=_PATIENCE)
         return self.process.returncode, errors
 
@@ -73,7 +73,7 @@ class Child:
 
 @pytest.fixture
 def child(domain_id: int) -> Iterator[Callable[..., Child]]:
-    """Starts processes in the test's domain: child("code", ROS_DISTRO="jazzy")."""
+    """Return a function that starts processes in the domain of the test: child("code", ROS_DISTRO="jazzy")."""
     children: list[Child] = []
 
     def start(code: str, **environment: str) -> Child:
@@ -88,7 +88,7 @@ def child(domain_id: int) -> Iterator[Callable[..., Child]]:
 
 @pytest.fixture
 def beside_rosless(network, domain_id: int) -> Iterator[Callable[[str], None]]:
-    """Runs code with coframe and the independent program on a network of their own; fails where the code does.
+    """Run code with coframe and an independent program in a separate network; fail if the code fails.
 
     The independent program sends on every interface it sees, so it never runs on the machine's own network.
     """
@@ -114,7 +114,7 @@ STRING, TF_MESSAGE = find("std_msgs/msg/String"), find("tf2_msgs/msg/TFMessage")
 def eventually(condition):
     deadline = time.monotonic() + 15
     while not condition():
-        assert time.monotonic() < deadline, "waited in vain"
+        assert time.monotonic() < deadline, "timed out after 15 s"
         time.sleep(0.005)
 participant = Participant.get()
 node = participant.add_node("/", "tester")

@@ -6,7 +6,7 @@ from coframe.errors import WireError
 from coframe.wire import config
 
 
-def test_with_nothing_set_only_this_machine_is_reached():
+def test_the_default_range_is_this_machine():
     assert config.domain_id({}) == 0
     assert config.discovery_range({}) == "LOCALHOST"
     xml = config.cyclone_config({})
@@ -27,15 +27,15 @@ def test_with_nothing_set_only_this_machine_is_reached():
         ({"ROS_LOCALHOST_ONLY": "0", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, "LOCALHOST"),
     ],
 )
-def test_the_ranges_of_ros(environment, reach):
+def test_the_discovery_ranges_of_ros(environment, reach):
     assert config.discovery_range(environment) == reach
 
 
-def test_subnet_leaves_the_interfaces_to_cyclone():
+def test_subnet_does_not_configure_interfaces():
     assert "Interface" not in config.cyclone_config({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"})
 
 
-def test_off_reaches_nobody():
+def test_off_disables_discovery():
     xml = config.cyclone_config({"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF", "ROS_STATIC_PEERS": "10.0.0.1"})
     assert "<AllowMulticast>false</AllowMulticast>" in xml
     assert f"coframe_{os.getpid()}" in xml
@@ -48,7 +48,7 @@ def test_static_peers():
     assert '<Peer address="10.0.0.1"/><Peer address="robot.local"/>' in xml
 
 
-def test_a_peer_on_another_machine_is_not_sought_through_the_loopback_interface():
+def test_a_peer_on_another_machine_disables_the_loopback_interface():
     xml = config.cyclone_config({"ROS_STATIC_PEERS": "10.0.0.1"})
     assert "NetworkInterface" not in xml
     assert "<AllowMulticast>false</AllowMulticast>" in xml
@@ -56,18 +56,18 @@ def test_a_peer_on_another_machine_is_not_sought_through_the_loopback_interface(
     assert "NetworkInterface" in config.cyclone_config({"ROS_STATIC_PEERS": "127.0.0.1"})
 
 
-def test_the_users_own_configuration_comes_last_and_wins():
+def test_the_configuration_of_the_user_comes_last():
     assert config.cyclone_config({"CYCLONEDDS_URI": "file:///etc/c.xml"}).endswith("</CycloneDDS>,file:///etc/c.xml")
 
 
 @pytest.mark.parametrize("text", ["233", "-1", "abc", "1.5", "1000", "²"])
-def test_a_domain_that_is_none(text):
+def test_an_invalid_domain_id(text):
     with pytest.raises(WireError, match=r"ROS_DOMAIN_ID is '.*': a domain ID is an integer from 0 to 232\.") as caught:
         config.domain_id({"ROS_DOMAIN_ID": text})
     assert caught.value.hint
 
 
-def test_a_range_that_is_none():
+def test_an_invalid_discovery_range():
     with pytest.raises(WireError, match="'GALAXY': it must be one of OFF, LOCALHOST, SUBNET, SYSTEM_DEFAULT") as caught:
         config.discovery_range({"ROS_AUTOMATIC_DISCOVERY_RANGE": "galaxy"})
     assert "SUBNET includes the local network" in caught.value.hint
@@ -75,7 +75,7 @@ def test_a_range_that_is_none():
         config.discovery_range({"ROS_LOCALHOST_ONLY": "yes"})
 
 
-def test_a_peer_that_is_none():
+def test_an_invalid_peer():
     with pytest.raises(WireError, match="not an address or a host name") as caught:
         config.static_peers({"ROS_STATIC_PEERS": '10.0.0.1,"/><Domain'})
     assert "semicolons" in caught.value.hint

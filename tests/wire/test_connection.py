@@ -19,18 +19,18 @@ def test_publish_and_receive(domain_id):
         assert subscription.receive(0) is None
 
 
-def test_a_relative_topic_is_in_the_nodes_namespace(domain_id):
+def test_a_relative_topic_is_in_the_namespace_of_the_node(domain_id):
     with coframe.connect("one", namespace="/robot", domain=domain_id) as ros:
         ros.publisher("chatter", STRING)
         assert "/robot/chatter" in ros.participant.topics()
         assert ("/robot", "one") in ros.participant.nodes()
 
 
-def test_a_callback_runs_beside_the_program_and_survives_its_own_errors(domain_id, caplog):
-    heard, done, before = [], threading.Event(), set(threading.enumerate())
+def test_a_callback_runs_on_its_own_thread_and_may_raise(domain_id, caplog):
+    received, done, before = [], threading.Event(), set(threading.enumerate())
 
     def callback(message):
-        heard.append(message.data)
+        received.append(message.data)
         if message.data == "bad":
             raise RuntimeError("on purpose")
         if message.data == "end":
@@ -42,12 +42,12 @@ def test_a_callback_runs_beside_the_program_and_survives_its_own_errors(domain_i
         for text in ("hello", "bad", "end"):
             publisher.publish(STRING(data=text))
         assert done.wait(10)
-    assert heard == ["hello", "bad", "end"]
+    assert received == ["hello", "bad", "end"]
     assert "on purpose" in caplog.text
     assert set(threading.enumerate()) <= before
 
 
-def test_closing_ends_a_loop_over_a_subscription(domain_id):
+def test_close_ends_iteration_over_a_subscription(domain_id):
     ros = coframe.connect("one", domain=domain_id)
     subscription = ros.subscribe("/chatter", STRING)
     closer = threading.Timer(0.05, ros.close)
@@ -57,7 +57,7 @@ def test_closing_ends_a_loop_over_a_subscription(domain_id):
     ros.close()
 
 
-def test_the_buffer_fills_and_knows_its_publishers(domain_id, eventually):
+def test_the_buffer_receives_transforms_and_records_their_publishers(domain_id, eventually):
     with coframe.connect("one", domain=domain_id) as ros:
         stamped = find("geometry_msgs/msg/TransformStamped")()
         stamped.header.frame_id, stamped.child_frame_id = "map", "odom"
@@ -65,10 +65,10 @@ def test_the_buffer_fills_and_knows_its_publishers(domain_id, eventually):
         ros.participant.static_broadcaster(ros.node).send([stamped])
         ros.buffer.lookup("map", "odom", timeout="10s")
         eventually(lambda: any(frame.authority == "/one" for frame in ros.buffer.frames()))
-    assert ros.buffer.can_transform("map", "odom"), "what was heard stays"
+    assert ros.buffer.can_transform("map", "odom"), "received transforms are kept"
 
 
-def test_arguments_that_cannot_be_meant(domain_id):
+def test_arguments_of_the_wrong_type(domain_id):
     with coframe.connect("one", domain=domain_id) as ros:
         for arguments in ((STRING, "/chatter"), ("/chatter", "std_msgs/msg/String"), ("/chatter", STRING())):
             with pytest.raises(TypeError):
@@ -83,7 +83,7 @@ def test_arguments_that_cannot_be_meant(domain_id):
         assert ros.subscribe("/chatter", STRING, qos=3).receive("1ms") is None
 
 
-def test_a_closed_connection_makes_nothing_more(domain_id):
+def test_a_closed_connection_creates_no_endpoints(domain_id):
     with coframe.connect("one", domain=domain_id), coframe.connect("two", domain=domain_id) as ros:
         ros.close()
         with pytest.raises(coframe.WireError, match="The connection of two is closed"):

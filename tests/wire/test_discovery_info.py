@@ -28,7 +28,7 @@ def test_the_identifiers_of_each_distribution(distro, size):
 
 @given(GUIDS, NODES)
 @pytest.mark.parametrize("size", [16, 24])
-def test_both_forms_are_read_back(size, guid, nodes):
+def test_both_identifier_sizes_are_decoded(size, guid, nodes):
     assert decode_info(encode_info(guid, nodes, size)) == (guid, nodes)
 
 
@@ -38,10 +38,10 @@ def test_big_endian():
 
 
 @given(st.binary(max_size=200))
-def test_other_bytes_are_refused_or_read_but_never_an_error(data):
+def test_invalid_bytes_never_raise(data):
     decode_info(data)
     decode_info(b"\0\1\0\0" + data)
 
 
-def test_a_lying_length_is_refused():
+def test_an_invalid_length_is_rejected():
     assert decode_info(b"\0\1\0\0" + bytes(16) + b"\xff\xff\xff\xff") is None

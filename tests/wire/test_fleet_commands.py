@@ -1,4 +1,4 @@
-"""Many robots as a user types them: the demo, the relay, prefixes."""
+"""Commands for several robots: the demo, the relay and prefixes."""
 
 import json
 import os
@@ -27,26 +27,26 @@ COMMAND = """
 
 @pytest.fixture
 def command(child):
-    """Starts a command in a process of its own."""
+    """Return a function that starts a command in its own process."""
     return lambda *arguments: child(COMMAND.format(arguments=arguments), PYTHONUNBUFFERED="1", COLUMNS="200")
 
 
 @pytest.fixture
 def ros(domain_id):
-    """What a listener on /tf hears."""
+    """Return a connection that listens to /tf."""
     with coframe.connect("listener", domain=domain_id) as connection:
         yield connection
 
 
 def interrupted(process):
-    """Ctrl-C: the exit code, and what was written to stdout and stderr."""
+    """Send Ctrl-C and return the exit code, stdout and stderr."""
     process.process.send_signal(signal.SIGINT)
     out, errors = process.process.communicate(timeout=20)
     return process.process.returncode, out, errors
 
 
 def kill_robot(demo, name):
-    """Ends one robot of the demo as a crash does."""
+    """Kill one robot of the demo."""
     parent = str(demo.process.pid)
     found = subprocess.run(["pgrep", "-P", parent, "-f", f"__ns:=/{name} "], capture_output=True, text=True, check=True)
     [process] = found.stdout.split()
@@ -54,14 +54,14 @@ def kill_robot(demo, name):
 
 
 @pytest.mark.parametrize("own_topics", [False, pytest.param(True, marks=pytest.mark.slow)])
-def test_a_fleet_of_which_one_dies(command, ros, eventually, own_topics):
+def test_a_demo_with_several_robots_of_which_one_stops(command, ros, eventually, own_topics):
     options = ["--own-topics"] if own_topics else []
     demo = command("demo", "--robots", "2", "--no-browser", "--port", "0", *options)
 
     def newest(name):
         return next((frame.newest for frame in ros.buffer.frames() if frame.name == f"{name}/base_link"), 0)
 
-    # One tree with a base here and a base there.
+    # One tree with the bases of both robots.
     eventually(lambda: ros.buffer.can_transform("robot1/base_link", "robot2/base_link"))
     assert abs(ros.buffer.lookup("robot1/base_link", "robot2/base_link").translation[0]) > 1.5
     assert ros.buffer.can_transform("map", "robot1/camera_link")
@@ -80,14 +80,14 @@ def test_a_fleet_of_which_one_dies(command, ros, eventually, own_topics):
     assert newest("robot1") - at_end < 10**9
 
 
-def test_prefixes_and_a_relay_as_they_are_typed(command, ros, eventually):
+def test_prefixes_and_a_relay_on_the_command_line(command, ros, eventually):
     own = ["--tf-static-topic", "/robot1/tf_static"]
     mount = ["--frame-id", "map", "--child-frame-id", "odom"]
     command("static", "--x", "2", *mount, *own)
     command("static", "--x", "3", *mount, "--prefix", "robot2/", "--keep", "map")
     relay = command("relay", "--robots", "robot1,robot3", "--prefix-each", "--keep", "map,world", "--status")
     named = command("echo", "map", "r1odom", "-l", "1", "--prefix", "r1", "--keep", "map", *own)
-    # By way of the relay, as it was published, and as a listener names it.
+    # Through the relay, as published, and with the prefix of the listener.
     for name, x in (("robot1", 2.0), ("robot2", 3.0)):
         eventually(lambda name=name: ros.buffer.can_transform("map", f"{name}/odom"))
         assert ros.buffer.lookup("map", f"{name}/odom").translation[0] == x
@@ -127,7 +127,7 @@ def test_wrong_usage(arguments, text):
 
 
 def options():
-    """By command: its options; `static` reads its own and tells of them in its help."""
+    """Return the options of each command. `static` parses its own options and lists them in its help."""
     found = {"static": set(re.findall(r"--[a-z-]+", CliRunner().invoke(app, ["static", "--help"]).stdout))}
     groups = [("", typer.main.get_command(app))]
     for name, command in groups:
@@ -138,11 +138,11 @@ def options():
 
 
 @pytest.mark.parametrize(("command", "taken"), options().items())
-def test_every_command_takes_topics_and_a_prefix(command, taken):
+def test_every_command_accepts_topics_and_a_prefix(command, taken):
     assert {"--tf-topic", "--tf-static-topic", "--prefix", "--keep"} - taken == set(), command
 
 
-def test_what_is_monitored_is_renamed(participant, node):
+def test_monitor_applies_the_prefix(participant, node):
     publisher = participant.publisher(node, "/robot1/tf_static", find("tf2_msgs/msg/TFMessage"), TF_STATIC_WRITER)
     mounts = coframe.Buffer(None)
     mounts.set("map", "odom", coframe.Transform(), static=True)

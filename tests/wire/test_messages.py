@@ -25,7 +25,7 @@ ECHO = """
 """
 
 
-def test_messages_go_there_and_back_between_processes(participant, node, child, eventually):
+def test_messages_are_exchanged_between_processes(participant, node, child, eventually):
     arrived = Event()
     there = participant.publisher(node, "/there", STRING, QoS())
     back = participant.subscription(node, "/back", STRING, QoS(), on_data=arrived)
@@ -43,7 +43,9 @@ def test_messages_go_there_and_back_between_processes(participant, node, child, 
     eventually(lambda: participant.writer_node(received[0].writer) == "/echo")
     assert other.finish() == (0, "")
     eventually(lambda: back.matched == 0)
-    assert participant.writer_node(received[0].writer) == "/echo", "known for a while after it has gone"
+    assert participant.writer_node(received[0].writer) == "/echo", (
+        "the name is kept for some time after the node has left"
+    )
 
 
 def test_pending_and_limit(participant, node):
@@ -60,7 +62,7 @@ def test_pending_and_limit(participant, node):
     assert not subscription.pending()
 
 
-def test_keep_last_keeps_the_last(participant, node):
+def test_keep_last_keeps_the_last_messages(participant, node):
     publisher = participant.publisher(node, "/chatter", STRING, QoS())
     subscription = participant.subscription(node, "/chatter", STRING, QoS(depth=2), on_data=None)
     for text in "abcde":
@@ -90,7 +92,7 @@ def test_a_large_message(participant, node, child):
     assert other.finish() == (0, "")
 
 
-def test_bytes_of_another_type_are_refused(participant, node):
+def test_bytes_of_another_type_raise_an_error(participant, node):
     publisher = participant.publisher(node, "/chatter", STRING, QoS())
     with pytest.raises(WireError, match="Publishing on /chatter failed") as caught:
         publisher.write(b"\0\1\0\0\xff\xff\xff\xff")
@@ -99,7 +101,7 @@ def test_bytes_of_another_type_are_refused(participant, node):
         publisher.write(b"\0\1")
 
 
-def test_bytes_that_are_no_transforms_are_refused(participant, node):
+def test_bytes_that_are_not_transforms_raise_an_error(participant, node):
     publisher = participant.publisher(node, "/tf", TF_MESSAGE, QoS())
     good = codec.serialize(TF_MESSAGE(transforms=[find("geometry_msgs/msg/TransformStamped")()]))
     publisher.write(good)
@@ -109,7 +111,7 @@ def test_bytes_that_are_no_transforms_are_refused(participant, node):
         assert "must be the CDR serialization of a tf2_msgs/msg/TFMessage" in caught.value.hint
 
 
-def test_transforms_reach_programs_that_know_their_type(participant, node, child, eventually):
+def test_transforms_are_received_by_programs_that_check_types(participant, node, child, eventually):
     arrived = Event()
     there = participant.publisher(node, "/there", TF_MESSAGE, QoS())
     here = participant.subscription(node, "/there", TF_MESSAGE, QoS())
@@ -134,7 +136,7 @@ def test_transforms_reach_programs_that_know_their_type(participant, node, child
     assert other.finish() == (0, "")
 
 
-def test_a_publisher_of_transforms_may_be_closed_while_another_thread_writes(participant, node):
+def test_a_publisher_of_transforms_can_be_closed_while_another_thread_writes(participant, node):
     data = codec.serialize(TF_MESSAGE(transforms=[find("geometry_msgs/msg/TransformStamped")()]))
     for _ in range(20):
         publisher = participant.publisher(node, "/tf", TF_MESSAGE, QoS())
@@ -172,7 +174,7 @@ def test_an_independent_program_publishes_receives_and_lists(beside_rosless):
     """)
 
 
-def test_service_messages_carry_rmws_header(participant, node):
+def test_service_messages_contain_the_header_of_rmw(participant, node):
     request = find("std_srvs/srv/SetBool_Request")
     arrived = Event()
     client = participant.publisher(node, "/light", request, QoS(), kind="request")
@@ -202,7 +204,7 @@ def test_service_messages_carry_rmws_header(participant, node):
         "action_msgs/msg/GoalStatusArray",
     ],
 )
-def test_messages_of_many_types_pass(name, participant, node):
+def test_messages_of_many_types_are_exchanged(name, participant, node):
     kind = find(name)
     publisher = participant.publisher(node, "/any", kind, QoS())
     subscription = participant.subscription(node, "/any", kind, QoS(), on_data=None)
@@ -211,7 +213,7 @@ def test_messages_of_many_types_pass(name, participant, node):
     assert codec.deserialize(sample.data, kind) == kind()
 
 
-def test_a_field_that_dds_cannot_carry_is_named():
+def test_an_unsupported_field_is_named_in_the_error():
     class Wide:
         ROS_TYPE = "test_msgs/msg/Wide"
         SLOT_TYPES = (definition.UnboundedWString(),)

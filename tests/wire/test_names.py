@@ -12,24 +12,24 @@ from coframe.wire import names
         ("/add_two_ints", "reply", "rr/add_two_intsReply"),
     ],
 )
-def test_topics_have_ros_names_in_dds(name, kind, dds):
+def test_dds_names_of_ros_topics(name, kind, dds):
     assert names.dds_topic(name, kind) == dds
     assert names.ros_topic(dds, kind) == name
     assert names.any_ros_name(dds) == name
 
 
-def test_a_topic_that_is_not_of_ros_has_no_ros_name():
+def test_a_dds_topic_outside_ros_has_no_ros_name():
     assert names.ros_topic("Square") is None
     assert names.ros_topic("rtsp/x") is None
     assert names.any_ros_name("Square") == "Square"
 
 
-def test_a_relative_name_is_refused():
+def test_a_relative_name_raises_an_error():
     with pytest.raises(ValueError, match="'scan' is not fully qualified"):
         names.dds_topic("scan")
 
 
-def test_types_have_ros_names_in_dds():
+def test_dds_names_of_ros_types():
     assert names.dds_type("tf2_msgs/msg/TFMessage") == "tf2_msgs::msg::dds_::TFMessage_"
     assert names.ros_type("std_srvs::srv::dds_::SetBool_Request_") == "std_srvs/srv/SetBool_Request"
     assert names.ros_type("ShapeType") == "ShapeType"

@@ -36,7 +36,7 @@ def native_threads() -> int:
     return len(list(tasks.iterdir())) if tasks.is_dir() else threading.active_count()
 
 
-def test_one_participant_for_a_process_and_domain(domain_id):
+def test_one_participant_per_process_and_domain(domain_id):
     first = Participant.get(domain_id)
     assert Participant.get() is first, "None is ROS_DOMAIN_ID"
     first.close()
@@ -47,7 +47,7 @@ def test_one_participant_for_a_process_and_domain(domain_id):
     second.close()
 
 
-def test_close_ends_all_threads(domain_id):
+def test_close_stops_all_threads(domain_id):
     before = native_threads()
     participant = Participant.get(domain_id)
     node = participant.add_node("/", "tester")
@@ -59,7 +59,7 @@ def test_close_ends_all_threads(domain_id):
     assert native_threads() == before
 
 
-def test_endpoints_of_a_closed_participant_say_so(domain_id):
+def test_endpoints_of_a_closed_participant_raise_an_error(domain_id):
     participant = Participant.get(domain_id)
     node = participant.add_node("/", "tester")
     publisher = participant.publisher(node, "/chatter", STRING, QoS())
@@ -74,7 +74,7 @@ def test_endpoints_of_a_closed_participant_say_so(domain_id):
     node.close()
 
 
-def test_a_process_that_never_closes_ends_promptly_and_without_complaint(child, participant, node):
+def test_a_process_without_close_exits_promptly_and_cleanly(child, participant, node):
     talker = participant.publisher(node, "/tf", find("tf2_msgs/msg/TFMessage"), QoS(100))
     other = child("""
         import coframe
@@ -90,7 +90,7 @@ def test_a_process_that_never_closes_ends_promptly_and_without_complaint(child, 
 
 
 @pytest.mark.parametrize("distro", ["humble", "jazzy"])
-def test_nodes_of_other_processes_are_seen_whatever_their_distribution(distro, child, participant, eventually):
+def test_nodes_of_other_processes_of_any_distribution_are_discovered(distro, child, participant, eventually):
     other = child(NODE_IN_A_CHILD.format(name="talker"), ROS_DISTRO=distro)
     eventually(lambda: ("/robot", "talker") in participant.nodes())
     eventually(lambda: participant.topics().get("/chatter") == ["std_msgs/msg/String"])
@@ -105,14 +105,14 @@ def test_nodes_of_other_processes_are_seen_whatever_their_distribution(distro, c
 
 
 @pytest.mark.slow  # DDS gives the silent ten seconds
-def test_nodes_of_a_killed_process_vanish_at_the_latest_with_its_lease(participant, child, eventually):
+def test_nodes_of_a_killed_process_disappear_when_its_lease_expires(participant, child, eventually):
     other = child(NODE_IN_A_CHILD.format(name="talker"))
     eventually(lambda: ("/robot", "talker") in participant.nodes())
     other.kill()
     eventually(lambda: ("/robot", "talker") not in participant.nodes())
 
 
-def test_own_nodes_are_on_the_graph_at_once(participant):
+def test_nodes_of_this_process_are_on_the_graph_immediately(participant):
     node = participant.add_node("/a/b", "own")
     assert participant.nodes() == [("/a/b", "own")]
     participant.subscription(node, "/chatter", STRING, QoS(depth=7, reliable=False), on_data=None)
@@ -123,7 +123,7 @@ def test_own_nodes_are_on_the_graph_at_once(participant):
     assert participant.topics() == {}
 
 
-def test_the_graph_event_is_set_by_a_change(participant):
+def test_a_change_of_the_graph_sets_the_event(participant):
     event = Event()
     participant.watch_graph(event)
     participant.add_node("/", "newcomer")
@@ -131,7 +131,7 @@ def test_the_graph_event_is_set_by_a_change(participant):
     participant.unwatch_graph(event)
 
 
-def test_names_that_the_graph_cannot_carry(participant):
+def test_invalid_node_names(participant):
     with pytest.raises(WireError, match=r"has 300 bytes\. The limit is 256 bytes"):
         participant.add_node("/", "x" * 300)
     with pytest.raises(WireError, match="Namespace 'robot' is not absolute") as caught:
@@ -139,19 +139,19 @@ def test_names_that_the_graph_cannot_carry(participant):
     assert caught.value.hint == "Use '/robot'."
 
 
-def test_a_domain_that_is_none():
+def test_an_invalid_domain_id():
     with pytest.raises(WireError, match="a domain ID is an integer from 0 to 232"):
         Participant.get(233)
 
 
-def test_a_configuration_that_cyclone_refuses(domain_id, monkeypatch):
+def test_an_invalid_configuration_of_cyclone_dds(domain_id, monkeypatch):
     monkeypatch.setenv("CYCLONEDDS_URI", "<CycloneDDS><Nonsense/></CycloneDDS>")
     with pytest.raises(WireError, match=f"Joining domain {domain_id} failed") as caught:
         Participant.get(domain_id)
     assert "CYCLONEDDS_URI" in caught.value.hint
 
 
-def test_a_full_domain_is_told_in_words(domain_id, monkeypatch, child):
+def test_the_error_for_a_full_domain(domain_id, monkeypatch, child):
     monkeypatch.setattr("coframe.wire.config.MAX_PARTICIPANT_INDEX", 0)
     other = child(NODE_IN_A_CHILD.format(name="first"))
     assert other.read() == "ready"
@@ -162,7 +162,7 @@ def test_a_full_domain_is_told_in_words(domain_id, monkeypatch, child):
     assert "ROS_DOMAIN_ID" in caught.value.hint
 
 
-def test_without_cyclonedds_only_joining_fails(tmp_path):
+def test_without_cyclonedds_only_joining_the_graph_fails(tmp_path):
     (tmp_path / "cyclonedds.py").write_text("raise ImportError('not installed')\n")
     code = (
         "import coframe, coframe.wire\n"
@@ -181,7 +181,7 @@ def test_without_cyclonedds_only_joining_fails(tmp_path):
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="only where processes fork")
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_a_forked_child_is_told_so(participant):
+def test_joining_in_a_forked_child_raises_an_error(participant):
     pid = os.fork()
     if pid == 0:
         try:
@@ -192,7 +192,7 @@ def test_a_forked_child_is_told_so(participant):
     assert os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]) == 0
 
 
-def test_a_process_ends_well_although_threads_publish(child):
+def test_a_process_exits_cleanly_while_threads_publish(child):
     ended = child("""
         import threading
         import coframe
@@ -214,7 +214,7 @@ def test_a_process_ends_well_although_threads_publish(child):
     assert ended.finish() == (0, "")
 
 
-def test_a_forked_child_ends_well_and_leaves_its_parent_in_the_graph(child, participant, eventually):
+def test_a_forked_child_exits_cleanly_and_its_parent_stays_on_the_graph(child, participant, eventually):
     parent = child("""
         import os, signal, sys, warnings
         import coframe

@@ -1,4 +1,4 @@
-"""Relays between real processes: what arrives, from whom, and what is told of."""
+"""Relays between processes: the received transforms, their origin, and the warnings."""
 
 import re
 
@@ -9,7 +9,7 @@ from coframe.messages import find
 from coframe.wire import Participant
 from coframe.wire.qos import TF_STATIC_WRITER
 
-# A robot: odom and base on its own topic, a mount on the static one, until it is told to end.
+# A robot that publishes odom and base on its own topic and a mount on its static topic until it is killed.
 ROBOT = """
     import sys, time
     import coframe
@@ -36,7 +36,7 @@ ROBOT = """
 
 @pytest.fixture
 def robot(child):
-    """Starts a robot in a process of its own."""
+    """Return a function that starts a robot in its own process."""
 
     def start(name, x=1.0, *, offset=0):
         process = child(ROBOT.format(name=name, x=x, offset=offset))
@@ -48,7 +48,7 @@ def robot(child):
 
 @pytest.fixture
 def fleet(domain_id):
-    """Makes relays and listeners, and ends them."""
+    """Return a function that creates relays and connections, which are closed after the test."""
     opened = []
 
     def make(what, *arguments, **options):
@@ -60,10 +60,10 @@ def fleet(domain_id):
         thing.close()
 
 
-def test_two_robots_one_tree_and_what_becomes_of_it(robot, fleet, eventually):
-    """Late listeners get all; one robot's end leaves the other alone; a clock that is off is named."""
-    warned = []
-    relay = fleet(coframe.relay, "robot1,robot2", prefix_each=True, keep="map,world", warn=warned.append)
+def test_two_robots_are_merged_into_one_tree(robot, fleet, eventually):
+    """Late listeners receive all transforms, a stopped robot does not affect the other, clock errors are reported."""
+    warnings = []
+    relay = fleet(coframe.relay, "robot1,robot2", prefix_each=True, keep="map,world", warn=warnings.append)
     first, _ = robot("robot1", 1.0), robot("robot2", 2.0, offset=10**9)
     eventually(lambda: [one.state for one in relay.robots] == ["live", "live"])
 
@@ -73,7 +73,7 @@ def test_two_robots_one_tree_and_what_becomes_of_it(robot, fleet, eventually):
         assert ros.buffer.lookup("map", f"{name}/lidar").translation[0] == x
     assert "odom" not in ros.buffer
 
-    # A node's name may come later than what it sends.
+    # The name of a node can be discovered after its first messages.
     eventually(lambda: all(edge[5] == f"/{edge[3]}/driver" for edge in relay.edges()))
     edges = {edge.child: edge for edge in relay.edges()}
     assert set(edges) == {f"{name}/{frame}" for name in ("robot1", "robot2") for frame in ("odom", "base", "lidar")}
@@ -91,8 +91,8 @@ def test_two_robots_one_tree_and_what_becomes_of_it(robot, fleet, eventually):
         assert not edges[f"{name}/odom"].conflicting_robot
 
     named = re.compile(r"robot2: the clock of /robot2/driver on /robot2/tf is (1\.0|0\.[6-9])\d s ahead")
-    eventually(lambda: any(map(named.match, warned)))
-    assert not any("/robot1/driver" in text for text in warned)
+    eventually(lambda: any(map(named.match, warnings)))
+    assert not any("/robot1/driver" in text for text in warnings)
 
     first.kill()
     eventually(lambda: relay.robots[0].state in {"stale", "gone"})
@@ -101,11 +101,11 @@ def test_two_robots_one_tree_and_what_becomes_of_it(robot, fleet, eventually):
     eventually(lambda: ros.buffer.lookup("map", "robot2/base").stamp > at)
     frames = {frame.name: frame for frame in ros.buffer.frames()}
     assert frames["robot1/base"].newest < frames["robot2/base"].newest - 10**9
-    eventually(lambda: any(text.startswith(("robot1 is stale", "robot1 has gone")) for text in warned))
-    assert not any(text.startswith(("robot2 is stale", "robot2 has gone")) for text in warned)
+    eventually(lambda: any(text.startswith(("robot1 is stale", "robot1 has gone")) for text in warnings))
+    assert not any(text.startswith(("robot2 is stale", "robot2 has gone")) for text in warnings)
 
 
-def test_a_prefix_in_front_of_all_and_a_static_topic_of_any_name(participant, node, fleet, eventually):
+def test_a_common_prefix_and_a_static_topic_with_another_name(participant, node, fleet, eventually):
     common = {"common": "/fleet/tf", "common_static": "/fleet/still", "prefix": "fleet/", "keep": "map"}
     there = fleet(coframe.relay, "robot1", prefix_each=True, **common)
     back = fleet(coframe.relay, "robot2", split=True, **common)
@@ -121,9 +121,9 @@ def test_a_prefix_in_front_of_all_and_a_static_topic_of_any_name(participant, no
         eventually(lambda ros=ros, frame=frame: ros.buffer.can_transform("map", frame))
 
 
-def test_one_frame_of_two_robots_is_named_and_the_first_ones(robot, fleet, eventually):
-    warned = []
-    relay = fleet(coframe.relay, ["robot1", "robot2"], warn=warned.append)  # without prefixes
+def test_a_frame_that_two_robots_publish_is_reported_and_taken_from_the_first(robot, fleet, eventually):
+    warnings = []
+    relay = fleet(coframe.relay, ["robot1", "robot2"], warn=warnings.append)  # without prefixes
     robot("robot1", 1.0)
     ros = fleet(coframe.connect, "listener")
     eventually(lambda: ros.buffer.can_transform("map", "base"))
@@ -133,22 +133,22 @@ def test_one_frame_of_two_robots_is_named_and_the_first_ones(robot, fleet, event
             {edge.child for edge in relay.edges() if edge.conflicting_robot == "robot2"} >= {"odom", "base", "lidar"}
         )
     )
-    eventually(lambda: any("robot1 and robot2 both publish a transform to 'odom'" in text for text in warned))
+    eventually(lambda: any("robot1 and robot2 both publish a transform to 'odom'" in text for text in warnings))
     assert ros.buffer.lookup("map", "odom").translation[0] == 1.0
 
 
-def test_what_relays_write_is_not_relayed_again(robot, fleet, eventually):
-    """A merge and a split of it again, which would go round for ever."""
-    warned = []
+def test_transforms_of_a_relay_are_not_relayed_again(robot, fleet, eventually):
+    """A relay that merges and one that splits its output, which would make an endless loop."""
+    warnings = []
     merge = fleet(coframe.relay, "robot1", prefix_each=True, keep="map", node_name="merge")
-    split = fleet(coframe.relay, "robot1", split=True, keep="map", node_name="split", warn=warned.append)
+    split = fleet(coframe.relay, "robot1", split=True, keep="map", node_name="split", warn=warnings.append)
     robot("robot1")
-    eventually(lambda: any("/merge on /tf is a relay" in text for text in warned))
+    eventually(lambda: any("/merge on /tf is a relay" in text for text in warnings))
     assert split.edges() == []
     assert {edge.node for edge in merge.edges()} == {"/robot1/driver"}
 
 
-def test_splitting_gives_each_robot_its_own_names(fleet, eventually):
+def test_split_removes_the_prefix_of_each_robot(fleet, eventually):
     with coframe.connect("talker", tf_topic="/elsewhere") as talker:
         statics = talker.participant.static_broadcaster(talker.node, "/tf_static")
         fleet(coframe.relay, "robot1,robot2", split=True, keep="map")
@@ -166,7 +166,7 @@ def test_splitting_gives_each_robot_its_own_names(fleet, eventually):
 
 
 def test_a_listener_with_a_prefix(robot, fleet, eventually):
-    """Without a relay: the listener gives the names."""
+    """The listener adds the prefix, without a relay."""
     robot("robot1", 3.0, offset=-(10**9))
     topics = {"tf_topic": "/robot1/tf", "tf_static_topic": "/robot1/tf_static"}
     ros = fleet(coframe.connect, "listener", **topics, prefix="robot1/", keep=["map"])
@@ -178,9 +178,9 @@ def test_a_listener_with_a_prefix(robot, fleet, eventually):
     assert re.search(r"is 1\.\d\d s behind the clock of this machine", moving.clock_problem())
 
 
-def test_odd_names_are_told_of_once(participant: Participant, node, eventually):
-    warned = []
-    participant.on_warning(warned.append)
+def test_naming_problems_are_reported_once(participant: Participant, node, eventually):
+    warnings = []
+    participant.on_warning(warnings.append)
     from coframe.frame_names import renaming
     from coframe.messages.conversions import to_transform_stamped
 
@@ -193,10 +193,10 @@ def test_odd_names_are_told_of_once(participant: Participant, node, eventually):
     statics = participant.static_broadcaster(participant.add_node("/", "talker"), "/tf_static")
     for parent, child in (("/map", "odom"), ("robot1/odom", "base")):
         statics.send([to_transform_stamped(parent, child, coframe.Transform(), 0)])
-    eventually(lambda: len(warned) >= 2)
-    assert [text for text in warned if "'/map', with a slash in front" in text and "/talker on /tf_static" in text]
-    assert [text for text in warned if "for only some of its frames: 'robot1/odom' and 'map'" in text]
-    assert len(warned) == len(set(warned)) == 2
+    eventually(lambda: len(warnings) >= 2)
+    assert [text for text in warnings if "/talker on /tf_static publishes the frame '/map'" in text]
+    assert [text for text in warnings if "for only some of its frames: 'robot1/odom' and 'map'" in text]
+    assert len(warnings) == len(set(warnings)) == 2
     assert all(reader.matched for reader in readers)
 
 
@@ -211,12 +211,12 @@ def test_odd_names_are_told_of_once(participant: Participant, node, eventually):
         (["robot1"], {"rate": 0.0}, "above 0 Hz"),
     ],
 )
-def test_what_makes_no_relay_is_said_before_anything_is_joined(arguments, options, text):
+def test_invalid_arguments_of_a_relay_raise_an_error(arguments, options, text):
     with pytest.raises(ValueError, match=text):
         coframe.relay(*arguments, **options)
 
 
-def test_sources_may_have_prefixes_of_their_own(robot, fleet, eventually):
+def test_sources_with_their_own_prefixes_and_a_rate_limit(robot, fleet, eventually):
     relay = fleet(coframe.relay, sources={"/robot1/tf": "r1_"}, keep="map", rate=10.0)
     robot("robot1")
     eventually(lambda: any(edge.skipped > 20 for edge in relay.edges()))
@@ -228,10 +228,10 @@ def test_sources_may_have_prefixes_of_their_own(robot, fleet, eventually):
 
 @pytest.mark.slow
 @pytest.mark.usefixtures("domain_id")
-def test_ten_robots_through_one_relay_lose_nothing():
-    """10 robots x 20 frames x 50 Hz, each robot a process, into one buffer: what the requirement says."""
+def test_a_relay_of_ten_robots_loses_no_transforms():
+    """10 robots with 20 frames each at 50 Hz, each robot in its own process, into one buffer."""
     from benchmarks.fleet import measure
 
-    outcomes = [measure(10, 20, 50.0, 10.0) for _ in range(2)]  # the machine may be busy with something else
+    outcomes = [measure(10, 20, 50.0, 10.0) for _ in range(2)]  # the machine may be busy in one of the runs
     assert [(outcome.sent, outcome.lost) for outcome in outcomes] == [(100_000, 0)] * 2
     assert min(outcome.cpu for outcome in outcomes) < 10.0, outcomes

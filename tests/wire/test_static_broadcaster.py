@@ -33,7 +33,7 @@ def test_two_broadcasters_of_a_process_share_one_writer(participant, node):
     assert buffer.statistics["messages"] == 1
 
 
-def test_a_late_joiner_in_another_process_gets_all(participant, node, child):
+def test_a_late_joining_process_receives_all_static_transforms(participant, node, child):
     participant.static_broadcaster(node).send([stamped("base_link", "lidar")])
     participant.static_broadcaster(node).send([stamped("base_link", "camera")])
     other = child("""
@@ -58,7 +58,7 @@ def test_a_later_transform_for_the_same_child_replaces_the_earlier(participant, 
     assert late_joiner(participant, node).lookup("base_link", "lidar").translation[0] == 2.0
 
 
-def test_the_last_one_to_close_ends_the_writer(participant, node):
+def test_closing_the_last_broadcaster_closes_the_writer(participant, node):
     other = participant.add_node("/", "other")
     first = participant.static_broadcaster(node)
     second = participant.static_broadcaster(other)
@@ -71,7 +71,7 @@ def test_the_last_one_to_close_ends_the_writer(participant, node):
     assert participant.publishers("/tf_static") == []
 
 
-def test_a_closing_node_leaves_the_writer_to_the_others(participant, node):
+def test_closing_a_node_keeps_the_writer_of_other_nodes(participant, node):
     other = participant.add_node("/", "other")
     first = participant.static_broadcaster(other)
     second = participant.static_broadcaster(node)
@@ -81,7 +81,7 @@ def test_a_closing_node_leaves_the_writer_to_the_others(participant, node):
     assert late_joiner(participant, node).can_transform("lidar", "camera")
 
 
-def test_a_new_writer_begins_with_nothing(participant, node):
+def test_a_new_writer_starts_without_transforms(participant, node):
     first = participant.static_broadcaster(node)
     first.send([stamped("base_link", "lidar")])
     first.close()
@@ -92,7 +92,7 @@ def test_a_new_writer_begins_with_nothing(participant, node):
     assert not late_joiner(participant, node).frame_exists("lidar")
 
 
-def test_topics_are_kept_apart(participant, node):
+def test_topics_have_separate_writers(participant, node):
     participant.static_broadcaster(node).send([stamped("base_link", "lidar")])
     participant.static_broadcaster(node, "/robot/tf_static").send([stamped("base_link", "camera")])
     assert not late_joiner(participant, node).frame_exists("camera")

@@ -33,8 +33,8 @@ BROADCASTER = """
 
 
 BROKEN_MESSAGES = """
-warned = []
-participant.on_warning(warned.append)
+warnings = []
+participant.on_warning(warnings.append)
 buffer = coframe.Buffer()
 reader = participant.tf_reader(node, "/tf", buffer, static=False)
 publisher = peer.advertise("/tf", "tf2_msgs/msg/TFMessage", depth=1000)
@@ -54,7 +54,7 @@ publisher.send_payload(last)
 eventually(lambda: buffer.can_transform("a", "last"))
 assert buffer.statistics["malformed"] == sent + 1, buffer.statistics
 assert buffer.statistics["refused"] >= 1
-eventually(lambda: any(text.startswith("Dropped") and "are not a TFMessage" in text for text in warned))
+eventually(lambda: any(text.startswith("Dropped") and "are not a TFMessage" in text for text in warnings))
 assert set(buffer.frame_names()) <= {"a", "b", "c", "last"}
 """
 
@@ -86,7 +86,7 @@ def test_transforms_of_another_process_fill_the_buffer(participant, node, child,
     assert buffer._changes == changes, "nothing is stored after close"
 
 
-def test_transforms_are_stored_while_python_does_something_else(participant, node, child, eventually):
+def test_transforms_are_stored_while_python_is_busy(participant, node, child, eventually):
     buffer = coframe.Buffer()
     reader = participant.tf_reader(node, "/tf", buffer, static=False)
     other = child(BROADCASTER)
@@ -106,7 +106,7 @@ def test_a_wait_ends_when_the_transform_arrives(participant, node, child):
     assert buffer.lookup("odom", "base_link", timeout="20s").translation[0] > 0
 
 
-def test_a_late_joiner_gets_the_static_transforms(participant, node, child, eventually):
+def test_a_late_joining_process_receives_the_static_transforms(participant, node, child, eventually):
     child("""
         import coframe
         from coframe.messages import find
@@ -124,23 +124,21 @@ def test_a_late_joiner_gets_the_static_transforms(participant, node, child, even
     eventually(lambda: buffer.can_transform("base_link", "lidar"))
 
 
-def test_what_was_written_before_the_reader_is_stored_at_once(participant, node):
+def test_transforms_published_before_the_reader_are_stored_immediately(participant, node):
     participant.publisher(node, "/tf_static", TF_MESSAGE, TF_STATIC_WRITER).write(tf_cdr(stamped("a", "b")))
     buffer = coframe.Buffer()
     participant.tf_reader(node, "/tf_static", buffer, static=True)
     assert buffer.can_transform("a", "b")
 
 
-def test_the_publishing_node_is_noted_if_asked_for(participant, child, node, eventually):
+def test_the_publishing_node_is_recorded_if_requested(participant, child, node, eventually):
     buffer = coframe.Buffer()
     participant.tf_reader(node, "/tf", buffer, static=False, authority=None)
     child(BROADCASTER)
     eventually(lambda: any(frame.authority == "/broadcaster" for frame in buffer.frames()))
 
 
-def test_the_publishing_node_of_static_transforms_is_noted_although_they_come_once(
-    participant, node, child, eventually
-):
+def test_the_publishing_node_of_static_transforms_is_recorded(participant, node, child, eventually):
     buffer = coframe.Buffer()
     participant.tf_reader(node, "/tf_static", buffer, static=True, authority=None)
     child("""
@@ -156,7 +154,7 @@ def test_the_publishing_node_of_static_transforms_is_noted_although_they_come_on
     eventually(lambda: any(frame.authority == "/placer" for frame in buffer.frames()))
 
 
-def test_static_transforms_that_came_before_their_nodes_name_get_it(participant, node):
+def test_static_transforms_that_arrive_before_the_node_name_get_it(participant, node):
     publisher = participant.publisher(node, "/tf_static", TF_MESSAGE, TF_STATIC_WRITER)
     watcher = participant.subscription(node, "/tf_static", TF_MESSAGE, TF_STATIC_WRITER, on_data=None)
     buffer = coframe.Buffer()
@@ -168,12 +166,12 @@ def test_static_transforms_that_came_before_their_nodes_name_get_it(participant,
     assert [frame.authority for frame in buffer.frames() if frame.name == "b"] == ["/late"]
 
 
-def test_broken_messages_of_a_peer_are_counted_and_the_rest_goes_on(beside_rosless):
+def test_damaged_messages_are_counted_and_others_are_stored(beside_rosless):
     whole, last = tf_cdr(stamped("a", "b"), stamped("b", "c")), tf_cdr(stamped("a", "last"))
     beside_rosless(f"whole, last = {whole!r}, {last!r}\n" + BROKEN_MESSAGES)
 
 
-def test_an_empty_message_is_fine(participant, node):
+def test_an_empty_message_is_accepted(participant, node):
     buffer = coframe.Buffer()
     participant.tf_reader(node, "/tf", buffer, static=False)
     participant.publisher(node, "/tf", TF_MESSAGE, TF).write(tf_cdr())
@@ -181,7 +179,7 @@ def test_an_empty_message_is_fine(participant, node):
     assert buffer.statistics["malformed"] == 0
 
 
-def test_readers_come_and_go_under_load(participant, node, child, eventually):
+def test_readers_are_created_and_closed_under_load(participant, node, child, eventually):
     buffer = coframe.Buffer()
     participant.tf_reader(node, "/tf", buffer, static=False)
     other = child(BROADCASTER)
@@ -196,13 +194,13 @@ def test_readers_come_and_go_under_load(participant, node, child, eventually):
     assert other.process.poll() is None
 
 
-def test_own_qos(participant, node):
+def test_a_reader_with_another_qos(participant, node):
     buffer = coframe.Buffer()
     participant.tf_reader(node, "/tf", buffer, static=False, qos=QoS(depth=1, reliable=False))
     assert [subscriber.qos.reliable for subscriber in participant.subscribers("/tf")] == [False]
 
 
-def test_a_writer_that_gets_its_name_late_does_not_bring_its_transforms_again(participant, node, eventually):
+def test_a_late_node_name_does_not_insert_transforms_again(participant, node, eventually):
     buffer = coframe.Buffer()
     reader = participant.tf_reader(node, "/tf_static", buffer, static=True, authority="nobody")
     first, second = (participant.publisher(node, "/tf_static", TF_MESSAGE, TF_STATIC_WRITER) for _ in range(2))
@@ -225,7 +223,7 @@ def test_writers_that_left_are_forgotten(participant, node, eventually):
     eventually(lambda: not reader._node_names)
 
 
-def test_a_reader_is_whole_when_other_threads_first_see_it(participant, node, monkeypatch):
+def test_a_reader_is_fully_constructed_before_other_threads_use_it(participant, node, monkeypatch):
     add = GraphNode.add
 
     def add_and_look(self, endpoint):
@@ -236,9 +234,9 @@ def test_a_reader_is_whole_when_other_threads_first_see_it(participant, node, mo
     participant.tf_reader(node, "/tf", coframe.Buffer(), static=False, authority=None)
 
 
-def test_refused_transforms_are_told_of_with_their_publisher(participant, node, eventually):
-    heard = []
-    participant.on_warning(heard.append)
+def test_rejected_transforms_are_reported_with_their_publisher(participant, node, eventually):
+    received = []
+    participant.on_warning(received.append)
     buffer = coframe.Buffer()
     reader = participant.tf_reader(node, "/tf", buffer, static=False)
     publisher = participant.publisher(node, "/tf", TF_MESSAGE, TF)
@@ -246,12 +244,14 @@ def test_refused_transforms_are_told_of_with_their_publisher(participant, node, 
     good, zeros = stamped("odom", "good"), stamped("odom", "base_link")
     zeros.transform.rotation.w = 0.0
     publisher.write(codec.serialize(TF_MESSAGE(transforms=[good, zeros])))
-    eventually(lambda: heard)
-    assert len(heard) == 1
-    assert heard[0].startswith("Rejected 1 of the transforms on /tf (from /tester): tf2 requires a non-zero quaternion")
+    eventually(lambda: received)
+    assert len(received) == 1
+    assert received[0].startswith(
+        "Rejected 1 of the transforms on /tf (from /tester): tf2 requires a non-zero quaternion"
+    )
 
 
-def test_the_reader_tells_when_the_newest_message_was_in_the_buffer(participant, node, eventually):
+def test_stored_at_is_the_time_of_the_last_insertion(participant, node, eventually):
     buffer = coframe.Buffer()
     reader = participant.tf_reader(node, "/tf", buffer, static=False)
     assert reader.stored_at == 0

@@ -64,7 +64,7 @@ export class ReplayExport {
     private readonly rviz: RvizPanel,
     private readonly view: View,
   ) {
-    model.on("replay", ({ looks }) => void this.fetch(looks));
+    model.on("replay", ({ settings }) => void this.fetch(settings));
   }
 
   /** Asks the user for the span. */
@@ -122,11 +122,11 @@ export class ReplayExport {
     });
   }
 
-  private async fetch(looks: string): Promise<void> {
+  private async fetch(settings: string): Promise<void> {
     const { wanted } = this;
     this.wanted = null;
     if (!wanted) return;
-    wanted.set("looks", looks);
+    wanted.set("settings", settings);
     const url = new URL("replay", location.href);
     url.search = wanted.toString();
     try {

@@ -11,8 +11,10 @@ import type {
   Hello,
   Problem,
   Relation,
+  ReplayPrepared,
   Robot,
-  RvizConfig,
+  RvizConfiguration,
+  Saved,
   Stats,
   Tick,
   Timeline,
@@ -29,14 +31,14 @@ export interface ModelEvents {
   robot: Robot;
   display: DisplayStatus;
   message: DisplayMessage;
-  rviz: RvizConfig;
+  rviz: RvizConfiguration;
   relation: Relation;
   timeline: Timeline;
   problem: Problem;
   findings: Findings;
   page: CodePage;
-  replay: { looks: string };
-  saved: { path?: string; text?: string };
+  replay: ReplayPrepared;
+  saved: Saved;
   connected: boolean;
   fixed: string;
   selection: Selection;

@@ -106,7 +106,7 @@ export function showPage(source: Source): void {
         break;
       case "tree":
         model.forest = new Forest(message.revision, message.frames, message.components);
-        if (message.fixed !== undefined && message.fixed !== model.fixed) {
+        if (message.fixed !== model.fixed) {
           model.fixed = message.fixed;
           model.emit("fixed", model.fixed);
         }

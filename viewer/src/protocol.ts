@@ -1,251 +1,48 @@
 /**
- * What travels between the server and the page.
+ * The messages between the server and the page.
  *
- * Text messages are JSON objects with a `type`; binary ones are little-endian and open with a 4-byte kind. All times are
- * nanoseconds relative to `hello.origin`, as numbers: exact below 2^53, that is for 104 days.
+ * Types, headers and checks are generated from `src/coframe/viewer/protocol/messages.py`, which documents the protocol.
+ * This module decodes binary messages with them.
  */
 
+import {
+  BinaryKind,
+  CloudFlag,
+  ImageFormat,
+  readCloudHeader,
+  readEntryRecord,
+  readFramesHeader,
+  readGridHeader,
+  readImageHeader,
+  readShapesHeader,
+  type FieldReader,
+  type ShapesDescription,
+} from "./generated/protocol";
+import { ProtocolError } from "./validation";
+
+export * from "./generated/protocol";
+export { checkServerMessage, ProtocolError } from "./validation";
+
 export type Vector = [number, number, number];
-export type Json = null | boolean | number | string | Json[] | { [key: string]: Json };
-export type JsonObject = { [key: string]: Json };
 
-export interface Topic {
-  topic: string;
-  type: string;
-  display: string;
-}
-
-export interface RvizDisplay {
-  class: string;
-  name: string;
-  enabled: boolean;
-  topic?: string | null;
-  options: JsonObject;
-}
-
-export interface RvizConfig {
-  displays: RvizDisplay[];
-  global: { fixed_frame?: string | null; background?: Json; frame_rate?: number | null };
-  view: { class: string; options: JsonObject } | null;
-  unknown: { path: string; class: string; name: string }[];
-}
-
-export interface Hello {
-  type: "hello";
-  version: number;
-  mode: "live" | "recording" | "buffer" | "replay";
-  title: string;
-  origin: string;
-  span: [number, number] | null;
-  fixed: string;
-  rviz: RvizConfig | null;
-  topics: Topic[];
-  can_publish: boolean;
-}
-
-export interface TreeFrame {
-  name: string;
-  parent: number;
-  static: boolean;
-  component: number;
-}
-
-export interface Tree {
-  type: "tree";
-  fixed?: string;
-  revision: number;
-  frames: TreeFrame[];
-  components: { root: string; size: number }[];
-}
-
-export interface FrameStats {
-  rate: number | null;
-  age: number | null;
-  last: number | null;
-  publisher: string | null;
-  samples: number;
-  longest_gap: number | null;
-  state: "static" | "fresh" | "stale" | "gone";
-}
-
-export interface Stats {
-  type: "stats";
-  revision: number;
-  span: [number, number] | null;
-  frames: FrameStats[];
-}
-
-export interface RobotJoint {
-  name: string;
-  type: string;
-  lower: number | null;
-  upper: number | null;
-  value: number;
-}
-
-export interface Robot {
-  type: "robot";
-  id: string | number;
-  name: string;
-  source: string;
-  urdf: string;
-  meshes: Record<string, string>;
-  /** What of it cannot be drawn. */
-  problems: string[];
-  /** What is odd about its description. */
-  warnings: string[];
-  joints: RobotJoint[];
-  description_topic: string | null;
-}
-
-export interface DisplayStatus {
-  type: "display";
-  id: number;
-  state: "ok" | "waiting" | "error";
-  text: string;
-  /** In replays: what was left out. */
-  note?: string;
-}
-
-export interface Relation {
-  type: "relation";
-  id: number;
-  ok: boolean;
-  target: string;
-  source: string;
-  stamp: number | null;
-  translation: Vector | null;
-  quaternion: [number, number, number, number] | null;
-  rpy_deg: Vector | null;
-  matrix: number[] | null;
-  static_command: string | null;
-  chain: string[];
-  error: string | null;
-  hint: string | null;
-  broken_at: string | null;
-}
-
-export interface TimelineEdge {
-  frame: number;
-  counts: string;
-  gaps: [number, number][];
-}
-
-export interface Timeline {
-  type: "timeline";
-  revision: number;
-  bins: number;
-  from: number;
-  to: number;
-  edges: TimelineEdge[];
-}
-
-export interface Problem {
-  type: "problem";
-  text: string;
-  hint?: string | null;
-}
-
-export type Severity = "error" | "warning" | "note";
-
-export interface Finding {
-  code: string;
-  severity: Severity;
-  title: string;
-  subject: string;
-  /** Whose rows it concerns. */
-  frames: string[];
-  text: string;
-  why: string;
-  fix: string;
-  publishers: string[];
-  /** When it was seen first, in ns. */
-  first: number | null;
-  namespace: string;
-  /** What would go if it did. */
-  explains: Finding[];
-}
-
-export interface Findings {
-  type: "findings";
-  state: "none" | "waiting" | "told" | "failed";
-  text: string;
-  findings: Finding[];
-}
-
-/** The page of a finding's code, Markdown. */
-export interface CodePage {
-  type: "page";
-  code: string;
-  title: string;
-  text: string;
-}
-
-export type ServerMessage =
-  | Hello
-  | Tree
-  | Stats
-  | { type: "topics"; topics: Topic[] }
-  | Robot
-  | DisplayStatus
-  | ({ type: "rviz" } & RvizConfig)
-  | Relation
-  | Timeline
-  | Problem
-  | Findings
-  | CodePage
-  | { type: "replay"; looks: string }
-  | { type: "saved"; path?: string; text?: string };
-
-export interface SubscribeOptions {
-  color_by?: "axis" | "intensity" | "rgb" | "distance" | "flat";
-  axis?: "x" | "y" | "z";
-  decay?: number;
-  keep?: number;
-  most_points?: number;
-  trail?: number;
-}
-
-export type ClientMessage =
-  | { type: "fixed"; frame: string }
-  | { type: "time"; mode: "live" }
-  | { type: "time"; mode: "at"; at: number; playing: boolean; speed: number; loop: [number, number] | null }
-  | { type: "step"; direction: 1 | -1 }
-  | { type: "subscribe"; id: number; topic: string; display: string; options: SubscribeOptions }
-  | { type: "unsubscribe"; id: number }
-  | { type: "relate"; id: number; target: string; source: string }
-  | { type: "timeline"; from: number; to: number; bins: number }
-  | { type: "joints"; robot: string | number; positions: Record<string, number>; publish: boolean }
-  | { type: "load_rviz"; text: string }
-  | { type: "save_rviz"; displays: RvizDisplay[]; global: JsonObject; view: JsonObject }
-  | {
-      type: "replay";
-      displays: { topic: string; options: SubscribeOptions }[];
-      rviz: { displays: RvizDisplay[]; global: JsonObject; view: JsonObject | null };
-    }
-  | { type: "frame_timeout"; seconds: number }
-  | { type: "explain"; code: string }
-  | { type: "ready"; drawn: number | null };
-
-export const FrameState = { ok: 0, stale: 1, gone: 2, otherTree: 3 } as const;
-
-/** Where a message's frame was at the message's stamp. */
+/** The pose of a displayed message's frame at the stamp of the message. */
 export interface DisplayPose {
   id: number;
   sequence: number;
-  /** x, y, z, qx, qy, qz, qw, relative to the tick's origin. */
+  /** x, y, z, qx, qy, qz, qw, relative to the origin of the frame update. */
   pose: Float32Array;
   ok: boolean;
 }
 
+/** A frame update. */
 export interface Tick {
   kind: "tick";
   revision: number;
-  /** Nanoseconds relative to hello.origin; NaN when nothing came yet. */
+  /** Nanoseconds relative to hello.origin; NaN while there is no data. */
   time: number;
   origin: Vector;
   count: number;
-  /** count x (x, y, z, qx, qy, qz, qw), relative to `origin`; NaN where it cannot be told. */
+  /** count x (x, y, z, qx, qy, qz, qw), relative to `origin`; NaN for frames without a pose. */
   poses: Float32Array;
   states: Uint8Array;
   displays: DisplayPose[];
@@ -256,7 +53,7 @@ export interface Cloud {
   id: number;
   sequence: number;
   count: number;
-  /** Every so-manieth of the message's points. */
+  /** Every n-th point of the message was sent. */
   step: number;
   stamp: number;
   range: [number, number];
@@ -277,8 +74,6 @@ export interface Grid {
   cells: Int8Array;
 }
 
-export const ImageFormat = { grey: 0, rgb: 1, jpeg: 2, png: 3 } as const;
-
 export interface Image {
   kind: "image";
   id: number;
@@ -286,62 +81,25 @@ export interface Image {
   width: number;
   height: number;
   format: number;
-  /** Every so-manieth of the message's rows and columns. */
+  /** Every n-th row and column of the message was sent. */
   step: number;
   stamp: number;
   data: Uint8Array<ArrayBuffer>;
 }
 
-export interface MarkerItem {
-  ns: string;
-  id: number;
-  type: number;
-  pose: number[];
-  scale: Vector;
-  rgba: (number | null)[];
-  text: string;
-  /** Where the mesh is served, and as the marker named it. */
-  mesh: string | null;
-  mesh_name?: string;
-  mesh_problem?: string | null;
-  use_materials?: boolean;
-  points: [number, number] | null;
-  colors: [number, number] | null;
-}
-
-/** Pairs are [offset in floats, number of rows] in the payload: a pose is a row of 7 floats, a point of 3, a colour of 4. */
-export type ShapesHead =
-  | { kind: "poses"; frame: string; stamp: number; poses: [number, number]; covariance?: (number | null)[] }
-  | { kind: "path"; frame: string; stamp: number; poses: [number, number] }
-  | { kind: "odometry"; frame: string; stamp: number; poses: [number, number]; covariance?: (number | null)[] }
-  | { kind: "markers"; frame: string; stamp: number; items: MarkerItem[] }
-  | {
-      kind: "range";
-      frame: string;
-      stamp: number;
-      range: number | null;
-      min_range: number;
-      max_range: number;
-      field_of_view: number;
-      radiation_type: number;
-    }
-  | { kind: "camera"; frame: string; stamp: number; width: number; height: number; k: number[] };
-
 export interface Shapes {
   kind: "shapes";
   id: number;
   sequence: number;
-  head: ShapesHead;
+  head: ShapesDescription;
   payload: Float32Array;
 }
 
 export type BinaryMessage = Tick | DisplayMessage;
 export type DisplayMessage = Cloud | Grid | Shapes | Image;
 
-export class ProtocolError extends Error {}
-
-/** Reads fields one after another and says what was missing when the bytes end early. */
-class Reader {
+/** Reads fields one after another; throws a ProtocolError if the data ends too early. */
+class Reader implements FieldReader {
   private offset = 0;
   private readonly view: DataView;
 
@@ -355,7 +113,7 @@ class Reader {
   private take(bytes: number): number {
     const start = this.offset;
     if (!Number.isSafeInteger(bytes) || bytes < 0 || start + bytes > this.buffer.byteLength)
-      throw new ProtocolError(`${this.what}: ${bytes} bytes wanted at ${start} of ${this.buffer.byteLength}`);
+      throw new ProtocolError(`${this.what}: ${bytes} bytes expected at ${start} of ${this.buffer.byteLength}`);
     this.offset = start + bytes;
     return start;
   }
@@ -372,7 +130,7 @@ class Reader {
     return this.view.getFloat64(this.take(8), true);
   }
 
-  /** No copy where the bytes lie on a multiple of four, which the layout sees to. */
+  /** A view without a copy if the offset is a multiple of four, as it is in valid messages. */
   floats(count: number): Float32Array {
     const start = this.take(count * 4);
     if (start % 4 === 0) return new Float32Array(this.buffer, start, count);
@@ -395,70 +153,49 @@ class Reader {
 export function decode(buffer: ArrayBuffer): BinaryMessage {
   if (buffer.byteLength < 4) throw new ProtocolError(`a binary message of ${buffer.byteLength} bytes`);
   const kind = new DataView(buffer).getUint32(0, true);
-  if (kind === 1) return decodeTick(new Reader(buffer, "tick"));
-  if (kind === 2) return decodeCloud(new Reader(buffer, "cloud"));
-  if (kind === 3) return decodeGrid(new Reader(buffer, "grid"));
-  if (kind === 4) return decodeShapes(new Reader(buffer, "shapes"));
-  if (kind === 5) return decodeImage(new Reader(buffer, "image"));
+  if (kind === BinaryKind.frames) return decodeTick(new Reader(buffer, "frame update"));
+  if (kind === BinaryKind.cloud) return decodeCloud(new Reader(buffer, "cloud"));
+  if (kind === BinaryKind.grid) return decodeGrid(new Reader(buffer, "grid"));
+  if (kind === BinaryKind.shapes) return decodeShapes(new Reader(buffer, "shapes"));
+  if (kind === BinaryKind.image) return decodeImage(new Reader(buffer, "image"));
   throw new ProtocolError(`a binary message of unknown kind ${kind}`);
 }
 
 function decodeTick(reader: Reader): Tick {
-  reader.u32();
-  const revision = reader.u32();
-  const time = reader.f64();
-  const origin: Vector = [reader.f64(), reader.f64(), reader.f64()];
-  const count = reader.u32();
-  const displayCount = reader.u32();
+  const { revision, time, origin, frames: count, entries } = readFramesHeader(reader);
   const poses = reader.floats(count * 7);
   const states = reader.bytes(count);
   reader.align();
   const displays: DisplayPose[] = [];
-  for (let i = 0; i < displayCount; i++) {
-    const id = reader.u32();
-    const sequence = reader.u32();
-    const pose = reader.floats(7);
-    displays.push({ id, sequence, pose, ok: reader.u32() === 0 });
+  for (let i = 0; i < entries; i++) {
+    const { display: id, sequence, pose, missing } = readEntryRecord(reader);
+    displays.push({ id, sequence, pose, ok: missing === 0 });
   }
   return { kind: "tick", revision, time, origin, count, poses, states, displays };
 }
 
 function decodeCloud(reader: Reader): Cloud {
-  reader.u32();
-  const id = reader.u32();
-  const sequence = reader.u32();
-  const count = reader.u32();
-  const flags = reader.u32();
-  const stamp = reader.f64();
-  const range: [number, number] = [reader.f32(), reader.f32()];
+  const { display: id, sequence, points: count, flags, stamp, range } = readCloudHeader(reader);
   const points = reader.floats(count * 3);
-  const scalar = flags & 1 ? reader.floats(count) : null;
-  const rgba = flags & 2 ? reader.bytes(count * 4) : null;
+  const scalar = flags & CloudFlag.scalars ? reader.floats(count) : null;
+  const rgba = flags & CloudFlag.colors ? reader.bytes(count * 4) : null;
   return { kind: "cloud", id, sequence, count, step: Math.max(1, flags >>> 8), stamp, range, points, scalar, rgba };
 }
 
 function decodeGrid(reader: Reader): Grid {
-  reader.u32();
-  const id = reader.u32();
-  const sequence = reader.u32();
-  const width = reader.u32();
-  const height = reader.u32();
-  const resolution = reader.f32();
-  const origin = reader.floats(7);
+  const { display: id, sequence, width, height, resolution, corner: origin } = readGridHeader(reader);
   const bytes = reader.bytes(width * height);
   const cells = new Int8Array(bytes.buffer, bytes.byteOffset, bytes.length);
   return { kind: "grid", id, sequence, width, height, resolution, origin, cells };
 }
 
 function decodeShapes(reader: Reader): Shapes {
-  reader.u32();
-  const id = reader.u32();
-  const sequence = reader.u32();
-  const text = new TextDecoder().decode(reader.bytes(reader.u32()));
+  const { display: id, sequence, length } = readShapesHeader(reader);
+  const text = new TextDecoder().decode(reader.bytes(length));
   reader.align();
-  let head: ShapesHead;
+  let head: ShapesDescription;
   try {
-    head = JSON.parse(text) as ShapesHead;
+    head = JSON.parse(text) as ShapesDescription;
   } catch {
     throw new ProtocolError("shapes: the description is not JSON");
   }
@@ -466,20 +203,14 @@ function decodeShapes(reader: Reader): Shapes {
 }
 
 function decodeImage(reader: Reader): Image {
-  reader.u32();
-  const id = reader.u32();
-  const sequence = reader.u32();
-  const width = reader.u32();
-  const height = reader.u32();
-  const flags = reader.u32();
-  const stamp = reader.f64();
+  const { display: id, sequence, width, height, format: flags, stamp } = readImageHeader(reader);
   const format = flags & 255;
   const raw = format === ImageFormat.grey ? width * height : format === ImageFormat.rgb ? 3 * width * height : null;
   const data = reader.bytes(raw ?? reader.rest());
   return { kind: "image", id, sequence, width, height, format, step: Math.max(1, flags >>> 8), stamp, data };
 }
 
-/** Rows of a payload, or none where the pair points outside of it. */
+/** Rows of a payload; empty if the pair is outside of it. */
 export function slice(payload: Float32Array, at: [number, number] | null | undefined, width: number): Float32Array {
   const [offset, rows] = at ?? [0, 0];
   const end = offset + rows * width;

@@ -4,43 +4,18 @@ import { between, compose, IDENTITY, inverse, matrix, relative, rpyDegrees, type
 import { Forest } from "./model";
 import {
   FrameState,
+  PROTOCOL_VERSION,
   type ClientMessage,
   type DisplayPose,
-  type FrameStats,
   type Hello,
   type Relation,
-  type Robot,
-  type RvizConfig,
-  type SubscribeOptions,
-  type TimelineEdge,
-  type TreeFrame,
+  type ReplayBlock,
+  type RvizGlobalOptions,
+  type DisplayOptions,
   type Vector,
 } from "./protocol";
-import { bytes, DAMAGED, lastUpTo, ReplayDisplay, type ReplayDisplayBlock, type Seen } from "./replay_displays";
+import { bytes, DAMAGED, lastUpTo, ReplayDisplay, type Seen } from "./replay_displays";
 import type { Source, SourceEvents } from "./source";
-
-export interface ReplayBlock {
-  format: "coframe-replay";
-  version: number;
-  title: string;
-  origin: string;
-  from: number;
-  to: number;
-  rate: number;
-  fixed: string;
-  origin_xyz?: Vector;
-  frames: TreeFrame[];
-  times: string;
-  poses: string;
-  states: string;
-  robots?: Partial<Robot>[];
-  /** How it looked where it was saved. */
-  rviz?: Pick<RvizConfig, "displays" | "view"> | null;
-  displays?: ReplayDisplayBlock[];
-  stats?: FrameStats[];
-  edges?: TimelineEdge[];
-  bins?: number;
-}
 
 /** A display of the page that shows what was recorded of a topic. */
 interface Subscribed {
@@ -55,6 +30,7 @@ interface Subscribed {
 type Listener = <K extends keyof SourceEvents>(event: K, value: SourceEvents[K]) => void;
 
 const PICTURE_MS = 33;
+const NO_GLOBAL_OPTIONS: RvizGlobalOptions = { fixed_frame: null, background: null, frame_rate: null };
 
 /** The recording that the server wrote into this page. */
 export function replayBlock(): ReplayBlock {
@@ -89,7 +65,7 @@ export class ReplaySource implements Source {
     const samples = this.times.length;
     if (this.poses.length !== samples * this.count * 7 || this.states.length !== samples * this.count)
       throw new Error(DAMAGED);
-    this.displays = (block.displays ?? []).map((display) => new ReplayDisplay(display));
+    this.displays = block.displays.map((display) => new ReplayDisplay(display));
     const components: { root: string; size: number }[] = [];
     for (const frame of block.frames) {
       const component = (components[frame.component] ??= { root: frame.name, size: 0 });
@@ -108,33 +84,20 @@ export class ReplaySource implements Source {
     listener("connected", true);
     const hello: Hello = {
       type: "hello",
-      version: 1,
+      version: PROTOCOL_VERSION,
       mode: "replay",
       title: block.title,
       origin: block.origin,
       span,
       fixed: block.fixed,
-      rviz: block.rviz ? { displays: block.rviz.displays ?? [], view: block.rviz.view ?? null, global: {}, unknown: [] } : null,
+      rviz: block.rviz && { displays: block.rviz.displays, view: block.rviz.view, global: NO_GLOBAL_OPTIONS, unknown: [] },
       topics: this.displays.map(({ block: { topic, type, display } }) => ({ topic, type, display })),
       can_publish: false,
     };
     listener("text", hello);
     listener("text", { type: "tree", revision: 1, fixed: block.fixed, frames: forest.frames, components: forest.components });
-    (block.robots ?? []).forEach((robot, id) =>
-      listener("text", {
-        type: "robot",
-        id,
-        name: robot.name ?? "robot",
-        source: "replay",
-        urdf: robot.urdf ?? "",
-        meshes: robot.meshes ?? {},
-        problems: robot.problems ?? [],
-        warnings: robot.warnings ?? [],
-        joints: robot.joints ?? [],
-        description_topic: robot.description_topic ?? null,
-      }),
-    );
-    if (block.stats?.length === this.count) listener("text", { type: "stats", revision: 1, span, frames: block.stats });
+    block.robots.forEach((robot, id) => listener("text", { ...robot, id }));
+    if (block.stats.length === this.count) listener("text", { type: "stats", revision: 1, span, frames: block.stats });
     this.started = true;
     this.tick();
     setInterval(() => this.advance(), PICTURE_MS);
@@ -148,10 +111,10 @@ export class ReplaySource implements Source {
         break;
       case "time":
         if (message.mode === "at") {
-          this.at = message.at;
-          this.playing = message.playing;
-          this.speed = message.speed;
-          this.loop = message.loop;
+          this.at = message.at ?? this.at;
+          this.playing = message.playing ?? false;
+          this.speed = message.speed ?? 1;
+          this.loop = message.loop ?? null;
           this.last = performance.now();
         }
         this.tick();
@@ -166,14 +129,14 @@ export class ReplaySource implements Source {
         this.listener("text", this.relate(message.id, message.target, message.source));
         break;
       case "subscribe":
-        this.subscribe(message.id, message.topic, message.options);
+        this.subscribe(message.id, message.topic, message.options ?? {});
         break;
       case "unsubscribe":
         this.subscribed.delete(message.id);
         this.tick();
         break;
       case "timeline": {
-        const { from, to, edges = [], bins = 0 } = this.block;
+        const { from, to, edges, bins } = this.block;
         this.listener("text", { type: "timeline", revision: 1, bins, from, to, edges });
         break;
       }
@@ -182,7 +145,7 @@ export class ReplaySource implements Source {
     }
   }
 
-  private subscribe(id: number, topic: string, options: SubscribeOptions): void {
+  private subscribe(id: number, topic: string, options: DisplayOptions): void {
     const fitting = this.displays.filter(({ block }) => block.topic === topic);
     const recorded = fitting.find(({ block }) => block.color_by === (options.color_by ?? null)) ?? fitting[0];
     if (!recorded) {
@@ -190,7 +153,7 @@ export class ReplaySource implements Source {
       this.listener("text", { type: "display", id, state: "error", text: `This replay holds nothing of ${topic}.` });
       return;
     }
-    const computed = options.color_by === undefined || ["axis", "flat"].includes(options.color_by);
+    const computed = !options.color_by || ["axis", "flat"].includes(options.color_by);
     const otherColours = !computed && recorded.block.color_by !== options.color_by;
     this.subscribed.set(id, { recorded, shown: new Set(), told: "", otherColours });
     this.tick();
@@ -239,7 +202,7 @@ export class ReplaySource implements Source {
       }
       poses.set([...pose.position, ...pose.quaternion], i * 7);
     }
-    const origin: Vector = asRecorded ? (this.block.origin_xyz ?? [0, 0, 0]) : [0, 0, 0];
+    const origin: Vector = asRecorded ? this.block.origin_xyz : [0, 0, 0];
     this.listener("binary", {
       kind: "tick",
       revision: 1,

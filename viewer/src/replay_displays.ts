@@ -1,28 +1,7 @@
 /** The displays of a replay: what the server would have sent of each, picture after picture. */
 
 import { compose, type Pose } from "./math";
-import { decode, type DisplayMessage, type DisplayPose, type DisplayStatus, type Vector } from "./protocol";
-
-/** As the server wrote it; numbers are base64 of little-endian arrays. */
-export interface ReplayDisplayBlock {
-  topic: string;
-  type: string;
-  display: string;
-  color_by: string | null;
-  /** Every so-manieth picture was recorded. */
-  every: number;
-  /** From which picture on. */
-  statuses: [number, DisplayStatus["state"], string][];
-  /** By their sequence: binary messages. */
-  drawings: Record<string, string>;
-  /** At which pictures something else is to be seen, and how many drawings. */
-  pictures: string;
-  counts: string;
-  /** Of one after the other: which drawings, where their frames are, and when that was: NaN is the picture's time. */
-  sequences: string;
-  poses: string;
-  stamps: string;
-}
+import { decode, type DisplayMessage, type DisplayPose, type DisplayStatus, type ReplayDisplayBlock, type Vector } from "./protocol";
 
 /** Where the frame that everything is recorded in was at a time, seen from the one that is looked from now. */
 export type Seen = (stamp: number) => Pose | null;
@@ -30,26 +9,26 @@ export type Seen = (stamp: number) => Pose | null;
 export const DAMAGED = "the recording in this file is damaged";
 
 export class ReplayDisplay {
-  readonly pictures: Uint32Array;
+  readonly changes: Uint32Array;
   private readonly starts: Uint32Array;
   private readonly sequences: Uint32Array;
   private readonly poses: Float32Array;
   private readonly stamps: Float64Array;
 
   constructor(readonly block: ReplayDisplayBlock) {
-    this.pictures = new Uint32Array(bytes(block.pictures, 4));
+    this.changes = new Uint32Array(bytes(block.changes, 4));
     this.starts = ends(new Uint32Array(bytes(block.counts, 4)));
     this.sequences = new Uint32Array(bytes(block.sequences, 4));
     this.poses = new Float32Array(bytes(block.poses, 4));
     this.stamps = new Float64Array(bytes(block.stamps, 8));
     const rows = this.sequences.length;
-    const whole = this.pictures.length === this.starts.length - 1 && this.starts.at(-1) === rows;
+    const whole = this.changes.length === this.starts.length - 1 && this.starts.at(-1) === rows;
     if (!whole || this.poses.length !== rows * 7 || this.stamps.length !== rows) throw new Error(DAMAGED);
   }
 
   /** What is to be seen at a picture, as a tick of the server says it. */
   at(picture: number, id: number, seen: Seen): DisplayPose[] {
-    const listing = lastUpTo(this.pictures, picture);
+    const listing = lastUpTo(this.changes, picture);
     const shown: DisplayPose[] = [];
     if (listing < 0) return shown;
     for (let row = this.starts[listing] as number; row < (this.starts[listing + 1] as number); row++) {

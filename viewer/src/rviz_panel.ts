@@ -4,7 +4,7 @@ import type { Displays } from "./displays/manager";
 import { cssColour } from "./displays/options";
 import { download, h, shorten } from "./dom";
 import type { Model } from "./model";
-import type { JsonObject, RvizConfig } from "./protocol";
+import type { JsonObject, RvizConfiguration, RvizView } from "./protocol";
 import type { Theme } from "./theme";
 import { toast } from "./toast";
 import type { View } from "./view";
@@ -59,9 +59,8 @@ export class RvizPanel {
       this.applyRest(rviz);
       toast(`Read ${rviz.displays.length} displays`, null, "info");
     });
-    model.on("saved", ({ text, path }) => {
-      if (text !== undefined) download(this.name, new Blob([text], { type: "application/yaml" }));
-      else if (path) toast(`Saved ${path}`, null, "info");
+    model.on("saved", ({ text }) => {
+      download(this.name, new Blob([text], { type: "application/yaml" }));
     });
   }
 
@@ -71,11 +70,11 @@ export class RvizPanel {
       fixed_frame: this.model.fixed,
       background: [1, 3, 5].map((at) => Number.parseInt(background.slice(at, at + 2), 16)),
     };
-    this.model.send({ type: "save_rviz", displays: this.displays.save(), global, view: this.camera() });
+    this.model.send({ type: "save_rviz", displays: this.displays.save(), global, view: { ...this.camera() } });
   }
 
   /** The view, as an .rviz file has it. */
-  camera(): JsonObject {
+  camera(): RvizView {
     const camera = this.view.stage.camera.describe(this.view.followed);
     return { class: camera.class.replace(/^.*\//, ""), options: camera.options };
   }
@@ -93,7 +92,7 @@ export class RvizPanel {
   }
 
   /** All but the displays: the global options, the view, hidden frames, and the list of what is not known. */
-  private applyRest(rviz: RvizConfig): void {
+  private applyRest(rviz: RvizConfiguration): void {
     const { fixed_frame: fixed, background } = rviz.global;
     if (typeof fixed === "string" && fixed) this.model.setFixed(fixed);
     this.theme.setBackground(cssColour(background ?? undefined));
@@ -115,7 +114,7 @@ export class RvizPanel {
   }
 
   /** TF: Frames: {All Enabled: true, some_frame: {Value: false}}. */
-  private hideFrames(rviz: RvizConfig): void {
+  private hideFrames(rviz: RvizConfiguration): void {
     const tf = rviz.displays.find((display) => display.class.endsWith("TF"));
     const frames = tf?.options["Frames"];
     if (!frames || typeof frames !== "object" || Array.isArray(frames)) return;

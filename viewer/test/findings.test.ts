@@ -34,7 +34,7 @@ describe("the verdict", () => {
 
   it("says what cannot be told only where that is so", () => {
     expect(verdict(told("none"), "buffer")).toContain("cannot tell who sent what");
-    expect(verdict(told("told"), "live")).toBe("Nothing is wrong in the last 10 seconds.");
+    expect(verdict(told("ready"), "live")).toBe("Nothing is wrong in the last 10 seconds.");
     expect(verdict(told("failed"), "recording")).toBe("gone");
   });
 });

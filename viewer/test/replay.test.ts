@@ -1,7 +1,6 @@
 import { describe, expect, it } from "vitest";
-import type { BinaryMessage, Relation, ServerMessage, Tick } from "../src/protocol";
-import { ReplaySource, type ReplayBlock } from "../src/replay";
-import type { ReplayDisplayBlock } from "../src/replay_displays";
+import type { BinaryMessage, Relation, ReplayBlock, ReplayDisplayBlock, ServerMessage, Tick } from "../src/protocol";
+import { ReplaySource } from "../src/replay";
 import type { SourceEvents } from "../src/source";
 
 const base64 = (array: ArrayBufferView): string => Buffer.from(array.buffer, array.byteOffset, array.byteLength).toString("base64");
@@ -31,6 +30,12 @@ const block: ReplayBlock = {
     ]),
   ),
   states: base64(new Uint8Array([0, 0, 3, 0, 0, 3])),
+  robots: [],
+  rviz: null,
+  displays: [],
+  stats: [],
+  edges: [],
+  bins: 0,
 };
 
 /** A cloud of one point, of three that there were, as the server writes it. */
@@ -48,11 +53,11 @@ const scans: ReplayDisplayBlock = {
   color_by: "axis",
   every: 2,
   statuses: [
-    [0, "waiting", "no message so early"],
+    [0, "waiting", "no message before this time"],
     [1, "ok", ""],
   ],
   drawings: { "4": base64(cloud()) },
-  pictures: base64(new Uint32Array([1])),
+  changes: base64(new Uint32Array([1])),
   counts: base64(new Uint32Array([1])),
   sequences: base64(new Uint32Array([4])),
   poses: base64(new Float32Array([3 - 500000, 0, 0, 0, 0, 0, 1])),
@@ -122,7 +127,7 @@ describe("a replay", () => {
   it("shows each message while it was to be seen, and where it was", () => {
     const { source, tick, drawings } = play({ ...block, displays: [scans] });
     const at = (ns: number): void => source.send({ type: "time", mode: "at", at: ns, playing: false, speed: 1, loop: null });
-    source.send({ type: "subscribe", id: 9, topic: "/scan", display: "LaserScan", options: { color_by: "axis" } });
+    source.send({ type: "subscribe", id: 9, topic: "/scan", options: { color_by: "axis" } });
     expect(tick().displays).toEqual([]);
     at(1e9);
     const [entry] = tick().displays;
@@ -138,7 +143,7 @@ describe("a replay", () => {
 
   it("shows messages from another frame as of their own stamps", () => {
     const { source, tick } = play({ ...block, displays: [scans] });
-    source.send({ type: "subscribe", id: 1, topic: "/scan", display: "LaserScan", options: {} });
+    source.send({ type: "subscribe", id: 1, topic: "/scan", options: {} });
     source.send({ type: "time", mode: "at", at: 1e9, playing: false, speed: 1, loop: null });
     source.send({ type: "fixed", frame: "base" });
     // At its stamp, half-way between the pictures, base was at x = 1.5 and looked along y.
@@ -148,11 +153,11 @@ describe("a replay", () => {
 
   it("says what it does not hold", () => {
     const { source, told } = play({ ...block, displays: [scans] });
-    source.send({ type: "subscribe", id: 1, topic: "/scan", display: "LaserScan", options: { color_by: "intensity" } });
-    source.send({ type: "subscribe", id: 2, topic: "/other", display: "Path", options: {} });
+    source.send({ type: "subscribe", id: 1, topic: "/scan", options: { color_by: "intensity" } });
+    source.send({ type: "subscribe", id: 2, topic: "/other", options: {} });
     source.send({ type: "time", mode: "at", at: 1e9, playing: false, speed: 1, loop: null });
     expect(told("display").map((message) => message.type === "display" && [message.id, message.text, message.note])).toEqual([
-      [1, "no message so early", "1 of 2 pictures"],
+      [1, "no message before this time", "1 of 2 pictures"],
       [2, "This replay holds nothing of /other.", undefined],
       [1, "This replay holds no other colours than those that it was saved with.", "1 of 2 pictures"],
     ]);

@@ -26,10 +26,10 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import count, fail, printable, report_console
+from coframe.cli.output import fail, printable, report_console
 from coframe.cli.progress import task_progress
 from coframe.cli.recordings import open_recording
-from coframe.formatting import seconds
+from coframe.formatting import count, seconds
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:

@@ -19,8 +19,9 @@ from coframe.cli.options import (
     RecordedTfTopicOption,
     recorded_tf_topics,
 )
-from coframe.cli.output import count, fail, printable, warn
+from coframe.cli.output import fail, printable, warn
 from coframe.cli.progress import item_progress
+from coframe.formatting import count
 
 if TYPE_CHECKING:
     from coframe.bags import QueryResult

@@ -17,9 +17,10 @@ from coframe.cli.options import (
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
 )
-from coframe.cli.output import count, fail, printable, warn
+from coframe.cli.output import fail, printable, warn
 from coframe.cli.progress import item_progress
 from coframe.cli.recordings import open_recording, parse_time
+from coframe.formatting import count
 
 if TYPE_CHECKING:
     from coframe.bags import Recording

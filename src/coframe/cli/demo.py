@@ -14,9 +14,7 @@ from rich.text import Text
 
 import coframe
 from coframe.analysis.liveness import LivenessTracker
-from coframe.cli.fleet import show_robots
 from coframe.cli.lifecycle import run_until_interrupted
-from coframe.cli.live import tree_table
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
@@ -27,6 +25,8 @@ from coframe.cli.options import (
     TfTopicOption,
 )
 from coframe.cli.output import fail
+from coframe.cli.robots_demo import show_robots
+from coframe.cli.tree_table import tree_table
 from coframe.cli.view import PortOption, optional_viewer
 from coframe.frame_names import renaming
 from coframe.lab.launcher import COMPLETE_LAB, DESCRIBED_LAB, Launcher

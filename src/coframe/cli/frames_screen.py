@@ -11,7 +11,7 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
-from coframe.cli.output import count
+from coframe.formatting import count
 from coframe.tree_drawing import changes, grow
 from coframe.tree_drawing.labels import summary
 from coframe.tree_drawing.plain import as_data
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["tree", "watch"]
 
 _KIND_STYLES = {"root": "bold", "moving": "cyan", "static": "", "stale": "red", "other": "red"}
-_CHANGE_STYLES = {"came": "green", "moved": "yellow", "stale": "red", "fresh": "green", "gone": "red"}
+_CHANGE_STYLES = {"new": "green", "moved": "yellow", "stale": "red", "resumed": "green", "gone": "red"}
 _PUBLISHER = 1  # index of the column
 _HIGHLIGHT_TIME = 5.0  # seconds
 _MAX_CHANGES = 1000  # kept for highlighting
@@ -93,9 +93,8 @@ def _show(console: Console, steps: Iterator[tuple[Forest, list[Change]]]) -> Non
             log = [*log, *((now, _line(change), change) for change in news)][-_MAX_CHANGES:]
             changed = {change.frame: change.kind for at, _, change in log if now - at < _HIGHLIGHT_TIME}
             named = [line for _, line, _ in log[-_LISTED_CHANGES:]]
-            room = (
-                console.height - len(named) - 4
-            )  # the header, the summary, the line about more rows, and one to spare
+            # Four more lines: the header, the summary, the line about more rows, and an empty one.
+            room = console.height - len(named) - 4
             live.update(Group(tree(forest, changed, max(room, 2)), *named), refresh=True)
 
 

@@ -14,7 +14,7 @@ from coframe.time import SECOND
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["count", "fail", "log", "printable", "report_console", "warn", "with_doctor_command"]
+__all__ = ["fail", "log", "printable", "report_console", "warn", "with_doctor_command"]
 
 _REDIRECTED_WIDTH = 200  # columns
 
@@ -45,11 +45,6 @@ def log(level: str, node: str, text: str) -> None:
 def printable(text: str) -> str:
     """Replace control characters: names from recordings and from the network may contain escape sequences."""
     return "".join(c if c.isprintable() or c == "\n" else "\N{REPLACEMENT CHARACTER}" for c in text)
-
-
-def count(number: int, noun: str) -> str:
-    """Return a number with its noun, e.g. ``1 message`` or ``2 messages``."""
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
 
 
 def report_console() -> Console:

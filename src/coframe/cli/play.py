@@ -25,7 +25,8 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import count, fail, warn
+from coframe.cli.output import fail, warn
+from coframe.formatting import count
 from coframe.recorder import FASTEST
 from coframe.recorder import play as start_playing
 from coframe.time import SECOND

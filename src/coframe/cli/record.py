@@ -24,7 +24,8 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import count, fail, printable, warn
+from coframe.cli.output import fail, printable, warn
+from coframe.formatting import count
 from coframe.recorder import record as start_recording
 
 if TYPE_CHECKING:

@@ -27,13 +27,13 @@ def open_recording(
     tf_static_topic: str | None,
     prefix: str,
     keep: str,
-    heard: Callable[..., object] | None = None,
+    on_transforms: Callable[..., object] | None = None,
 ) -> Iterator[Recording]:
     """Open a recording with a progress bar; print on stderr what could not be read."""
     topics = recorded_tf_topics(tf_topic, tf_static_topic)
     with reading_progress() as progress:
         chosen: dict[str, Any] = {"namespace": namespace, "tf_topics": topics, "prefix": prefix, "keep": keep}
-        recording = open_bag(path, **chosen, progress=progress, on_transforms=heard)
+        recording = open_bag(path, **chosen, progress=progress, on_transforms=on_transforms)
     with recording:
         printed = recording.problems
         for problem in printed:

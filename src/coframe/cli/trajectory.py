@@ -18,9 +18,9 @@ from coframe.cli.options import (
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
 )
-from coframe.cli.output import count, fail, warn
+from coframe.cli.output import fail, warn
 from coframe.cli.recordings import open_recording, parse_time
-from coframe.formatting import seconds
+from coframe.formatting import count, seconds
 
 __all__ = ["trajectory"]
 

@@ -25,7 +25,7 @@ from coframe.cli.options import (
     recorded_tf_topics,
 )
 from coframe.cli.output import warn
-from coframe.viewer import expect
+from coframe.viewer import start_viewer
 from coframe.wire import dds
 
 if TYPE_CHECKING:
@@ -97,7 +97,7 @@ def view(
     with run_until_interrupted():
         if live:
             dds.check()
-        viewer = expect(
+        viewer = start_viewer(
             "coframe: joining the ROS graph" if live else Path(bag).name,
             "live" if live else "buffer",
             fixed=fixed,
@@ -115,11 +115,11 @@ def view(
                 node = coframe.connect("coframe_view", domain=domain, **topics, prefix=prefix, keep=keep)
                 from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415 - recordings need no DDS
 
-                viewer.show(LiveSource(node, own=True))
+                viewer.set_source(LiveSource(node, own=True))
             else:
                 progress = _ReadingProgress(viewer, browser=not no_browser)
                 chosen = recorded_tf_topics(tf_topic, tf_static_topic)
-                viewer.show(_read(Path(bag), progress, tf_topics=chosen, prefix=prefix, keep=keep))
+                viewer.set_source(_read(Path(bag), progress, tf_topics=chosen, prefix=prefix, keep=keep))
             while True:  # On some platforms Ctrl-C does not interrupt an endless wait.
                 time.sleep(60.0)
 
@@ -145,7 +145,7 @@ class _ReadingProgress:
         now = time.monotonic()
         if now >= self._due:
             self._due = now + self._PERIOD
-            self._viewer.entitle(f"{name}: {100 * done // max(total, 1)} % read")
+            self._viewer.set_title(f"{name}: {100 * done // max(total, 1)} % read")
 
 
 def _read(bag: Path, progress: _ReadingProgress, **chosen: Any) -> RecordedSource:

@@ -153,8 +153,8 @@ def _answer_recorded(
     bag: Path, target: str, source: str, at: str | None, namespace: str | None, topics: dict[str, Any], names: _Names
 ) -> _Answer:
     collectors: dict[str, Collector] = {}
-    heard = collecting(collectors, renaming(**names._asdict()), recorded_tf_topics(**topics))
-    with open_recording(bag, namespace, **topics, **names._asdict(), heard=heard) as recording:
+    collect = collecting(collectors, renaming(**names._asdict()), recorded_tf_topics(**topics))
+    with open_recording(bag, namespace, **topics, **names._asdict(), on_transforms=collect) as recording:
         found = recording.buffer.why(target, source, None if at is None else parse_time("--at", at, recording))
         seen = [
             Observation(live=False, start=recording.start, end=recording.end, transforms=collectors[name].transforms())

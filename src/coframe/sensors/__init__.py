@@ -1,7 +1,7 @@
-"""Laser scans and point clouds, as messages and as arrays, seen from other frames.
+"""Transformation of laser scans and point clouds, as messages and as arrays, to other frames.
 
-`transform_cloud` moves a cloud as a whole, `deskew` each of its points by its own time; `project_scan` makes points of
-a laser scan.
+`transform_cloud` transforms a cloud as a whole, `deskew` transforms each point at its own time, and `project_scan`
+converts a laser scan to points.
 """
 
 from coframe.sensors.clouds import transform_cloud

@@ -1,4 +1,4 @@
-"""Point clouds seen from another frame."""
+"""Transformation of point clouds to another frame."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 from coframe import _core
 from coframe.errors import FrameMismatchException
 from coframe.sensors import layout
-from coframe.time import stamp_ns
+from coframe.time import SECOND, stamp_ns
 from coframe.transform import Transform
 
 if TYPE_CHECKING:
@@ -62,34 +62,36 @@ def transform_cloud(
     in_place: bool = False,
     threads: int = 1,
 ) -> Points:
-    """Points, seen from another frame.
+    """Transform the points of a cloud to another frame.
 
-    Positions (x, y, z) are rotated and moved, in float64 whatever they are stored as. Normals (normal_x, normal_y,
-    normal_z; nx, ny, nz) and ``vectors`` are rotated. All else stays: other fields, the layout, the byte order, and
-    points that are NaN.
+    Positions (x, y, z) are rotated and translated, and computed in float64 whatever their stored type. Normals
+    (normal_x, normal_y, normal_z; nx, ny, nz) and ``vectors`` are rotated. Everything else is kept: other fields, the
+    layout, the byte order, and points that are NaN.
 
     Args:
         cloud: A PointCloud2 message; a structured array with the fields x, y, z; or a float32 or float64 array of
-            shape (N, 3) or (rows, columns, 3), or with more columns. Metres.
-        transform: A single :class:`coframe.Transform`, a TransformStamped or Transform message, or a buffer to look it
-            up in: ``transform_cloud(cloud, buffer, "map")``.
-        target: For a buffer: the frame that the points shall be in.
-        source: For a buffer: the frame that they are in; a message's header says it.
-        stamp: For a buffer: when they were measured, by default when a message's header says; else the latest.
-        timeout: For a buffer: how long to wait for the transform.
-        vectors: Fields to rotate besides normals: three names, such as ``("vx", "vy", "vz")``, or a sequence of such
-            threes; of a plain array the numbers of their columns.
-        out: A message or an array of the same shape that the result goes to; its memory is used again if it fits.
-        in_place: Change ``cloud`` itself.
-        threads: How many threads share the work; worth it from about a million points on.
+            shape (N, 3) or (rows, columns, 3), or with more columns. Positions are in metres.
+        transform: A single :class:`coframe.Transform`, a TransformStamped or Transform message, or a buffer that
+            contains the transform: ``transform_cloud(cloud, buffer, "map")``.
+        target: Only with a buffer: the frame to transform to.
+        source: Only with a buffer: the frame of the points; by default that in the header of the message.
+        stamp: Only with a buffer: the time of the measurement; by default that in the header of the message, for
+            arrays the latest.
+        timeout: Only with a buffer: how long to wait for the transform.
+        vectors: Fields to rotate in addition to normals: three names, such as ``("vx", "vy", "vz")``, or a sequence of
+            such triples; for a plain array the indices of the columns.
+        out: A message or an array of the same shape for the result; its memory is reused if it has the right size.
+        in_place: Whether to change ``cloud`` itself.
+        threads: Number of threads; more than one helps from about a million points.
 
     Returns:
-        What ``cloud`` is: a new message or array, or ``out``, or ``cloud``. A message's frame is the transform's.
+        A new message or array, or ``out``, or ``cloud``. The frame of a message is the target of the transform.
 
     Raises:
-        FrameMismatchException: The cloud's header names another frame than the transform's source.
+        FrameMismatchException: The frame in the cloud's header is not the source of the transform.
         TransformException: As :meth:`coframe.Buffer.lookup`.
-        ValueError: A field is missing or not float32 or float64, or the message's sizes do not fit its data.
+        TypeError: An argument has a wrong type, or ``target`` or ``source`` is missing.
+        ValueError: A field is missing or is not float32 or float64, or the sizes in the message do not match its data.
 
     Example:
         >>> import coframe
@@ -103,11 +105,11 @@ def transform_cloud(
     if (buffer := core_buffer(transform)) is not None:
         if target is None or frame is None:
             missing = "target" if target is None else "source"
-            raise TypeError(f"transform_cloud() needs {missing}=... to look the transform up in a buffer")
+            raise TypeError(f"transform_cloud() needs {missing}=... to look up the transform in a buffer")
         when = stamp_of(cloud) if stamp is None else stamp
         transform = buffer.lookup(target, frame, when, timeout=timeout)
     elif (target, source, stamp, timeout) != (None, None, None, None):
-        raise TypeError("target, source, stamp and timeout are for a look-up in a buffer, and a transform was given")
+        raise TypeError("target, source, stamp and timeout can be used only with a buffer, not with a transform")
     else:
         transform = to_transform(transform)
         check_source(transform, frame)
@@ -126,70 +128,71 @@ def move(
     normals: Sequence[Sequence[str]] = layout.NORMALS,
     threads: int = 1,
 ) -> None:
-    """Transforms points by a pose, in place."""
+    """Transform points by a pose, in place."""
     fields = layout.coordinates(points, vectors, normals)
     _core.transform_fields(values, fields, thread_count(threads))
 
 
 def core_buffer(thing: Any) -> _core.Buffer | None:
-    """The buffer that it is, or that a buffer of tf2_ros stands on; None for what is no buffer."""
+    """Return the core buffer of a coframe.Buffer or tf2_ros.Buffer; None for other objects."""
     thing = getattr(thing, "_coframe_buffer", thing)
     return thing if isinstance(thing, _core.Buffer) else None
 
 
 def to_transform(transform: Any) -> Transform:
-    """A transform from what people have; from a message without knowing how exact its quaternion is.
+    """Return a single transform from a Transform or a message; the quaternion of a message is normalised.
 
     Raises:
-        TypeError: It is something else.
-        ValueError: It is a batch.
+        TypeError: The argument has another type.
+        ValueError: The argument is a batch.
     """
     if isinstance(transform, _core.Transform):
         if transform._batch is not None:
-            raise ValueError("one transform is needed, not a batch; deskew() gives each point its own")
+            raise ValueError("transform must be a single transform, not a batch. To move each point, use deskew().")
         return transform  # type: ignore[return-value]
     target = source = None
     if hasattr(transform, "transform") and hasattr(transform, "child_frame_id"):
         target, source = transform.header.frame_id or None, transform.child_frame_id or None
         transform = transform.transform
     if not hasattr(transform, "translation") or not hasattr(transform, "rotation"):
-        raise TypeError(f"a Transform, a TransformStamped or a buffer is needed, not {type(transform).__name__}")
+        kind = type(transform).__name__
+        raise TypeError(f"transform must be a Transform, a TransformStamped or a buffer, not {kind}")
     t, q = transform.translation, transform.rotation
     return Transform((t.x, t.y, t.z), (q.x, q.y, q.z, q.w), target=target, source=source)
 
 
 def check_source(transform: Transform, frame: str | None) -> None:
-    """Raises FrameMismatchException if points in `frame` are not what the transform is for."""
+    """Raise FrameMismatchException if `frame` is not the source of the transform."""
     if frame and transform.source is not None and transform.source != frame:
         raise FrameMismatchException.with_details(
-            f"the points are in {frame!r}, but the transform is {transform.target} <- {transform.source}",
+            f"cannot transform points in frame {frame!r} by the transform {transform.target} <- {transform.source}",
             target=transform.target,
             source=frame,
-            hint="Is the transform the wrong way round (inverse())?",
+            hint="Does the transform need inverse()?",
         )
 
 
 def frame_of(points: Any) -> str | None:
-    """The frame that a message's header names; None if it names none or there is no header."""
+    """Return the frame in the header of a message; None if it is empty or there is no header."""
     return points.header.frame_id or None if layout.is_message(points) else None
 
 
 def stamp_of(points: Any) -> int:
-    """The stamp of a message's header; 0, the latest, where there is none."""
+    """Return the stamp in the header of a message in nanoseconds; 0, the latest, for arrays."""
     return stamp_ns(points.header.stamp) if layout.is_message(points) else 0
 
 
 def set_stamp(message: Any, stamp: int) -> None:
-    """Gives a message's header a stamp of its own."""
+    """Set the stamp of a message's header to a new object, as the old one may be shared."""
     message.header.stamp = copy.copy(message.header.stamp)
-    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, 1_000_000_000)
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, SECOND)
 
 
 def thread_count(threads: int) -> int:
-    """How many threads were asked for.
+    """Return the number of threads after a check.
 
     Raises:
-        ValueError: Less than one.
+        ValueError: The number is less than one.
     """
     if threads < 1:
         raise ValueError(f"threads must be at least 1, not {threads}")

@@ -1,4 +1,4 @@
-"""Point clouds that were measured while the sensor moved."""
+"""Deskewing of point clouds that were measured while the sensor moved."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from coframe import _core
 from coframe.errors import TransformException
 from coframe.sensors import layout
 from coframe.sensors.clouds import IDENTITY, core_buffer, frame_of, move, set_stamp, stamp_of, thread_count
-from coframe.time import stamp_ns
+from coframe.time import MICROSECOND, MILLISECOND, SECOND, stamp_ns
 from coframe.transform import stamps_of
 
 if TYPE_CHECKING:
@@ -25,10 +25,10 @@ __all__ = ["deskew"]
 Points = TypeVar("Points")
 Unit = Literal["ns", "us", "ms", "s"]
 
-_UNITS = {"ns": 1, "us": 1_000, "ms": 1_000_000, "s": 1_000_000_000}
-# A time for which no buffer has a transform: of points that have none.
+_UNITS = {"ns": 1, "us": MICROSECOND, "ms": MILLISECOND, "s": SECOND}
+# The time of points that have none: no buffer has a transform at this time.
 _NO_TIME = np.iinfo(np.int64).min
-_ATTEMPTS = 10
+_MAX_ATTEMPTS = 10
 
 
 def deskew(
@@ -48,40 +48,40 @@ def deskew(
     in_place: bool = False,
     threads: int = 1,
 ) -> Points:
-    """Points that were measured at different times, in one frame at one time.
+    """Transform points that were measured at different times to one frame at one time.
 
-    Each point is first put into the frame ``fixed``, by where the sensor was at the point's own time, and from there
-    into ``target`` as it was at the time ``at``: ``lookup(target, fixed, at) @ lookup(fixed, source, time) @ point``.
-    Normals and ``vectors`` are rotated along.
+    Each point is first transformed to the frame ``fixed`` with the pose of the sensor at the point's own time, and
+    from there to ``target`` at the time ``at``:
+    ``lookup(target, fixed, at) @ lookup(fixed, source, time) @ point``. Normals and ``vectors`` are rotated.
 
     Args:
         points: As in :func:`transform_cloud`.
-        times: When each point was measured: an array of int64 nanoseconds or datetime64, one a point, or one a column
-            of an organised cloud, 0 for the latest; or the name of a field, with ``unit``.
-        buffer: Where the motion is known.
-        target: The frame that the points shall be in.
-        source: The sensor's frame; a message's header says it.
-        fixed: A frame that stands still while the points are measured, such as ``"odom"``; by default ``target``. A
-            target that moves, such as the sensor itself, needs one.
-        at: The time at which ``target`` is meant if it moves in ``fixed``; by default when a message's header says.
-        unit: What ``times`` are told in: ``"ns"``, ``"us"``, ``"ms"`` or ``"s"``. Then they may be of any number type.
-        since: What ``times`` count from; by default the header's stamp for a field of a message, else 0. A field of
-            absolute times has ``since=0``.
+        times: Time of each point: an array of int64 nanoseconds or datetime64 with one value per point, or one per
+            column of an organised cloud, 0 for the latest; or the name of a field, together with ``unit``.
+        buffer: The buffer with the motion of the sensor.
+        target: The frame to transform to.
+        source: The frame of the sensor; by default that in the header of the message.
+        fixed: A frame that does not move during the measurement, such as ``"odom"``; by default ``target``. Required
+            if ``target`` moves, for example if it is the sensor itself.
+        at: The time of the result, if ``target`` moves in ``fixed``; by default the stamp in the header of the message.
+        unit: Unit of ``times``: ``"ns"``, ``"us"``, ``"ms"`` or ``"s"``. With a unit, times can have any number type.
+        since: The time to which ``times`` are relative; by default the stamp of the header for a field of a message,
+            otherwise 0. Use ``since=0`` for a field of absolute times.
         vectors: As in :func:`transform_cloud`.
-        on_error: ``"raise"`` if there is no transform for a point, or make such points ``"nan"``.
+        on_error: What to do with a point without a transform: ``"raise"``, or set the point to ``"nan"``.
         out: As in :func:`transform_cloud`.
-        in_place: Change ``points`` themselves. They stay as they are if this raises.
-        threads: How many threads share the work; worth it from about 200 000 points on.
+        in_place: Whether to change ``points`` themselves. They are not changed if an exception is raised.
+        threads: Number of threads; more than one helps from about 200 000 points.
 
     Returns:
-        What ``points`` is: a new message or array, or ``out``, or ``points``. A message gets the frame ``target`` and
-        the stamp ``at``; a field of times stays as it is.
+        A new message or array, or ``out``, or ``points``. A message gets the frame ``target`` and the stamp ``at``; a
+        field of times is not changed.
 
     Raises:
-        TransformException: As :meth:`coframe.Buffer.lookup`, and the text says for which point; with ``"nan"`` only if
-            there is a transform for none of them.
-        ValueError: As :func:`transform_cloud`; or there are not as many times as points, or no unit, or the sensor is
-            its own target.
+        TransformException: As :meth:`coframe.Buffer.lookup`, and the text names the point; with ``"nan"`` only if no
+            point has a transform.
+        ValueError: As :func:`transform_cloud`; or the number of times is not that of the points, or the unit is
+            missing, or ``fixed`` is missing for a target that is the sensor.
         TypeError: Times are floats without a unit.
 
     Example:
@@ -102,18 +102,21 @@ def deskew(
         raise TypeError(f"deskew() needs a coframe.Buffer, not {type(buffer).__name__}")
     source = frame_of(points) if source is None else source
     if source is None:
-        raise TypeError("deskew() needs source=...: the frame that the points are in")
+        raise TypeError("deskew() needs source=..., the frame of the points")
     fixed = target if fixed is None else fixed
     if source == target == fixed:
-        raise ValueError(f"{target!r} moves with the points: give fixed=..., a frame that stands still meanwhile")
+        raise ValueError(
+            f"deskew() needs fixed=... for the target {target!r}, which moves with the sensor: a frame that does not "
+            "move during the measurement"
+        )
     stamps = point_times(points, times, unit, since)
-    onward, stamp = _onward(core, points, target, fixed, at)
+    from_fixed, stamp = _pose_from_fixed(core, points, target, fixed, at)
     result = layout.destination(points, out, in_place=in_place)
     if fixed == source:
-        move(result, onward, vectors, threads=threads)
+        move(result, from_fixed, vectors, threads=threads)
     else:
         fields = layout.coordinates(result, vectors)
-        arguments = (stamps, onward, fields, on_error == "nan", thread_count(threads))
+        arguments = (stamps, from_fixed, fields, on_error == "nan", thread_count(threads))
         _deskew_fields(core, fixed, source, arguments)
     if layout.is_message(result):
         result.header.frame_id = target
@@ -123,12 +126,12 @@ def deskew(
 
 
 def point_times(points: Any, times: ArrayLike | str, unit: str | None, since: StampLike | None) -> NDArray[np.int64]:
-    """When each point was measured, in nanoseconds, shape (points,)."""
+    """Return the time of each point in nanoseconds, shape (points,)."""
     if unit is not None and unit not in _UNITS:
         raise ValueError(f"unit must be one of {', '.join(map(repr, _UNITS))}, not {unit!r}")
     if isinstance(times, str):
         if unit is None:
-            raise ValueError(f"deskew() needs unit=...: what the field {times!r} is told in")
+            raise ValueError(f"deskew() needs unit=..., the unit of the field {times!r}")
         values = layout.field_of(points, times)
         since = stamp_of(points) if since is None else since
     else:
@@ -141,12 +144,12 @@ def point_times(points: Any, times: ArrayLike | str, unit: str | None, since: St
         return np.ascontiguousarray(stamps.reshape(-1))
     if len(grid) == 2 and stamps.shape == (grid[1],):
         return np.broadcast_to(stamps, grid).reshape(-1)
-    raise ValueError(f"there are {stamps.size} times for points of the shape {grid}")
+    raise ValueError(f"times must have one value per point, but there are {stamps.size} for points of shape {grid}")
 
 
 def _nanoseconds(values: NDArray[Any], scale: int) -> NDArray[np.int64]:
     if values.dtype.kind not in "iuf":
-        raise TypeError(f"times in a unit must be numbers, not {values.dtype}")
+        raise TypeError(f"times with a unit must be numbers, not {values.dtype}")
     if values.dtype.kind != "f":
         return values.astype(np.int64) * scale
     with np.errstate(over="ignore", invalid="ignore"):
@@ -155,15 +158,15 @@ def _nanoseconds(values: NDArray[Any], scale: int) -> NDArray[np.int64]:
     return np.where(known, np.rint(np.where(known, nanoseconds, 0.0)).astype(np.int64), _NO_TIME)
 
 
-def _onward(
+def _pose_from_fixed(
     buffer: _core.Buffer, points: Any, target: str, fixed: str, at: StampLike | None
 ) -> tuple[tuple[float, float, float, float, float, float, float], int | None]:
-    """From the fixed frame to the target, and the stamp that the result has if that is another one."""
+    """Return the pose from the fixed frame to the target, and the stamp of the result; None keeps the stamp."""
     if fixed == target:
         return IDENTITY, None if at is None else stamp_ns(at)
     if at is None:
         if not layout.is_message(points):
-            raise TypeError(f"deskew() needs at=...: the time at which {target!r} is meant")
+            raise TypeError(f"deskew() needs at=..., the time of the moving target {target!r}")
         at = stamp_of(points)
     transform = buffer.lookup(target, fixed, at)
     return transform.values, transform.stamp
@@ -171,18 +174,19 @@ def _onward(
 
 def _deskew_fields(buffer: _core.Buffer, fixed: str, source: str, arguments: tuple[Any, ...]) -> None:
     stamps, *_, nan_for_none, _ = arguments
-    for _attempt in range(_ATTEMPTS):
+    for _ in range(_MAX_ATTEMPTS):
         missing, first = _core.deskew_fields(buffer, fixed, source, *arguments)
         if missing == 0 or (nan_for_none and missing < len(stamps)):
             return
         try:
-            buffer.lookup(fixed, source, int(stamps[first]))  # says why; unless it has come in between
+            # This raises the reason, unless the missing transform was inserted in the meantime.
+            buffer.lookup(fixed, source, int(stamps[first]))
         except TransformException as error:
-            raise _of_point(error, first, stamps) from error
+            raise _error_of_point(error, first, stamps) from error
     raise TransformException(f"the transforms from {source!r} to {fixed!r} change faster than points can be deskewed")
 
 
-def _of_point(error: TransformException, point: int, stamps: NDArray[np.int64]) -> TransformException:
+def _error_of_point(error: TransformException, point: int, stamps: NDArray[np.int64]) -> TransformException:
     return type(error).with_details(
         f"point {point} of {len(stamps)}, measured at {int(stamps[point])} ns: {error}",
         target=error.target,
@@ -192,4 +196,5 @@ def _of_point(error: TransformException, point: int, stamps: NDArray[np.int64]) 
         latest=error.latest,
         edge=error.edge,
         hint=error.hint,
+        doctor_code=error.doctor_code,
     )

@@ -1,4 +1,4 @@
-"""Where the coordinates of points lie, in messages and in arrays; and where results go."""
+"""Access to the fields of points in messages and arrays, and to the memory for results."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    # Names of fields, or numbers of columns, in threes.
+    # Triples of field names or of column indices.
     Vectors: TypeAlias = Sequence[str] | Sequence[int] | Sequence[Sequence[str]] | Sequence[Sequence[int]]
 
 __all__ = ["coordinates", "destination", "field_of", "grid_of", "is_message"]
@@ -22,7 +22,7 @@ Triple: TypeAlias = "tuple[NDArray[Any], NDArray[Any], NDArray[Any]]"
 
 _POSITION = ("x", "y", "z")
 NORMALS = (("normal_x", "normal_y", "normal_z"), ("nx", "ny", "nz"))
-# By PointField's constants, for both byte orders.
+# NumPy types by PointField's constants, for both byte orders.
 _KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
 _DTYPES = {
     is_bigendian: {number: np.dtype(order + kind) for number, kind in _KINDS.items()}
@@ -31,28 +31,28 @@ _DTYPES = {
 
 
 def is_message(points: Any) -> bool:
-    """Whether the points come as a PointCloud2 message, of coframe, of ROS or of a reader of recordings.
+    """Return whether the points are a PointCloud2 message, of coframe, of ROS or of a reader of recordings.
 
     Raises:
-        TypeError: They come as something that holds no points.
-        ValueError: They come as an array without three coordinates a point.
+        TypeError: The points are neither a message nor an array.
+        ValueError: The array does not have three coordinates per point.
     """
     if hasattr(points, "point_step") and hasattr(points, "fields"):
         return True
     if not isinstance(points, np.ndarray):
         raise TypeError(f"points must be a PointCloud2 message or a numpy array, not {type(points).__name__}")
     if points.dtype.names is None and (points.ndim not in {2, 3} or points.shape[-1] < 3):
-        raise ValueError(f"an array of points must have the shape (N, 3) or (rows, columns, 3), not {points.shape}")
+        raise ValueError(f"an array of points must have shape (N, 3) or (rows, columns, 3), not {points.shape}")
     if points.dtype.names is not None and points.ndim not in {1, 2}:
         raise ValueError(f"a structured array of points must have one or two axes, not {points.ndim}")
     return False
 
 
 def grid_of(points: Any) -> tuple[int, ...]:
-    """The shape of the points: (N,), or (rows, columns) where they are organised.
+    """Return the shape of the points: (N,), or (rows, columns) for an organised cloud.
 
     Raises:
-        ValueError: A message has not even a byte for each.
+        ValueError: A message has fewer bytes than points.
     """
     if is_message(points):
         rows, columns, available = points.height, points.width, len(_memory(points.data))
@@ -63,10 +63,10 @@ def grid_of(points: Any) -> tuple[int, ...]:
 
 
 def field_of(points: Any, name: str | int) -> NDArray[Any]:
-    """A field of all points, by its name or as a column of a plain array; no copy.
+    """Return a field of all points without a copy, by its name or as a column of a plain array.
 
     Raises:
-        ValueError: There is none, or the message says that it lies where its data is not.
+        ValueError: The field does not exist, or is outside the data of the message.
     """
     if is_message(points):
         return _message_field(points, str(name))
@@ -81,33 +81,33 @@ def field_of(points: Any, name: str | int) -> NDArray[Any]:
 
 
 def coordinates(points: Any, vectors: Vectors, normals: Sequence[Sequence[str]] = NORMALS) -> list[Triple]:
-    """The fields that a transform changes: the position, then those that it turns only.
+    """Return the fields that a transform changes: the position, then the vectors, which are only rotated.
 
     Args:
         points: A message or an array.
-        vectors: What it turns besides normals: three names or column numbers, or a sequence of such threes.
-        normals: Names of fields that it turns where all three are there.
+        vectors: Vectors in addition to normals: three names or column indices, or a sequence of such triples.
+        normals: Triples of field names that are vectors if all three exist.
 
     Raises:
-        ValueError: One of them is missing, or is not float32 or float64.
+        ValueError: A field is missing, or is not float32 or float64.
     """
     message = is_message(points)
     plain = not message and points.dtype.names is None
     names = () if plain else [f.name for f in points.fields] if message else points.dtype.names
-    threes: list[Sequence[str | int]] = [(0, 1, 2) if plain else _POSITION]
-    threes += [three for three in normals if set(three) <= set(names)]
-    threes += [three for three in _in_threes(vectors) if tuple(three) not in {tuple(other) for other in threes}]
-    return [_triple(points, three) for three in threes]
+    triples: list[Sequence[str | int]] = [(0, 1, 2) if plain else _POSITION]
+    triples += [triple for triple in normals if set(triple) <= set(names)]
+    triples += [triple for triple in _triples(vectors) if tuple(triple) not in {tuple(other) for other in triples}]
+    return [_triple(points, triple) for triple in triples]
 
 
 def destination(points: Any, out: Any, *, in_place: bool) -> Any:
-    """What the points are changed in: themselves, ``out`` with a copy of them, or a new copy.
+    """Return the object to change: the points themselves, ``out`` with a copy of the points, or a new copy.
 
-    Of a message it has an own header, whose stamp may still be that of ``points``.
+    A message has a new header, whose stamp may still be the object in ``points``.
 
     Raises:
-        TypeError: `out` is not what the points are.
-        ValueError: Both ``out`` and ``in_place``; or an array of another shape, or one that may not be written to.
+        TypeError: ``out`` has another type than the points.
+        ValueError: Both ``out`` and ``in_place`` are given, or the array has another shape or is read-only.
     """
     if in_place and out is not None and out is not points:
         raise ValueError("in_place=True and out=... exclude each other")
@@ -116,14 +116,14 @@ def destination(points: Any, out: Any, *, in_place: bool) -> Any:
         return _array_destination(points, out, in_place=in_place)
     if in_place:
         if _memory(points.data).readonly:
-            raise ValueError("the message's data may not be written to: leave in_place and out away")
+            raise ValueError("the data of the message is read-only. Omit in_place and out to get a new message.")
         return points
     result = copy.copy(points) if out is None else out
     if out is not None:
         for name in ("height", "width", "fields", "is_bigendian", "point_step", "row_step", "is_dense"):
             setattr(out, name, getattr(points, name))
     result.header = copy.copy(points.header)
-    if out is None or not _take_over(out.data, points.data):
+    if out is None or not _copy_into(out.data, points.data):
         result.data = _copied(points.data)
     return result
 
@@ -134,9 +134,9 @@ def _array_destination(points: NDArray[Any], out: Any, *, in_place: bool) -> NDA
         return copied
     result = points if in_place else out
     if not isinstance(result, np.ndarray):
-        raise TypeError(f"out must be a numpy array as the points are, not {type(out).__name__}")
+        raise TypeError(f"out must be a NumPy array like the points, not {type(out).__name__}")
     if not result.flags.writeable:
-        raise ValueError("the array that the result should go to may not be written to")
+        raise ValueError("the array for the result is read-only. Omit in_place and out to get a new array.")
     if not in_place:
         if out.shape != points.shape:
             raise ValueError(f"out must have the shape of the points, {points.shape}, not {out.shape}")
@@ -145,7 +145,7 @@ def _array_destination(points: NDArray[Any], out: Any, *, in_place: bool) -> NDA
 
 
 def _memory(data: Any) -> memoryview:
-    """The bytes of a message; a copy where they do not lie in one piece."""
+    """Return the bytes of a message; a copy if they are not contiguous."""
     try:
         return memoryview(data).cast("B")
     except TypeError:
@@ -158,23 +158,23 @@ def _copied(data: Any) -> Any:
     return data.copy() if isinstance(data, np.ndarray) else array("B", bytes(data))
 
 
-def _take_over(own: Any, data: Any) -> bool:
-    """Copies bytes into those of a message that is used again; False where it has none of its own that fit."""
-    if own is data or _memory(own).readonly or len(_memory(own)) != len(_memory(data)):
+def _copy_into(memory: Any, data: Any) -> bool:
+    """Copy the data into the memory of a message that is reused; return False if the memory is not suitable."""
+    if memory is data or _memory(memory).readonly or len(_memory(memory)) != len(_memory(data)):
         return False
-    _memory(own)[:] = _memory(data)
+    _memory(memory)[:] = _memory(data)
     return True
 
 
-def _in_threes(vectors: Any) -> list[Sequence[str | int]]:
+def _triples(vectors: Any) -> list[Sequence[str | int]]:
     if isinstance(vectors, str):
-        raise TypeError(f"vectors are three names, or a sequence of such threes, not {vectors!r}")
+        raise TypeError(f"vectors must be three names or a sequence of such triples, not {vectors!r}")
     vectors = list(vectors)
-    threes = [vectors] if vectors and isinstance(vectors[0], str | int) else vectors
-    for three in threes:
-        if isinstance(three, str) or len(three) != 3:
-            raise ValueError(f"a vector has three fields, not {three!r}")
-    return threes
+    triples = [vectors] if vectors and isinstance(vectors[0], str | int) else vectors
+    for triple in triples:
+        if isinstance(triple, str) or len(triple) != 3:
+            raise ValueError(f"a vector must have three fields, not {triple!r}")
+    return triples
 
 
 def _triple(points: Any, names: Sequence[str | int]) -> Triple:
@@ -195,9 +195,9 @@ def _message_field(cloud: Any, name: str) -> NDArray[Any]:
         raise _no_field(name, [field.name for field in cloud.fields])
     dtype = _DTYPES[bool(cloud.is_bigendian)].get(field.datatype)
     if dtype is None:
-        raise ValueError(f"the field {name!r} has the datatype {field.datatype}, which PointField does not know")
+        raise ValueError(f"the field {name!r} has the unknown datatype {field.datatype}")
     rows, columns, step = cloud.height, cloud.width, cloud.point_step
-    # Where there is one row only, publishers do not care for its length.
+    # Many publishers set a wrong row_step if there is only one row.
     row_step = cloud.row_step if rows > 1 and cloud.row_step else columns * step
     if rows * columns == 0:
         return np.empty((rows, columns), dtype)
@@ -210,9 +210,9 @@ def _message_field(cloud: Any, name: str) -> NDArray[Any]:
 def _check_layout(
     name: str, offset: int, size: int, rows: int, columns: int, step: int, row_step: int, available: int
 ) -> None:
-    """Refuses what would reach beyond the data or put points on top of each other."""
+    """Raise ValueError if a field is outside the data or points overlap."""
     if min(offset, rows, columns) < 0:
-        raise ValueError("a cloud's offsets, height and width must not be negative")
+        raise ValueError("the offsets, height and width of a cloud must not be negative")
     if offset + size > step:
         raise ValueError(f"the field {name!r} ends at byte {offset + size} of a point, but point_step is {step}")
     if row_step < columns * step:
@@ -226,9 +226,9 @@ def _check_layout(
 
 def _single(field: NDArray[Any], name: object, count: int) -> NDArray[Any]:
     if count > 1:
-        raise ValueError(f"the field {name!r} has {count} numbers a point, where one is needed")
+        raise ValueError(f"the field {name!r} must have one number per point, not {count}")
     return field
 
 
 def _no_field(name: object, names: list[str]) -> ValueError:
-    return ValueError(f"the points have no field {name!r}; they have {', '.join(map(repr, names)) or 'none'}")
+    return ValueError(f"the points have no field {name!r}. Their fields: {', '.join(map(repr, names)) or 'none'}.")

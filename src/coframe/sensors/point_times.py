@@ -1,7 +1,8 @@
-"""When each point of a cloud was measured, as the drivers of lidars write it.
+"""The time of each point of a cloud, as drivers of lidars publish it.
 
-Messages name a field and its type, but no unit. So that is guessed from the values: integers are nanoseconds; floats
-are seconds, or nanoseconds where they could not be seconds. Who knows better says so.
+A message contains the name and type of the time field, but not its unit, which is therefore guessed from the values:
+integers are nanoseconds; floats are seconds, or nanoseconds if they are too large for seconds. A caller that knows the
+unit passes it.
 """
 
 from __future__ import annotations
@@ -10,30 +11,31 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from coframe.time import MICROSECOND, MILLISECOND, SECOND
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 __all__ = ["TIME_FIELDS", "UNITS", "PointTimes", "times_in"]
 
-# Ouster; Velodyne; Hesai, RoboSense and Livox; Livox.
+# The fields of Ouster; of Velodyne; of Hesai, RoboSense and Livox; of Livox.
 TIME_FIELDS = ("t", "time", "timestamp", "offset_time")
-UNITS = {"s": 1_000_000_000, "ms": 1_000_000, "us": 1000, "ns": 1}
+UNITS = {"s": SECOND, "ms": MILLISECOND, "us": MICROSECOND, "ns": 1}
 
-NO_TIME = np.iinfo(np.int64).min  # as NaT
-_LONGEST_SWEEP = 10_000_000_000  # ns: what is further from the message's stamp is no time of a point of it
-_SECOND = 1_000_000_000
-_DAYS = 100_000_000  # more seconds than any sweep has, fewer than the system's clock
-_END = 2.0**62  # ns, in the year 2116
+NO_TIME = np.iinfo(np.int64).min  # The integer of NumPy's NaT.
+_LONGEST_SWEEP = 10 * SECOND  # Values that differ more from the stamp of the message are not times of its points.
+_LONGEST_OFFSET = 100_000_000  # Seconds, about three years: larger values are absolute times.
+_LATEST = 2.0**62  # Nanoseconds, in the year 2116.
 
 
 class PointTimes(NamedTuple):
-    """When the points of a message were measured.
+    """The times of the points of a message.
 
     Attributes:
-        times: (N,) nanoseconds; `NO_TIME` for a point whose time is not a number.
-        field: That tells it.
-        unit: That its values are taken for, one of `UNITS`.
-        absolute: Whether they are stamps themselves; if not, they count from the message's.
+        times: Nanoseconds, shape (N,); `NO_TIME` for a point whose time is not a number.
+        field: Name of the time field.
+        unit: Unit of its values, one of `UNITS`.
+        absolute: Whether the values are stamps; otherwise they are relative to the stamp of the message.
     """
 
     times: NDArray[np.int64]
@@ -43,37 +45,40 @@ class PointTimes(NamedTuple):
 
 
 def times_in(points: NDArray[Any], stamp: int, field: str | None = None, unit: str | None = None) -> PointTimes | None:
-    """The points' own times; None where they have none, or all have the same.
+    """Return the times of the points; None if they have no times, or all have the same.
 
-    Values of more than three years are absolute, others count from the stamp.
+    Values of more than three years are absolute; others are relative to the stamp.
 
     Args:
         points: A structured array.
-        stamp: That of their message, in nanoseconds.
-        field: That tells the times; None: the first of `TIME_FIELDS` that is there.
-        unit: Of its values, one of `UNITS`; None: as it is guessed.
+        stamp: Stamp of the message in nanoseconds.
+        field: Name of the time field; None uses the first of `TIME_FIELDS` that exists.
+        unit: Unit of the values, one of `UNITS`; None guesses it.
 
     Raises:
-        ValueError: There is no such field; or in that unit its values are no times of a sweep.
+        ValueError: The field does not exist, or its values in this unit are not near the stamp.
     """
     names = points.dtype.names or ()
     name = next((name for name in TIME_FIELDS if name in names), None) if field is None else field
     if name is None or not points.size:
         return None
     if name not in names:
-        raise ValueError(f"there is no field {name!r} among {', '.join(names)}")
+        raise ValueError(f"the points have no field {name!r}. Their fields: {', '.join(names)}.")
     found = _read(points[name], stamp, name, unit)
     known = found.times[found.times != NO_TIME] if found is not None else np.zeros(0, dtype=np.int64)
     is_sweep = known.size > 0 and np.abs(known - stamp).max() <= _LONGEST_SWEEP
     if not is_sweep and unit is not None:
-        raise ValueError(f"the field {name!r} in {unit} is more than {_LONGEST_SWEEP // _SECOND} s off the stamp")
+        raise ValueError(
+            f"the times in field {name!r}, read in {unit}, differ from the stamp by more than "
+            f"{_LONGEST_SWEEP // SECOND} s"
+        )
     if found is None or not is_sweep or (known == known[0]).all():
         return None
     return found
 
 
 def _read(values: NDArray[Any], stamp: int, field: str, unit: str | None) -> PointTimes | None:
-    """None for what is no time."""
+    """Return the times in a field; None if its values cannot be times."""
     if values.dtype.kind not in "iuf":
         return None
     is_float = values.dtype.kind == "f"
@@ -81,12 +86,12 @@ def _read(values: NDArray[Any], stamp: int, field: str, unit: str | None) -> Poi
     if not known.any():
         return None
     largest = np.abs(values[known].astype(np.float64)).max()
-    unit = unit or ("s" if is_float and not largest > _DAYS * 100 else "ns")
-    if not largest * UNITS[unit] < _END:
+    unit = unit or ("s" if is_float and not largest > _LONGEST_OFFSET * 100 else "ns")
+    if not largest * UNITS[unit] < _LATEST:
         return None
     values = np.where(known, values, 0)
-    # Seconds of today in a float64 are exact to a quarter of a microsecond.
+    # A float64 holds the current time in seconds with a resolution of a quarter of a microsecond.
     times = np.rint(values.astype(np.float64) * UNITS[unit]) if is_float else values.astype(np.int64) * UNITS[unit]
-    absolute = bool(largest * UNITS[unit] > _DAYS * _SECOND)
+    absolute = bool(largest * UNITS[unit] > _LONGEST_OFFSET * SECOND)
     stamps = (0 if absolute else stamp) + times.astype(np.int64)
     return PointTimes(np.where(known, stamps, NO_TIME), field, unit, absolute)

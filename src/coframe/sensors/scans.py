@@ -1,4 +1,4 @@
-"""Laser scans as points."""
+"""Conversion of laser scans to points."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from coframe.messages import find
 from coframe.sensors.deskewing import deskew
-from coframe.time import stamp_ns
+from coframe.time import SECOND, stamp_ns
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -22,20 +22,20 @@ if TYPE_CHECKING:
 
 __all__ = ["ScanPoints", "project_scan"]
 
-_FLOAT32, _INT32 = 7, 5  # PointField's
+_FLOAT32, _INT32 = 7, 5  # Constants of PointField.
 
 
 @dataclass(frozen=True, eq=False)
 class ScanPoints:
-    """What the beams of a laser scan have hit.
+    """The points that a laser scan has measured.
 
     Attributes:
-        points: Metres in ``frame``, shape (N, 3), float64.
-        beams: The numbers of their beams in the scan, shape (N,), int32.
-        times: When each was measured, in nanoseconds, shape (N,), int64.
-        intensities: As the scan tells them, shape (N,), float32; None if it has none.
-        frame: The frame that the points are in.
-        stamp: The time that they are told for, in nanoseconds.
+        points: Positions in ``frame`` in metres, shape (N, 3), float64.
+        beams: Index of the beam of each point, shape (N,), int32.
+        times: Time of each point in nanoseconds, shape (N,), int64.
+        intensities: Intensities in the scan, shape (N,), float32; None if it has none.
+        frame: The frame of the points.
+        stamp: The stamp of the points in nanoseconds.
     """
 
     points: NDArray[np.float64]
@@ -47,10 +47,10 @@ class ScanPoints:
     _classes: tuple[Any, Any] = field(repr=False)
 
     def to_cloud(self) -> Any:
-        """A PointCloud2 message, of ROS if the scan is one of ROS's.
+        """Return the points as a PointCloud2 message.
 
-        Its fields are those of `laser_geometry`: float32 x, y, z, intensity if there are any, and the beam's number as
-        int32 `index`.
+        Its class is that of ROS if the scan is a message of a ROS installation. The fields are those of
+        `laser_geometry`: float32 x, y, z, intensity if the scan has intensities, and int32 `index` of the beam.
         """
         cloud_class, field_class = self._classes
         names = ["x", "y", "z", *(["intensity"] if self.intensities is not None else []), "index"]
@@ -61,7 +61,7 @@ class ScanPoints:
             values["intensity"] = self.intensities
         cloud = cloud_class()
         cloud.header.frame_id = self.frame
-        cloud.header.stamp.sec, cloud.header.stamp.nanosec = divmod(self.stamp, 1_000_000_000)
+        cloud.header.stamp.sec, cloud.header.stamp.nanosec = divmod(self.stamp, SECOND)
         cloud.height, cloud.width = 1, len(values)
         cloud.fields = [
             field_class(name=name, offset=4 * i, datatype=_INT32 if name == "index" else _FLOAT32, count=1)
@@ -84,19 +84,21 @@ def project_scan(
     at: StampLike | None = None,
     on_error: Literal["raise", "nan"] = "raise",
 ) -> ScanPoints:
-    """The points that a laser scan has hit; with a buffer seen from ``target``, each beam at its own time.
+    """Convert a laser scan to points; with a buffer, transform each beam to ``target`` at its own time.
 
-    As in `laser_geometry`, beams give no point if they hit nothing: NaN, infinite, nearer than `range_min`, at
-    `range_max` or beyond.
+    As in `laser_geometry`, beams without a valid range are skipped: NaN, infinite, below `range_min`, or not below
+    `range_max`.
 
     Args:
-        scan: A LaserScan message. Its stamp is that of the first beam, `time_increment` leads to the next one.
-        buffer: Where the sensor's motion is known.
-        target: The frame that the points shall be in.
-        fixed: As in :func:`coframe.sensors.deskew`: the frame that stands still during the scan, if that is not
-            ``target``.
-        at: As in :func:`coframe.sensors.deskew`; by default the scan's stamp.
+        scan: A LaserScan message. Its stamp is the time of the first beam; `time_increment` is the time between beams.
+        buffer: The buffer with the motion of the sensor; None keeps the points in the frame of the scan.
+        target: The frame to transform to.
+        fixed: As in :func:`coframe.sensors.deskew`: a frame that does not move during the scan, if ``target`` does.
+        at: As in :func:`coframe.sensors.deskew`; by default the stamp of the scan.
         on_error: As in :func:`coframe.sensors.deskew`.
+
+    Returns:
+        The points.
 
     Raises:
         TransformException: As :func:`coframe.sensors.deskew`.
@@ -116,7 +118,7 @@ def project_scan(
     directions = _directions(scan.angle_min, scan.angle_increment, len(ranges))
     points[:, :2] = directions[hits] * ranges[hits, np.newaxis]
     frame, stamp = scan.header.frame_id, stamp_ns(scan.header.stamp)
-    times = stamp + np.rint(hits * (scan.time_increment * 1e9)).astype(np.int64)
+    times = stamp + np.rint(hits * (scan.time_increment * SECOND)).astype(np.int64)
     if buffer is not None and target is not None:
         if fixed is not None and fixed != target:
             at = stamp if at is None else at
@@ -139,9 +141,9 @@ def project_scan(
     return ScanPoints(points, hits.astype(np.int32), times, intensities, frame, stamp, _classes_beside(scan))
 
 
-@lru_cache(maxsize=8)  # the scans of a sensor have the same beams
+@lru_cache(maxsize=8)  # All scans of a sensor have the same beams.
 def _directions(start: float, increment: float, count: int) -> NDArray[np.float64]:
-    """Of all beams, as unit vectors in the scan's plane, shape (count, 2)."""
+    """Return the directions of all beams as unit vectors in the plane of the scan, shape (count, 2)."""
     angles = start + increment * np.arange(count)
     directions = np.stack((np.cos(angles), np.sin(angles)), axis=1)
     directions.setflags(write=False)
@@ -149,7 +151,7 @@ def _directions(start: float, increment: float, count: int) -> NDArray[np.float6
 
 
 def _classes_beside(message: Any) -> tuple[Any, Any]:
-    """PointCloud2 and PointField: of ROS if the message is one of ROS's, else of coframe."""
+    """Return PointCloud2 and PointField: those of ROS for a message of ROS, otherwise those of coframe."""
     if type(message).__module__.startswith("sensor_msgs.msg._"):
         module = importlib.import_module("sensor_msgs.msg")
         return module.PointCloud2, module.PointField

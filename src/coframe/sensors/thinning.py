@@ -1,4 +1,4 @@
-"""One point for each cube of space."""
+"""Downsampling of point clouds by a voxel grid."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ __all__ = ["thinned"]
 
 
 def thinned(points: NDArray[Any], edge: float) -> NDArray[Any]:
-    """The first point in each cube.
+    """Return the first point in each voxel.
 
     Args:
         points: A structured array with finite x, y, z in metres.
-        edge: Of the cubes, metres.
+        edge: Edge length of the voxels in metres.
 
     Raises:
-        ValueError: ``edge`` is not above 0, or so small that the cubes cannot be numbered.
+        ValueError: ``edge`` is not positive, or so small that there are too many voxels to number.
     """
     if not edge > 0:
-        raise ValueError(f"the cubes' edge must be above 0 m, not {edge:g}")
+        raise ValueError(f"the voxel size must be above 0 m, not {edge:g} m")
     if not points.size:
         return points
-    places = np.stack([np.floor(points[axis].astype(np.float64) / edge) for axis in "xyz"])
-    places -= places.min(axis=1, keepdims=True)
-    sizes = places.max(axis=1) + 1
+    cells = np.stack([np.floor(points[axis].astype(np.float64) / edge) for axis in "xyz"])
+    cells -= cells.min(axis=1, keepdims=True)
+    sizes = cells.max(axis=1) + 1
     if float(np.prod(sizes)) > 2**62:
-        raise ValueError(f"cubes of {edge:g} m are too many for points that are so far apart: take larger ones")
-    x, y, z = places.astype(np.int64)
+        raise ValueError(f"a voxel size of {edge:g} m is too small for the extent of the points. Use a larger one.")
+    x, y, z = cells.astype(np.int64)
     _, first = np.unique((x * int(sizes[1]) + y) * int(sizes[2]) + z, return_index=True)
     return points[np.sort(first)]

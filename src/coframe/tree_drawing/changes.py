@@ -19,8 +19,8 @@ class Change(NamedTuple):
     """A change of one frame.
 
     Attributes:
-        kind: ``came`` (the frame is new), ``gone``, ``moved`` (it has another parent), ``stale``, or ``fresh`` (it is
-            published again).
+        kind: ``new``, ``gone``, ``moved`` (it has another parent), ``stale``, or ``resumed`` (it is published
+            again).
         frame: The frame.
         text: A sentence without a full stop.
     """
@@ -35,13 +35,13 @@ def changes(before: Forest, after: Forest) -> Iterator[Change]:
     for name, frame in after.frames.items():
         old = before.frames.get(name)
         if old is None:
-            yield Change("came", name, f"{shown(name)} is new: {_position(frame)}")
+            yield Change("new", name, f"{shown(name)} is new: {_position(frame)}")
         elif old.parent != frame.parent:
             yield Change("moved", name, f"{shown(name)} moved: {_position(frame)}, before {_position(old)}")
         elif frame.silence is not None and old.silence is None:
             yield Change("stale", name, f"{shown(name)} is stale: no transform for {duration(frame.silence)}")
         elif frame.silence is None and old.silence is not None:
-            yield Change("fresh", name, f"{shown(name)} is published again")
+            yield Change("resumed", name, f"{shown(name)} is published again")
     for name, old in before.frames.items():
         if name not in after.frames:
             yield Change("gone", name, f"{shown(name)} is gone; it was {_position(old)}")

@@ -1,9 +1,18 @@
-"""The viewer: RViz's work in a browser tab, with time travel.
+"""The viewer: RViz's displays in a browser tab, with time travel.
 
-`coframe.show(buffer)` and the command `coframe view` start it. The server knows tf and works out where everything is;
-the page draws. `coframe.viewer.protocol.binary` says what travels between both.
+`coframe.show(buffer)` and the command `coframe view` start it. The server looks up all poses and the page draws them.
+
+Subpackages, from the ground up; imports point down only:
+    protocol: The messages between server and page.
+    sources: The ROS graph, a recording or a buffer.
+    scene: Poses, statistics, the timeline and relations of a buffer's frames.
+    displays: Messages converted to drawings.
+    robots, rviz: Robot descriptions and RViz configuration files.
+    replay: A span of time as one HTML file.
+    clients: What each connected tab shows, requests and receives.
+    server: HTTP and WebSockets.
 """
 
-from coframe.viewer.show import Viewer, expect, show
+from coframe.viewer.show import Viewer, show, start_viewer
 
-__all__ = ["Viewer", "expect", "show"]
+__all__ = ["Viewer", "show", "start_viewer"]

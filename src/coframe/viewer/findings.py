@@ -1,6 +1,6 @@
-"""What the doctor finds in what is shown, in a thread of its own and only while somebody looks.
+"""The findings of the doctor on the displayed source, computed in a thread while a page is open.
 
-The verdict is that of `coframe doctor`: of a recording once, of the graph again and again on the last seconds.
+A recording is examined once, the ROS graph repeatedly on its last seconds, as by `coframe doctor`.
 """
 
 from __future__ import annotations
@@ -9,91 +9,94 @@ import logging
 import threading
 import time
 from contextlib import closing
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.errors import RecordingError, ViewerError, WireError
+from coframe.viewer.protocol.messages import Finding
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
     from coframe.doctor import Report
+    from coframe.viewer.protocol.messages import FindingsState
     from coframe.viewer.sources.source import Source
 
-__all__ = ["Findings", "Told", "rows"]
+__all__ = ["FindingsReport", "FindingsWatcher", "finding_rows"]
 
 _logger = logging.getLogger("coframe.viewer")
 
-# In seconds: the first picture comes first; how often an examination goes on; who has not looked for so long is gone.
-_DELAY, _STEP, _PATIENCE = 1.0, 0.5, 5.0
+# In seconds: the delay before an examination starts, so that the page shows the frames first; the time between two
+# steps of an examination; and the time without a request after which it ends.
+_DELAY, _STEP, _IDLE_TIMEOUT = 1.0, 0.5, 5.0
 _END_TIMEOUT = 2.0
-# What comes from the wire may be as much as it likes; a page shows so much of it.
-_MOST, _MOST_FRAMES, _LONGEST = 200, 50, 2000
+# Limits on what a page has to show, because the data on the graph has none.
+_MAX_FINDINGS, _MAX_FRAMES, _MAX_TEXT = 200, 50, 2000
 
 
-class Told(NamedTuple):
-    """What there is to tell.
+class FindingsReport(NamedTuple):
+    """The state of an examination.
 
     Attributes:
-        state: "none" where nothing is examined, "waiting" before the first verdict.
-        text: Why nothing could be examined, or "".
-        findings: As `coframe doctor --json` has them, causes first, with the namespace of each.
+        state: "none" if nothing is examined, "waiting" before the first report.
+        text: The reason of a failure, or "".
+        findings: The findings as in the output of `coframe doctor --json`, causes first, each with its namespace.
     """
 
-    state: Literal["none", "waiting", "told", "failed"]
+    state: FindingsState
     text: str = ""
     findings: tuple[dict[str, Any], ...] = ()
 
 
-class Findings:
-    """The findings in one source after the other."""
+class FindingsWatcher:
+    """Examines one source at a time."""
 
     def __init__(self) -> None:
-        self.told = Told("none")
-        self._examiner: _Examiner | None = None
+        self.report = FindingsReport("none")
+        self._examination: _Examination | None = None
         self._source: Source | None = None
 
     def watch(self, source: Source) -> None:
-        """Has a source examined from now on, as long as this is called every few seconds."""
+        """Examine a source as long as this is called every few seconds, and update the report."""
         if source is not self._source:
-            if self._examiner is not None:
-                self._examiner.end()
-                self._examiner = None
-            self._source, self.told = source, Told("none")
-        if self._examiner is None or self._examiner.has_lost_interest:
-            self._examiner = _Examiner(source)
-        self._examiner.watched = time.monotonic()
-        self.told = self._examiner.told
+            if self._examination is not None:
+                self._examination.end()
+                self._examination = None
+            self._source, self.report = source, FindingsReport("none")
+        if self._examination is None or self._examination.has_timed_out:
+            self._examination = _Examination(source)
+        self._examination.last_request = time.monotonic()
+        self.report = self._examination.report
 
     def close(self) -> None:
-        """Ends the examination that goes on, and waits for that."""
-        if self._examiner is not None:
-            self._examiner.end()
-            self._examiner.join()
-            self._examiner = None
+        """End the examination and wait until it has ended."""
+        if self._examination is not None:
+            self._examination.end()
+            self._examination.join()
+            self._examination = None
 
 
-class _Examiner:
+class _Examination:
     """The examination of one source."""
 
     def __init__(self, source: Source) -> None:
-        self.told = Told("none")
-        self.watched = time.monotonic()
-        self.has_lost_interest = False
+        self.report = FindingsReport("none")
+        self.last_request = time.monotonic()
+        self.has_timed_out = False
         self._end = threading.Event()
         self._thread: threading.Thread | None = None
         examination = source.examine()
         if examination is not None:
-            self.told = Told("waiting")
+            self.report = FindingsReport("waiting")
             name = "coframe-viewer-doctor"
             self._thread = threading.Thread(target=self._run, args=(examination,), name=name, daemon=True)
             self._thread.start()
 
     def end(self) -> None:
-        """Ends it soon; what it holds is given back by its own thread."""
+        """End the examination soon; its own thread releases what it holds."""
         self._end.set()
 
     def join(self) -> None:
-        """Waits a moment for its end."""
+        """Wait briefly for the end of the examination."""
         if self._thread is not None:
             self._thread.join(_END_TIMEOUT)
 
@@ -102,53 +105,55 @@ class _Examiner:
             with closing(examination):
                 pause = _DELAY
                 while not self._end.wait(pause):
-                    if time.monotonic() > self.watched + _PATIENCE:
-                        self.has_lost_interest = True
+                    if time.monotonic() > self.last_request + _IDLE_TIMEOUT:
+                        self.has_timed_out = True
                         return
                     reports = next(examination)
                     if reports is not None:
-                        self.told = Told("told", findings=_data(reports))
+                        self.report = FindingsReport("ready", findings=_findings(reports))
                     pause = _STEP
         except StopIteration:
             return
         except (RecordingError, ViewerError, WireError) as error:
-            self.told = Told("failed", f"{error} {error.hint}".strip())
+            self.report = FindingsReport("failed", f"{error} {error.hint}".strip())
         except Exception:
-            _logger.exception("the transforms could not be examined; the viewer goes on")
-            self.told = Told("failed", "The doctor failed; the server's log says how.")
+            _logger.exception("the doctor failed; the viewer continues without findings")
+            self.report = FindingsReport("failed", "The doctor failed. The server's log contains the error.")
 
 
-def rows(told: Told, origin: int) -> list[dict[str, Any]]:
-    """The findings for a page: their stamps relative to an origin."""
-    return [_row(finding, origin) for finding in told.findings]
+def finding_rows(report: FindingsReport, origin: int) -> list[Finding]:
+    """Return the findings for a page, with stamps relative to an origin in nanoseconds."""
+    return [_row(finding, origin) for finding in report.findings]
 
 
-def _data(reports: dict[str, Report]) -> tuple[dict[str, Any], ...]:
-    from coframe.doctor.rendering.plain import as_data  # noqa: PLC0415 - the viewer starts without the doctor
+def _findings(reports: dict[str, Report]) -> tuple[dict[str, Any], ...]:
+    # Imported here because the viewer starts without the doctor.
+    from coframe.doctor.rendering.plain import as_data  # noqa: PLC0415
 
     named = ((name, as_data(report)["findings"]) for name, report in reports.items())
     found = [{**finding, "namespace": name} for name, findings in named for finding in findings]
-    return tuple(found[:_MOST])
+    return tuple(found[:_MAX_FINDINGS])
 
 
-def _row(finding: dict[str, Any], origin: int) -> dict[str, Any]:
+def _row(finding: dict[str, Any], origin: int) -> Finding:
     stamp = finding["first_stamp_ns"]
-    return {
-        "code": finding["code"],
-        "severity": finding["severity"],
-        "title": finding["title"],
-        "subject": _cut(" → ".join(finding["edge"]) if finding["edge"] else finding["topic"] or ""),
-        # A link stands on its child's row.
-        "frames": finding["edge"][1:] if finding["edge"] else finding["frames"][:_MOST_FRAMES],
-        "text": _cut(finding["text"]),
-        "why": finding["why"],
-        "fix": _cut(finding["fix"]),
-        "publishers": finding["publishers"][:_MOST_FRAMES],
-        "first": None if stamp is None else stamp - origin,
-        "namespace": finding.get("namespace", ""),
-        "explains": [_row(effect, origin) for effect in finding["explains"][:_MOST]],
-    }
+    edge = finding["edge"]
+    return Finding(
+        code=finding["code"],
+        severity=finding["severity"],
+        title=finding["title"],
+        subject=_shortened(" → ".join(edge) if edge else finding["topic"] or ""),
+        # An edge is shown in the row of its child.
+        frames=edge[1:] if edge else finding["frames"][:_MAX_FRAMES],
+        text=_shortened(finding["text"]),
+        why=finding["why"],
+        fix=_shortened(finding["fix"]),
+        publishers=finding["publishers"][:_MAX_FRAMES],
+        first=None if stamp is None else stamp - origin,
+        namespace=finding.get("namespace", ""),
+        explains=[_row(effect, origin) for effect in finding["explains"][:_MAX_FINDINGS]],
+    )
 
 
-def _cut(text: str) -> str:
-    return text if len(text) <= _LONGEST else f"{text[:_LONGEST]} …"
+def _shortened(text: str) -> str:
+    return text if len(text) <= _MAX_TEXT else f"{text[:_MAX_TEXT]} …"

@@ -1,4 +1,4 @@
-"""`coframe.show()`: a viewer for what a program has at hand."""
+"""`coframe.show()`: a viewer for a buffer, a connection or a recording."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from coframe.connection import Connection
 from coframe.errors import ViewerError
 from coframe.robots import load
 from coframe.viewer.robots.joints import JOINT_STATES
-from coframe.viewer.robots.robot_message import mesh_table
+from coframe.viewer.robots.robot_message import make_mesh_table
 from coframe.viewer.rviz.config import RvizConfig
 from coframe.viewer.sources.source import BufferSource
-from coframe.viewer.state import Stage
+from coframe.viewer.state import ViewerState
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -25,47 +25,48 @@ if TYPE_CHECKING:
     from coframe.robots import Robot
     from coframe.viewer.sources.source import Mode, Source
 
-__all__ = ["Viewer", "expect", "show"]
+__all__ = ["Viewer", "show", "start_viewer"]
 
 
 class Viewer:
-    """A running viewer; made by :func:`show`. In a Jupyter notebook it shows itself below the cell.
+    """A running viewer, returned by :func:`show`. In a Jupyter notebook it is displayed below the cell.
 
-    Beside the server's thread, one other thread may use it.
+    It may be used by one thread at a time.
 
     Args:
-        stage: What is shown.
-        host: As of :func:`show`.
-        port: As of :func:`show`.
+        state: What is shown.
+        host: The address to listen on.
+        port: The port; see :func:`show`.
     """
 
-    def __init__(self, stage: Stage, *, host: str, port: int | None) -> None:
+    def __init__(self, state: ViewerState, *, host: str, port: int | None) -> None:
         try:
-            from coframe.viewer.server.server import ViewerServer  # noqa: PLC0415 - the sentence below must be possible
+            # Imported here so that a missing package causes the error below.
+            from coframe.viewer.server.server import ViewerServer  # noqa: PLC0415
         except ModuleNotFoundError as error:
             if error.name != "websockets":
                 raise
             raise ViewerError("the viewer needs the package websockets: pip install 'coframe[viewer]'") from None
-        self._stage = stage
-        self._sources = [stage.source]
-        self._server = ViewerServer(stage, host=host, port=port)
+        self._state = state
+        self._sources = [state.source]
+        self._server = ViewerServer(state, host=host, port=port)
 
     @property
     def url(self) -> str:
         """The page's address, such as ``http://127.0.0.1:7676/``."""
         return self._server.url
 
-    def show(self, source: Source) -> None:
-        """Shows a source from now on, in place of the one that was `expected`; the viewer closes it."""
+    def set_source(self, source: Source) -> None:
+        """Show another source, which the viewer closes at the end."""
         self._sources.append(source)
-        self._server.call(self._stage.show, source)
+        self._server.call(self._state.set_source, source)
 
-    def entitle(self, title: str) -> None:
-        """Calls what is shown otherwise."""
-        self._server.call(self._stage.entitle, title)
+    def set_title(self, title: str) -> None:
+        """Change the title of the page."""
+        self._server.call(self._state.set_title, title)
 
     def close(self) -> None:
-        """Ends the server; closing twice does no harm."""
+        """Stop the server; may be called more than once."""
         self._server.close()
         for source in self._sources:
             source.close()
@@ -95,24 +96,26 @@ def show(
     port: int | None = None,
     joint_states: str = JOINT_STATES,
 ) -> Viewer:
-    """Shows transforms in a browser tab: open the ``url`` of what is returned, or leave it to Jupyter.
+    """Start a viewer and return it; open its ``url`` in a browser, or evaluate it in a Jupyter notebook.
 
     Args:
         source: A :class:`coframe.Buffer`, a connection to the ROS graph (:func:`coframe.connect`), a recording
             (:func:`coframe.open_bag`) or the path of one.
-        fixed: The frame that everything is seen from; by default that of the .rviz file, or the root of the largest
-            tree.
+        fixed: The fixed frame; by default that of the .rviz file, or the root of the largest tree.
         rviz: A configuration file of RViz 2 or RViz 1.
-        robot: A robot, or its URDF or xacro file; others come from the topic ``/robot_description``.
-        mesh_roots: Folders below which meshes may be fetched, besides those of ROS packages that are named.
-        host: The address to listen on. Others than this machine's own let everybody in who reaches it.
-        port: The port; None takes 7676, or any other where that is taken; 0 takes any.
-        joint_states: The topic that the sliders of a robot's joints publish on.
+        robot: A robot, or its URDF or xacro file, shown in addition to those on ``/robot_description``.
+        mesh_roots: Folders below which meshes may be fetched, in addition to those of ROS packages.
+        host: The address to listen on. Anyone who can reach it may use the viewer; there is no password.
+        port: The port; None selects 7676, or any free port if that is in use; 0 selects any free port.
+        joint_states: The topic on which the sliders of a robot's joints publish.
+
+    Returns:
+        The running viewer. Close it, or use it as a context manager.
 
     Raises:
-        ViewerError: A package is missing, a file cannot be read, or the address cannot be listened on.
-        RobotDescriptionError: The robot's file is none.
-        RecordingError: Nothing of the recording can be read.
+        ViewerError: A package is missing, a file cannot be read, or the server cannot listen on the address.
+        RobotDescriptionError: The robot description is invalid.
+        RecordingError: The recording cannot be read.
 
     Example:
         >>> import coframe
@@ -125,7 +128,7 @@ def show(
     return _viewer(lambda: _source_of(source), fixed, rviz, robot, mesh_roots, host, port, joint_states)
 
 
-def expect(
+def start_viewer(
     title: str,
     mode: Mode,
     *,
@@ -136,21 +139,23 @@ def expect(
     host: str = "127.0.0.1",
     port: int | None = None,
 ) -> Viewer:
-    """A viewer that is there before what it shows: browsers take a while to start, and so do other things.
+    """Start a viewer before its source is available, because browsers take a while to start.
+
+    Show the source with :meth:`Viewer.set_source`.
 
     Args:
-        title: What is to come.
-        mode: What kind it is while it is not there.
-        fixed: This and all others are those of :func:`show`.
-        rviz: As above.
-        robot: As above.
-        mesh_roots: As above.
-        host: As above.
-        port: As above.
+        title: The title of the page until then.
+        mode: The kind of source until then.
+        fixed: The fixed frame; see :func:`show`, also for the other arguments.
+        rviz: A configuration file of RViz 2 or RViz 1.
+        robot: The URDF or xacro file of a robot.
+        mesh_roots: Folders below which meshes may be fetched.
+        host: The address to listen on.
+        port: The port.
 
     Raises:
-        ViewerError: As of :func:`show`.
-        RobotDescriptionError: Likewise.
+        ViewerError: A package is missing, a file cannot be read, or the server cannot listen on the address.
+        RobotDescriptionError: The robot description is invalid.
     """
     return _viewer(lambda: BufferSource(Buffer(), title, mode), fixed, rviz, robot, mesh_roots, host, port)
 
@@ -168,27 +173,31 @@ def _viewer(
     config = None if rviz is None else _read_config(Path(rviz))
     roots = [Path(root) for root in mesh_roots]
     description = load(robot, packages=roots) if isinstance(robot, str | os.PathLike) else robot
-    meshes = mesh_table(None if description is None else description.path, roots)
-    stage = Stage(make_source(), fixed=fixed, rviz=config, robot=description, meshes=meshes, joint_states=joint_states)
-    return Viewer(stage, host=host, port=port)
+    meshes = make_mesh_table(None if description is None else description.path, roots)
+    state = ViewerState(
+        make_source(), fixed=fixed, rviz=config, robot=description, meshes=meshes, joint_states=joint_states
+    )
+    return Viewer(state, host=host, port=port)
 
 
 def _source_of(source: Any) -> Source:
     if isinstance(source, Buffer):
         return BufferSource(source)
     if isinstance(source, Connection):
-        from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415 - each kind needs what the others do not
+        # Imported here because each kind of source needs packages that the others do not need.
+        from coframe.viewer.sources.live import LiveSource  # noqa: PLC0415
 
         return LiveSource(source)
-    from coframe.bags import Recording, open_bag  # noqa: PLC0415 - likewise
-    from coframe.viewer.sources.recorded import RecordedSource  # noqa: PLC0415 - likewise
+    from coframe.bags import Recording, open_bag  # noqa: PLC0415
+    from coframe.viewer.sources.recorded import RecordedSource  # noqa: PLC0415
 
     if isinstance(source, Recording):
         return RecordedSource(source)
     if isinstance(source, str | os.PathLike):
         return RecordedSource(open_bag(source), own=True)
     raise TypeError(
-        f"show() takes a coframe.Buffer, a coframe.connect() or a coframe.open_bag(), not {type(source).__name__}"
+        "show() expects a coframe.Buffer, a connection from coframe.connect(), a recording from coframe.open_bag() or "
+        f"the path of a recording, not {type(source).__name__}"
     )
 
 
@@ -196,8 +205,8 @@ def _read_config(file: Path) -> RvizConfig:
     try:
         text = file.read_text(encoding="utf-8")
     except OSError as error:
-        hint = "Check the path, and who may read it."
+        hint = "Check the path and the permission to read it."
         raise ViewerError(f"{file} cannot be read: {error.strerror or error}", hint=hint) from None
     except UnicodeDecodeError:
-        raise ViewerError(f"{file} is no text", hint="Is it a .rviz file?") from None
+        raise ViewerError(f"{file} is not a text file", hint="Is it an .rviz file?") from None
     return RvizConfig.parse(text, str(file))

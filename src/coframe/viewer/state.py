@@ -1,4 +1,4 @@
-"""What all tabs share: the source with its scene, the topics, and the origin of times."""
+"""What all clients share: the source with its scene, the topics, and the origin of times."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from coframe.errors import ViewerError
-from coframe.viewer.findings import Findings
-from coframe.viewer.replay.page import NO_LOOKS, ReplayLooks, ReplayRequest
-from coframe.viewer.robots.descriptions import ROBOT_DESCRIPTION, Descriptions
+from coframe.viewer.findings import FindingsWatcher
+from coframe.viewer.replay.page import DEFAULT_SETTINGS, ReplayRequest, ReplaySettings
+from coframe.viewer.robots.descriptions import ROBOT_DESCRIPTION, RobotDescriptions
 from coframe.viewer.robots.joints import JOINT_STATES, JointPublisher
 from coframe.viewer.robots.meshes import MeshTable
 from coframe.viewer.scene.scene import Scene
@@ -20,33 +20,34 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from coframe.robots import Robot
+    from coframe.viewer.protocol.messages import Topic
     from coframe.viewer.rviz.config import RvizConfig
-    from coframe.viewer.sources.messages import Messages
-    from coframe.viewer.sources.source import Source, Topic
+    from coframe.viewer.sources.source import Source
+    from coframe.viewer.sources.topic_messages import TopicMessages
 
-__all__ = ["Stage"]
+__all__ = ["FRAME_TIMEOUT", "ViewerState"]
 
-# How often the structure is looked at, and the topics; of large trees as often as that share of the time allows.
+# Seconds between refreshes of the tree structure and of the topics. A large tree is refreshed less often, so that this
+# takes at most the given share of the time.
 STRUCTURE_PERIOD, TOPICS_PERIOD = 0.2, 1.0
 STRUCTURE_SHARE = 0.005
-# A float64 is exact up to 2**53 nanoseconds, 104 days.
-_FARTHEST = 2**52
-# For how many seconds a frame is shown that is not heard of any more, as in RViz.
+# A float64 is exact up to 2**53 nanoseconds, which is 104 days.
+_MAX_OFFSET = 2**52
 FRAME_TIMEOUT = 15.0
-# How many replays may be announced and not fetched.
-_MOST_LOOKS = 8
+"""How many seconds a frame stays visible after its last sample, as in RViz."""
+_MAX_PREPARED_REPLAYS = 8
 
 
-class Stage:
-    """What all tabs see; used by one thread.
+class ViewerState:
+    """What all clients share; used by one thread.
 
     Args:
-        source: What is viewed.
-        fixed: The fixed frame that was asked for; "" for the root of the largest tree.
-        rviz: What a tab shows at first.
-        robot: One that is shown besides those that topics tell of.
-        meshes: Where meshes may come from; None: from nowhere.
-        joint_states: Where the positions of a robot's joints are sent.
+        source: The source of transforms and messages.
+        fixed: The requested fixed frame; "" selects the root of the largest tree.
+        rviz: The initial configuration of each client.
+        robot: A robot that is shown in addition to published ones.
+        meshes: The meshes that may be fetched; None for none.
+        joint_states: The topic on which positions of joints are published.
     """
 
     def __init__(
@@ -59,12 +60,12 @@ class Stage:
         meshes: MeshTable | None = None,
         joint_states: str = JOINT_STATES,
     ) -> None:
-        self.edition = 0
+        self.edition = 0  # Increases when the source or its title changes.
         self.source = source
         self.meshes = MeshTable(lambda _name: None) if meshes is None else meshes
-        self.descriptions = Descriptions(robot, _description_topics(rviz), self.meshes)
+        self.descriptions = RobotDescriptions(robot, _description_topics(rviz), self.meshes)
         self.scene = Scene(source.buffer, ages=source.mode == "live")
-        self.findings = Findings()
+        self.findings = FindingsWatcher()
         self.rviz = rviz
         self._joint_states = joint_states
         self.fixed = fixed or (rviz.fixed_frame if rviz is not None else "")
@@ -72,13 +73,13 @@ class Stage:
         self.topics: list[Topic] = []
         self.origin = time.time_ns()
         self.executor = ThreadPoolExecutor(2, "coframe-viewer-work")
-        self._open: dict[str, _Shared] = {}
-        self._looks: dict[str, ReplayLooks] = {}
+        self._open: dict[str, _SharedMessages] = {}
+        self._prepared_replays: dict[str, ReplaySettings] = {}
         self._structure_due = self._topics_due = 0.0
         self.refresh()
 
-    def show(self, source: Source) -> None:
-        """Shows something else from now on: all tabs begin anew."""
+    def set_source(self, source: Source) -> None:
+        """Show another source; all clients start from scratch."""
         self.source = source
         self.scene = Scene(source.buffer, ages=source.mode == "live")
         self.origin = time.time_ns()
@@ -86,18 +87,18 @@ class Stage:
         self.refresh()
         self.edition += 1
 
-    def entitle(self, title: str) -> None:
-        """Calls what is shown otherwise."""
+    def set_title(self, title: str) -> None:
+        """Change the title of the page."""
         self.source.title = title
         self.edition += 1
 
     @property
     def can_publish(self) -> bool:
-        """Whether joint states can be sent."""
+        """Whether joint states can be published."""
         return self.source.connection is not None
 
     def refresh(self) -> None:
-        """Takes in what has changed, now and then."""
+        """Follow changes of the source, as often as is useful."""
         now = time.monotonic()
         if now >= self._structure_due:
             self.scene.refresh()
@@ -112,26 +113,27 @@ class Stage:
 
     @property
     def span(self) -> tuple[int, int] | None:
-        """From when until when there is something to be seen, in nanoseconds; None while there is nothing."""
+        """The first and the last stamp in nanoseconds; None while there is no data."""
         return self.source.span or self.scene.span
 
-    def relative_span(self) -> list[int] | None:
-        """From when until when there are dynamic transforms, relative to the origin."""
-        return None if self.span is None else [end - self.origin for end in self.span]
+    def relative_span(self) -> tuple[int, int] | None:
+        """Return the first and the last stamp relative to the origin."""
+        span = self.span
+        return None if span is None else (span[0] - self.origin, span[1] - self.origin)
 
-    def open(self, topic: str) -> Messages | None:
-        """The messages of a topic, which all tabs share; None while there is none of that name."""
+    def open(self, topic: str) -> TopicMessages | None:
+        """Return the messages of a topic, which all clients share; None if the topic does not exist."""
         shared = self._open.get(topic)
         if shared is None:
             messages = self.source.open(topic)
             if messages is None:
                 return None
-            shared = self._open[topic] = _Shared(messages)
+            shared = self._open[topic] = _SharedMessages(messages)
         shared.users += 1
         return shared.messages
 
     def release(self, topic: str) -> None:
-        """Gives back what `open` gave."""
+        """Release what `open` returned."""
         shared = self._open[topic]
         shared.users -= 1
         if shared.users == 0:
@@ -139,8 +141,8 @@ class Stage:
             shared.messages.close()
 
     @contextmanager
-    def opened(self, topics: Iterable[str]) -> Iterator[dict[str, Messages]]:
-        """The messages of those of the topics that are there, while one needs them."""
+    def opened(self, topics: Iterable[str]) -> Iterator[dict[str, TopicMessages]]:
+        """Open the messages of those topics that exist, and release them at the end."""
         found = {topic: messages for topic in dict.fromkeys(topics) if (messages := self.open(topic)) is not None}
         try:
             yield found
@@ -149,7 +151,7 @@ class Stage:
                 self.release(topic)
 
     def close(self) -> None:
-        """Ends what is still at work for tabs that have gone."""
+        """Stop all work and release what is still open for disconnected clients."""
         for topic in list(self._open):
             self._open.pop(topic).messages.close()
         self.findings.close()
@@ -157,61 +159,64 @@ class Stage:
         self.descriptions.close()
 
     def joint_publisher(self, robot: Robot) -> JointPublisher:
-        """Who sends the positions of a robot's joints.
+        """Return a publisher of the positions of a robot's joints.
 
         Raises:
-            ViewerError: There is no ROS graph to send them to.
-            WireError: DDS refuses.
+            ViewerError: The source is not the ROS graph.
+            WireError: DDS rejects the publisher.
         """
         if self.source.connection is None:
-            raise ViewerError("only a live viewer sends joint states", hint="Start it by `coframe view live`.")
+            raise ViewerError(
+                "joint states can only be published on a live ROS graph",
+                hint="Start the viewer with `coframe view live`.",
+            )
         return JointPublisher(self.source.connection, robot, self._joint_states)
 
-    def announce_replay(self, looks: ReplayLooks) -> str:
-        """Notes how a replay is to look; the name under which it is asked for then."""
-        name = secrets.token_urlsafe(12)
-        self._looks[name] = looks
-        while len(self._looks) > _MOST_LOOKS:
-            del self._looks[next(iter(self._looks))]
-        return name
+    def prepare_replay(self, settings: ReplaySettings) -> str:
+        """Store the settings of a replay; return the token with which it is requested."""
+        token = secrets.token_urlsafe(12)
+        self._prepared_replays[token] = settings
+        while len(self._prepared_replays) > _MAX_PREPARED_REPLAYS:
+            del self._prepared_replays[next(iter(self._prepared_replays))]
+        return token
 
-    def replay_request(self, told: Mapping[str, str]) -> ReplayRequest:
-        """What is to be replayed, from a query; by default all that there is.
+    def replay_request(self, query: Mapping[str, str]) -> ReplayRequest:
+        """Return the request for a replay in a URL query; by default everything is replayed.
 
         Raises:
-            ViewerError: It is nothing that can be.
+            ViewerError: The query is invalid.
         """
         span = self.span
         if span is None:
-            raise ViewerError("there are no moving frames to be replayed yet")
+            raise ViewerError("there are no moving frames to replay yet")
         try:
-            first = round(float(told["from"])) + self.origin if "from" in told else span[0]
-            last = round(float(told["to"])) + self.origin if "to" in told else span[1]
-            rate = float(told.get("rate", 30.0))
+            first = round(float(query["from"])) + self.origin if "from" in query else span[0]
+            last = round(float(query["to"])) + self.origin if "to" in query else span[1]
+            rate = float(query.get("rate", 30.0))
         except (ValueError, OverflowError):
-            raise ViewerError("a replay's from, to and rate are numbers") from None
-        looks = self._looks.get(told["looks"]) if "looks" in told else NO_LOOKS
-        if looks is None:
-            raise ViewerError("it is forgotten by now what was to be replayed", hint="Save the replay again.")
-        fixed = told.get("fixed") or self.fixed or self.scene.structure.largest
+            raise ViewerError("from, to and rate of a replay must be numbers") from None
+        settings = self._prepared_replays.get(query["settings"]) if "settings" in query else DEFAULT_SETTINGS
+        if settings is None:
+            raise ViewerError("the settings of this replay are no longer available", hint="Save the replay again.")
+        fixed = query.get("fixed") or self.fixed or self.scene.structure.largest
         first, last = max(first, span[0]), min(last, span[1])
-        return ReplayRequest(first, last, rate, fixed, FRAME_TIMEOUT, self.source.title, self.origin, looks)
+        return ReplayRequest(first, last, rate, fixed, FRAME_TIMEOUT, self.source.title, self.origin, settings)
 
     def _choose_origin(self) -> None:
         span = self.span
-        if span is not None and abs(span[1] - self.origin) > _FARTHEST:
+        if span is not None and abs(span[1] - self.origin) > _MAX_OFFSET:
             self.origin = span[1]
 
 
 def _description_topics(rviz: RvizConfig | None) -> list[str]:
-    """The usual one, and those that a configuration names."""
+    """Return the usual topic and those that a configuration names."""
     named = [] if rviz is None else rviz.description_topics
     return list(dict.fromkeys([ROBOT_DESCRIPTION, *named]))
 
 
-class _Shared:
-    """The messages of a topic, and how many displays look at them."""
+class _SharedMessages:
+    """The messages of a topic, and the number of displays that use them."""
 
-    def __init__(self, messages: Messages) -> None:
+    def __init__(self, messages: TopicMessages) -> None:
         self.messages = messages
         self.users = 0

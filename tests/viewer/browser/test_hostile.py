@@ -131,7 +131,12 @@ def test_an_xml_bomb_is_a_sentence(domain_id, view, open_page):
         ros.buffer.set("map", "base", coframe.Transform(), static=True)
         publisher = describe(ros, BOMB.format(levels))
         page = open_page(view(ros).url).drawn()
-        page.wait(lambda: any("/robot_description tells of no robot" in text for text in page.texts("#toasts .toast")))
+        page.wait(
+            lambda: any(
+                "/robot_description contains no valid robot description" in text
+                for text in page.texts("#toasts .toast")
+            )
+        )
         good = find("std_msgs/msg/String")(data='<robot name="good"><link name="base"/></robot>')
         publisher.publish(good)
         page.until("Object.values(coframe.displays).some((one) => one.robot === 'good')")

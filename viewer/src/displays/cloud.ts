@@ -2,12 +2,12 @@
 
 import * as THREE from "three";
 import { displayed } from "../frames";
-import type { Cloud, SubscribeOptions } from "../protocol";
+import type { Cloud, DisplayOptions } from "../protocol";
 import { MessageDisplay } from "./display";
 import type { OptionSpec } from "./options";
 
 const TRANSFORMERS = ["Intensity", "AxisColor", "RGB8", "FlatColor", "Distance"] as const;
-const MODES: Record<string, SubscribeOptions["color_by"]> = {
+const MODES: Record<string, DisplayOptions["color_by"]> = {
   Intensity: "intensity",
   AxisColor: "axis",
   RGB8: "rgb",
@@ -33,7 +33,7 @@ export function cloudSpecs(size: number, colourBy: (typeof TRANSFORMERS)[number]
 }
 
 export class CloudDisplay extends MessageDisplay<Cloud> {
-  override subscription(): SubscribeOptions {
+  override subscription(): DisplayOptions {
     return {
       color_by: MODES[this.options.choice("Color Transformer")] ?? "flat",
       axis: this.options.choice("Axis").toLowerCase() as "x" | "y" | "z",

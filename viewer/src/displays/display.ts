@@ -3,7 +3,7 @@
 import * as THREE from "three";
 import type { Model } from "../model";
 import type { Placement } from "../placement";
-import type { DisplayMessage, DisplayPose, JsonObject, SubscribeOptions, Tick } from "../protocol";
+import type { DisplayMessage, DisplayPose, JsonObject, DisplayOptions, Tick } from "../protocol";
 import type { Palette } from "../theme";
 import { Options, type OptionSpec } from "./options";
 
@@ -86,7 +86,7 @@ export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> 
   private origin: readonly number[] = [0, 0, 0];
   protected readonly drawn = new Map<number, { object: THREE.Object3D; message: M }>();
 
-  subscription(): SubscribeOptions {
+  subscription(): DisplayOptions {
     return {};
   }
 

@@ -2,7 +2,7 @@
 
 import * as THREE from "three";
 import { Meshes } from "../meshes";
-import type { DisplayMessage, DisplayStatus, Robot, RvizConfig, RvizDisplay, SubscribeOptions, Topic } from "../protocol";
+import type { DisplayMessage, DisplayStatus, Robot, RvizConfiguration, RvizDisplay, DisplayOptions, Topic } from "../protocol";
 import { remember, remembered } from "../storage";
 import type { Theme } from "../theme";
 import type { View } from "../view";
@@ -105,7 +105,7 @@ export class Displays {
   }
 
   /** Replaces all displays by a file's. */
-  apply(rviz: RvizConfig): void {
+  apply(rviz: RvizConfiguration): void {
     this.automatic = false;
     for (const display of this.list) this.discard(display);
     this.list = [];
@@ -120,14 +120,14 @@ export class Displays {
   }
 
   /** What is asked for of topics that are shown. */
-  get shownTopics(): { topic: string; options: SubscribeOptions }[] {
+  get shownTopics(): { topic: string; options: DisplayOptions }[] {
     return this.list.flatMap((display) => {
       const { topic, enabled } = display.config;
       return display instanceof MessageDisplay && topic && enabled ? [{ topic, options: display.subscription() }] : [];
     });
   }
 
-  private start(rviz: RvizConfig | null): void {
+  private start(rviz: RvizConfiguration | null): void {
     if (this.started) return;
     this.started = true;
     const last = remembered<DisplayConfig[]>("displays", []);
@@ -202,7 +202,7 @@ export class Displays {
     this.subscriptions.set(display.id, JSON.stringify(options));
     display.clear();
     const { topic } = display.config;
-    this.model.send({ type: "subscribe", id: display.id, topic, display: kindName(display.config.class), options });
+    this.model.send({ type: "subscribe", id: display.id, topic, options });
   }
 
   private resubscribeIfNeeded(display: MessageDisplay): void {

@@ -5,7 +5,7 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import { materialsOf, type Meshes } from "../meshes";
-import { slice, type DisplayMessage, type MarkerItem, type Shapes } from "../protocol";
+import { slice, type DisplayMessage, type MarkerItem, type Shapes, type Vector } from "../protocol";
 import { arrowGeometry } from "./arrows";
 import { MessageDisplay, type Context, type DisplayConfig } from "./display";
 import type { OptionSpec } from "./options";
@@ -77,7 +77,7 @@ export class MarkersDisplay extends MessageDisplay<Shapes> {
     return group;
   }
 
-  private marker(item: MarkerItem, payload: Float32Array): THREE.Object3D | null {
+  private marker(item: DrawableMarker, payload: Float32Array): THREE.Object3D | null {
     const points = slice(payload, item.points, 3);
     const colours = slice(payload, item.colors, 4);
     switch (item.type) {
@@ -113,14 +113,14 @@ export class MarkersDisplay extends MessageDisplay<Shapes> {
     }
   }
 
-  private mesh(item: MarkerItem): THREE.Object3D {
+  private mesh(item: DrawableMarker): THREE.Object3D {
     const group = new THREE.Group();
     group.scale.set(...item.scale);
     if (!item.mesh) {
       if (item.mesh_problem) this.status = { state: "error", text: item.mesh_problem };
       return group;
     }
-    this.meshes.load(item.mesh, item.mesh_name ?? item.mesh).then(
+    this.meshes.load(item.mesh, item.mesh).then(
       ({ object, coloured }) => {
         if (!(coloured && item.use_materials !== false))
           object.traverse((part) => {
@@ -138,7 +138,10 @@ export class MarkersDisplay extends MessageDisplay<Shapes> {
   }
 }
 
-function finite(item: MarkerItem): boolean {
+/** A marker whose pose and scale are finite. */
+type DrawableMarker = Omit<MarkerItem, "pose" | "scale"> & { pose: number[]; scale: Vector };
+
+function finite(item: MarkerItem): item is DrawableMarker {
   return item.pose.length === 7 && item.pose.every(Number.isFinite) && item.scale.every(Number.isFinite);
 }
 
@@ -146,11 +149,11 @@ function colourOf([r, g, b]: readonly (number | null)[]): THREE.Color {
   return new THREE.Color().setRGB(r ?? 1, g ?? 1, b ?? 1, THREE.SRGBColorSpace);
 }
 
-function alphaOf(item: MarkerItem): number {
+function alphaOf(item: DrawableMarker): number {
   return Math.max(0, Math.min(1, item.rgba[3] ?? 1));
 }
 
-function material(item: MarkerItem): THREE.MeshLambertMaterial {
+function material(item: DrawableMarker): THREE.MeshLambertMaterial {
   const alpha = alphaOf(item);
   return new THREE.MeshLambertMaterial({
     color: colourOf(item.rgba),
@@ -160,14 +163,14 @@ function material(item: MarkerItem): THREE.MeshLambertMaterial {
   });
 }
 
-function solid(geometry: THREE.BufferGeometry, item: MarkerItem): THREE.Mesh {
+function solid(geometry: THREE.BufferGeometry, item: DrawableMarker): THREE.Mesh {
   const mesh = new THREE.Mesh(geometry, material(item));
   mesh.scale.set(...item.scale);
   return mesh;
 }
 
 /** By pose and scale (length, width, height), or from the first point to the second. */
-function arrow(item: MarkerItem, points: Float32Array): THREE.Object3D {
+function arrow(item: DrawableMarker, points: Float32Array): THREE.Object3D {
   const [x, y, z] = item.scale;
   if (points.length < 6) {
     const shape = { shaftLength: 0.77, shaftRadius: 0.5, headLength: 0.23, headRadius: 1 };
@@ -179,7 +182,7 @@ function arrow(item: MarkerItem, points: Float32Array): THREE.Object3D {
 }
 
 function arrowBetween(
-  item: MarkerItem,
+  item: DrawableMarker,
   points: Float32Array,
   shaftRadius: number,
   headRadius: number,
@@ -198,7 +201,7 @@ function arrowBetween(
   return group;
 }
 
-function arrowStrip(item: MarkerItem, points: Float32Array): THREE.Object3D {
+function arrowStrip(item: DrawableMarker, points: Float32Array): THREE.Object3D {
   const group = new THREE.Group();
   for (let i = 0; i + 6 <= points.length; i += 3)
     group.add(arrowBetween(item, points.subarray(i, i + 6), item.scale[0] / 2, item.scale[1] / 2, item.scale[2]));
@@ -213,7 +216,7 @@ function pairs(values: Float32Array, width: number): Float32Array {
   return out;
 }
 
-function lines(item: MarkerItem, points: Float32Array, colours: Float32Array): THREE.Object3D {
+function lines(item: DrawableMarker, points: Float32Array, colours: Float32Array): THREE.Object3D {
   const group = new THREE.Group();
   if (points.length < 6 || !points.every(Number.isFinite)) return group;
   const even = points.subarray(0, Math.floor(points.length / 6) * 6);
@@ -246,7 +249,7 @@ function linear(colours: Float32Array, count: number): Float32Array {
 
 function many(
   geometry: THREE.BufferGeometry,
-  item: MarkerItem,
+  item: DrawableMarker,
   points: Float32Array,
   colours: Float32Array,
 ): THREE.Object3D {
@@ -266,7 +269,7 @@ function many(
   return mesh;
 }
 
-function triangles(item: MarkerItem, points: Float32Array, colours: Float32Array): THREE.Object3D {
+function triangles(item: DrawableMarker, points: Float32Array, colours: Float32Array): THREE.Object3D {
   const count = Math.floor(points.length / 9) * 3;
   const geometry = new THREE.BufferGeometry();
   const scaled = points.slice(0, count * 3).map((value, i) => value * (item.scale[i % 3] as number));
@@ -283,7 +286,7 @@ function triangles(item: MarkerItem, points: Float32Array, colours: Float32Array
 }
 
 /** Text that faces the viewer, scale.z metres high. */
-function text(item: MarkerItem): THREE.Object3D | null {
+function text(item: DrawableMarker): THREE.Object3D | null {
   const lines = item.text.slice(0, MOST_TEXT).split("\n");
   const canvas = document.createElement("canvas");
   const context = canvas.getContext("2d");

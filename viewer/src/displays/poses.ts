@@ -1,7 +1,7 @@
 /** Pose, PoseArray and Odometry: arrows or axes, the newest bright and its trail behind it. */
 
 import * as THREE from "three";
-import { slice, type Shapes, type SubscribeOptions } from "../protocol";
+import { slice, type Shapes, type DisplayOptions } from "../protocol";
 import { arrowGeometry, instances, poseAxes } from "./arrows";
 import { COVARIANCE_SPECS, covarianceShapes } from "./covariance";
 import { MessageDisplay } from "./display";
@@ -28,8 +28,8 @@ export const ODOMETRY_SPECS: readonly OptionSpec[] = [
 ];
 
 export class PosesDisplay extends MessageDisplay<Shapes> {
-  override subscription(): SubscribeOptions {
-    return this.specs === ODOMETRY_SPECS ? { trail: Math.round(this.options.number("Keep")) } : {};
+  override subscription(): DisplayOptions {
+    return this.specs === ODOMETRY_SPECS ? { keep: Math.round(this.options.number("Keep")) } : {};
   }
 
   protected build({ head, payload }: Shapes): THREE.Object3D {

@@ -14,7 +14,7 @@ export class RangeDisplay extends MessageDisplay<Shapes> {
   protected build({ head }: Shapes): THREE.Object3D {
     const group = new THREE.Group();
     if (head.kind !== "range" || head.range === null || !(head.range > 0)) return group;
-    const half = Math.max(0.005, Math.min(1.5, head.field_of_view / 2));
+    const half = Math.max(0.005, Math.min(1.5, (head.field_of_view ?? 0) / 2));
     const radius = head.range * Math.tan(half);
     const cone = new THREE.ConeGeometry(radius, head.range, 32, 1, true);
     // The tip at the sensor, opening along +x.

@@ -1,1 +1,1 @@
-"""Connected browser tabs."""
+"""The connected browser tabs: what each of them shows, requests and receives."""

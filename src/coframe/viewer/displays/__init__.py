@@ -1,7 +1,7 @@
-"""Messages as what the page can draw: one family a file.
+"""Displays: messages converted to drawings, one module per family of message types.
 
-Each drawing is told in a frame of its message and at the message's own stamp; where that frame was then is the viewer's
-to find out (`coframe.viewer.displays.display`).
+A drawing is expressed in a frame of its message at the message's own stamp. `coframe.viewer.displays.display` looks up
+the pose of that frame in the fixed frame.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from coframe.viewer.displays.shapes import draw_camera, draw_path, draw_pose, dr
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["DISPLAYS", "DRAWN_BY", "CannotDrawError", "Drawing", "Options"]
+__all__ = ["DRAW_FUNCTIONS", "CannotDrawError", "Drawing", "Options"]
 
-DRAWN_BY: dict[str, Callable[[Any, Options], Drawing]] = {
+DRAW_FUNCTIONS: dict[str, Callable[[Any, Options], Drawing]] = {
     "geometry_msgs/msg/PoseArray": draw_pose_array,
     "geometry_msgs/msg/PoseStamped": draw_pose,
     "geometry_msgs/msg/PoseWithCovarianceStamped": draw_pose,
@@ -32,22 +32,4 @@ DRAWN_BY: dict[str, Callable[[Any, Options], Drawing]] = {
     "sensor_msgs/msg/PointCloud2": draw_cloud,
     "sensor_msgs/msg/Range": draw_range,
 }
-"""By type: what makes a drawing of each message alone."""
-
-DISPLAYS: dict[str, str] = {
-    "geometry_msgs/msg/PoseArray": "PoseArray",
-    "geometry_msgs/msg/PoseStamped": "Pose",
-    "geometry_msgs/msg/PoseWithCovarianceStamped": "PoseWithCovariance",
-    "nav_msgs/msg/OccupancyGrid": "Map",
-    "nav_msgs/msg/Odometry": "Odometry",
-    "nav_msgs/msg/Path": "Path",
-    "sensor_msgs/msg/CameraInfo": "Camera",
-    "sensor_msgs/msg/CompressedImage": "Image",
-    "sensor_msgs/msg/Image": "Image",
-    "sensor_msgs/msg/LaserScan": "LaserScan",
-    "sensor_msgs/msg/PointCloud2": "PointCloud2",
-    "sensor_msgs/msg/Range": "Range",
-    "visualization_msgs/msg/Marker": "Marker",
-    "visualization_msgs/msg/MarkerArray": "MarkerArray",
-}
-"""By type: the display that RViz has for it."""
+"""The function that draws a message, for types whose messages are drawn independently of each other."""

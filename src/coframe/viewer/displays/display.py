@@ -1,7 +1,7 @@
-"""A subscribed display of a tab: the message that it shows, drawn, and where that is in the fixed frame.
+"""A display to which a client has subscribed: the drawing of one message, and its pose in the fixed frame.
 
-A message is shown once the transform of its own time is there: mostly the message comes a little before that. It waits
-for a moment, and if that is in vain, the display says why.
+Messages usually arrive a little before the transforms at their stamps. A message is therefore shown when its transform
+is available; after a short wait without success, the status of the display gives the reason.
 """
 
 from __future__ import annotations
@@ -10,13 +10,14 @@ import itertools
 import logging
 import time
 from collections import deque
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from coframe.errors import ConnectivityException, ExtrapolationException, LookupException, TransformException
-from coframe.viewer.displays.renderers import artist_for
-from coframe.viewer.protocol import binary
+from coframe.time import SECOND
+from coframe.viewer.displays.renderers import make_renderer
+from coframe.viewer.protocol.encoding import EntryPose, set_owner
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor, Future
@@ -25,33 +26,33 @@ if TYPE_CHECKING:
 
     from coframe import Buffer
     from coframe.viewer.displays import Drawing, Options
-    from coframe.viewer.displays.renderers import Artist, MeshUrl
-    from coframe.viewer.sources.messages import Messages, Sighting
+    from coframe.viewer.displays.renderers import MeshUrl, Renderer
+    from coframe.viewer.protocol.messages import DisplayState
+    from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
 __all__ = ["Display", "Status"]
 
 _logger = logging.getLogger("coframe.viewer")
 
 # How long a message waits for its transform, in seconds.
-PATIENCE = 1.0
+TRANSFORM_TIMEOUT = 1.0
 _HOLD = "15s"
-_MOST_ENTRIES = 1000
-_MOST_LAYERS = 200
-_NS = 1_000_000_000
-_ANYWHERE = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
+_MAX_ENTRIES = 1000
+_MAX_LAYERS = 200
+_IDENTITY = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 
 
 class Status(NamedTuple):
-    """What became of a display."""
+    """The status of a display."""
 
-    state: Literal["ok", "waiting", "error"]
+    state: DisplayState
     text: str = ""
 
 
-class _Drawn(NamedTuple):
-    """A message with its drawings, or why there are none."""
+class _Rendered(NamedTuple):
+    """A message with its drawings, or with the reason why there are none."""
 
-    sighting: Sighting
+    message: StampedMessage
     drawings: list[Drawing] | str
 
 
@@ -65,16 +66,16 @@ class _Entry:
         self.sent = False
         self.pose: NDArray[np.float64] | None = None
         self.error: TransformException | None = None
-        self._fixed: str | None = None  # what the pose is told in
+        self._fixed: str | None = None  # The fixed frame of the pose.
 
     def place(self, buffer: Buffer, fixed: str, at: int) -> bool:
-        """Looks up where it is, unless that is known; whether it is known now."""
+        """Look up the pose unless it is known; return whether it is known now."""
         drawing = self.drawing
         if self._fixed == fixed and self.pose is not None and not drawing.locked:
             return True
         self.pose, self._fixed = None, fixed
         if not drawing.placed:
-            self.pose = _ANYWHERE
+            self.pose = _IDENTITY
             return True
         try:
             if drawing.locked:
@@ -89,7 +90,7 @@ class _Entry:
 
     @property
     def is_hopeless(self) -> bool:
-        """Whether waiting will hardly help: there is no such frame, no way to it, or that time is forgotten."""
+        """Whether waiting is unlikely to help: a frame or a connection is missing, or the data was already dropped."""
         error = self.error
         if isinstance(error, ExtrapolationException) and error.requested is not None and error.earliest is not None:
             return error.requested < error.earliest
@@ -97,13 +98,13 @@ class _Entry:
 
 
 class _Layer(NamedTuple):
-    """What is drawn of one message."""
+    """The drawings of one message."""
 
     time: int
     entries: list[_Entry]
 
     def place(self, buffer: Buffer, fixed: str, at: int) -> TransformException | None:
-        """Looks up where all of it is; None, or what is missing for some of it."""
+        """Look up the poses of all drawings; return the first error."""
         missing = [entry.error for entry in self.entries if not entry.place(buffer, fixed, at)]
         return missing[0] if missing else None
 
@@ -113,34 +114,41 @@ class _Layer(NamedTuple):
 
 
 class Display:
-    """What a tab has subscribed to; used by the server's thread.
+    """A subscribed display; used by the server's thread.
 
     Args:
-        number: The page's number for it.
-        messages: The topic's.
-        options: How it draws.
-        mesh_url: The address of a mesh that a marker names, or why there is none.
-        executor: Where drawings are made, so that large messages keep nobody waiting.
+        number: The id that the page chose.
+        messages: The messages of the topic.
+        options: How the display draws.
+        mesh_url: Return the URL of a mesh that a marker names, or the reason why there is none.
+        executor: Where drawings are made, so that large messages do not block the server.
     """
 
     def __init__(
-        self, number: int, messages: Messages, options: Options, mesh_url: MeshUrl, executor: Executor
+        self, number: int, messages: TopicMessages, options: Options, mesh_url: MeshUrl, executor: Executor
     ) -> None:
         self.number = number
         self.messages = messages
         self.status = Status("waiting", "no message yet")
         self._options = options
         self._executor = executor
-        self._artist: Artist = artist_for(messages, options, mesh_url)
+        self._renderer: Renderer = make_renderer(messages, options, mesh_url)
         self._sequences = itertools.count(1)
-        self._asked: int | None = None  # the key of the last message that was drawn
-        self._work: Future[_Drawn | None] | None = None
+        self._last_key: int | None = None  # The key of the message that was drawn last.
+        self._work: Future[_Rendered | None] | None = None
         self._incoming: _Layer | None = None
         self._incoming_since = 0.0
-        self._layers: deque[_Layer] = deque(maxlen=_MOST_LAYERS)
+        self._layers: deque[_Layer] = deque(maxlen=_MAX_LAYERS)
 
-    def advance(self, buffer: Buffer, fixed: str, at: int, now: int) -> None:
-        """Goes on to what is to be seen at a time in nanoseconds; 0 is the newest, and lifetimes end by ``now``."""
+    def update(self, buffer: Buffer, fixed: str, at: int, now: int) -> None:
+        """Continue to draw what is visible at a time.
+
+        Args:
+            buffer: The transforms.
+            fixed: The fixed frame.
+            at: The time in nanoseconds; 0 selects the newest message.
+            now: The time in nanoseconds at which lifetimes end if `at` is 0.
+        """
         self._collect()
         if self._work is None and self._incoming is None:
             self._start_drawing(at, at or now)
@@ -150,27 +158,27 @@ class Display:
             self._place_again(buffer, fixed, at)
 
     def take_unsent(self) -> list[tuple[int, bytearray]]:
-        """The drawings that the page has not got yet, with their numbers, which are given away."""
+        """Return the drawings that the client does not have, with their sequence numbers, and release them."""
         drawings = []
         for entry in self._entries():
             if not entry.sent:
                 entry.sent = True
                 data = entry.drawing.take_data()
-                binary.stamp_drawing(data, self.number, entry.sequence)
+                set_owner(data, self.number, entry.sequence)
                 drawings.append((entry.sequence, data))
         return drawings
 
-    def poses(self) -> list[binary.EntryPose]:
-        """Where everything is that is to be seen."""
-        return [binary.EntryPose(self.number, entry.sequence, entry.pose) for entry in self._entries()]
+    def poses(self) -> list[EntryPose]:
+        """Return the poses of all visible drawings."""
+        return [EntryPose(self.number, entry.sequence, entry.pose) for entry in self._entries()]
 
     def stamps(self) -> list[int | None]:
-        """When each of those was where it is, in nanoseconds; None for what moves on, or was told without a stamp."""
+        """Return the stamps of these poses in nanoseconds; None for drawings without a stamp or that move on."""
         drawings = [entry.drawing for entry in self._entries()]
         return [None if drawing.locked or drawing.stamp == 0 else drawing.stamp for drawing in drawings]
 
     def close(self) -> None:
-        """Ends it; a drawing that is being made is thrown away."""
+        """Stop drawing."""
         if self._work is not None:
             self._work.cancel()
 
@@ -179,44 +187,46 @@ class Display:
 
     def _start_drawing(self, at: int, now: int) -> None:
         if self.messages.pending():
-            self._work = self._executor.submit(self._look_and_draw, at, now)
+            self._work = self._executor.submit(self._find_and_render, at, now)
             return
-        sighting = self.messages.at(at)
-        if sighting is None:
+        message = self.messages.at(at)
+        if message is None:
             self._show_nothing(at)
-        elif self._is_news(sighting, now):
-            self._work = self._executor.submit(_draw, self._artist, sighting, now)
+        elif self._has_changed(message, now):
+            self._work = self._executor.submit(_render, self._renderer, message, now)
 
-    def _look_and_draw(self, at: int, now: int) -> _Drawn | None:
-        """Where looking for the message takes a while, too; None where there is nothing new."""
-        sighting = self.messages.at(at)
-        return _draw(self._artist, sighting, now) if sighting is not None and self._is_news(sighting, now) else None
+    def _find_and_render(self, at: int, now: int) -> _Rendered | None:
+        """Find the message outside the server's thread, because that takes a while; return None if nothing changed."""
+        message = self.messages.at(at)
+        if message is None or not self._has_changed(message, now):
+            return None
+        return _render(self._renderer, message, now)
 
-    def _is_news(self, sighting: Sighting, now: int) -> bool:
-        return self._asked != sighting.key or self._artist.fades(now)
+    def _has_changed(self, message: StampedMessage, now: int) -> bool:
+        return self._last_key != message.key or self._renderer.has_expired(now)
 
     def _show_nothing(self, at: int) -> None:
         self._layers.clear()
-        self._asked = None
-        self.status = Status("waiting", "no message yet" if at == 0 else "no message so early")
+        self._last_key = None
+        self.status = Status("waiting", "no message yet" if at == 0 else "no message before this time")
 
     def _collect(self) -> None:
         if self._work is None or not self._work.done():
             return
-        drawn, self._work = self._work.result(), None
-        if drawn is None:
+        rendered, self._work = self._work.result(), None
+        if rendered is None:
             return
-        self._asked = drawn.sighting.key
-        if isinstance(drawn.drawings, str):
-            self.status = Status("error", drawn.drawings)
+        self._last_key = rendered.message.key
+        if isinstance(rendered.drawings, str):
+            self.status = Status("error", rendered.drawings)
             return
-        # Groups of markers that have not changed are there already.
+        # Groups of markers that have not changed return the same drawing, which the client already has.
         known = {id(entry.drawing): entry for entry in self._entries()}
         entries = [
             known.get(id(drawing)) or _Entry(drawing, next(self._sequences), self.messages.frame(drawing.frame))
-            for drawing in drawn.drawings[:_MOST_ENTRIES]
+            for drawing in rendered.drawings[:_MAX_ENTRIES]
         ]
-        self._incoming = _Layer(drawn.sighting.time, entries)
+        self._incoming = _Layer(rendered.message.time, entries)
         self._incoming_since = time.monotonic()
 
     def _place_incoming(self, layer: _Layer, buffer: Buffer, fixed: str, at: int) -> None:
@@ -226,36 +236,36 @@ class Display:
             self.status = Status("ok")
             return
         waited = time.monotonic() - self._incoming_since
-        if at == 0 and waited < PATIENCE and not layer.is_hopeless:
+        if at == 0 and waited < TRANSFORM_TIMEOUT and not layer.is_hopeless:
             return
         self._show(_Layer(layer.time, [entry for entry in layer.entries if entry.pose is not None]))
-        self.status = Status("error", _sentence(missing))
+        self.status = Status("error", _with_hint(missing))
 
     def _place_again(self, buffer: Buffer, fixed: str, at: int) -> None:
-        """The fixed frame may be another one by now."""
+        """Look up the poses again, because the fixed frame may have changed."""
         missing = [error for layer in self._layers if (error := layer.place(buffer, fixed, at)) is not None]
         if missing:
-            self.status = Status("error", _sentence(missing[0]))
+            self.status = Status("error", _with_hint(missing[0]))
 
     def _show(self, layer: _Layer) -> None:
         self._incoming = None
         if self._layers and (layer.time < self._layers[-1].time or self._options.decay == 0.0):
             self._layers.clear()
-        while self._layers and self._layers[0].time < layer.time - self._options.decay * _NS:
+        while self._layers and self._layers[0].time < layer.time - self._options.decay * SECOND:
             self._layers.popleft()
         self._layers.append(layer)
 
 
-def _draw(artist: Artist, sighting: Sighting, now: int) -> _Drawn:
-    """The drawings, or why there are none: a message may hold anything."""
+def _render(renderer: Renderer, message: StampedMessage, now: int) -> _Rendered:
+    """Return the drawings, or the reason why there are none: a message may contain anything."""
     try:
-        return _Drawn(sighting, artist.draw(sighting, now))
+        return _Rendered(message, renderer.draw(message, now))
     except ValueError as error:
-        return _Drawn(sighting, f"the message cannot be drawn: {error}")
-    except Exception as error:  # whatever a message makes of us, the display tells
+        return _Rendered(message, f"the message cannot be drawn: {error}")
+    except Exception as error:  # An unexpected error of one message must not stop the viewer.
         _logger.exception("a message could not be drawn")
-        return _Drawn(sighting, f"the message cannot be drawn: {type(error).__name__}: {error}")
+        return _Rendered(message, f"the message cannot be drawn: {type(error).__name__}: {error}")
 
 
-def _sentence(error: TransformException) -> str:
+def _with_hint(error: TransformException) -> str:
     return f"{error} {error.hint}".strip()

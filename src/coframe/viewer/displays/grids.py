@@ -8,17 +8,17 @@ import numpy as np
 
 from coframe.time import stamp_ns
 from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options, pose_row
-from coframe.viewer.protocol import binary
+from coframe.viewer.protocol.encoding import encode_grid
 
 __all__ = ["draw_grid"]
 
 
 def draw_grid(grid: Any, _options: Options) -> Drawing:
-    """An OccupancyGrid: -1 is unknown, 0 free, 100 occupied."""
+    """Draw an OccupancyGrid: -1 is unknown, 0 free, 100 occupied."""
     info = grid.info
     cells = np.asarray(grid.data, dtype=np.int8)
     if cells.size != info.width * info.height:
-        raise CannotDrawError(f"a grid of {info.width} x {info.height} cells comes with {cells.size}")
+        raise CannotDrawError(f"a grid of {info.width} x {info.height} cells has data for {cells.size} cells")
     corner = pose_row(info.origin)
-    data = binary.grid(float(info.resolution), corner, cells.reshape(info.height, info.width))
+    data = encode_grid(float(info.resolution), corner, cells.reshape(info.height, info.width))
     return Drawing(grid.header.frame_id, stamp_ns(grid.header.stamp), data)

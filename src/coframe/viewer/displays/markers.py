@@ -1,4 +1,4 @@
-"""Markers: a set that messages add to and take from, drawn in groups of one frame and one time."""
+"""Markers: a set that messages add to and remove from, drawn in groups that share a frame and a stamp."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from coframe.time import stamp_ns
+from coframe.time import SECOND, stamp_ns
 from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options, finite, pose_row, rgba_of
-from coframe.viewer.protocol import binary
+from coframe.viewer.protocol.encoding import encode_shapes
+from coframe.viewer.protocol.messages import MarkerItem, MarkersShape
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -16,12 +17,12 @@ if TYPE_CHECKING:
 __all__ = ["MarkerSet"]
 
 _ADD, _DELETE, _DELETE_ALL = 0, 2, 3
-MOST_MARKERS = 20_000
-MOST_NUMBERS = 10_000_000
+MAX_MARKERS = 20_000
+MAX_NUMBERS = 10_000_000
 
 
 class _Group(NamedTuple):
-    """Where markers are told, and when."""
+    """The frame and the stamp of markers that are drawn together."""
 
     frame: str
     stamp: int
@@ -31,14 +32,14 @@ class _Group(NamedTuple):
 class _Shown(NamedTuple):
     marker: Any
     group: _Group
-    ends: int | None  # nanoseconds of the timeline
+    ends: int | None  # Nanoseconds on the timeline.
 
 
 class MarkerSet:
-    """The markers that are to be seen after some messages.
+    """The markers that are visible after a sequence of messages.
 
     Args:
-        mesh_url: The address of a mesh that a marker names, or why there is none.
+        mesh_url: Return the URL of a mesh that a marker names, or the reason why there is none.
     """
 
     def __init__(self, mesh_url: Callable[[str], tuple[str | None, str | None]]) -> None:
@@ -47,11 +48,11 @@ class MarkerSet:
         self._drawn: dict[_Group, tuple[tuple[int, ...], Drawing]] = {}
 
     def clear(self) -> None:
-        """Forgets all of them."""
+        """Remove all markers."""
         self._shown.clear()
 
-    def take(self, message: Any, time: int) -> None:
-        """Does what a Marker or MarkerArray says that came at a time."""
+    def apply(self, message: Any, time: int) -> None:
+        """Execute the actions of a Marker or MarkerArray received at a time in nanoseconds."""
         for marker in getattr(message, "markers", None) or ([message] if hasattr(message, "action") else []):
             key = (marker.ns, marker.id)
             if marker.action == _DELETE_ALL:
@@ -59,22 +60,22 @@ class MarkerSet:
             elif marker.action == _DELETE:
                 self._shown.pop(key, None)
             elif marker.action == _ADD:
-                if key not in self._shown and len(self._shown) >= MOST_MARKERS:
-                    raise CannotDrawError(f"more than {MOST_MARKERS} markers: the viewer draws no more")
+                if key not in self._shown and len(self._shown) >= MAX_MARKERS:
+                    raise CannotDrawError(f"too many markers: the viewer draws at most {MAX_MARKERS}")
                 self._shown[key] = _shown(marker, time)
 
-    def expires(self, time: int) -> bool:
-        """Whether a lifetime is over."""
+    def has_expired(self, time: int) -> bool:
+        """Return whether the lifetime of a marker is over."""
         return any(shown.ends is not None and shown.ends < time for shown in list(self._shown.values()))
 
     def expire(self, time: int) -> None:
-        """Forgets those whose lifetime is over."""
+        """Remove markers whose lifetime is over."""
         over = [key for key, shown in self._shown.items() if shown.ends is not None and shown.ends < time]
         for key in over:
             del self._shown[key]
 
     def draw(self, options: Options) -> list[Drawing]:
-        """A drawing a group; groups that have not changed keep theirs."""
+        """Return one drawing per group; groups that have not changed return the same drawing as before."""
         groups: dict[_Group, list[Any]] = {}
         for shown in self._shown.values():
             groups.setdefault(shown.group, []).append(shown.marker)
@@ -95,48 +96,48 @@ class MarkerSet:
         items = []
         for marker in markers:
             points = [(point.x, point.y, point.z) for point in marker.points]
-            colours = [(colour.r, colour.g, colour.b, colour.a) for colour in marker.colors]
-            item, size = _item(marker, points, colours, size)
-            if size > MOST_NUMBERS:
-                raise CannotDrawError(f"markers with more than {MOST_NUMBERS} numbers: the viewer draws no more")
-            numbers += [np.array(points, np.float64).reshape(-1), np.array(colours, np.float64).reshape(-1)]
+            colors = [(color.r, color.g, color.b, color.a) for color in marker.colors]
+            item, size = _item(marker, points, colors, size)
+            if size > MAX_NUMBERS:
+                raise CannotDrawError(
+                    f"the points and colours of the markers have more than {MAX_NUMBERS} numbers, "
+                    "which is the viewer's limit"
+                )
+            numbers += [np.array(points, np.float64).reshape(-1), np.array(colors, np.float64).reshape(-1)]
             if marker.mesh_resource:
                 item["mesh"], item["mesh_problem"] = self._mesh_url(marker.mesh_resource)
             items.append(item)
-        with np.errstate(over="ignore"):
+        with np.errstate(over="ignore"):  # Values that are too large for float32 become infinite.
             payload = np.concatenate(numbers).astype(np.float32) if numbers else np.zeros(0, np.float32)
         stamp = group.stamp - options.origin
-        description = {"kind": "markers", "frame": group.frame, "stamp": stamp, "items": items}
-        return Drawing(group.frame, group.stamp, binary.shapes(description, payload), group.locked)
+        description = MarkersShape(kind="markers", frame=group.frame, stamp=stamp, items=items)
+        return Drawing(group.frame, group.stamp, encode_shapes(description, payload), group.locked)
 
 
 def _shown(marker: Any, time: int) -> _Shown:
-    lifetime = marker.lifetime.sec * 1_000_000_000 + marker.lifetime.nanosec
+    lifetime = marker.lifetime.sec * SECOND + marker.lifetime.nanosec
     locked = bool(marker.frame_locked)
-    # A locked one goes where its frame goes: when it was told matters no more.
+    # A locked marker moves with its frame, so its stamp does not matter and must not split groups.
     group = _Group(marker.header.frame_id, 0 if locked else stamp_ns(marker.header.stamp), locked)
     return _Shown(marker, group, time + lifetime if lifetime > 0 else None)
 
 
-def _item(marker: Any, points: Sequence[Any], colours: Sequence[Any], offset: int) -> tuple[dict[str, Any], int]:
-    """What is told of a marker whose numbers begin at `offset`, and where they end."""
-    colours_at = offset + 3 * len(points)
+def _item(marker: Any, points: Sequence[Any], colors: Sequence[Any], offset: int) -> tuple[MarkerItem, int]:
+    """Return the description of a marker whose numbers begin at `offset`, and where its numbers end."""
+    colors_offset = offset + 3 * len(points)
     scale = marker.scale
-    item = {
-        "ns": marker.ns,
-        "id": marker.id,
-        "type": marker.type,
-        "action": _ADD,
-        "frame": marker.header.frame_id,
-        "frame_locked": bool(marker.frame_locked),
-        "pose": [finite(value) for value in pose_row(marker.pose)],
-        "scale": [finite(value) for value in (scale.x, scale.y, scale.z)],
-        "rgba": rgba_of(marker.color),
-        "text": marker.text,
-        "use_materials": bool(marker.mesh_use_embedded_materials),
-        "mesh": None,
-        "mesh_problem": None,
-        "points": [offset, len(points)] if points else None,
-        "colors": [colours_at, len(colours)] if colours else None,
-    }
-    return item, colours_at + 4 * len(colours)
+    item = MarkerItem(
+        ns=marker.ns,
+        id=marker.id,
+        type=marker.type,
+        pose=[finite(value) for value in pose_row(marker.pose)],
+        scale=[finite(value) for value in (scale.x, scale.y, scale.z)],
+        rgba=rgba_of(marker.color),
+        text=marker.text,
+        use_materials=bool(marker.mesh_use_embedded_materials),
+        mesh=None,
+        mesh_problem=None,
+        points=(offset, len(points)) if points else None,
+        colors=(colors_offset, len(colors)) if colors else None,
+    )
+    return item, colors_offset + 4 * len(colors)

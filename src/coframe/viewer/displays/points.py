@@ -1,4 +1,4 @@
-"""Laser scans and point clouds as points with a number or a colour each."""
+"""Laser scans and point clouds: points with one number or one colour each."""
 
 from __future__ import annotations
 
@@ -9,8 +9,9 @@ import numpy as np
 from coframe.sensors import project_scan
 from coframe.sensors.layout import field_of, grid_of
 from coframe.time import stamp_ns
-from coframe.viewer.displays.drawing import MOST_POINTS, CannotDrawError, Drawing, Options
-from coframe.viewer.protocol import binary
+from coframe.viewer.displays.drawing import CannotDrawError, Drawing, Options
+from coframe.viewer.protocol.encoding import encode_cloud
+from coframe.viewer.protocol.messages import MAX_POINTS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,46 +20,46 @@ __all__ = ["draw_cloud", "draw_scan"]
 
 
 def draw_scan(scan: Any, options: Options) -> Drawing:
-    """A LaserScan: what its beams have hit."""
+    """Draw the end points of the beams of a LaserScan."""
     hits = project_scan(scan)
     points = hits.points.astype(np.float32)
     intensities = hits.intensities if options.color_by in {None, "intensity"} else None
     scalars = _scalars(points, options, intensities)
-    return Drawing(hits.frame, hits.stamp, binary.cloud(float(hits.stamp - options.origin), points, scalars, None))
+    return Drawing(hits.frame, hits.stamp, encode_cloud(float(hits.stamp - options.origin), points, scalars, None))
 
 
 def draw_cloud(cloud: Any, options: Options) -> Drawing:
-    """A PointCloud2; points without a place (NaN) are left out, and so many that the page can draw the rest."""
+    """Draw a PointCloud2, thinned to the number of points that the page can draw, without non-finite points."""
     stamp = stamp_ns(cloud.header.stamp)
     try:
         count = int(np.prod(grid_of(cloud)))
-        if count > MOST_POINTS:
-            raise CannotDrawError(f"a cloud of {count} points: the viewer draws up to {MOST_POINTS}")
+        if count > MAX_POINTS:
+            raise CannotDrawError(f"a cloud of {count} points is too large: the viewer draws at most {MAX_POINTS}")
         step = max(1, -(-count // options.most_points))
-        points = _places(cloud, step)
+        points = _positions(cloud, step)
         names = {field.name for field in cloud.fields}
-        seen = np.isfinite(points).all(axis=1)
-        dense = bool(seen.all())
-        points = points if dense else points[seen]
-        colours = None
+        valid = np.isfinite(points).all(axis=1)
+        dense = bool(valid.all())
+        points = points if dense else points[valid]
+        colors = None
         scalars = None
         name = next((name for name in ("rgb", "rgba") if name in names), None)
         if name is not None and options.color_by in {None, "rgb"}:
-            colours = _colours(field_of(cloud, name).reshape(-1)[::step], alpha=name == "rgba")
-            colours = colours if dense else colours[seen]
+            colors = _colors(field_of(cloud, name).reshape(-1)[::step], alpha=name == "rgba")
+            colors = colors if dense else colors[valid]
         else:
             intensities = None
             if options.color_by in {None, "intensity"}:
                 intensities = _intensities(cloud, names, step)
-                intensities = intensities if dense or intensities is None else intensities[seen]
+                intensities = intensities if dense or intensities is None else intensities[valid]
             scalars = _scalars(points, options, intensities)
     except ValueError as error:
         raise CannotDrawError(str(error)) from None
-    data = binary.cloud(float(stamp - options.origin), points, scalars, colours, step)
+    data = encode_cloud(float(stamp - options.origin), points, scalars, colors, step)
     return Drawing(cloud.header.frame_id, stamp, data)
 
 
-def _places(cloud: Any, step: int) -> NDArray[np.float32]:
+def _positions(cloud: Any, step: int) -> NDArray[np.float32]:
     columns = [field_of(cloud, name).reshape(-1)[::step] for name in "xyz"]
     points = np.empty((len(columns[0]), 3), np.float32)
     for axis, column in enumerate(columns):
@@ -75,7 +76,7 @@ def _intensities(cloud: Any, names: set[str], step: int) -> NDArray[np.float32] 
 def _scalars(
     points: NDArray[np.float32], options: Options, intensities: NDArray[np.float32] | None
 ) -> NDArray[np.float32] | None:
-    """The number that a point's colour tells: what was asked for, else the intensity, else the distance."""
+    """Return the number that determines each point's colour: as requested, or else the intensity or the distance."""
     if options.color_by == "flat":
         return None
     if options.color_by == "axis":
@@ -87,13 +88,13 @@ def _scalars(
     return distances
 
 
-def _colours(packed: NDArray[Any], *, alpha: bool) -> NDArray[np.uint8]:
-    """Red, green, blue, alpha from 0xAARRGGBB, which is often stored as if it were a float32."""
+def _colors(packed: NDArray[Any], *, alpha: bool) -> NDArray[np.uint8]:
+    """Return red, green, blue and alpha from 0xAARRGGBB, which is often stored as if it were a float32."""
     if packed.dtype.itemsize != 4:
-        raise CannotDrawError(f"colours must be packed into four bytes, not {packed.dtype}")
+        raise CannotDrawError(f"the colour field must have four bytes per point, not type {packed.dtype}")
     words = np.ascontiguousarray(packed.reshape(-1)).astype(packed.dtype.newbyteorder("<")).view("<u4")
     blue_first = words.view(np.uint8).reshape(-1, 4)
-    colours = blue_first[:, [2, 1, 0, 3]]
+    colors = blue_first[:, [2, 1, 0, 3]]
     if not alpha:
-        colours[:, 3] = 255
-    return colours
+        colors[:, 3] = 255
+    return colors

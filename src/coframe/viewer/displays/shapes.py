@@ -1,4 +1,4 @@
-"""Poses, paths, ranges and cameras."""
+"""Poses, paths, odometry, ranges and cameras."""
 
 from __future__ import annotations
 
@@ -8,72 +8,108 @@ import numpy as np
 
 from coframe.time import stamp_ns
 from coframe.viewer.displays.drawing import Drawing, Options, finite, pose_row
-from coframe.viewer.protocol import binary
+from coframe.viewer.protocol.encoding import encode_shapes
+from coframe.viewer.protocol.messages import CameraShape, OdometryShape, PathShape, PosesShape, RangeShape
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
+
+    from numpy.typing import NDArray
+
+    from coframe.viewer.protocol.messages import ShapesDescription
 
 __all__ = ["draw_camera", "draw_odometry", "draw_path", "draw_pose", "draw_pose_array", "draw_range"]
 
 Row = tuple[float, ...]
+_NO_NUMBERS = np.zeros(0, np.float32)
 
 
 def draw_pose(message: Any, options: Options) -> Drawing:
-    """A PoseStamped, or a PoseWithCovarianceStamped with its covariance."""
+    """Draw a PoseStamped, or a PoseWithCovarianceStamped with its covariance."""
     pose = message.pose
     covariance = getattr(pose, "covariance", None)
-    facts = {} if covariance is None else {"covariance": [finite(value) for value in covariance]}
-    return _posed(message, "poses", [pose_row(pose if covariance is None else pose.pose)], facts, options.origin)
+    if covariance is None:
+        return _draw_poses(message, [pose_row(pose)], None, options)
+    return _draw_poses(message, [pose_row(pose.pose)], _finite_all(covariance), options)
 
 
 def draw_pose_array(message: Any, options: Options) -> Drawing:
-    """A PoseArray."""
-    return _posed(message, "poses", [pose_row(pose) for pose in message.poses], {}, options.origin)
+    """Draw a PoseArray."""
+    return _draw_poses(message, [pose_row(pose) for pose in message.poses], None, options)
 
 
 def draw_path(message: Any, options: Options) -> Drawing:
-    """A Path, all of it in its own header's frame."""
-    return _posed(message, "path", [pose_row(stamped.pose) for stamped in message.poses], {}, options.origin)
+    """Draw a Path, with all poses expressed in the frame of its own header."""
+    payload = _payload([pose_row(stamped.pose) for stamped in message.poses])
+    frame, stamp = _header(message, options)
+    description = PathShape(kind="path", frame=frame, stamp=stamp, poses=(0, len(payload)))
+    return _drawing(message, description, payload)
 
 
 def draw_odometry(message: Any, trail: Sequence[Row], options: Options) -> Drawing:
-    """An Odometry message behind those before it."""
-    covariance = [finite(value) for value in message.pose.covariance]
-    facts = {"child_frame": message.child_frame_id, "covariance": covariance}
-    return _posed(message, "odometry", trail, facts, options.origin)
+    """Draw an Odometry message with a trail of the previous poses."""
+    payload = _payload(trail)
+    frame, stamp = _header(message, options)
+    description = OdometryShape(
+        kind="odometry",
+        frame=frame,
+        child_frame=message.child_frame_id,
+        stamp=stamp,
+        poses=(0, len(payload)),
+        covariance=_finite_all(message.pose.covariance),
+    )
+    return _drawing(message, description, payload)
 
 
 def draw_range(message: Any, options: Options) -> Drawing:
-    """A Range: a cone of sound or light."""
-    facts = {
-        "radiation_type": message.radiation_type,
-        "field_of_view": finite(message.field_of_view),
-        "min_range": finite(message.min_range),
-        "max_range": finite(message.max_range),
-        "range": finite(message.range),
-    }
-    return _described(message, "range", facts, np.zeros(0, np.float32), options.origin)
+    """Draw a Range as a cone."""
+    frame, stamp = _header(message, options)
+    description = RangeShape(
+        kind="range",
+        frame=frame,
+        stamp=stamp,
+        range=finite(message.range),
+        min_range=finite(message.min_range),
+        max_range=finite(message.max_range),
+        field_of_view=finite(message.field_of_view),
+        radiation_type=message.radiation_type,
+    )
+    return _drawing(message, description, _NO_NUMBERS)
 
 
 def draw_camera(message: Any, options: Options) -> Drawing:
-    """A CameraInfo: the pyramid that the camera sees."""
-    facts = {
-        "width": message.width,
-        "height": message.height,
-        "k": [finite(value) for value in message.k],
-        "d": [finite(value) for value in message.d],
-        "distortion_model": message.distortion_model,
-    }
-    return _described(message, "camera", facts, np.zeros(0, np.float32), options.origin)
+    """Draw the view frustum of a CameraInfo."""
+    frame, stamp = _header(message, options)
+    description = CameraShape(
+        kind="camera",
+        frame=frame,
+        stamp=stamp,
+        width=message.width,
+        height=message.height,
+        k=_finite_all(message.k),
+    )
+    return _drawing(message, description, _NO_NUMBERS)
 
 
-def _posed(message: Any, kind: str, rows: Sequence[Row], facts: dict[str, Any], origin: int) -> Drawing:
-    with np.errstate(over="ignore"):
-        payload = np.array(rows, np.float64).reshape(-1, 7).astype(np.float32)
-    return _described(message, kind, {**facts, "poses": [0, len(payload)]}, payload, origin)
+def _draw_poses(message: Any, rows: Sequence[Row], covariance: list[float | None] | None, options: Options) -> Drawing:
+    payload = _payload(rows)
+    frame, stamp = _header(message, options)
+    description = PosesShape(kind="poses", frame=frame, stamp=stamp, poses=(0, len(payload)), covariance=covariance)
+    return _drawing(message, description, payload)
 
 
-def _described(message: Any, kind: str, facts: dict[str, Any], payload: Any, origin: int) -> Drawing:
-    stamp = stamp_ns(message.header.stamp)
-    description = {"kind": kind, "frame": message.header.frame_id, "stamp": stamp - origin, **facts}
-    return Drawing(message.header.frame_id, stamp, binary.shapes(description, payload))
+def _header(message: Any, options: Options) -> tuple[str, float]:
+    return message.header.frame_id, stamp_ns(message.header.stamp) - options.origin
+
+
+def _payload(rows: Sequence[Row]) -> NDArray[np.float32]:
+    with np.errstate(over="ignore"):  # Values that are too large for float32 become infinite.
+        return np.array(rows, np.float64).reshape(-1, 7).astype(np.float32)
+
+
+def _finite_all(values: Iterable[Any]) -> list[float | None]:
+    return [finite(value) for value in values]
+
+
+def _drawing(message: Any, description: ShapesDescription, payload: NDArray[np.float32]) -> Drawing:
+    return Drawing(message.header.frame_id, stamp_ns(message.header.stamp), encode_shapes(description, payload))

@@ -1,1 +1,1 @@
-"""Replays: a time span as one HTML file."""
+"""Replays: a span of time as one HTML file that needs neither a server nor a network."""

@@ -1,16 +1,18 @@
-"""A span of time as one HTML file that plays by itself: no server, no network."""
+"""The HTML file of a replay."""
 
 from __future__ import annotations
 
 import base64
 import json
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
 from coframe.errors import ViewerError
-from coframe.viewer.protocol.binary import near
-from coframe.viewer.replay.displays import Pictures, display_blocks, packed
+from coframe.time import SECOND
+from coframe.viewer.protocol.encoding import relative_to
+from coframe.viewer.protocol.messages import ReplayBlock, Robot, TreeFrame
+from coframe.viewer.replay.displays import ReplayTimes, packed, record_displays
 from coframe.viewer.robots.meshes import MESH_TYPES, MeshError
 from coframe.viewer.scene.scene import LocalOrigin, Scene
 from coframe.viewer.scene.statistics import frame_rows
@@ -23,40 +25,60 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from coframe import Buffer
+    from coframe.viewer.protocol.messages import ReplayRviz, Vector
     from coframe.viewer.replay.displays import ReplayDisplay
     from coframe.viewer.robots.descriptions import Description
     from coframe.viewer.robots.meshes import MeshTable
-    from coframe.viewer.sources.messages import Messages
+    from coframe.viewer.sources.topic_messages import TopicMessages
 
-__all__ = ["FASTEST", "MOST_DISPLAYS", "NO_LOOKS", "ReplayLooks", "ReplayRequest", "Sights", "replay_page"]
+__all__ = [
+    "DEFAULT_SETTINGS",
+    "MAX_DISPLAYS",
+    "MAX_RATE",
+    "ReplayContent",
+    "ReplayRequest",
+    "ReplaySettings",
+    "replay_page",
+]
 
-FASTEST = 100.0  # pictures a second
-MOST_POSES = 3_000_000  # 84 MB, a third more as text
-MOST_DISPLAYS = 100
-LARGEST_MESHES = 20 << 20
+MAX_RATE = 100.0
+"""Frames per second."""
+MAX_POSES = 3_000_000  # 84 MB, and a third more as text.
+MAX_DISPLAYS = 100
+MAX_MESH_BYTES = 20 << 20
 TIMELINE_BINS = 240
 _OPENING, _EMPTY = '<script type="application/json" id="replay">', "null"
-_NS = 1_000_000_000
 
 
-class ReplayLooks(NamedTuple):
-    """How a replay is to look.
+class ReplaySettings(NamedTuple):
+    """What a replay shows when it is opened.
 
     Attributes:
-        displays: What is shown of topics.
-        rviz: All displays with their options, and the view, as in a message ``save_rviz``.
+        displays: The displays to record.
+        rviz: All displays with their options, and the view; None for the defaults.
     """
 
     displays: tuple[ReplayDisplay, ...]
-    rviz: Mapping[str, Any]
+    rviz: ReplayRviz | None
 
 
-NO_LOOKS = ReplayLooks((), {})
-"""Frames and robots alone."""
+DEFAULT_SETTINGS = ReplaySettings((), None)
+"""Only frames and robots."""
 
 
 class ReplayRequest(NamedTuple):
-    """What is to be replayed: times in nanoseconds, pictures a second, the fixed frame, and how long frames stay."""
+    """A request for a replay.
+
+    Attributes:
+        first: The first time, in nanoseconds.
+        last: The last time, in nanoseconds.
+        rate: Frames per second.
+        fixed: The fixed frame.
+        frame_timeout: How many seconds a frame stays visible after its last sample.
+        title: The title of the page.
+        origin: The origin of the times in the replay, in nanoseconds.
+        settings: What the replay shows when it is opened.
+    """
 
     first: int
     last: int
@@ -65,113 +87,118 @@ class ReplayRequest(NamedTuple):
     frame_timeout: float
     title: str
     origin: int
-    looks: ReplayLooks = NO_LOOKS
+    settings: ReplaySettings = DEFAULT_SETTINGS
 
 
-class Sights(NamedTuple):
-    """What there is to be replayed.
+class ReplayContent(NamedTuple):
+    """The data from which a replay is made.
 
     Attributes:
-        buffer: Transforms.
-        messages: By topic, of the displays.
-        robots: They go with it, with their meshes as far as these are small.
-        meshes: Where these are.
+        buffer: The transforms.
+        messages: The messages of the displays, by topic.
+        robots: The robots.
+        meshes: The meshes of the robots; small ones are included.
     """
 
     buffer: Buffer
-    messages: Mapping[str, Messages]
+    messages: Mapping[str, TopicMessages]
     robots: Sequence[Description]
     meshes: MeshTable
 
 
-def replay_page(template: Path, sights: Sights, wanted: ReplayRequest) -> bytes:
-    """The HTML of a replay.
+def replay_page(template: Path, content: ReplayContent, request: ReplayRequest) -> bytes:
+    """Return the HTML of a replay.
 
     Args:
-        template: The page that plays it, with a place for it.
-        sights: What there is.
-        wanted: Which part of it.
+        template: The page that plays it, with an empty block for the data.
+        content: The data.
+        request: The part of the data.
 
     Raises:
-        ViewerError: The span is empty or too large, or there is no page.
+        ViewerError: The span is empty or too large, or the template does not exist.
     """
     try:
         page = template.read_text(encoding="utf-8")
     except OSError:
-        raise ViewerError("this coframe has no page for replays: build it in viewer/") from None
-    before, place, after = page.partition(_OPENING + _EMPTY)
-    if not place:
-        raise ViewerError("the page for replays has no place for one: build it in viewer/ again")
-    block = json.dumps(_block(sights, wanted), separators=(",", ":"), allow_nan=False)
-    # In a script element nothing but its end has a meaning to HTML.
+        raise ViewerError("the page for replays is missing from this installation: build it in viewer/") from None
+    before, block_start, after = page.partition(_OPENING + _EMPTY)
+    if not block_start:
+        raise ViewerError("the page for replays has no block for the data: build it again in viewer/")
+    block = json.dumps(_block(content, request), separators=(",", ":"), allow_nan=False)
+    # Inside a script element only its end tag has a meaning in HTML.
     safe = block.replace("<", "\\u003c")
     return f"{before}{_OPENING}{safe}{after}".encode()
 
 
-def _block(sights: Sights, wanted: ReplayRequest) -> dict[str, Any]:
-    scene = Scene(sights.buffer.snapshot(), ages=False)
+def _block(content: ReplayContent, request: ReplayRequest) -> ReplayBlock:
+    scene = Scene(content.buffer.snapshot(), ages=False)
     scene.refresh()
     structure = scene.structure
-    times = _times(wanted, len(structure.names))
-    placed = [scene.place(wanted.fixed, int(time), wanted.frame_timeout) for time in times]
-    index = structure.names.index(wanted.fixed) if wanted.fixed in structure.names else None
+    times = _times(request, len(structure.names))
+    placed = [scene.place(request.fixed, int(time), request.frame_timeout) for time in times]
+    index = structure.names.index(request.fixed) if request.fixed in structure.names else None
     local = LocalOrigin()
     origin = local.follow(placed[len(placed) // 2], index)
-    pictures = Pictures(scene.buffer, wanted.fixed, times, origin)
+    replay_times = ReplayTimes(scene.buffer, request.fixed, times, origin)
     frames = zip(structure.names, structure.parents, structure.static, structure.components, strict=True)
-    return {
-        "format": "coframe-replay",
-        "version": 1,
-        "title": wanted.title,
-        "origin": str(wanted.origin),
-        "origin_xyz": origin.tolist(),
-        "from": int(times[0]) - wanted.origin,
-        "to": int(times[-1]) - wanted.origin,
-        "rate": wanted.rate,
-        "fixed": wanted.fixed,
-        "frames": [
-            {"name": name, "parent": parent, "static": static, "component": component}
-            for name, parent, static, component in frames
-        ],
-        "times": packed((times - wanted.origin).astype("<f8")),
-        "poses": packed(np.stack([near(one.poses, origin) for one in placed])),
-        "states": packed(np.stack([one.states for one in placed])),
-        "robots": _robots(sights),
-        "rviz": dict(wanted.looks.rviz) or None,
-        "displays": display_blocks(wanted.looks.displays, sights.messages, pictures),
-        "stats": frame_rows(scene, wanted.origin, wanted.frame_timeout),
-        "edges": edge_rows(scene.buffer, scene.infos, int(times[0]), int(times[-1]), TIMELINE_BINS, wanted.origin),
-        "bins": TIMELINE_BINS,
-    }
+    first, last = int(times[0]), int(times[-1])
+    return ReplayBlock(
+        {
+            "format": "coframe-replay",
+            "version": 1,
+            "title": request.title,
+            "origin": str(request.origin),
+            "origin_xyz": cast("Vector", tuple(origin.tolist())),
+            "from": first - request.origin,
+            "to": last - request.origin,
+            "rate": request.rate,
+            "fixed": request.fixed,
+            "frames": [
+                TreeFrame(name=name, parent=parent, static=static, component=component)
+                for name, parent, static, component in frames
+            ],
+            "times": packed((times - request.origin).astype("<f8")),
+            "poses": packed(np.stack([relative_to(origin, one.poses) for one in placed])),
+            "states": packed(np.stack([one.states for one in placed])),
+            "robots": _robots(content),
+            "rviz": request.settings.rviz,
+            "displays": record_displays(request.settings.displays, content.messages, replay_times),
+            "stats": frame_rows(scene, request.origin, request.frame_timeout),
+            "edges": edge_rows(scene.buffer, scene.infos, first, last, TIMELINE_BINS, request.origin),
+            "bins": TIMELINE_BINS,
+        }
+    )
 
 
-def _times(wanted: ReplayRequest, frames: int) -> NDArray[np.int64]:
-    if wanted.last <= wanted.first:
+def _times(request: ReplayRequest, frames: int) -> NDArray[np.int64]:
+    if request.last <= request.first:
         raise ViewerError("a replay must end after it begins")
-    if not 0.0 < wanted.rate <= FASTEST:
-        raise ViewerError(f"a replay has up to {FASTEST:g} pictures a second, not {wanted.rate:g}")
-    seconds = (wanted.last - wanted.first) / _NS
-    count = int(seconds * wanted.rate) + 1
-    if count * max(frames, 1) > MOST_POSES:
+    if not 0.0 < request.rate <= MAX_RATE:
+        raise ViewerError(f"a replay has more than 0 and at most {MAX_RATE:g} frames per second, not {request.rate:g}")
+    seconds = (request.last - request.first) / SECOND
+    count = int(seconds * request.rate) + 1
+    if count * max(frames, 1) > MAX_POSES:
         raise ViewerError(
-            f"{seconds:.0f} s of {frames} frames {wanted.rate:g} times a second are more than one file can hold",
+            f"{seconds:.0f} s with {frames} frames at {request.rate:g} Hz have {count * frames} poses; "
+            f"a replay has at most {MAX_POSES}",
             hint="Choose a shorter span or a lower rate.",
         )
-    step = _NS / wanted.rate
+    step = SECOND / request.rate
     offsets: NDArray[np.int64] = np.rint(np.arange(count) * step).astype(np.int64)
-    return wanted.first + offsets
+    return request.first + offsets
 
 
-def _robots(sights: Sights) -> list[dict[str, Any]]:
-    """Those whose meshes are small enough, all together; others come without."""
-    left = LARGEST_MESHES
-    told = []
-    for robot in sights.robots:
+def _robots(content: ReplayContent) -> list[Robot]:
+    """Return the robots with their meshes, as long as all meshes together are small enough."""
+    left = MAX_MESH_BYTES
+    robots = []
+    for description in content.robots:
+        message = description.message
         files: dict[str, str] = {}
         missing = 0
-        for reference, url in robot.told["meshes"].items():
+        for reference, url in message["meshes"].items():
             try:
-                file = sights.meshes.file(url.removeprefix("/mesh/"))
+                file = content.meshes.file(url.removeprefix("/mesh/"))
                 size = file.stat().st_size
                 if size <= left:
                     kind = MESH_TYPES[file.suffix.lower()]
@@ -181,6 +208,8 @@ def _robots(sights: Sights) -> list[dict[str, Any]]:
                     missing += 1
             except (MeshError, OSError):
                 missing += 1
-        problems = [f"{missing} of its meshes did not fit into this replay"] if missing else []
-        told.append({**robot.told, "meshes": files, "problems": [*problems, *robot.told["problems"]]})
-    return told
+        problems = [f"{missing} meshes did not fit into this replay"] if missing else []
+        robot = message.copy()
+        robot["meshes"], robot["problems"] = files, [*problems, *message["problems"]]
+        robots.append(robot)
+    return robots

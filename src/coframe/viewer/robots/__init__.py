@@ -1,1 +1,1 @@
-"""Robot descriptions, their meshes and joint states."""
+"""Robot descriptions, their meshes, and the joint states that the page publishes."""

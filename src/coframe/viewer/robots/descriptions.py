@@ -1,98 +1,118 @@
-"""Which robots there are: one of a file, and those that topics tell of."""
+"""The robots that the viewer shows: one from a file, and those whose descriptions are published."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+import itertools
+from typing import TYPE_CHECKING, NamedTuple
 
 from coframe.errors import DecodeError, RobotDescriptionError
 from coframe.robots import parse_urdf
-from coframe.viewer.robots.robot_message import describe
+from coframe.viewer.robots.robot_message import robot_message
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
     from concurrent.futures import Executor, Future
 
     from coframe.robots import Robot
+    from coframe.viewer.protocol.messages import Robot as RobotMessage
     from coframe.viewer.robots.meshes import MeshTable
-    from coframe.viewer.sources.messages import Messages, Sighting
     from coframe.viewer.sources.source import Source
+    from coframe.viewer.sources.topic_messages import StampedMessage, TopicMessages
 
-__all__ = ["ROBOT_DESCRIPTION", "Descriptions"]
+__all__ = ["ROBOT_DESCRIPTION", "Description", "DescriptionProblem", "RobotDescriptions"]
 
 ROBOT_DESCRIPTION = "/robot_description"
+_versions = itertools.count(1)
 
 
 class Description(NamedTuple):
-    """A robot, and the fields of its ``robot`` message."""
+    """A robot and the message that describes it.
+
+    Attributes:
+        robot: The parsed description.
+        message: The message to the page.
+        version: A number that differs between all descriptions.
+    """
 
     robot: Robot
-    told: dict[str, Any]
+    message: RobotMessage
+    version: int
 
 
-class Descriptions:
-    """The robots, as they become known; used by one thread.
+class DescriptionProblem(NamedTuple):
+    """The reason why a published description is invalid, and what to do."""
+
+    text: str
+    hint: str
+
+
+class RobotDescriptions:
+    """All known robots; used by one thread.
 
     Args:
-        robot: One that is there from the start.
-        topics: Where descriptions are told, as std_msgs/msg/String.
-        meshes: Where their meshes are.
+        robot: A robot that is known from the start.
+        topics: Topics with descriptions as std_msgs/msg/String.
+        meshes: The meshes that may be fetched.
     """
 
     def __init__(self, robot: Robot | None, topics: Iterable[str], meshes: MeshTable) -> None:
         self.known: dict[int, Description] = {}
-        self.problems: dict[str, tuple[str, str]] = {}
+        self.problems: dict[str, DescriptionProblem] = {}
         self._meshes = meshes
-        self._watched = [_Watched(number, topic) for number, topic in enumerate(topics, 1)]
+        self._topics = [_DescriptionTopic(number, topic) for number, topic in enumerate(topics, 1)]
         if robot is not None:
-            self.known[0] = Description(robot, describe(robot, 0, str(robot.path or "a file"), None, meshes))
+            message = robot_message(robot, 0, str(robot.path or "a file"), None, meshes)
+            self.known[0] = Description(robot, message, next(_versions))
 
     def refresh(self, source: Source, executor: Executor) -> None:
-        """Takes in what topics tell by now; what takes long is done by the executor."""
-        for watched in self._watched:
-            if watched.work is None:
-                watched.look(source, executor, self._meshes)
-            elif watched.work.done():
-                result, watched.work = watched.work.result(), None
-                self.problems.pop(watched.topic, None)
+        """Read new descriptions; the executor parses them."""
+        for topic in self._topics:
+            if topic.work is None:
+                topic.start_reading(source, executor, self._meshes)
+            elif topic.work.done():
+                result, topic.work = topic.work.result(), None
+                self.problems.pop(topic.name, None)
                 if isinstance(result, Description):
-                    self.known[watched.number] = result
+                    self.known[topic.number] = result
                 elif result is not None:
-                    self.problems[watched.topic] = result
+                    self.problems[topic.name] = result
 
     def close(self) -> None:
-        """Leaves the topics."""
-        for watched in self._watched:
-            if watched.messages is not None:
-                watched.messages.close()
+        """Close all topics."""
+        for topic in self._topics:
+            if topic.messages is not None:
+                topic.messages.close()
 
 
-class _Watched:
-    """A topic that tells of a robot."""
+class _DescriptionTopic:
+    """A topic with robot descriptions."""
 
-    def __init__(self, number: int, topic: str) -> None:
+    def __init__(self, number: int, name: str) -> None:
         self.number = number
-        self.topic = topic
-        self.messages: Messages | None = None
-        self.work: Future[Description | tuple[str, str] | None] | None = None
-        self._seen: int | None = None
+        self.name = name
+        self.messages: TopicMessages | None = None
+        self.work: Future[Description | DescriptionProblem | None] | None = None
+        self._last_key: int | None = None
 
-    def look(self, source: Source, executor: Executor, meshes: MeshTable) -> None:
-        """Begins to read what is new."""
+    def start_reading(self, source: Source, executor: Executor, meshes: MeshTable) -> None:
+        """Start to parse the newest description if it is new."""
         if self.messages is None:
-            self.messages = source.open(self.topic)
-        sighting = None if self.messages is None else self.messages.at(0)
-        if sighting is not None and sighting.key != self._seen:
-            self._seen = sighting.key
-            self.work = executor.submit(_read, sighting, self.number, self.topic, meshes)
+            self.messages = source.open(self.name)
+        message = None if self.messages is None else self.messages.at(0)
+        if message is not None and message.key != self._last_key:
+            self._last_key = message.key
+            self.work = executor.submit(_read, message, self.number, self.name, meshes)
 
 
-def _read(sighting: Sighting, number: int, topic: str, meshes: MeshTable) -> Description | tuple[str, str] | None:
-    """The robot of a message, None where the message is empty, or why there is none and what to do."""
+def _read(
+    message: StampedMessage, number: int, topic: str, meshes: MeshTable
+) -> Description | DescriptionProblem | None:
+    """Return the robot of a message, the problem with it, or None if the message is empty."""
     try:
-        text = sighting.message().data
-        if not text.strip():  # some programs send an empty one first
+        text = message.read().data
+        if not text.strip():  # Some programs publish an empty description first.
             return None
         robot = parse_urdf(text)
     except (RobotDescriptionError, DecodeError) as error:
-        return f"{topic} tells of no robot: {error}", error.hint
-    return Description(robot, describe(robot, number, topic, topic, meshes))
+        return DescriptionProblem(f"{topic} contains no valid robot description: {error}", error.hint)
+    return Description(robot, robot_message(robot, number, topic, topic, meshes), next(_versions))

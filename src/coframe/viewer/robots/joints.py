@@ -1,9 +1,11 @@
-"""Joint states that a tab's sliders send to the ROS graph, as joint_state_publisher_gui does."""
+"""Publication of the joint positions that are set by a page's sliders, as joint_state_publisher_gui does."""
 
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -14,21 +16,22 @@ if TYPE_CHECKING:
 __all__ = ["JOINT_STATES", "PERIOD", "JointPublisher"]
 
 JOINT_STATES = "/joint_states"
-# Programs that turn joint states into transforms want them again and again, in seconds.
 PERIOD = 0.1
+"""Seconds between messages: robot_state_publisher needs joint states repeatedly."""
 
 
 class JointPublisher:
-    """Sends the last positions of one robot again and again.
+    """A publisher that repeats the last positions of one robot's joints.
 
     Args:
-        connection: Where to.
-        robot: Whose joints they are.
-        topic: Where they are told.
+        connection: The connection on which the positions are published.
+        robot: The robot.
+        topic: The topic.
     """
 
     def __init__(self, connection: Connection, robot: Robot, topic: str = JOINT_STATES) -> None:
-        from coframe.messages import find  # noqa: PLC0415 - only who publishes needs them
+        # Imported here because only publishing needs the message classes.
+        from coframe.messages import find  # noqa: PLC0415
 
         self._class = find("sensor_msgs/msg/JointState")
         self._publisher = connection.publisher(topic, self._class)
@@ -37,27 +40,27 @@ class JointPublisher:
         self._positions: list[float] = []
         self._due = 0.0
 
-    def set(self, positions: Mapping[str, Any]) -> None:
-        """From now on sends these; joints that follow others and those that are left out among them.
+    def set(self, positions: Mapping[str, float]) -> None:
+        """Set the published positions in radians or metres; mimic joints and omitted joints are added.
 
         Raises:
-            ValueError: There is no such joint, or a position is no finite number.
+            ValueError: A joint does not exist, or a position is not a finite number.
         """
         full, _ = self._robot.positions(positions)
         single = {name: float(value) for name, value in full.items() if value.ndim == 0}
         self._names, self._positions = list(single), list(single.values())
         self._due = 0.0
 
-    def send_if_due(self) -> None:
-        """Sends them, where the last time is long enough ago."""
+    def publish_if_due(self) -> None:
+        """Publish the positions if the last message was published long enough ago."""
         now = time.monotonic()
         if now < self._due:
             return
         self._due = now + PERIOD
         message = self._class(name=self._names, position=self._positions)
-        message.header.stamp.sec, message.header.stamp.nanosec = divmod(time.time_ns(), 1_000_000_000)
+        message.header.stamp.sec, message.header.stamp.nanosec = divmod(time.time_ns(), SECOND)
         self._publisher.publish(message)
 
     def close(self) -> None:
-        """Leaves the topic."""
+        """Remove the publisher."""
         self._publisher.close()

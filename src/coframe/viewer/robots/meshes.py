@@ -1,4 +1,4 @@
-"""Meshes and textures that robots and markers name: found, and served only from below folders that were declared."""
+"""Meshes and textures that robots and markers name, served only from declared folders."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ MESH_TYPES = {
     ".tga": "image/x-tga",
     ".webp": "image/webp",
 }
-"""By ending: only such files are served."""
+"""The content type for each file extension; files with other extensions are not served."""
 
 _PACKAGE = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
 class MeshError(CoframeError, ValueError):
-    """A mesh that is not served; the text says why, in a sentence."""
+    """A mesh that is not served; the text gives the reason."""
 
 
 class _Root(NamedTuple):
@@ -49,11 +49,11 @@ class _Root(NamedTuple):
 
 
 class MeshTable:
-    """Which files may be fetched, under names that nobody guesses; for any number of threads.
+    """The files that may be fetched, under URLs that cannot be guessed; may be used by any thread.
 
     Args:
-        find_package: The folder of a ROS package; None where there is none of that name.
-        roots: Folders below which everything may be fetched that looks like a mesh or a texture.
+        find_package: Return the folder of a ROS package; None if it does not exist.
+        roots: Folders below which all meshes and textures may be fetched.
     """
 
     def __init__(self, find_package: Callable[[str], Path | None], roots: Iterable[Path] = ()) -> None:
@@ -65,46 +65,46 @@ class MeshTable:
             self.declare(root)
 
     def declare(self, folder: Path) -> None:
-        """From now on what is below a folder may be fetched."""
+        """Allow the meshes and textures below a folder to be fetched."""
         resolved = folder.resolve()
         with self._lock:
             self._roots.setdefault(resolved, _Root(secrets.token_urlsafe(12), resolved))
 
-    def url(self, reference: str, beside: Path | None = None) -> str:
-        """The address of the mesh that a robot or marker names.
+    def url(self, reference: str, folder: Path | None = None) -> str:
+        """Return the URL of a mesh that a robot or marker names.
 
         Args:
             reference: ``package://NAME/...``, ``file:///...`` or a path.
-            beside: The folder that a relative path begins at.
+            folder: The folder of relative paths.
 
         Raises:
-            MeshError: There is no such file, or it must not be fetched.
+            MeshError: The file does not exist or must not be fetched.
         """
-        file = self._file_of(reference, beside)
+        file = self._file_of(reference, folder)
         root = self._root_of(file, reference)
         _check_file(file, reference)
         return f"/mesh/{root.token}/{quote(file.relative_to(root.folder).as_posix())}"
 
     def url_or_problem(self, reference: str) -> tuple[str | None, str | None]:
-        """The address, or why there is none."""
+        """Return the URL and None, or None and the reason why there is no URL."""
         try:
             return self.url(reference), None
         except MeshError as error:
             return None, str(error)
 
     def file(self, path: str) -> Path:
-        """The file that a request's path behind ``/mesh/`` names: the token, and where it is below its folder.
+        """Return the file for the part of a request's path after ``/mesh/``: a token, then a path below its folder.
 
-        A name behind that of a file is meant beside that file, as textures are.
+        A name after that of a file is looked up in the folder of that file, because meshes name their textures so.
 
         Raises:
-            MeshError: There is no such file, or it must not be fetched.
+            MeshError: The file does not exist or must not be fetched.
         """
         token, _, below = path.partition("/")
         with self._lock:
             root = next((root for root in self._roots.values() if secrets.compare_digest(root.token, token)), None)
         if root is None:
-            raise MeshError("there is no such mesh")
+            raise MeshError("mesh not found")
         file = root.folder
         for part in below.split("/"):
             file = (file.parent if file.suffix.lower() in MESH_TYPES and _is_file(file) else file) / part
@@ -113,12 +113,12 @@ class MeshTable:
         _check_file(resolved, below)
         return resolved
 
-    def _file_of(self, reference: str, beside: Path | None) -> Path:
+    def _file_of(self, reference: str, folder: Path | None) -> Path:
         parts = urlsplit(reference) if "://" in reference else None
         if parts is None:
-            if beside is None:
+            if folder is None:
                 raise MeshError(f"{_shown(reference)} is neither package:// nor file://")
-            return _resolved(beside / reference)
+            return _resolved(folder / reference)
         if parts.scheme == "file":
             if parts.netloc not in {"", "localhost"}:
                 raise MeshError(f"{_shown(reference)} is on another machine")
@@ -138,7 +138,7 @@ class MeshTable:
             if folder is not None:
                 self.declare(folder)
         if folder is None:
-            raise MeshError(f"there is no ROS package {_shown(name)} here")
+            raise MeshError(f"ROS package {_shown(name)} not found")
         return folder
 
     def _root_of(self, file: Path, reference: str) -> _Root:
@@ -150,20 +150,20 @@ class MeshTable:
 
 
 def _resolved(path: Path) -> Path:
-    """Without links and dots: where it really is."""
+    """Return the path without symbolic links and dots."""
     try:
         return path.resolve()
-    except (OSError, RuntimeError, ValueError) as error:  # a loop of links, a NUL, too long a name
-        raise MeshError(f"{_shown(str(path))} is no path: {error}") from None
+    except (OSError, RuntimeError, ValueError) as error:  # A loop of links, a NUL, or a name that is too long.
+        raise MeshError(f"{_shown(str(path))} is not a valid path: {error}") from None
 
 
 def _check_file(file: Path, reference: str) -> None:
     if file.suffix.lower() not in MESH_TYPES:
-        raise MeshError(f"{_shown(reference)} is no mesh or texture that the viewer knows")
+        raise MeshError(f"{_shown(reference)} is not a mesh or texture. Known extensions: {', '.join(MESH_TYPES)}")
     if not _is_file(file):
-        raise MeshError(f"there is no file {_shown(reference)}")
+        raise MeshError(f"file {_shown(reference)} not found")
     if (size := file.stat().st_size) > LARGEST_FILE:
-        raise MeshError(f"{_shown(reference)} has {size >> 20} MB: up to {LARGEST_FILE >> 20} MB are served")
+        raise MeshError(f"{_shown(reference)} has {size >> 20} MB; at most {LARGEST_FILE >> 20} MB are served")
 
 
 def _is_file(path: Path) -> bool:

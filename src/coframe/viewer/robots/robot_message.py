@@ -1,10 +1,12 @@
-"""Robots for the page: their description, checked, and the addresses of their meshes."""
+"""The message that describes a robot to the page, with the URLs of its meshes."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from coframe.robots import Mesh, PackageError, Packages
+from coframe.viewer.protocol.messages import Robot as RobotMessage
+from coframe.viewer.protocol.messages import RobotJoint
 from coframe.viewer.robots.meshes import MeshError, MeshTable
 
 if TYPE_CHECKING:
@@ -13,13 +15,13 @@ if TYPE_CHECKING:
 
     from coframe.robots import Robot
 
-__all__ = ["describe", "mesh_table"]
+__all__ = ["make_mesh_table", "robot_message"]
 
-_MOST_PROBLEMS = 50
+_MAX_PROBLEMS = 50
 
 
-def mesh_table(robot: Path | None, roots: Iterable[Path]) -> MeshTable:
-    """The meshes that may be fetched: those of ROS packages, and those below a robot's folder and declared ones."""
+def make_mesh_table(robot: Path | None, roots: Iterable[Path]) -> MeshTable:
+    """Return the meshes of ROS packages, of a robot's folder and of declared folders."""
     folders = list(roots)
     packages = Packages(robot, folders)
 
@@ -32,41 +34,43 @@ def mesh_table(robot: Path | None, roots: Iterable[Path]) -> MeshTable:
     return MeshTable(find, [*folders, *([robot.resolve().parent] if robot is not None else [])])
 
 
-def describe(robot: Robot, number: int, source: str, topic: str | None, meshes: MeshTable) -> dict[str, Any]:
-    """The fields of a ``robot`` message.
+def robot_message(robot: Robot, number: int, source: str, topic: str | None, meshes: MeshTable) -> RobotMessage:
+    """Return the message that describes a robot.
 
     Args:
-        robot: What was parsed.
-        number: The page's number for it.
-        source: Where it came from, for people.
-        topic: The topic that it came from; None for a file.
-        meshes: Where its meshes are.
+        robot: The parsed description.
+        number: The id of the robot.
+        source: The file or topic of the description, for display.
+        topic: The topic of the description; None for a file.
+        meshes: The meshes that may be fetched.
     """
-    beside = None if robot.path is None else robot.path.resolve().parent
+    folder = None if robot.path is None else robot.path.resolve().parent
     urls: dict[str, str] = {}
     problems: list[str] = []
     for reference in dict.fromkeys(_files_of(robot)):
         try:
-            urls[reference] = meshes.url(reference, beside)
+            urls[reference] = meshes.url(reference, folder)
         except MeshError as error:
             problems.append(str(error))
-    return {
-        "id": number,
-        "name": robot.name,
-        "source": source,
-        "urdf": robot.text,
-        "meshes": urls,
-        "problems": problems[:_MOST_PROBLEMS],
-        "warnings": list(robot.warnings)[:_MOST_PROBLEMS],
-        "joints": list(_joints_of(robot)),
-        "description_topic": topic,
-    }
+    return RobotMessage(
+        type="robot",
+        id=number,
+        name=robot.name,
+        source=source,
+        urdf=robot.text,
+        meshes=urls,
+        problems=problems[:_MAX_PROBLEMS],
+        warnings=list(robot.warnings)[:_MAX_PROBLEMS],
+        joints=list(_joints_of(robot)),
+        description_topic=topic,
+    )
 
 
 def _files_of(robot: Robot) -> Iterator[str]:
-    """The meshes and textures that it names."""
+    """Yield the meshes and textures that a robot names."""
     for link in robot.links.values():
-        geometries = [visual.geometry for visual in link.visuals] + [bump.geometry for bump in link.collisions]
+        geometries = [visual.geometry for visual in link.visuals]
+        geometries += [collision.geometry for collision in link.collisions]
         yield from (geometry.filename for geometry in geometries if isinstance(geometry, Mesh))
         for visual in link.visuals:
             if visual.material is not None and visual.material.texture:
@@ -76,16 +80,16 @@ def _files_of(robot: Robot) -> Iterator[str]:
             yield material.texture
 
 
-def _joints_of(robot: Robot) -> Iterator[dict[str, Any]]:
-    """Those that a slider moves."""
+def _joints_of(robot: Robot) -> Iterator[RobotJoint]:
+    """Yield the joints that a slider can move."""
     rest = robot.zeros()
     for name in robot.free_joints:
         joint = robot.joints[name]
         limits = joint.limits if joint.type != "continuous" else None
-        yield {
-            "name": name,
-            "type": joint.type,
-            "lower": None if limits is None else limits.lower,
-            "upper": None if limits is None else limits.upper,
-            "value": rest[name],
-        }
+        yield RobotJoint(
+            name=name,
+            type=joint.type,
+            lower=None if limits is None else limits.lower,
+            upper=None if limits is None else limits.upper,
+            value=rest[name],
+        )

@@ -1,1 +1,1 @@
-"""What the page draws and lists of a buffer: poses, statistics, timeline and relations."""
+"""What the page draws and lists of a buffer: poses, statistics, the timeline and relations between frames."""

@@ -1,14 +1,15 @@
-"""How two frames stand to each other, in every notation that people copy; and if they do not, why."""
+"""The pose of one frame relative to another in all common notations, or the reason why there is none."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from coframe.analysis.static_command import static_command
 from coframe.analysis.tree import FrameTrees
 from coframe.errors import TransformException
+from coframe.viewer.protocol.messages import Relation
 
 if TYPE_CHECKING:
     from coframe import Buffer
@@ -16,39 +17,56 @@ if TYPE_CHECKING:
 __all__ = ["relate"]
 
 
-def relate(buffer: Buffer, target: str, source: str, stamp: int, origin: int) -> dict[str, Any]:
-    """The fields of a ``relation``: where ``source`` is, seen from ``target``, at a time; 0 is the latest."""
-    names = {"target": target, "source": source}
+def relate(buffer: Buffer, target: str, source: str, stamp: int, origin: int, number: int = 0) -> Relation:
+    """Return the pose of `source` relative to `target`.
+
+    Args:
+        buffer: The buffer.
+        target: The frame in which the pose is expressed.
+        source: The frame.
+        stamp: The time in nanoseconds; 0 selects the latest.
+        origin: The origin of the stamp in the result, in nanoseconds.
+        number: The id of the request.
+    """
+    relation = Relation(
+        type="relation",
+        id=number,
+        ok=False,
+        target=target,
+        source=source,
+        stamp=None,
+        translation=None,
+        quaternion=None,
+        rpy_deg=None,
+        matrix=None,
+        static_command=None,
+        chain=[],
+        error=None,
+        hint=None,
+        broken_at=None,
+    )
     try:
         found = buffer.lookup(target, source, stamp)
     except TransformException as error:
-        chain, broken_at = _broken_chain(buffer, target, source, error)
-        why = {"error": str(error), "hint": error.hint or None, "broken_at": broken_at, "chain": chain}
-        return {"ok": False, **names, **dict.fromkeys(_VALUES), **why}
-    when = found.stamp or 0
-    return {
-        "ok": True,
-        **names,
-        "stamp": when - origin if when else None,
-        "translation": found.translation.tolist(),
-        "quaternion": found.quaternion.tolist(),
-        "rpy_deg": np.degrees(found.rpy).tolist(),
-        "matrix": found.matrix.ravel().tolist(),
-        "static_command": static_command(target, source, found.values),
-        "chain": _chain(buffer, target, source, when),
-        "error": None,
-        "hint": None,
-        "broken_at": None,
-    }
-
-
-_VALUES = ("stamp", "translation", "quaternion", "rpy_deg", "matrix", "static_command")
+        relation["chain"], relation["broken_at"] = _broken_chain(buffer, target, source, error)
+        relation["error"], relation["hint"] = str(error), error.hint or None
+        return relation
+    found_stamp = found.stamp or 0
+    relation["ok"] = True
+    relation["stamp"] = found_stamp - origin if found_stamp else None
+    relation["translation"] = found.translation.tolist()
+    relation["quaternion"] = found.quaternion.tolist()
+    relation["rpy_deg"] = np.degrees(found.rpy).tolist()
+    relation["matrix"] = found.matrix.ravel().tolist()
+    relation["static_command"] = static_command(target, source, found.values)
+    relation["chain"] = _chain(buffer, target, source, found_stamp)
+    return relation
 
 
 def _chain(buffer: Buffer, target: str, source: str, stamp: int) -> list[str]:
     try:
         return buffer.chain(target, stamp, source, stamp, target)
-    except TransformException:  # the data of that moment has just gone
+    except TransformException:  # The data has just been dropped.
         return []
 
 

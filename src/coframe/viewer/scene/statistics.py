@@ -1,24 +1,32 @@
-"""How often each frame is told of, by whom, and how long ago: what a row of the tree says."""
+"""Statistics of each frame, as shown in the rows of the tree: rate, age, publisher."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from coframe.time import SECOND
+from coframe.viewer.protocol.messages import FrameStats
 from coframe.viewer.scene.scene import STALE
 
 if TYPE_CHECKING:
+    from coframe.viewer.protocol.messages import FrameActivity
     from coframe.viewer.scene.scene import Scene
 
 __all__ = ["frame_rows"]
 
-_NS = 1e9
-_STATES = ("fresh", "stale", "gone")
+_STATES: tuple[FrameActivity, ...] = ("fresh", "stale", "gone")
 _NO_INTERVALS = (0.0, 0.0, 0.0)
 
 
-def frame_rows(scene: Scene, origin: int, timeout: float) -> list[dict[str, Any]]:
-    """One row a frame, in the order of the scene's structure."""
-    # What edges() makes of it would take longer than the rest.
+def frame_rows(scene: Scene, origin: int, timeout: float) -> list[FrameStats]:
+    """Return the statistics of all frames, in the order of the scene's structure.
+
+    Args:
+        scene: The scene.
+        origin: The origin of times, in nanoseconds.
+        timeout: How many seconds a frame stays visible after its last sample.
+    """
+    # The raw tuples: building the objects of edges() would take longer than everything else here.
     intervals = {frame[0]: times for frame, times, _ in scene.buffer._edge_tuples()}
     states = scene.states_now(timeout)
     ages = scene.ages_now()
@@ -27,14 +35,14 @@ def frame_rows(scene: Scene, origin: int, timeout: float) -> list[dict[str, Any]
         moves = bool(info.parent) and not info.static
         mean, _, longest = intervals.get(info.name, _NO_INTERVALS) if moves else _NO_INTERVALS
         rows.append(
-            {
-                "rate": round(_NS / mean, 3) if mean else None,
-                "age": round(age, 3) if moves and scene.ages else None,
-                "last": info.newest - origin if moves else None,
-                "publisher": info.authority or None,
-                "samples": info.samples,
-                "longest_gap": round(longest / _NS, 6) if longest else None,
-                "state": _STATES[state] if moves or state >= STALE else "static",
-            }
+            FrameStats(
+                rate=round(SECOND / mean, 3) if mean else None,
+                age=round(age, 3) if moves and scene.ages else None,
+                last=info.newest - origin if moves else None,
+                publisher=info.authority or None,
+                samples=info.samples,
+                longest_gap=round(longest / SECOND, 6) if longest else None,
+                state=_STATES[state] if moves or state >= STALE else "static",
+            )
         )
     return rows

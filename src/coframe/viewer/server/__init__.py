@@ -1,1 +1,1 @@
-"""The HTTP and WebSocket server."""
+"""The server of the viewer: HTTP, WebSockets, and the timer that updates the clients."""

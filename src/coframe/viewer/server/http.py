@@ -1,4 +1,4 @@
-"""What the server answers to HTTP requests: the page and its files, and nothing to strangers."""
+"""HTTP responses: the page and its files, with checks of who may request them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from websockets.http11 import Response
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["STATIC", "Visitors", "file_response", "page_file", "response", "sentence"]
+__all__ = ["STATIC", "AccessPolicy", "file_response", "page_file", "response", "text_response"]
 
 STATIC = Path(__file__).resolve().parents[1] / "static"
 
@@ -33,7 +33,7 @@ _TYPES = {
     ".woff2": "font/woff2",
     ".wasm": "application/wasm",
 }
-_POLICY = (
+_CONTENT_SECURITY_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; "
     "font-src 'self' data:; connect-src 'self' blob: data: {sockets}; worker-src 'self' blob:; manifest-src 'self'; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'self' http://localhost:* http://127.0.0.1:*"
@@ -41,34 +41,37 @@ _POLICY = (
 _LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 
 
-class Visitors:
-    """Who may come: pages of other sites could otherwise talk to the server through the user's browser.
+class AccessPolicy:
+    """Which requests are answered: otherwise pages of other sites could reach the server through the user's browser.
 
     Args:
-        host: The address that is listened on.
+        host: The address on which the server listens.
         port: The port.
+
+    Attributes:
+        content_security: The Content-Security-Policy of all responses.
     """
 
     def __init__(self, host: str, port: int) -> None:
         names = {*_LOOPBACK, f"[{host}]" if ":" in host else host}
-        self._everywhere = host in {"0.0.0.0", "::"}  # noqa: S104 - the user's own choice
-        if self._everywhere:
+        self._all_addresses = host in {"0.0.0.0", "::"}  # noqa: S104 - the user's own choice
+        if self._all_addresses:
             names.add(socket.gethostname())
         self._port = port
         self._hosts = {f"{name.lower()}:{port}" for name in names} | ({*names} if port == 80 else set())
-        # Chromium takes no address in brackets here, and needs none.
+        # Chromium does not accept addresses in brackets here, and does not need them.
         sockets = [f"ws://{host}" for host in sorted(self._hosts) if "[" not in host]
-        self.policy = _POLICY.format(sockets=" ".join(sockets))
+        self.content_security = _CONTENT_SECURITY_POLICY.format(sockets=" ".join(sockets))
 
-    def host_is_ours(self, host: str | None) -> bool:
-        """Whether a Host header names this server. A name that somebody else made to point here does not."""
+    def allows_host(self, host: str | None) -> bool:
+        """Return whether a Host header names this server; names that others have pointed at it are rejected."""
         if host is None:
             return False
-        return host.lower() in self._hosts or (self._everywhere and self._is_address(host))
+        return host.lower() in self._hosts or (self._all_addresses and self._is_address(host))
 
-    def origin_is_ours(self, origin: str | None) -> bool:
-        """Whether an Origin header is that of our page; programs that are no browser send none."""
-        return origin is None or (origin.startswith("http://") and self.host_is_ours(origin.removeprefix("http://")))
+    def allows_origin(self, origin: str | None) -> bool:
+        """Return whether an Origin header is that of this server's page; programs other than browsers send none."""
+        return origin is None or (origin.startswith("http://") and self.allows_host(origin.removeprefix("http://")))
 
     def _is_address(self, host: str) -> bool:
         address, _, port = host.rpartition(":")
@@ -82,7 +85,15 @@ class Visitors:
 def response(
     status: HTTPStatus, body: bytes, content_type: str, policy: str, extra: Mapping[str, str] | None = None
 ) -> Response:
-    """An answer with the headers that keep the browser from doing more with it than is meant."""
+    """Return a response with headers that restrict what a browser does with it.
+
+    Args:
+        status: The status.
+        body: The body.
+        content_type: Its type.
+        policy: The Content-Security-Policy.
+        extra: More headers.
+    """
     headers = Headers(
         {
             "Content-Type": content_type,
@@ -99,26 +110,26 @@ def response(
     return Response(status.value, status.phrase, headers, body)
 
 
-def sentence(status: HTTPStatus, text: str, policy: str) -> Response:
-    """An answer that says what is wrong."""
+def text_response(status: HTTPStatus, text: str, policy: str) -> Response:
+    """Return a response with a line of text."""
     return response(status, f"{text}\n".encode(), "text/plain; charset=utf-8", policy)
 
 
 def page_file(path: str, folder: Path) -> Path | None:
-    """The file of the page that a path names; None for what is not below the folder."""
+    """Return the file of the page for a URL path; None if it does not exist or is outside the folder."""
     root = folder.resolve()
     try:
         file = (root / path.lstrip("/")).resolve()
         return file if file.is_relative_to(root) and file.is_file() else None
-    except (OSError, ValueError):  # a NUL, or too long a name
+    except (OSError, ValueError):  # A NUL, or a name that is too long.
         return None
 
 
-def file_response(file: Path, policy: str, known: str | None) -> Response:
-    """A file of the page, for a browser that knows the one with an ETag, or none."""
+def file_response(file: Path, policy: str, known_tag: str | None) -> Response:
+    """Return a file of the page, or "not modified" if the browser has the file with this ETag."""
     kind = _TYPES.get(file.suffix.lower(), "application/octet-stream")
     body = file.read_bytes()
     tag = f'"{hashlib.sha256(body).hexdigest()[:32]}"'
-    if tag == known:
+    if tag == known_tag:
         return response(HTTPStatus.NOT_MODIFIED, b"", kind, policy, {"ETag": tag})
     return response(HTTPStatus.OK, body, kind, policy, {"ETag": tag})

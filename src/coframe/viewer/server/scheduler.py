@@ -1,4 +1,4 @@
-"""The one timer of all tabs: each wake-up of a thread costs more than what a tab of a few frames is sent."""
+"""One timer for all clients: each wake-up of the thread costs more than an update of a client with few frames."""
 
 from __future__ import annotations
 
@@ -11,30 +11,30 @@ if TYPE_CHECKING:
     import asyncio
 
     from coframe.viewer.server.websocket import WebSocket
-    from coframe.viewer.state import Stage
+    from coframe.viewer.state import ViewerState
 
-__all__ = ["Ticker"]
+__all__ = ["ClientScheduler"]
 
 _logger = logging.getLogger("coframe.viewer")
 
 
-class Ticker:
-    """Makes the tabs tick as long as there are any; used by the server's thread.
+class ClientScheduler:
+    """Updates all clients when they are due; used by the server's thread.
 
     Args:
-        loop: The server's.
-        stage: What all tabs see.
+        loop: The server's event loop.
+        state: What all clients share.
     """
 
-    def __init__(self, loop: asyncio.AbstractEventLoop, stage: Stage) -> None:
+    def __init__(self, loop: asyncio.AbstractEventLoop, state: ViewerState) -> None:
         self._loop = loop
-        self._stage = stage
+        self._state = state
         self._clients: dict[WebSocket, Client] = {}
         self._timer: asyncio.TimerHandle | None = None
 
-    def welcome(self, socket: WebSocket) -> Client:
-        """A new tab, which is sent the first picture at once."""
-        client = self._clients[socket] = Client(socket, self._stage)
+    def add_client(self, socket: WebSocket) -> Client:
+        """Return a new client, which is updated immediately."""
+        client = self._clients[socket] = Client(socket, self._state)
         self._schedule()
         return client
 
@@ -42,21 +42,21 @@ class Ticker:
         if self._timer is not None:
             self._timer.cancel()
         due = min((client.due for client in self._clients.values()), default=None)
-        self._timer = None if due is None else self._loop.call_at(due, self._tick)
+        self._timer = None if due is None else self._loop.call_at(due, self._update_all)
 
-    def _tick(self) -> None:
+    def _update_all(self) -> None:
         now = self._loop.time()
         for socket, client in list(self._clients.items()):
             if socket.has_ended:
                 del self._clients[socket]
             elif client.due <= now:
-                self._tick_one(socket, client, now)
+                self._update(socket, client, now)
         self._schedule()
 
-    def _tick_one(self, socket: WebSocket, client: Client, now: float) -> None:
+    def _update(self, socket: WebSocket, client: Client, now: float) -> None:
         try:
-            client.tick(now)
+            client.update(now)
         except Exception:
-            _logger.exception("a tab's connection failed; the others go on")
+            _logger.exception("a client failed and was disconnected; the others continue")
             del self._clients[socket]
             socket.abort()

@@ -1,4 +1,4 @@
-"""The viewer's server: the page over HTTP and what it draws over a WebSocket, in a thread of its own."""
+"""The viewer's server: the page over HTTP and its data over a WebSocket, in a thread of its own."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qsl, unquote, urlsplit
 
 from coframe.errors import ViewerError
-from coframe.viewer.replay.page import Sights, replay_page
+from coframe.viewer.replay.page import ReplayContent, replay_page
 from coframe.viewer.robots.meshes import MESH_TYPES, MeshError
-from coframe.viewer.server.http import STATIC, Visitors, file_response, page_file, response, sentence
-from coframe.viewer.server.scheduler import Ticker
+from coframe.viewer.server.http import STATIC, AccessPolicy, file_response, page_file, response, text_response
+from coframe.viewer.server.scheduler import ClientScheduler
 from coframe.viewer.server.websocket import WebSocket
 
 if TYPE_CHECKING:
@@ -27,43 +27,43 @@ if TYPE_CHECKING:
     from typing_extensions import Self
     from websockets.http11 import Request, Response
 
-    from coframe.viewer.state import Stage
+    from coframe.viewer.state import ViewerState
 
 __all__ = ["DEFAULT_PORT", "ViewerServer"]
 
 _logger = logging.getLogger("coframe.viewer")
 
-# A page that is opened again remembers its layout by the address: so the port stays the same where it can.
+# Browsers store the layout of a page by its address, so the port stays the same if possible.
 DEFAULT_PORT = 7676
 _END_TIMEOUT = 5.0
-# How often it is looked whether all tabs have said goodbye, in seconds.
+# Seconds between checks whether all clients have disconnected.
 _END_STEP = 0.01
 
 
 class ViewerServer:
-    """Serves a stage to browsers until it is closed.
+    """Serves the viewer to browsers until it is closed.
 
     Args:
-        stage: What is shown. From now on only the server's thread uses it.
-        host: The address to listen on; others than this machine's own let everybody in who reaches it.
-        port: The port; None takes the usual one, or any other where that is taken; 0 takes any.
+        state: What all clients share. Only the server's thread may use it from now on.
+        host: The address to listen on; anyone who can reach it may use the viewer.
+        port: The port; None selects the default port, or any free port if that is in use; 0 selects any free port.
         static: The folder of the page.
 
     Raises:
-        ViewerError: The address cannot be listened on.
+        ViewerError: The server cannot listen on the address.
     """
 
     def __init__(
-        self, stage: Stage, *, host: str = "127.0.0.1", port: int | None = None, static: Path = STATIC
+        self, state: ViewerState, *, host: str = "127.0.0.1", port: int | None = None, static: Path = STATIC
     ) -> None:
-        self._stage = stage
+        self._state = state
         self._host = host
         self._static = static
-        self._visitors = Visitors(host, 0)
+        self._access = AccessPolicy(host, 0)
         self._sockets: set[WebSocket] = set()
         self.port = 0
         self._loop = asyncio.new_event_loop()
-        self._ticker = Ticker(self._loop, stage)
+        self._scheduler = ClientScheduler(self._loop, state)
         self._end = asyncio.Event()
         self._started = threading.Event()
         self._failure: OSError | None = None
@@ -77,16 +77,16 @@ class ViewerServer:
     @property
     def url(self) -> str:
         """The page's address."""
-        host = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(self._host, self._host)  # noqa: S104 - to be shown
+        host = {"0.0.0.0": "127.0.0.1", "::": "[::1]"}.get(self._host, self._host)  # noqa: S104 - for display
         return f"http://{f'[{host}]' if ':' in host and '[' not in host else host}:{self.port}/"
 
-    def call(self, deed: Callable[..., object], *args: Any) -> None:
-        """Has the server's thread do something soon; nothing happens once it has ended."""
-        with contextlib.suppress(RuntimeError):  # the loop has ended already
-            self._loop.call_soon_threadsafe(deed, *args)
+    def call(self, callback: Callable[..., object], *args: Any) -> None:
+        """Call a function in the server's thread soon; do nothing if the server is closed."""
+        with contextlib.suppress(RuntimeError):  # The loop is closed.
+            self._loop.call_soon_threadsafe(callback, *args)
 
     def close(self) -> None:
-        """Ends all connections and the thread; doing so twice does no harm."""
+        """Close all connections and end the thread; may be called more than once."""
         self.call(self._end.set)
         if self._thread is not threading.current_thread():
             self._thread.join(_END_TIMEOUT)
@@ -102,7 +102,7 @@ class ViewerServer:
             self._loop.run_until_complete(self._serve(port))
         finally:
             self._started.set()
-            self._stage.close()
+            self._state.close()
             self._loop.run_until_complete(self._loop.shutdown_asyncgens())
             self._loop.close()
 
@@ -113,7 +113,7 @@ class ViewerServer:
             self._failure = error
             return
         self.port = next(iter(server.sockets)).getsockname()[1]
-        self._visitors = Visitors(self._host, self.port)
+        self._access = AccessPolicy(self._host, self.port)
         self._started.set()
         try:
             await self._end.wait()
@@ -136,13 +136,13 @@ class ViewerServer:
         return await self._loop.create_server(self._connect, self._host, port)
 
     def _connect(self) -> WebSocket:
-        return WebSocket(self._answer, self._ticker.welcome, self._sockets)
+        return WebSocket(self._answer, self._scheduler.add_client, self._sockets)
 
     async def _answer(self, request: Request) -> Response | None:
-        """An answer to a request; None lets a WebSocket be opened."""
-        policy = self._visitors.policy
-        if not self._visitors.host_is_ours(request.headers.get("Host")):
-            return sentence(HTTPStatus.FORBIDDEN, "This server goes by another name.", policy)
+        """Return the response to a request; None opens a WebSocket."""
+        policy = self._access.content_security
+        if not self._access.allows_host(request.headers.get("Host")):
+            return text_response(HTTPStatus.FORBIDDEN, "The Host header does not name this server.", policy)
         parts = urlsplit(request.path)
         path = unquote(parts.path)
         if path == "/ws":
@@ -155,61 +155,64 @@ class ViewerServer:
             return await self._answer_replay(parts.query)
         return self._answer_page(path, request.headers.get("If-None-Match"))
 
-    async def _in_thread(self, deed: Callable[..., Response], *args: Any) -> Response:
-        return await self._loop.run_in_executor(self._stage.executor, deed, *args)
+    async def _in_thread(self, make_response: Callable[..., Response], *args: Any) -> Response:
+        return await self._loop.run_in_executor(self._state.executor, make_response, *args)
 
     def _answer_mesh(self, path: str) -> Response:
-        policy = self._visitors.policy
+        policy = self._access.content_security
         try:
-            file = self._stage.meshes.file(path)
+            file = self._state.meshes.file(path)
             return response(HTTPStatus.OK, file.read_bytes(), MESH_TYPES[file.suffix.lower()], policy)
         except (MeshError, OSError) as error:
-            return sentence(HTTPStatus.NOT_FOUND, str(error), policy)
+            return text_response(HTTPStatus.NOT_FOUND, str(error), policy)
 
     def _answer_socket(self, request: Request) -> Response | None:
-        policy = self._visitors.policy
+        policy = self._access.content_security
         if request.headers.get("Upgrade", "").lower() != "websocket":
-            return sentence(HTTPStatus.UPGRADE_REQUIRED, "This is the address of a WebSocket.", policy)
-        if not self._visitors.origin_is_ours(request.headers.get("Origin")):
-            return sentence(HTTPStatus.FORBIDDEN, "Pages of other sites may not talk to this server.", policy)
+            return text_response(HTTPStatus.UPGRADE_REQUIRED, "This address accepts only WebSockets.", policy)
+        if not self._access.allows_origin(request.headers.get("Origin")):
+            return text_response(HTTPStatus.FORBIDDEN, "Pages of other sites must not connect to this server.", policy)
         return None
 
     def _answer_rviz(self) -> Response:
-        text, policy = self._stage.saved_rviz, self._visitors.policy
+        text, policy = self._state.saved_rviz, self._access.content_security
         if text is None:
-            return sentence(HTTPStatus.NOT_FOUND, "Nothing has been saved yet: save it in the page.", policy)
+            return text_response(
+                HTTPStatus.NOT_FOUND, "No configuration has been saved yet. Save it in the page first.", policy
+            )
         attachment = {"Content-Disposition": 'attachment; filename="coframe.rviz"'}
         return response(HTTPStatus.OK, text.encode(), "text/yaml; charset=utf-8", policy, attachment)
 
     async def _answer_replay(self, query: str) -> Response:
-        stage, policy = self._stage, self._visitors.policy
+        state, policy = self._state, self._access.content_security
         try:
-            wanted = stage.replay_request(dict(parse_qsl(query)))
-            template, robots = self._static / "replay.html", list(stage.descriptions.known.values())
-            with stage.opened(display.topic for display in wanted.looks.displays) as messages:
-                sights = Sights(stage.source.buffer, messages, robots, stage.meshes)
-                page = await self._loop.run_in_executor(stage.executor, replay_page, template, sights, wanted)
+            replay = state.replay_request(dict(parse_qsl(query)))
+            template, robots = self._static / "replay.html", list(state.descriptions.known.values())
+            with state.opened(display.topic for display in replay.settings.displays) as messages:
+                content = ReplayContent(state.source.buffer, messages, robots, state.meshes)
+                page = await self._loop.run_in_executor(state.executor, replay_page, template, content, replay)
         except ViewerError as error:
-            return sentence(HTTPStatus.BAD_REQUEST, f"{error} {error.hint}".strip(), policy)
+            return text_response(HTTPStatus.BAD_REQUEST, f"{error} {error.hint}".strip(), policy)
         attachment = {"Content-Disposition": 'attachment; filename="coframe-replay.html"'}
         return response(HTTPStatus.OK, page, "text/html; charset=utf-8", policy, attachment)
 
-    def _answer_page(self, path: str, known: str | None) -> Response:
+    def _answer_page(self, path: str, known_tag: str | None) -> Response:
         file = page_file("index.html" if path == "/" else path, self._static)
         if file is not None:
-            return file_response(file, self._visitors.policy, known)
+            return file_response(file, self._access.content_security, known_tag)
         if path == "/":
-            text = "This coframe has no viewer page: build it in viewer/ by `npm ci && npm run build`."
-            return sentence(HTTPStatus.SERVICE_UNAVAILABLE, text, self._visitors.policy)
-        return sentence(HTTPStatus.NOT_FOUND, "There is no such file.", self._visitors.policy)
+            text = "The viewer's page is missing. Build it in viewer/ with `npm ci && npm run build`."
+            return text_response(HTTPStatus.SERVICE_UNAVAILABLE, text, self._access.content_security)
+        return text_response(HTTPStatus.NOT_FOUND, "File not found.", self._access.content_security)
 
 
 def _cannot_listen(host: str, port: int, reason: OSError) -> ViewerError:
-    # The library's own words hold the address once more.
+    # The text of the exception itself would repeat the address.
     is_foreign = reason.errno == errno.EADDRNOTAVAIL or isinstance(reason, socket.gaierror)
     if is_foreign:
         return ViewerError(
-            f"cannot listen on {host}: it is no address of this machine", hint="Choose another host, or 127.0.0.1."
+            f"cannot listen on {host}: it is not an address of this machine",
+            hint="Choose another host, or 127.0.0.1.",
         )
-    words = os.strerror(reason.errno) if reason.errno else str(reason)
-    return ViewerError(f"cannot listen on {host}:{port}: {words}", hint="Choose another port, or 0 for any free port.")
+    text = os.strerror(reason.errno) if reason.errno else str(reason)
+    return ViewerError(f"cannot listen on {host}:{port}: {text}", hint="Choose another port, or 0 for any free port.")

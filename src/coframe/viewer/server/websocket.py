@@ -1,7 +1,7 @@
-"""One connection to the server: a request that is answered over HTTP, or a WebSocket.
+"""One connection to the server: an HTTP request that is answered, or a WebSocket.
 
-The protocol is the library's, without its input and output. What comes is handed on as it comes; what goes is handed to
-the system at once, as much as it takes, and the rest when it asks for more.
+Only the protocol is the library's, not its input and output: received messages are passed on immediately, and sent
+messages are passed to the operating system immediately, as far as it accepts them, and the rest when it is ready.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from websockets.http11 import Response
 
     Answer: TypeAlias = Callable[[Request], Awaitable[Response | None]]
-    Welcome: TypeAlias = "Callable[[WebSocket], Listener]"
+    MakeListener: TypeAlias = "Callable[[WebSocket], Listener]"
     _Part: TypeAlias = tuple[int, bytes | bytearray | memoryview, bool]
 
 __all__ = ["LARGEST_REQUEST", "Listener", "WebSocket"]
@@ -32,149 +32,149 @@ __all__ = ["LARGEST_REQUEST", "Listener", "WebSocket"]
 _logger = logging.getLogger("coframe.viewer")
 
 LARGEST_REQUEST = 1 << 20
-# Long messages go in parts, so that one that is sent keeps no other connection waiting, and is not held twice.
+# Long messages are sent in parts, so that they neither block other connections nor are copied as a whole.
 _PART = 1 << 18
-# Who neither sends nor takes anything for so long is gone, in seconds; a WebSocket is asked once before.
-_PATIENCE = 20.0
-_CLOSING_PATIENCE = 2.0
+# A connection is closed if nothing is sent or received for this many seconds; a WebSocket is pinged once before.
+_IDLE_TIMEOUT = 20.0
+_CLOSE_TIMEOUT = 2.0
 
 
 class Listener(Protocol):
-    """Whom a WebSocket tells what comes."""
+    """Receives the messages of a WebSocket."""
 
-    def hear(self, message: str | bytes) -> None:
-        """Takes a message."""
+    def receive(self, message: str | bytes) -> None:
+        """Process a message."""
 
-    def leave(self) -> None:
-        """The connection has ended."""
+    def disconnected(self) -> None:
+        """Process the end of the connection."""
 
 
 class WebSocket(asyncio.Protocol):
-    """A connection, of which one becomes a WebSocket where ``answer`` has nothing to say.
+    """A connection, which becomes a WebSocket if ``answer`` returns no response.
 
     Args:
-        answer: The answer to a request over HTTP; None lets the WebSocket be opened.
-        welcome: Makes the listener of an opened one.
-        all_of_them: Holds the connection for as long as it lasts.
+        answer: Return the response to an HTTP request; None opens the WebSocket.
+        make_listener: Return the listener of an opened WebSocket.
+        connections: A set that contains the connection as long as it exists.
     """
 
-    def __init__(self, answer: Answer, welcome: Welcome, all_of_them: set[WebSocket]) -> None:
+    def __init__(self, answer: Answer, make_listener: MakeListener, connections: set[WebSocket]) -> None:
         self._answer = answer
-        self._all = all_of_them
-        self._welcome = welcome
+        self._connections = connections
+        self._make_listener = make_listener
         self._protocol = ServerProtocol(max_size=LARGEST_REQUEST, logger=_quiet_logger())
         self._transport: asyncio.Transport | None = None
         self._listener: Listener | None = None
         self._answering: asyncio.Task[None] | None = None
-        self._patience: asyncio.TimerHandle | None = None
+        self._idle_timer: asyncio.TimerHandle | None = None
         self._is_alive = True
-        self._left = 0  # bytes that the system had not taken when that was last looked at
-        self._message = bytearray()  # one that is not there as a whole
+        self._unwritten = 0  # Bytes that the operating system had not accepted at the last check.
+        self._message = bytearray()  # The parts of an incomplete message.
         self._is_text = True
         self._unsent: deque[_Part] = deque()
         self._clear = asyncio.Event()
         self._clear.set()
-        self._takes_more = True
+        self._accepts_more = True
 
     @property
     def has_ended(self) -> bool:
-        """Whether nothing can be sent any more."""
+        """Whether the connection is closed or closing."""
         return self._protocol.state is not OPEN
 
     @property
     def is_clear(self) -> bool:
-        """Whether all that was sent has been taken by the system, or nearly."""
-        return self._takes_more and not self._unsent
+        """Whether the operating system has accepted nearly everything that was sent."""
+        return self._accepts_more and not self._unsent
 
     async def cleared(self) -> None:
-        """Waits until all that was sent has been taken, or the connection ends."""
+        """Wait until the connection is clear or has ended."""
         await self._clear.wait()
 
     def send(self, message: str | bytes | bytearray) -> None:
-        """Sends a message as soon as there is room; nothing once the connection has ended."""
+        """Send a message as soon as there is room; do nothing if the connection has ended."""
         opcode = Opcode.TEXT if isinstance(message, str) else Opcode.BINARY
         data = message.encode() if isinstance(message, str) else message
         if len(data) <= _PART:
             self._unsent.append((opcode, data, True))
         else:
             self._unsent.extend(_parts(opcode, memoryview(data)))
-        self._send_on()
+        self._send_unsent()
 
     def pause(self) -> None:
-        """Listens no more."""
+        """Stop receiving."""
         if self._transport is not None:
             self._transport.pause_reading()
 
     def resume(self) -> None:
-        """Listens again."""
+        """Receive again."""
         if self._transport is not None:
             self._transport.resume_reading()
 
     def close(self) -> None:
-        """Says goodbye to the other side, and ends."""
+        """Close the connection with a closing handshake."""
         if self._transport is None:
             return
         if self._protocol.state is OPEN:
             self._protocol.send_close(1001)
             self._flush()
-            asyncio.get_running_loop().call_later(_CLOSING_PATIENCE, self.abort)
+            asyncio.get_running_loop().call_later(_CLOSE_TIMEOUT, self.abort)
         else:
             self.abort()
 
     def abort(self) -> None:
-        """Ends without a word."""
+        """Close the connection immediately."""
         if self._transport is not None:
             self._transport.abort()
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        """As of asyncio.Protocol."""
+        """Start to receive; see asyncio.Protocol."""
         self._transport = cast("asyncio.Transport", transport)
-        self._all.add(self)
-        self._wait()
+        self._connections.add(self)
+        self._start_idle_timer()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """As of asyncio.Protocol."""
+        """Release everything; see asyncio.Protocol."""
         del exc
         self._transport = None
-        self._all.discard(self)
+        self._connections.discard(self)
         self._protocol.receive_eof()
         self._unsent.clear()
         self._clear.set()
-        if self._patience is not None:
-            self._patience.cancel()
+        if self._idle_timer is not None:
+            self._idle_timer.cancel()
         if self._answering is not None:
             self._answering.cancel()
         if self._listener is not None:
-            self._listener.leave()
+            self._listener.disconnected()
 
     def data_received(self, data: bytes) -> None:
-        """As of asyncio.Protocol."""
+        """Process received bytes; see asyncio.Protocol."""
         self._protocol.receive_data(data)
         for event in self._protocol.events_received():
             if isinstance(event, Request):
-                self.pause()  # nobody may say more before the answer
+                self.pause()  # A client must not send more before the response.
                 self._answering = asyncio.get_running_loop().create_task(self._respond(event))
             else:
                 self._is_alive = True
-                self._take(cast("Frame", event))
+                self._receive(cast("Frame", event))
         self._flush()
         if self._protocol.state is CLOSING:
-            asyncio.get_running_loop().call_later(_CLOSING_PATIENCE, self.abort)
+            asyncio.get_running_loop().call_later(_CLOSE_TIMEOUT, self.abort)
 
     def eof_received(self) -> None:
-        """As of asyncio.Protocol."""
+        """Process the end of the received bytes; see asyncio.Protocol."""
         self._protocol.receive_eof()
         self._flush()
 
     def pause_writing(self) -> None:
-        """As of asyncio.Protocol."""
-        self._takes_more = False
+        """Stop sending; see asyncio.Protocol."""
+        self._accepts_more = False
         self._clear.clear()
 
     def resume_writing(self) -> None:
-        """As of asyncio.Protocol."""
-        self._takes_more = self._is_alive = True
-        self._send_on()
+        """Send again; see asyncio.Protocol."""
+        self._accepts_more = self._is_alive = True
+        self._send_unsent()
         if self.is_clear:
             self._clear.set()
 
@@ -182,9 +182,11 @@ class WebSocket(asyncio.Protocol):
         try:
             response = await self._answer(request)
         except Exception:
-            _logger.exception("a request could not be answered: %s", request.path)
-            response = self._protocol.reject(HTTPStatus.INTERNAL_SERVER_ERROR, "This could not be answered.\n")
-        if self._protocol.close_expected():  # it said more than a request
+            _logger.exception("the request %s failed", request.path)
+            response = self._protocol.reject(
+                HTTPStatus.INTERNAL_SERVER_ERROR, "The server failed to answer this request.\n"
+            )
+        if self._protocol.close_expected():  # The client sent more than a request.
             self.abort()
         if self._transport is None or self._transport.is_closing():
             return
@@ -192,12 +194,12 @@ class WebSocket(asyncio.Protocol):
         self._flush()
         self._is_alive = True
         if self._protocol.state is OPEN:
-            self._listener = self._welcome(self)
+            self._listener = self._make_listener(self)
         self.resume()
 
-    def _take(self, frame: Frame) -> None:
+    def _receive(self, frame: Frame) -> None:
         if self._listener is None or frame.opcode not in {Opcode.TEXT, Opcode.BINARY, Opcode.CONT}:
-            return  # the protocol has answered it
+            return  # The protocol has answered it.
         if frame.opcode is not Opcode.CONT:
             self._is_text = frame.opcode is Opcode.TEXT
         self._message += frame.data
@@ -205,18 +207,18 @@ class WebSocket(asyncio.Protocol):
             return
         message, self._message = bytes(self._message), bytearray()
         try:
-            self._listener.hear(message.decode() if self._is_text else message)
+            self._listener.receive(message.decode() if self._is_text else message)
         except UnicodeDecodeError:
-            self._protocol.fail(1007, "no UTF-8")
+            self._protocol.fail(1007, "not UTF-8")
 
-    def _send_on(self) -> None:
-        while self._unsent and self._takes_more:
+    def _send_unsent(self) -> None:
+        while self._unsent and self._accepts_more:
             frame = _frame(*self._unsent.popleft())
             if self._transport is not None and self._protocol.state is OPEN:
                 self._transport.write(frame)
 
     def _flush(self) -> None:
-        """Hands over what the protocol has to say."""
+        """Write what the protocol has to send."""
         for data in self._protocol.data_to_send():
             if self._transport is None or self._transport.is_closing():
                 return
@@ -225,33 +227,33 @@ class WebSocket(asyncio.Protocol):
             else:
                 self._transport.write_eof()
 
-    def _wait(self) -> None:
-        self._patience = asyncio.get_running_loop().call_later(_PATIENCE, self._lose_patience)
+    def _start_idle_timer(self) -> None:
+        self._idle_timer = asyncio.get_running_loop().call_later(_IDLE_TIMEOUT, self._check_idle)
 
-    def _lose_patience(self) -> None:
-        """Ends what does not live any more."""
+    def _check_idle(self) -> None:
+        """Close the connection if it is idle and does not answer a ping."""
         if self._transport is None:
             return
-        before, self._left = self._left, self._transport.get_write_buffer_size()
-        is_at_work = self._answering is not None and not self._answering.done()
-        if not (self._is_alive or is_at_work or self._left < before):
+        before, self._unwritten = self._unwritten, self._transport.get_write_buffer_size()
+        is_answering = self._answering is not None and not self._answering.done()
+        if not (self._is_alive or is_answering or self._unwritten < before):
             self.abort()
             return
         self._is_alive = False
         if self._protocol.state is OPEN:
             self._protocol.send_ping(b"")
             self._flush()
-        self._wait()
+        self._start_idle_timer()
 
 
 def _parts(opcode: int, data: memoryview) -> Iterator[_Part]:
-    """A long message as frames."""
+    """Yield the parts of a long message."""
     for start in range(0, len(data), _PART):
         yield opcode if start == 0 else Opcode.CONT, data[start : start + _PART], start + _PART >= len(data)
 
 
 def _frame(opcode: int, data: bytes | bytearray | memoryview, is_last: bool) -> bytes:
-    """As of RFC 6455, 5.2; the library's way to it would cost as much as all else of a tick of a few frames."""
+    """Return a frame as in RFC 6455, 5.2; the library needs as much time for it as the rest of a small update takes."""
     first, length = opcode | (0x80 if is_last else 0), len(data)
     if length < 126:
         head = struct.pack("!BB", first, length)
@@ -263,7 +265,7 @@ def _frame(opcode: int, data: bytes | bytearray | memoryview, is_last: bool) -> 
 
 
 def _quiet_logger() -> logging.Logger:
-    """The library tells of every stranger that breaks off a handshake."""
+    """Return a logger for the library, which would log every client that aborts a handshake."""
     logger = logging.getLogger("coframe.viewer.websockets")
     logger.setLevel(logging.CRITICAL)
     return logger

@@ -1,4 +1,4 @@
-"""The ROS graph as it is now: a connection, with subscriptions for as long as a display wants them."""
+"""The ROS graph as a source: a connection, with a subscription for each displayed topic."""
 
 from __future__ import annotations
 
@@ -6,10 +6,11 @@ import time
 import weakref
 from typing import TYPE_CHECKING
 
-from coframe.viewer.displays import DISPLAYS
+from coframe.time import MINUTE, SECOND
 from coframe.viewer.sources.adaptive_subscription import AdaptiveSubscription
-from coframe.viewer.sources.messages import LiveMessages
+from coframe.viewer.sources.display_types import DISPLAY_OF_TYPE
 from coframe.viewer.sources.source import Mode, Topic
+from coframe.viewer.sources.topic_messages import LiveMessages
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -21,22 +22,23 @@ if TYPE_CHECKING:
 
 __all__ = ["LiveSource"]
 
-# What the viewer listens to besides what it displays.
+# Types that the viewer subscribes to without displaying them.
 OTHER_TYPES = ("std_msgs/msg/String",)
-_TYPES = frozenset({*DISPLAYS, *OTHER_TYPES})
-# The doctor looks at the last seconds, and says something after some of them: half a window may look like a fault.
-_WINDOW = 10_000_000_000
-_FIRST_VERDICT, _VERDICT_PERIOD = 5.0, 2.0
-# Its verdicts, without the listening, take at most this part of a processor.
+_TYPES = frozenset({*DISPLAY_OF_TYPE, *OTHER_TYPES})
+# The doctor examines the last ten seconds. The first report takes a while, because half a window may look like a fault.
+_WINDOW = 10 * SECOND
+_FIRST_REPORT, _REPORT_PERIOD = 5.0, 2.0
+# The largest share of a processor that the doctor's reports may take, not counting its subscriptions.
 _SHARE = 0.01
-_KEEP_EVERYTHING = 60_000_000_000  # where the buffer has no end, messages have
+# How long messages are kept if the buffer keeps transforms without limit.
+_KEEP_IF_UNLIMITED = MINUTE
 
 
 class LiveSource:
-    """A connection to the ROS graph.
+    """A connection to the ROS graph as a source.
 
     Args:
-        connection: Its buffer is shown, and its node subscribes.
+        connection: The connection whose buffer is shown and whose node subscribes.
         own: Whether the connection is closed with the source.
     """
 
@@ -52,18 +54,19 @@ class LiveSource:
         self._subscriptions: weakref.WeakSet[AdaptiveSubscription] = weakref.WeakSet()
 
     def topics(self) -> list[Topic]:
-        """What somebody publishes or wants, and a display can show."""
+        """Return the topics with a publisher or subscriber that can be displayed."""
         found = self._connection.participant.topics()
         return [
-            Topic(topic, ros_type, DISPLAYS[ros_type])
+            Topic(topic=topic, type=ros_type, display=DISPLAY_OF_TYPE[ros_type])
             for topic, ros_types in found.items()
             for ros_type in ros_types
-            if ros_type in DISPLAYS
+            if ros_type in DISPLAY_OF_TYPE
         ]
 
     def open(self, topic: str) -> LiveMessages | None:
-        """Subscribes to a topic, such that every publisher of it is heard."""
-        from coframe.messages import find  # noqa: PLC0415 - only who looks at messages needs them
+        """Subscribe to a topic so that messages of all its publishers are received."""
+        # Imported here because only the displays of messages need the message classes.
+        from coframe.messages import find  # noqa: PLC0415
 
         participant = self._connection.participant
         ros_type = next((one.ros_type for one in participant.publishers(topic) if one.ros_type in _TYPES), None)
@@ -79,22 +82,23 @@ class LiveSource:
         subscription = AdaptiveSubscription(offers, subscribe)
         self._subscriptions.add(subscription)
         keep = self.buffer.cache_ns
-        keep = keep if keep >= 0 else _KEEP_EVERYTHING
+        keep = keep if keep >= 0 else _KEEP_IF_UNLIMITED
         return LiveMessages(subscription, ros_type, keep, self._connection.frame)
 
     def refresh(self) -> None:
-        """Listens to publishers that have come since, too."""
+        """Adapt all subscriptions to publishers that have appeared since the last call."""
         for subscription in list(self._subscriptions):
             subscription.follow()
 
     def examine(self) -> Generator[dict[str, Report] | None, None, None]:
-        """A running verdict, as `coframe doctor --watch` has it.
+        """Return a generator of reports on the last ten seconds, as `coframe doctor --watch` prints them.
 
         Raises:
-            WireError: The graph cannot be joined once more.
+            WireError: The doctor cannot join the graph.
         """
-        from coframe.doctor import diagnose  # noqa: PLC0415 - the first picture needs no doctor
-        from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - likewise
+        # Imported here because the first frame update does not need the doctor.
+        from coframe.doctor import diagnose  # noqa: PLC0415
+        from coframe.doctor.live import LiveObserver  # noqa: PLC0415
 
         tf_topic, tf_static_topic = self._connection.tf_topics
         with LiveObserver(
@@ -105,19 +109,19 @@ class LiveSource:
             node_name="coframe_view_doctor",
             prefix=self._connection.prefix,
             keep=self._connection.keep,
-        ) as listening:
-            due = time.monotonic() + _FIRST_VERDICT
+        ) as observer:
+            due = time.monotonic() + _FIRST_REPORT
             while True:
-                listening.poll()
+                observer.poll()
                 if time.monotonic() < due:
                     yield None
                     continue
                 begin = time.thread_time()
-                report = diagnose(listening.observe())
-                due = time.monotonic() + max(_VERDICT_PERIOD, (time.thread_time() - begin) / _SHARE)
+                report = diagnose(observer.observe())
+                due = time.monotonic() + max(_REPORT_PERIOD, (time.thread_time() - begin) / _SHARE)
                 yield {"": report}
 
     def close(self) -> None:
-        """Leaves the graph, where that is the source's to do."""
+        """Close the connection if the source owns it."""
         if self._own:
             self._connection.close()

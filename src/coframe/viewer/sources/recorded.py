@@ -1,4 +1,4 @@
-"""A recording: all of its frames and messages, at any time."""
+"""A recording as a source: all of its frames and messages, at any time."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.errors import DecodeError, ViewerError
-from coframe.viewer.displays import DISPLAYS
-from coframe.viewer.sources.messages import Sighting
+from coframe.viewer.sources.display_types import DISPLAY_OF_TYPE
 from coframe.viewer.sources.source import Mode, Topic
+from coframe.viewer.sources.topic_messages import StampedMessage
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -24,16 +24,16 @@ if TYPE_CHECKING:
 
 __all__ = ["RecordedSource"]
 
-# Samples: the doctor takes a few seconds of them, and 100 bytes each; more are left to who asks for it.
-_MOST_EXAMINED = 2_000_000
+# The doctor needs a few seconds and 100 bytes per sample for this many samples; longer recordings are not examined.
+_MAX_EXAMINED_SAMPLES = 2_000_000
 
 
 class RecordedSource:
-    """A recording.
+    """A recording as a source.
 
     Args:
-        recording: What is shown.
-        own: Whether it is closed with the source.
+        recording: The recording.
+        own: Whether the recording is closed with the source.
     """
 
     mode: Mode = "recording"
@@ -48,46 +48,52 @@ class RecordedSource:
         self._own = own
 
     def topics(self) -> list[Topic]:
-        """What a display can show."""
-        known = self._recording.topics.values()
-        return [Topic(topic.name, topic.type, DISPLAYS[topic.type]) for topic in known if topic.type in DISPLAYS]
+        """Return the recorded topics that can be displayed."""
+        return [
+            Topic(topic=topic.name, type=topic.type, display=DISPLAY_OF_TYPE[topic.type])
+            for topic in self._recording.topics.values()
+            if topic.type in DISPLAY_OF_TYPE
+        ]
 
     def open(self, topic: str) -> RecordedMessages | None:
-        """The messages of a topic."""
+        """Return the messages of a topic; None if it was not recorded."""
         if topic not in self._recording.topics:
             return None
         return RecordedMessages(self._recording, topic)
 
     def refresh(self) -> None:
-        """Nothing changes."""
+        """Do nothing: a recording does not change."""
 
     def examine(self) -> Generator[dict[str, Report], None, None]:
-        """What `coframe doctor` says of it, once.
+        """Return a generator of the one report that `coframe doctor` prints for the recording.
 
         Raises:
-            RecordingError: It cannot be read any more.
-            ViewerError: It is too long to be examined beside.
+            RecordingError: The recording cannot be read.
+            ViewerError: The recording is too long to be examined in the background.
         """
         samples = sum(info.samples for buffer in self._recording.buffers.values() for info in buffer.frames())
-        if samples > _MOST_EXAMINED:
-            hint = f"Run: coframe doctor {shlex.quote(str(self._recording.path))}"
-            raise ViewerError(f"the recording has {samples} samples, too many to examine them beside", hint=hint)
-        from coframe.doctor import diagnose, observe_recording  # noqa: PLC0415 - the first picture needs no doctor
+        if samples > _MAX_EXAMINED_SAMPLES:
+            raise ViewerError(
+                f"the recording has {samples} samples, but the viewer examines at most {_MAX_EXAMINED_SAMPLES}",
+                hint=f"Run: coframe doctor {shlex.quote(str(self._recording.path))}",
+            )
+        # Imported here because the first frame update does not need the doctor.
+        from coframe.doctor import diagnose, observe_recording  # noqa: PLC0415
 
         observed = observe_recording(self._recording.path, **self._recording.options)
         yield {name: diagnose(observation) for name, observation in observed.items()}
 
     def close(self) -> None:
-        """Lets go of the files, where that is the source's to do."""
+        """Close the recording if the source owns it."""
         if self._own:
             self._recording.close()
 
 
 class RecordedMessages:
-    """The messages of a topic, by the times that they tell of.
+    """The messages of a recorded topic, ordered by their stamps.
 
     Args:
-        recording: Where they are.
+        recording: The recording.
         topic: The topic.
     """
 
@@ -99,35 +105,35 @@ class RecordedMessages:
         self._reading = threading.Lock()
 
     def frame(self, name: str) -> str:
-        """What a frame that a message names is called among the transforms."""
+        """Return the name in the buffer of a frame that a message names."""
         return self._recording.frame(name)
 
     def pending(self) -> bool:
-        """Never: where all messages lie is known."""
+        """Return False: the times of all messages are known."""
         return False
 
-    def at(self, time: int) -> Sighting | None:
-        """The last message at or before a time in nanoseconds; 0 is the newest of all."""
-        end = self._index_behind(time)
-        return self._sighting(end - 1) if end else None
+    def at(self, time: int) -> StampedMessage | None:
+        """Return the last message at or before a time in nanoseconds; 0 selects the newest message."""
+        end = self._index_after(time)
+        return self._message(end - 1) if end else None
 
-    def before(self, time: int, count: int) -> list[Sighting]:
-        """The last messages at or before a time, 0 is the newest, the oldest first, at most so many."""
-        end = self._index_behind(time)
-        return [self._sighting(index) for index in range(max(0, end - count), end)]
+    def before(self, time: int, count: int) -> list[StampedMessage]:
+        """Return up to `count` messages at or before a time, oldest first; 0 selects the newest messages."""
+        end = self._index_after(time)
+        return [self._message(index) for index in range(max(0, end - count), end)]
 
     def times(self) -> NDArray[np.int64]:
-        """Where all messages lie on the timeline, in order."""
+        """Return the positions of all messages on the timeline, in order."""
         return self._times
 
     def close(self) -> None:
-        """The recording stays open."""
+        """Do nothing: the recording stays open."""
 
-    def _index_behind(self, time: int) -> int:
+    def _index_after(self, time: int) -> int:
         return len(self._times) if time == 0 else int(np.searchsorted(self._times, time, side="right"))
 
-    def _sighting(self, index: int) -> Sighting:
-        return Sighting(index + 1, int(self._times[index]), lambda: self._read(index))
+    def _message(self, index: int) -> StampedMessage:
+        return StampedMessage(index + 1, int(self._times[index]), lambda: self._read(index))
 
     def _read(self, index: int) -> Any:
         time = int(self._times[index])
@@ -136,4 +142,4 @@ class RecordedMessages:
             for skipped, found in enumerate(self._recording.messages(self._topic, start=time, stop=time + 1)):
                 if skipped == earlier:
                     return found.message
-        raise DecodeError(f"a message on {self._topic} can no longer be read")
+        raise DecodeError(f"a message of {self._topic} cannot be read: has the recording changed?")

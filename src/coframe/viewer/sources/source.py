@@ -1,8 +1,10 @@
-"""What is viewed: the ROS graph, a recording, or a buffer."""
+"""The interface of sources, and the source for a buffer."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Literal, Protocol
+
+from coframe.viewer.protocol.messages import Topic
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -10,30 +12,22 @@ if TYPE_CHECKING:
     from coframe import Buffer
     from coframe.connection import Connection
     from coframe.doctor import Report
-    from coframe.viewer.sources.messages import Messages
+    from coframe.viewer.sources.topic_messages import TopicMessages
 
 __all__ = ["BufferSource", "Mode", "Source", "Topic"]
 
 Mode = Literal["live", "recording", "buffer"]
 
 
-class Topic(NamedTuple):
-    """A topic that can be displayed."""
-
-    topic: str
-    type: str
-    display: str
-
-
 class Source(Protocol):
-    """What is viewed.
+    """A source of transforms and messages.
 
     Attributes:
-        mode: What kind it is.
-        title: What the tab is called.
-        buffer: Its transforms.
-        connection: Where joint states can be sent; None where that is nowhere.
-        span: The first and the last time that it has, in nanoseconds; None where its transforms tell.
+        mode: The kind of source.
+        title: The title of the browser tab.
+        buffer: The transforms.
+        connection: The connection on which joint states can be published; None if there is none.
+        span: The first and the last stamp in nanoseconds; None if the transforms determine it.
     """
 
     mode: Mode
@@ -43,26 +37,33 @@ class Source(Protocol):
     span: tuple[int, int] | None
 
     def topics(self) -> list[Topic]:
-        """What can be displayed now, in order."""
+        """Return the topics that can be displayed now, in order."""
 
-    def open(self, topic: str) -> Messages | None:
-        """The messages of a topic, to be closed again; None where there is none of that name."""
+    def open(self, topic: str) -> TopicMessages | None:
+        """Return the messages of a topic, which the caller closes; None if the topic does not exist."""
 
     def refresh(self) -> None:
-        """Takes in what has changed around it; to be called now and then."""
+        """Follow changes such as new publishers; called about once per second."""
 
     def examine(self) -> Generator[dict[str, Report] | None, None, None] | None:
-        """The doctor's reports by namespace, or None where there is none yet, to be asked for every half a second.
+        """Return a generator of doctor reports by namespace, or None if there is nothing to examine.
 
-        The generator may take long, in a thread of its own, and is to be closed. None: there is nothing to examine.
+        The generator is advanced every half second in a thread of its own, where it may block, and yields None while
+        there is no new report. The caller closes it.
         """
 
     def close(self) -> None:
-        """Gives back what the source itself has opened."""
+        """Release what the source itself has opened."""
 
 
 class BufferSource:
-    """A buffer alone: frames, and no messages."""
+    """A buffer without messages.
+
+    Args:
+        buffer: The transforms.
+        title: The title of the browser tab.
+        mode: The kind of source that the page shows.
+    """
 
     connection: Connection | None = None
     span: tuple[int, int] | None = None
@@ -73,18 +74,18 @@ class BufferSource:
         self.mode = mode
 
     def topics(self) -> list[Topic]:
-        """None."""
+        """Return no topics."""
         return []
 
-    def open(self, _topic: str) -> Messages | None:
-        """None."""
+    def open(self, _topic: str) -> TopicMessages | None:
+        """Return None: a buffer has no messages."""
         return None
 
     def refresh(self) -> None:
-        """Nothing: the buffer is looked at anyway."""
+        """Do nothing: a buffer has no publishers."""
 
     def examine(self) -> None:
-        """Nothing: a buffer does not tell who sent what, nor when it came."""
+        """Return None: a buffer contains neither the publishers nor the arrival times that the doctor needs."""
 
     def close(self) -> None:
-        """The buffer is the caller's."""
+        """Do nothing: the buffer belongs to the caller."""

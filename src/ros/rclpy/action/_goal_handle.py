@@ -56,7 +56,7 @@ class ServerGoalHandle:
         self._goal_request = goal_request
         self._status: int = GoalStatus.STATUS_ACCEPTED
         self._status_entry = encode_entry(goal_info, self._status)
-        self._was_given_to_execute = False
+        self._is_execution_scheduled = False
         self._cancel_request: Future[None] = Future()
         self._result_response: Any = None
         self._result_requests: list[RequestHeader] = []
@@ -104,7 +104,7 @@ class ServerGoalHandle:
         # A goal whose cancellation was accepted keeps its state. The callback finishes it.
         if not self.is_cancel_requested:
             self._update_state(GoalEvent.EXECUTE)
-        self._was_given_to_execute = True
+        self._is_execution_scheduled = True
         self._action_server.notify_execute(self, execute_callback)
 
     def publish_feedback(self, feedback: Any) -> None:
@@ -162,7 +162,7 @@ class ServerGoalHandle:
         if not (response is None or isinstance(response, result_type)):
             raise TypeError(f"Expected {result_type}, got {type(response)}")
         self._update_state(event)
-        if response is not None or not self._was_given_to_execute:
+        if response is not None or not self._is_execution_scheduled:
             self._action_server._set_result(self, response or result_type())
 
 

@@ -1,26 +1,24 @@
-"""The playhead: which time a tab looks at."""
+"""The time that a client shows."""
 
 from __future__ import annotations
 
 import time
 from dataclasses import dataclass
 
-__all__ = ["Playhead"]
+__all__ = ["PlaybackClock"]
 
 Span = tuple[int, int]
 
-_SLOWEST, _FASTEST = 0.01, 100.0
-
 
 @dataclass
-class Playhead:
-    """Live, or at a time that stands still or runs. Times are nanoseconds.
+class PlaybackClock:
+    """Shows the newest data, or a time that stands still or advances. Times are nanoseconds.
 
     Attributes:
-        live: Whether the newest is looked at.
-        playing: Whether the time runs.
-        speed: How fast, beside the time of the world.
-        loop: Where it begins anew, and where it jumps back; None where it stops at the end.
+        live: Whether the newest data is shown.
+        playing: Whether the time advances.
+        speed: The speed relative to real time.
+        loop: The span that is repeated; None if playback continues to the end.
     """
 
     live: bool = True
@@ -28,21 +26,21 @@ class Playhead:
     speed: float = 1.0
     loop: Span | None = None
     _at: int = 0
-    _since: int = 0  # of the monotonic clock, when it was at `_at`
+    _since: int = 0  # The monotonic time at which the clock was at `_at`.
 
     def go_live(self) -> None:
-        """Looks at the newest from now on."""
+        """Show the newest data."""
         self.live, self.playing = True, False
 
     def move(self, at: int, *, playing: bool = False, speed: float = 1.0, loop: Span | None = None) -> None:
-        """Looks at a time, from which on it may run."""
+        """Show a time, and start playback there if `playing` is set."""
         self.live, self.playing = False, playing
-        self.speed = min(max(speed, _SLOWEST), _FASTEST)
+        self.speed = speed
         self.loop = loop if loop is not None and loop[0] < loop[1] else None
         self._at, self._since = at, time.monotonic_ns()
 
     def at(self, span: Span | None) -> int:
-        """The time that is looked at, within the span of what there is; not for who looks at the newest."""
+        """Return the shown time within the span of the data; meaningless while the newest data is shown."""
         if not self.playing:
             return self._at
         now = self._at + round((time.monotonic_ns() - self._since) * self.speed)

@@ -18,6 +18,7 @@ from coframe.cli.lifecycle import run_until_interrupted
 from coframe.cli.output import fail, printable
 from coframe.cli.view import optional_viewer
 from coframe.errors import TransformException
+from coframe.formatting import count
 from coframe.frame_names import renaming
 from coframe.lab.launcher import Launcher, NodeCommand
 from coframe.tf_publishers import publisher_state
@@ -40,7 +41,7 @@ FRAMES = ("odom", "base", "link1", "link2", "end_effector", "imu", "lidar", "cam
 
 
 def show_robots(
-    count: int,
+    number_of_robots: int,
     duration: float | None,
     *,
     own_topics: bool,
@@ -55,7 +56,7 @@ def show_robots(
     """Start robot1, robot2, ... and show them until Ctrl-C; the end of one does not stop the others.
 
     Args:
-        count: Number of robots.
+        number_of_robots: Number of robots to start.
         duration: Seconds after which the demo stops; None: on Ctrl-C.
         own_topics: Whether each robot publishes names without a prefix on its own topics, which a relay merges. If
             False, all robots publish names with a prefix on the same topics.
@@ -67,11 +68,11 @@ def show_robots(
         prefix: Prefix for all frame names as they are shown.
         keep: Frames that get no prefix.
     """
-    names = [f"robot{number}" for number in range(1, count + 1)]
+    names = [f"robot{number}" for number in range(1, number_of_robots + 1)]
     shown = renaming(prefix, keep) or str
     listening = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
     topics = None if own_topics else (tf_topic, tf_static_topic)
-    commands = tuple(_command(name, number, count, topics) for number, name in enumerate(names))
+    commands = tuple(_command(name, number, number_of_robots, topics) for number, name in enumerate(names))
     warnings: list[str] = []
     with (
         run_until_interrupted(),
@@ -84,7 +85,7 @@ def show_robots(
         start = time.monotonic()
 
         def screen() -> Group:
-            robots = "1 robot" if len(names) == 1 else f"{len(names)} robots"
+            robots = count(len(names), "robot")
             state = f"{time.monotonic() - start:.0f} s, Ctrl-C to stop; {robots}, each in its own process"
             problems = [*view.problems(), *(f"relay: {warning}" for warning in warnings[-5:])]
             lines = (Text(printable(problem), style="red") for problem in problems)
@@ -113,10 +114,10 @@ def _optional_relay(
         fail(str(error), code=2)
 
 
-def _command(name: str, number: int, count: int, topics: tuple[str, str] | None) -> NodeCommand:
+def _command(name: str, number: int, number_of_robots: int, topics: tuple[str, str] | None) -> NodeCommand:
     """Return the command that starts a robot on a circle, facing outwards, with its own topics or frame names."""
-    angle = 2 * math.pi * number / count
-    radius = 0.0 if count == 1 else max(1.0, 0.3 * count)
+    angle = 2 * math.pi * number / number_of_robots
+    radius = 0.0 if number_of_robots == 1 else max(1.0, 0.3 * number_of_robots)
     parameters = {
         "publish_world": "false",
         "start_x": f"{radius * math.cos(angle):.3f}",

@@ -1,0 +1,173 @@
+"""The messages of one topic, which displays look up by time."""
+
+from __future__ import annotations
+
+import itertools
+import threading
+import time
+from bisect import bisect_right
+from collections import deque
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from coframe.viewer.sources.adaptive_subscription import AdaptiveSubscription
+
+__all__ = ["LiveMessages", "StampedMessage", "TopicMessages"]
+
+
+class StampedMessage(NamedTuple):
+    """A message of a topic.
+
+    Attributes:
+        key: A number that increases from message to message.
+        time: The position on the timeline in nanoseconds.
+        read: Return the message; raises ValueError if its bytes do not match its type.
+    """
+
+    key: int
+    time: int
+    read: Callable[[], Any]
+
+
+class TopicMessages(Protocol):
+    """The messages of one topic; may be used by any thread."""
+
+    type: str
+
+    def frame(self, name: str) -> str:
+        """Return the name in the buffer of a frame that a message names."""
+
+    def pending(self) -> bool:
+        """Return whether the next lookup has to read new messages first, which may take a while."""
+
+    def at(self, time: int) -> StampedMessage | None:
+        """Return the last message at or before a time in nanoseconds; 0 selects the newest message."""
+
+    def before(self, time: int, count: int) -> list[StampedMessage]:
+        """Return up to `count` messages at or before a time, oldest first; 0 selects the newest messages."""
+
+    def times(self) -> NDArray[np.int64]:
+        """Return the positions of all messages on the timeline, in order."""
+
+    def close(self) -> None:
+        """Release what was opened for the topic."""
+
+
+class _Stored(NamedTuple):
+    key: int
+    time: int
+    data: bytes
+
+
+class LiveMessages:
+    """The latest messages of a topic, kept as bytes until they are displayed.
+
+    Args:
+        subscription: The subscription to the topic.
+        ros_type: The type of the messages.
+        keep: How many nanoseconds of messages are kept; the newest message is always kept.
+        frame: Return the name in the buffer of a frame that a message names.
+    """
+
+    MAX_BYTES = 64 << 20
+    MAX_MESSAGES = 4000
+
+    def __init__(
+        self, subscription: AdaptiveSubscription, ros_type: str, keep: int, frame: Callable[[str], str]
+    ) -> None:
+        # Imported here because only the displays of messages need the message classes.
+        from coframe.messages import deserialize, find  # noqa: PLC0415
+        from coframe.messages.header_peek import stamp_reader  # noqa: PLC0415
+
+        self.type = ros_type
+        self._subscription = subscription
+        self._class = find(ros_type)
+        self._deserialize = deserialize
+        self._stamp_reader = stamp_reader(ros_type)
+        self._keep = keep
+        self._frame = frame
+        self._stored: deque[_Stored] = deque()
+        self._bytes = 0
+        self._keys = itertools.count(1)
+        self._taking = threading.Lock()  # Held for longer than the other lock, because messages may be large.
+        self._lock = threading.Lock()
+
+    def frame(self, name: str) -> str:
+        """Return the name in the buffer of a frame that a message names."""
+        return self._frame(name)
+
+    def pending(self) -> bool:
+        """Return whether messages have arrived that are not stored yet."""
+        return self._subscription.pending()
+
+    def at(self, time: int) -> StampedMessage | None:
+        """Return the last message at or before a time in nanoseconds; 0 selects the newest message."""
+        self._take()
+        with self._lock:
+            if not self._stored:
+                return None
+            index = self._index_after(time) - 1
+            return None if index < 0 else self._message(self._stored[index])
+
+    def before(self, time: int, count: int) -> list[StampedMessage]:
+        """Return up to `count` messages at or before a time, oldest first; 0 selects the newest messages."""
+        self._take()
+        with self._lock:
+            end = self._index_after(time)
+            return [self._message(one) for one in itertools.islice(self._stored, max(0, end - count), end)]
+
+    def times(self) -> NDArray[np.int64]:
+        """Return the positions of all messages on the timeline, in order."""
+        self._take()
+        with self._lock:
+            return np.array([stored.time for stored in self._stored], np.int64)
+
+    def close(self) -> None:
+        """Unsubscribe from the topic."""
+        self._subscription.close()
+
+    def _take(self) -> None:
+        if not self._subscription.pending():
+            return
+        with self._taking:
+            samples = self._subscription.take()
+            with self._lock:
+                for sample in samples:
+                    self._store(sample.data)
+
+    def _store(self, data: bytes) -> None:
+        stamp = self._stamp_reader.stamp(data) if self._stamp_reader else None
+        if stamp is None or stamp <= 0:
+            stamp = time.time_ns()
+        # Times must not decrease: a late message is placed at the newest time.
+        newest = self._stored[-1].time if self._stored else stamp
+        if stamp < newest - self._keep:  # Time jumped back, for example because a simulation was restarted.
+            self._stored.clear()
+            self._bytes = 0
+            newest = stamp
+        self._stored.append(_Stored(next(self._keys), max(stamp, newest), data))
+        self._bytes += len(data)
+        self._drop_old()
+
+    def _drop_old(self) -> None:
+        newest = self._stored[-1].time
+        while len(self._stored) > 1 and (
+            self._stored[0].time < newest - self._keep
+            or self._bytes > self.MAX_BYTES
+            or len(self._stored) > self.MAX_MESSAGES
+        ):
+            self._bytes -= len(self._stored.popleft().data)
+
+    def _index_after(self, time: int) -> int:
+        if time == 0:
+            return len(self._stored)
+        return bisect_right(self._stored, time, key=lambda stored: stored.time)
+
+    def _message(self, stored: _Stored) -> StampedMessage:
+        return StampedMessage(stored.key, stored.time, lambda: self._deserialize(stored.data, self._class))

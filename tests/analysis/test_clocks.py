@@ -1,0 +1,42 @@
+"""Which clock stamps are on, and the periods and limits of edges."""
+
+import numpy as np
+
+from coframe.analysis.clocks import clock_of, group_by_clock, is_same_clock, present_for
+from coframe.analysis.liveness import stale_limit, usual_gap, usual_period
+from coframe.time import DAY, HOUR, MINUTE, SECOND
+
+
+def test_stamps_within_an_hour_of_the_system_time_are_on_the_system_clock():
+    assert clock_of(HOUR - 1) == clock_of(1 - HOUR) == "wall"
+    assert clock_of(HOUR) == clock_of(-DAY) == "other"
+
+
+def test_stamps_close_to_simulated_time_are_simulated():
+    assert clock_of(1.7e18, MINUTE - 1) == "simulated"
+    assert clock_of(1.7e18, MINUTE) == "other"
+    assert clock_of(0.0, MINUTE) == "wall"
+
+
+def test_spans_are_grouped_by_clock():
+    spans = [(DAY, DAY + SECOND), (0, SECOND), (HOUR, 2 * HOUR), (3 * HOUR, 4 * HOUR), (9 * HOUR, 9 * HOUR)]
+    assert group_by_clock(spans) == [[1, 2, 3], [4], [0]]
+    assert group_by_clock([]) == []
+
+
+def test_present_is_known_only_on_the_system_clock():
+    now = 1_700_000_000 * SECOND
+    assert present_for(now - MINUTE, now) == now
+    assert present_for(5 * SECOND, now) is None
+    assert is_same_clock(now, now + MINUTE)
+
+
+def test_usual_period_is_the_median_between_different_stamps():
+    assert usual_period(np.array([], np.int64)) == usual_period(np.array([5])) == usual_period(np.array([5, 5])) == 0.0
+    assert usual_period(np.array([30, 10, 20, 20, 1000])) == 10.0
+
+
+def test_limits_are_vectorized():
+    periods = np.array([0.0, 0.02, 0.5, 2.0]) * SECOND
+    assert stale_limit(periods).tolist() == [stale_limit(period) for period in periods.tolist()]
+    assert (usual_gap(0.02 * SECOND), usual_gap(2.0 * SECOND)) == (SECOND // 2, 20 * SECOND)
