@@ -1,6 +1,6 @@
-"""coframe beside its peers: `make bench`."""
+"""Benchmarks of coframe and its peers: `make bench`."""
 
 import os
 
-# numpy's and scipy's linear algebra would keep threads busy with waiting, on the cores that are measured.
+# Idle threads of NumPy's and SciPy's linear algebra would use the measured cores.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

@@ -1,8 +1,8 @@
-"""`make bench`: coframe beside its peers, in one table, and whether each bar is met.
+"""`make bench`: compares coframe with its peers in one table, and checks whether each target is met.
 
-make bench                                  everything; writes benchmarks/RESULTS.md
-make bench ARGS="--rows lookup deskew"      the rows whose subject or name has one of these words
-make bench ARGS="--quick"                   a rough look at all of them
+make bench                                  all rows; writes benchmarks/RESULTS.md
+make bench ARGS="--rows lookup deskew"      the rows whose subject or name contains one of these words
+make bench ARGS="--quick"                   all rows with few samples
 """
 
 import argparse
@@ -18,7 +18,7 @@ QUICK = Effort(rounds=7, seconds=0.5, least=2)
 
 
 def chosen(words: list[str]) -> list[Row]:
-    """The rows whose subject or name has one of the words; all of them without any."""
+    """Return the rows whose subject or name contains one of the words; without words, all rows."""
     return [
         row
         for subject, rows in ROWS.items()
@@ -28,7 +28,7 @@ def chosen(words: list[str]) -> list[Row]:
 
 
 def run(rows: list[Row], effort: Effort, results: Path | None) -> int:
-    """Measures, prints, writes the page if there is to be one; the program's exit status."""
+    """Measure and print the rows, and write the page if there is a path for it; return the exit status."""
     terminal = report.Terminal(rows)
     print(terminal.heading(), flush=True)
     measured = []
@@ -45,14 +45,14 @@ def run(rows: list[Row], effort: Effort, results: Path | None) -> int:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--rows", nargs="+", default=[], metavar="WORD", help="only rows that have one of the words")
+    parser.add_argument("--rows", nargs="+", default=[], metavar="WORD", help="only rows that contain one of the words")
     parser.add_argument("--quick", action="store_true", help="few samples")
     arguments = parser.parse_args()
     rows = chosen(arguments.rows)
     if not rows:
-        parser.error(f"no row has any of these: {' '.join(arguments.rows)}. Subjects: {', '.join(ROWS)}")
-    whole = not arguments.rows and not arguments.quick
-    return run(rows, QUICK if arguments.quick else Effort(), RESULTS if whole else None)
+        parser.error(f"no row contains any of: {' '.join(arguments.rows)}. Subjects: {', '.join(ROWS)}")
+    is_full_run = not arguments.rows and not arguments.quick
+    return run(rows, QUICK if arguments.quick else Effort(), RESULTS if is_full_run else None)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
-"""What a running verdict costs.
+"""Measures the cost of `coframe doctor --watch`.
 
-`coframe doctor --watch` beside a talker that publishes messages of ten transforms at 1 kHz: from when its window is
-full, its processor time in percent of one core:
+A talker publishes messages of ten transforms at 1 kHz. Once the window of the doctor is full, its processor time is
+measured and printed in percent of one core:
 
     python -m benchmarks.doctor 10                  # seconds
 """
@@ -16,12 +16,12 @@ from pathlib import Path
 from benchmarks.wire_latency import PATIENCE, RATE_HZ, TRANSFORMS
 
 WINDOW = 10
-"""Seconds that the command looks back by default."""
+"""Default window of the command in seconds."""
 FULL = 0.95 * WINDOW * RATE_HZ * TRANSFORMS
 
 
 def main(seconds: float) -> None:
-    # This machine's loopback only, and away from whoever else is on it.
+    # Use only the loopback interface, and a domain of its own.
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))
     doctor = start("-m", "coframe.cli", "doctor", "--watch", "--json")
@@ -47,14 +47,14 @@ def start(*arguments: str) -> subprocess.Popen[str]:
 
 def line(process: subprocess.Popen[str]) -> str:
     assert process.stdout
-    told = process.stdout.readline()
-    if not told:
-        raise SystemExit("a process ended by itself")
-    return told
+    text = process.stdout.readline()
+    if not text:
+        raise SystemExit("a process ended unexpectedly")
+    return text
 
 
 def processor_time(process: int) -> float:
-    """What a process has used so far, in seconds."""
+    """Return the processor time of a process so far, in seconds."""
     fields = Path(f"/proc/{process}/stat").read_text("ascii").rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 

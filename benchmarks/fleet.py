@@ -1,11 +1,11 @@
-"""Many robots, one relay, one buffer: is anything lost, and what does the relay cost?
+"""Several robots, one relay and one buffer: measures the processor time of the relay and the number of lost transforms.
 
-Each robot is a process that publishes the transforms of its frames on topics of its own; the relay, in another process,
-puts its name in front of them and writes all to /tf; this process has a buffer that keeps everything. It prints the
-relay's processor time in percent of one core and how many transforms have not arrived:
+Each robot is a process that publishes the transforms of its frames on its own topics. The relay, in another process,
+adds the name of the robot as a prefix and publishes all transforms on /tf. This process has a buffer with unlimited
+history. It prints the processor time of the relay in percent of one core, and the number of lost transforms:
 
     python -m benchmarks.fleet 10 20 50 10              # robots, frames of each, Hz, seconds
-    python -m benchmarks.fleet direct 10 20 50 10       # without a relay: what the listener itself takes
+    python -m benchmarks.fleet direct 10 20 50 10       # without a relay: the processor time of the listener
 """
 
 import contextlib
@@ -25,7 +25,7 @@ KEEP = ("map",)
 
 
 class Outcome(NamedTuple):
-    """What came out: percent of one core, and transforms."""
+    """The processor time in percent of one core, and the numbers of transforms."""
 
     cpu: float
     sent: int
@@ -33,7 +33,7 @@ class Outcome(NamedTuple):
 
 
 class Child:
-    """A process of this module that goes on, and answers, line by line."""
+    """A process of this module that performs one step for each line of input, and answers with a line."""
 
     def __init__(self, *arguments: object) -> None:
         command = [sys.executable, "-m", "benchmarks.fleet", *map(str, arguments)]
@@ -48,7 +48,7 @@ class Child:
         assert self._process.stdout
         line = self._process.stdout.readline()
         if not line:
-            raise SystemExit("a process ended by itself")
+            raise SystemExit("a process ended unexpectedly")
         return line
 
     def ask(self) -> str:
@@ -62,7 +62,7 @@ class Child:
 
 @contextlib.contextmanager
 def fleet(robots: int, frames: int, hertz: float, seconds: float) -> Iterator[list[Child]]:
-    """The robots, which have found who listens once they have answered."""
+    """Start the robots; each answers its first request once it has a subscriber."""
     talkers = [Child("talk", f"robot{number}", frames, hertz, seconds) for number in range(robots)]
     try:
         yield talkers
@@ -72,7 +72,7 @@ def fleet(robots: int, frames: int, hertz: float, seconds: float) -> Iterator[li
 
 
 def let_talk(talkers: list[Child]) -> None:
-    """Till the last one has sent all it has."""
+    """Let all robots publish, and wait until the last one is done."""
     for talker in talkers:
         talker.go_on()
     for talker in talkers:
@@ -80,7 +80,7 @@ def let_talk(talkers: list[Child]) -> None:
 
 
 def talk(name: str, frames: int, hertz: float, seconds: float) -> None:
-    """A robot: a chain of frames below the map."""
+    """Publish as one robot: a chain of frames below the map."""
     from coframe.messages import codec, find
     from coframe.wire import Participant
     from coframe.wire.qos import TF
@@ -132,12 +132,12 @@ def wait(condition: Callable[[], bool]) -> None:
     end = time.monotonic() + PATIENCE
     while not condition():
         if time.monotonic() > end:
-            raise SystemExit(f"waited in vain for {PATIENCE:g} s")
+            raise SystemExit(f"timed out after {PATIENCE:g} s")
         time.sleep(0.01)
 
 
 def measure(robots: int = 10, frames: int = 20, hertz: float = 50.0, seconds: float = 10.0) -> Outcome:
-    """One run."""
+    """Run the benchmark once with a relay."""
     import coframe
 
     middleman = Child("relay", robots)
@@ -155,7 +155,7 @@ def measure(robots: int = 10, frames: int = 20, hertz: float = 50.0, seconds: fl
 
 
 def direct(robots: int, frames: int, hertz: float, seconds: float) -> Outcome:
-    """The same without a relay: the processor time is that of the listener, which names the frames itself."""
+    """Run the benchmark once without a relay; the listener renames the frames, and its processor time is measured."""
     import coframe
     from coframe.frame_names import renaming
     from coframe.wire import Participant
@@ -175,7 +175,7 @@ def direct(robots: int, frames: int, hertz: float, seconds: float) -> Outcome:
 
 
 def outcome(buffer: "coframe.Buffer", sent: int, cpu: float) -> Outcome:
-    """Once nothing has come for a second."""
+    """Return the outcome, once no transform has been received for a second."""
     before, since = buffer.statistics["stored"], time.monotonic()
     while time.monotonic() - since < 1.0:
         time.sleep(0.05)
@@ -185,7 +185,7 @@ def outcome(buffer: "coframe.Buffer", sent: int, cpu: float) -> Outcome:
 
 
 def main(*arguments: str) -> None:
-    # This machine's loopback only, and away from whoever else is on it.
+    # Use only the loopback interface, and a domain of its own.
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))
     what, *rest = arguments

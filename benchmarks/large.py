@@ -1,4 +1,4 @@
-"""Ten million transforms, and prints the most memory, in bytes, that a process ever had that holds them.
+"""Stores ten million transforms and prints the peak memory of the process in bytes.
 
 python -m benchmarks.large buffer
 python -m benchmarks.large mcap
@@ -19,41 +19,41 @@ from benchmarks.motion import frame
 TRANSFORMS = 10_000_000
 DEPTH = 5
 SAMPLES = TRANSFORMS // DEPTH
-"""Of each link."""
+"""Number of samples of each edge."""
 PER_MESSAGE = 20
-"""Links in the recording, all of them in each message."""
+"""Edges in the recording; each message contains all of them."""
 
 _BLOCK = 50_000
 
 
 def buffer() -> coframe.Buffer:
-    """A chain of `DEPTH` links that holds them all."""
+    """Return a buffer with a chain of `DEPTH` edges that contains all transforms."""
     filled = coframe.Buffer(None)
-    for link in range(DEPTH):
+    for edge in range(DEPTH):
         for first in range(0, SAMPLES, _BLOCK):
             index = np.arange(first, first + _BLOCK)
-            half = 0.5 * (0.02 * index + link)
+            half = 0.5 * (0.02 * index + edge)
             poses = np.zeros((_BLOCK, 7))
-            poses[:, 0] = 0.1 * link + 0.001 * index
+            poses[:, 0] = 0.1 * edge + 0.001 * index
             poses[:, 4], poses[:, 5], poses[:, 6] = 0.6 * np.sin(half), 0.8 * np.sin(half), np.cos(half)
-            filled.set_many(frame(link), frame(link + 1), motion.stamp(link, 0) + index * motion.STEP, poses)
+            filled.set_many(frame(edge), frame(edge + 1), motion.stamp(edge, 0) + index * motion.STEP, poses)
     return filled
 
 
 def mcap(path: Path, transforms: int = TRANSFORMS) -> Path:
-    """A recording with as many, all links in each message."""
+    """Write a recording with this number of transforms; each message contains all edges."""
     from mcap.writer import Writer
 
     moment = coframe.Buffer(None)
-    for link in range(PER_MESSAGE):
-        *translation, qx, qy, qz, qw = motion.values(link, 1)
-        moment.set(frame(link), frame(link + 1), coframe.Transform(translation, (qx, qy, qz, qw)), motion.START)
+    for edge in range(PER_MESSAGE):
+        *translation, qx, qy, qz, qw = motion.values(edge, 1)
+        moment.set(frame(edge), frame(edge + 1), coframe.Transform(translation, (qx, qy, qz, qw)), motion.START)
     data = bytearray(moment.encode(static=False))
     stamp = struct.Struct("<iI")
-    places, place = [], -1
-    while (place := data.find(stamp.pack(*divmod(motion.START, motion.NS)), place + 1)) >= 0:
-        places.append(place)
-    assert len(places) == PER_MESSAGE
+    offsets, offset = [], -1
+    while (offset := data.find(stamp.pack(*divmod(motion.START, motion.NS)), offset + 1)) >= 0:
+        offsets.append(offset)
+    assert len(offsets) == PER_MESSAGE
     with path.open("wb") as stream:
         writer: Any = Writer(stream)
         writer.start(profile="ros2")
@@ -62,8 +62,8 @@ def mcap(path: Path, transforms: int = TRANSFORMS) -> Path:
         )
         for index in range(transforms // PER_MESSAGE):
             at = motion.START + index * motion.STEP
-            for place in places:
-                stamp.pack_into(data, place, *divmod(at, motion.NS))
+            for offset in offsets:
+                stamp.pack_into(data, offset, *divmod(at, motion.NS))
             writer.add_message(channel, at, bytes(data), at)
         writer.finish()
     return path
@@ -74,12 +74,12 @@ def opened() -> coframe.Buffer:
         path = mcap(Path(folder) / "run.mcap")
         before = peak()
         with coframe.open_bag(path) as recording:
-            assert peak() > before, "the writer must not have taken more than the reader"
+            assert peak() > before, "the writer used more memory than the reader"
             return recording.buffer
 
 
 def arrays() -> None:
-    """The floor: stamps and poses and nothing else."""
+    """Print the memory of the floor: only stamps and poses."""
     stamps, poses = np.ones(TRANSFORMS, dtype=np.int64), np.ones((TRANSFORMS, 7))
     assert len(stamps) == len(poses)
     print(peak())
@@ -95,7 +95,7 @@ def main() -> None:
 
 
 def peak() -> int:
-    """The most memory that this program ever had, in bytes; `getrusage` would count what its parent had, too."""
+    """Return the peak memory of this process in bytes; `getrusage` would include its parent."""
     status = Path("/proc/self/status").read_text("ascii")
     return 1024 * int(next(line for line in status.splitlines() if line.startswith("VmHWM")).split()[1])
 

@@ -1,4 +1,4 @@
-"""On what and beside what was measured."""
+"""Facts about the machine and the versions of the peers."""
 
 import datetime
 import os
@@ -19,16 +19,16 @@ DEBIAN_PACKAGES = ("python3-tf2", "python3-tf2-ros", "python3-tf2-sensor-msgs", 
 
 
 def facts() -> dict[str, str]:
-    """What a reader of the figures has to know."""
+    """Return the facts that are needed to interpret the results."""
     return {
         "Date": f"{datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} UTC",
         "Command": f"make bench{_arguments()}",
         "Machine": f"{_cpu()}, {os.cpu_count()} cores, {platform.machine()}, {platform.system()} {platform.release()}",
-        "Load": f"{os.getloadavg()[0]:.1f} processes wanted the cores on average in the last minute",
-        "coframe": f"{version('coframe')}, commit {_told('git', 'describe', '--always', '--dirty')}",
+        "Load": f"{os.getloadavg()[0]:.1f} on average in the last minute",
+        "coframe": f"{version('coframe')}, commit {_output('git', 'describe', '--always', '--dirty')}",
         "Python": platform.python_version(),
         "Packages": ", ".join(f"{package} {_version(package)}" for package in PACKAGES),
-        "Debian": f"{', '.join(_debian_packages())}; {_told(*DEBIAN_PYTHON, '--version')}",
+        "Debian": f"{', '.join(_debian_packages())}; {_output(*DEBIAN_PYTHON, '--version')}",
         "ROS 2": _ros2(),
     }
 
@@ -51,7 +51,8 @@ def _version(package: str) -> str:
 
 def _debian_packages() -> list[str]:
     return [
-        f"{package} {_told('dpkg-query', '--show', '--showformat=${Version}', package)}" for package in DEBIAN_PACKAGES
+        f"{package} {_output('dpkg-query', '--show', '--showformat=${Version}', package)}"
+        for package in DEBIAN_PACKAGES
     ]
 
 
@@ -60,11 +61,11 @@ def _ros2() -> str:
         python = ROS2.python()
     except MissingPeerError:
         return "none sourced"
-    return f"{os.environ['ROS_DISTRO']}, {_told(*python, '--version')}"
+    return f"{os.environ['ROS_DISTRO']}, {_output(*python, '--version')}"
 
 
-def _told(*command: str) -> str:
-    """What a command prints."""
+def _output(*command: str) -> str:
+    """Return what a command prints."""
     try:
         done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     except (OSError, subprocess.CalledProcessError):

@@ -1,4 +1,4 @@
-"""Rows of the table: who is measured beside whom, in turn, and what must come out."""
+"""Rows of the table: which contenders are compared, how they are measured, and the target."""
 
 import contextlib
 import statistics
@@ -11,18 +11,18 @@ from benchmarks.processor import one_processor
 
 
 class Contender(Protocol):
-    """Something that can be measured again and again."""
+    """Something that can be measured repeatedly."""
 
     def sample(self) -> float:
-        """One more figure: nanoseconds, unless the row's unit is another."""
+        """Return one more result, in nanoseconds or in the unit of the row."""
 
 
 class MissingPeerError(Exception):
-    """A peer is not on this machine; the text says what to install."""
+    """A peer is not installed; the text says what to install."""
 
 
 class Spread(NamedTuple):
-    """The median and the middle half around it."""
+    """The median and the quartiles."""
 
     low: float
     median: float
@@ -35,18 +35,18 @@ class Spread(NamedTuple):
         return cls(*statistics.quantiles(values, n=4, method="inclusive"))
 
 
-class Bar(Protocol):
-    """What a row must reach."""
+class Target(Protocol):
+    """A condition that the result of a row must meet."""
 
     def reached(self, result: "Result") -> bool | None:
-        """None: what it takes to tell is not there."""
+        """Return whether the target is met; None if a contender is missing."""
 
     def text(self, row: "Row") -> str: ...
 
 
 @dataclass(frozen=True)
 class TimesAsFast:
-    """The other's figure must be so many times ours."""
+    """The other result must be at least this many times coframe's."""
 
     times: float
 
@@ -60,7 +60,7 @@ class TimesAsFast:
 
 @dataclass(frozen=True)
 class AtMost:
-    """Our figure itself must not be larger."""
+    """coframe's result must not exceed a limit."""
 
     limit: float
 
@@ -73,7 +73,7 @@ class AtMost:
 
 @dataclass(frozen=True)
 class GrowsAtMost:
-    """Our figure must not be more than so many times the other's."""
+    """coframe's result must be at most this many times the other one."""
 
     times: float
 
@@ -105,20 +105,20 @@ class Row:
     """A row of the table.
 
     Attributes:
-        name: What is done.
-        beside: Who or what our figure stands beside: a peer, or a floor below which it cannot be.
-        contenders: Makes ours and then the other one, and ends them. What is wrong with ours is raised by the first
-            step, what is wrong with the other by the second.
-        bar: What must be reached; None: it is told for information.
-        unit: How a figure is written.
-        least: So many samples of each are taken whatever time they take.
-        processors: How many they need at once; with one, all contenders have the same one.
+        name: The work that is measured.
+        reference: What coframe is compared with: a peer, or a floor that no implementation can go below.
+        contenders: Yields coframe's contender and then the other one, and closes both. Each step raises the errors of
+            its contender.
+        target: The target; None: the row is for information.
+        unit: Formats a result.
+        least: Minimum number of samples of each contender, however long they take.
+        processors: Number of processors needed; with one, all contenders use the same one.
     """
 
     name: str
-    beside: str
+    reference: str
     contenders: Callable[[], Generator[Contender]]
-    bar: Bar | None = None
+    target: Target | None = None
     unit: Callable[[float], str] = nanoseconds
     least: int = 5
     processors: int = 1
@@ -126,14 +126,14 @@ class Row:
 
 @dataclass
 class Result:
-    """What came out for a row.
+    """The result of a row.
 
     Attributes:
         row: The row.
-        ours: Our samples.
-        theirs: The other's, each taken right after ours.
-        missing: What to install for the other; "" if it is there.
-        error: What went wrong; "" if nothing did.
+        ours: Samples of coframe.
+        theirs: Samples of the other contender, each taken right after one of coframe.
+        missing: What to install for the other contender; "" if it is installed.
+        error: The error; "" if there was none.
     """
 
     row: Row
@@ -144,28 +144,28 @@ class Result:
 
     @property
     def ratio(self) -> Spread:
-        """The other's figure by ours, round by round."""
+        """The other result divided by coframe's, over all rounds."""
         return Spread.of([their / our for our, their in zip(self.ours, self.theirs, strict=False)])
 
     @property
     def verdict(self) -> str:
-        """`met`, `FALLS SHORT`, `skipped` or, where there is no bar, nothing."""
+        """`met`, `MISSED`, `skipped`, `ERROR`, or "" for a row without a target."""
         if self.error:
-            return "FAILS" if self.row.bar else "fails"
-        reached = self.row.bar.reached(self) if self.row.bar else None
+            return "ERROR" if self.row.target else "error"
+        reached = self.row.target.reached(self) if self.row.target else None
         if reached is not None:
-            return "met" if reached else "FALLS SHORT"
+            return "met" if reached else "MISSED"
         return "skipped" if self.missing else ""
 
     @property
     def failed(self) -> bool:
-        """Whether it has a bar that is not known to be reached, for another reason than a peer that is missing."""
-        return self.row.bar is not None and self.verdict in {"FAILS", "FALLS SHORT"}
+        """Whether the row has a target that is missed or could not be measured; a missing peer is not a failure."""
+        return self.row.target is not None and self.verdict in {"ERROR", "MISSED"}
 
 
 @dataclass(frozen=True)
 class Effort:
-    """How long a row is measured: so many rounds, or what fits into the time, but not fewer than the row's least."""
+    """How long a row is measured: until one of the limits, but for at least the row's minimum of rounds."""
 
     rounds: int = 51
     seconds: float = 4.0
@@ -173,15 +173,15 @@ class Effort:
 
 
 def measure(row: Row, effort: Effort) -> Result:
-    """Measures ours and the other in turn."""
+    """Measure coframe and the other contender in turn."""
     result = Result(row)
     place = one_processor() if row.processors == 1 else contextlib.nullcontext()
     with place, contextlib.closing(row.contenders()) as contenders:
         try:
             try:
                 ours = next(contenders)
-                ours.sample()  # it warms up: caches, imports, and how many runs make a sample
-            except MissingPeerError as missing:  # what both work on is the peer's
+                ours.sample()  # Warm-up: caches, imports, and the number of runs per sample.
+            except MissingPeerError as missing:  # Both contenders need something of the peer.
                 result.missing = str(missing)
                 return result
             theirs: Contender | None = None
@@ -192,7 +192,7 @@ def measure(row: Row, effort: Effort) -> Result:
             else:
                 theirs.sample()
             _take_turns(result, ours, theirs, effort)
-        except Exception as error:  # noqa: BLE001 - a row that cannot be measured is told of as such
+        except Exception as error:  # noqa: BLE001 - the table reports all errors
             result.error = f"{type(error).__name__}: {error}"
     return result
 

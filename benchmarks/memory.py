@@ -1,8 +1,8 @@
-"""Prints by how many bytes a process grows for each transform that is stored: its resident memory, before and after.
+"""Prints by how many bytes the resident memory of a process grows for each stored transform.
 
     python -m benchmarks.memory coframe
 
-Samples of ten frames are stored one by one and in turn, as they come from a robot.
+Samples of ten frames are stored one by one and in turn, as a listener of a robot stores them.
 """
 
 import os
@@ -15,10 +15,10 @@ from benchmarks.motion import frame
 
 FRAMES = 10
 SAMPLES = 50_000
-"""Of each frame."""
+"""Number of samples of each frame."""
 
 Store = Callable[[int, int], object]
-"""Takes a link's sample in: link, index."""
+"""Stores a sample; the arguments are the edge and the index."""
 
 
 def coframe() -> Store:
@@ -26,25 +26,25 @@ def coframe() -> Store:
     from coframe import Buffer
 
     buffer = Buffer(None)
-    return lambda link, index: ours.store(buffer, link, motion.stamp(link, index), motion.values(link, index))
+    return lambda edge, index: ours.store(buffer, edge, motion.stamp(edge, index), motion.values(edge, index))
 
 
 def tf2() -> Store:
     from benchmarks.peers import tf2
 
     buffer = tf2.tf2_py.BufferCore(tf2.duration(2 * SAMPLES * motion.STEP // motion.NS))
-    return lambda link, index: buffer.set_transform(tf2.message(link, index), "bench")
+    return lambda edge, index: buffer.set_transform(tf2.message(edge, index), "bench")
 
 
 def tf_tree() -> Store:
     from benchmarks.peers import tf_trees
 
     tree = tf_trees.empty(FRAMES, SAMPLES)
-    publishers = [tree.publisher(frame(link + 1), frame(link)) for link in range(FRAMES)]
+    publishers = [tree.publisher(frame(edge + 1), frame(edge)) for edge in range(FRAMES)]
 
-    def store(link: int, index: int) -> None:
-        x, y, z, qx, qy, qz, qw = motion.values(link, index)
-        publishers[link].push(motion.stamp(link, index), [qw, qx, qy, qz, x, y, z])
+    def store(edge: int, index: int) -> None:
+        x, y, z, qx, qy, qz, qw = motion.values(edge, index)
+        publishers[edge].push(motion.stamp(edge, index), [qw, qx, qy, qz, x, y, z])
 
     return store
 
@@ -55,9 +55,9 @@ def arrays() -> Store:
     stamps = np.empty((FRAMES, SAMPLES), dtype=np.int64)
     poses = np.empty((FRAMES, SAMPLES, 7))
 
-    def store(link: int, index: int) -> None:
-        stamps[link, index] = motion.stamp(link, index)
-        poses[link, index] = motion.values(link, index)
+    def store(edge: int, index: int) -> None:
+        stamps[edge, index] = motion.stamp(edge, index)
+        poses[edge, index] = motion.values(edge, index)
 
     return store
 
@@ -71,12 +71,12 @@ def resident() -> int:
 
 def main() -> None:
     contender = CONTENDERS[sys.argv[1]]
-    contender()(0, 0)  # what is loaded once
+    contender()(0, 0)  # Loads everything that is loaded once.
     store = contender()
     before = resident()
     for index in range(SAMPLES):
-        for link in range(FRAMES):
-            store(link, index)
+        for edge in range(FRAMES):
+            store(edge, index)
     print((resident() - before) / (FRAMES * SAMPLES))
 
 

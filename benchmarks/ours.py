@@ -1,4 +1,4 @@
-"""coframe's buffers with the chain that all contenders have."""
+"""coframe's buffers with the chain that all contenders store."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,28 +12,28 @@ Values = NDArray[np.float64]
 
 
 def filled(depth: int, samples: int = motion.SAMPLES) -> coframe.Buffer:
-    """A buffer that keeps everything, with a chain that is so deep."""
+    """Return a buffer with unlimited history that contains a chain of this depth."""
     buffer = coframe.Buffer(None)
-    for link in range(depth):
+    for edge in range(depth):
         for index in range(samples):
-            store(buffer, link, motion.stamp(link, index), motion.values(link, index))
+            store(buffer, edge, motion.stamp(edge, index), motion.values(edge, index))
     return buffer
 
 
 def store(
-    buffer: coframe.Buffer, link: int, stamp: int, values: tuple[float, float, float, float, float, float, float]
+    buffer: coframe.Buffer, edge: int, stamp: int, values: tuple[float, float, float, float, float, float, float]
 ) -> None:
-    buffer._set_values(frame(link), frame(link + 1), stamp, *values, False, "bench")
+    buffer._set_values(frame(edge), frame(edge + 1), stamp, *values, False, "bench")
 
 
-def stamps_and_values(link: int, samples: int) -> tuple[Stamps, Values]:
-    """A link's samples as arrays: (n,) nanoseconds; (n, 7) x, y, z, qx, qy, qz, qw."""
-    stamps = np.array([motion.stamp(link, index) for index in range(samples)], dtype=np.int64)
-    return stamps, np.array([motion.values(link, index) for index in range(samples)])
+def stamps_and_values(edge: int, samples: int) -> tuple[Stamps, Values]:
+    """Return the samples of an edge as arrays: (n,) nanoseconds; (n, 7) x, y, z, qx, qy, qz, qw."""
+    stamps = np.array([motion.stamp(edge, index) for index in range(samples)], dtype=np.int64)
+    return stamps, np.array([motion.values(edge, index) for index in range(samples)])
 
 
 def random_times(count: int, samples: int, *, in_order: bool = False) -> Stamps:
-    """Distinct times at which every link can be interpolated, in random order or not."""
+    """Return distinct times at which every edge can be interpolated, sorted or in random order."""
     generator = np.random.default_rng(7)
     times = np.unique(generator.integers(motion.between(1), motion.between(samples - 2), size=count + count // 8))
     chosen = generator.choice(times, count, replace=False)

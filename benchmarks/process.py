@@ -1,4 +1,4 @@
-"""Contenders in Pythons of their own."""
+"""Contenders that run in other processes and other Pythons."""
 
 import contextlib
 import functools
@@ -14,59 +14,59 @@ from typing import Any
 
 ROOT = Path(__file__).parents[1]
 Python = tuple[str, ...]
-"""A command that starts one."""
+"""The command that starts a Python."""
 OWN_PYTHON: Python = (sys.executable, "-E")
-"""Without PYTHONPATH: what a sourced ROS puts there is for another Python."""
+"""Ignores PYTHONPATH, because a sourced ROS sets it for another Python."""
 
 
 class PeerError(Exception):
-    """A peer that is there did not do its work."""
+    """An installed peer failed."""
 
 
 class Worker:
-    """A process that times the statements of a module; its statements go when it goes."""
+    """A process that times the statements of a module."""
 
     def __init__(self, python: Python, module: str) -> None:
         command = [*python, "-m", "benchmarks.worker", module]
-        self._complaints = tempfile.TemporaryFile("w+")  # noqa: SIM115 - closed by close()
+        self._errors = tempfile.TemporaryFile("w+")  # noqa: SIM115 - closed by close()
         self._process = subprocess.Popen(
-            command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._complaints, text=True
+            command, cwd=ROOT, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, text=True
         )
 
-    def sample(self, question: str) -> float:
-        """Asks for one more sample of a statement: JSON, `[function, argument, ...]`."""
+    def sample(self, request: str) -> float:
+        """Request one more sample of a statement: JSON, `[function, argument, ...]`."""
         assert self._process.stdin
         assert self._process.stdout
-        with contextlib.suppress(BrokenPipeError):  # it has ended: there is no answer either
-            self._process.stdin.write(question + "\n")
+        with contextlib.suppress(BrokenPipeError):  # If the process has ended, the read below reports it.
+            self._process.stdin.write(request + "\n")
             self._process.stdin.flush()
         answer = self._process.stdout.readline()
         if not answer:
-            self._complaints.seek(0)
-            raise PeerError(last_line(self._complaints.read()) or f"exit status {self._process.wait()}")
-        told: dict[str, Any] = json.loads(answer)
-        if "error" in told:
-            raise PeerError(told["error"])
-        return float(told["sample"])
+            self._errors.seek(0)
+            raise PeerError(last_line(self._errors.read()) or f"exit status {self._process.wait()}")
+        result: dict[str, Any] = json.loads(answer)
+        if "error" in result:
+            raise PeerError(result["error"])
+        return float(result["sample"])
 
     def close(self) -> None:
         self._process.communicate()
-        self._complaints.close()
+        self._errors.close()
 
 
 class RemoteStatement:
-    """A statement of a worker's module."""
+    """A statement of the module of a worker."""
 
     def __init__(self, worker: Worker, function: str, *arguments: Any) -> None:
         self._worker = worker
-        self._question = json.dumps([function, *arguments])
+        self._request = json.dumps([function, *arguments])
 
     def sample(self) -> float:
-        return self._worker.sample(self._question)
+        return self._worker.sample(self._request)
 
 
 class Program:
-    """A program that prints numbers: in each run the first one, unless told otherwise, is a sample."""
+    """A program that prints numbers; a sample is one of the numbers of a run, by default the first."""
 
     def __init__(
         self, *arguments: str, python: Python = OWN_PYTHON, environment: Mapping[str, str] = MappingProxyType({})
@@ -78,7 +78,7 @@ class Program:
         return self.samples()[number]
 
     def samples(self) -> list[float]:
-        """All of one run."""
+        """Return all numbers of one run."""
         done = subprocess.run(
             self._command, cwd=ROOT, env=self._environment, capture_output=True, text=True, check=False
         )
@@ -89,7 +89,7 @@ class Program:
 
 @functools.lru_cache
 def can_import(python: Python, *modules: str) -> bool:
-    """Whether a Python is there and has these modules."""
+    """Return whether a Python exists and has these modules."""
     if not Path(python[0]).exists():
         return False
     probe = subprocess.run([*python, "-c", f"import {', '.join(modules)}"], capture_output=True, check=False)
@@ -97,5 +97,5 @@ def can_import(python: Python, *modules: str) -> bool:
 
 
 def last_line(text: str) -> str:
-    """What a traceback ends with; "" if there is nothing."""
+    """Return the last line of a text, such as a traceback; "" if it is empty."""
     return text.strip().rpartition("\n")[2]

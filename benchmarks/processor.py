@@ -1,4 +1,4 @@
-"""One processor for all contenders of a row: on a shared machine one may be half as fast as the next."""
+"""One processor for all contenders of a row: on a shared machine, some processors are half as fast as others."""
 
 import contextlib
 import os
@@ -7,7 +7,7 @@ from collections.abc import Generator
 
 @contextlib.contextmanager
 def one_processor() -> Generator[None]:
-    """This thread and the processes it starts meanwhile take turns on one processor, where the system allows it."""
+    """Pin this thread and the processes it starts to one processor, if the system supports it."""
     if not hasattr(os, "sched_setaffinity"):
         yield
         return

@@ -1,53 +1,62 @@
-"""The table: in the terminal as it grows, and as a page."""
+"""The table of results, in the terminal and as a Markdown page."""
 
 from pathlib import Path
 
 from benchmarks.measuring import Result, Row, Spread
 
-COLUMNS = ("", "coframe", "beside", "its figure", "ratio", "middle half", "bar", "")
+COLUMNS = ("", "coframe", "compared with", "its result", "ratio", "quartiles", "target", "")
 
 LEGEND = """\
-`ratio` is the other's figure by ours, the median over the rounds, and the middle half of them stands beside it: above 1
-coframe is faster or smaller. Floors are what no implementation could go below; they are measured in the same run. D is
-the depth of the chain, n the samples of each frame, N the look-ups or samples of one call. How it is measured, and how
-to run it: [README.md](README.md).
+`ratio` is the other result divided by coframe's, as the median over the rounds, followed by its quartiles. Above 1,
+coframe is faster or smaller. A floor is the cost of the work that no implementation can avoid, measured in the same
+run. D is the depth of the chain, n the number of samples per frame, N the number of lookups or samples per call.
+[README.md](README.md) describes how the benchmarks are measured and run.
 """
 
 
 def cells(result: Result) -> tuple[str, ...]:
-    """A row's cells, in the order of the columns."""
+    """Return the cells of a row, in the order of the columns."""
     row = result.row
-    bar = row.bar.text(row) if row.bar else ""
+    target = row.target.text(row) if row.target else ""
     if result.error:
-        return row.name, "", row.beside, "", "", "", bar, f"{result.verdict}: {result.error}"
+        return row.name, "", row.reference, "", "", "", target, f"{result.verdict}: {result.error}"
     mine = row.unit(Spread.of(result.ours).median) if result.ours else ""
     if not result.theirs:
-        return row.name, mine, row.beside, "", "", "", bar, f"{result.verdict}: {result.missing}".removeprefix(": ")
+        return (
+            row.name,
+            mine,
+            row.reference,
+            "",
+            "",
+            "",
+            target,
+            f"{result.verdict}: {result.missing}".removeprefix(": "),
+        )
     ratio = result.ratio
     return (
         row.name,
         mine,
-        row.beside,
+        row.reference,
         row.unit(Spread.of(result.theirs).median),
         f"{number(ratio.median)}x",
         f"{number(ratio.low)} - {number(ratio.high)}",
-        bar,
+        target,
         result.verdict,
     )
 
 
 def number(value: float) -> str:
-    """Three digits, for all that is below a thousand."""
+    """Format a number with three digits, or without decimals from 100."""
     return f"{value:.0f}" if value >= 100 else f"{value:#.3g}".removesuffix(".")
 
 
 class Terminal:
-    """Prints the table a row at a time: the widths are known from the rows that are to come."""
+    """Formats the table row by row; the widths of the columns follow from all rows to be measured."""
 
     def __init__(self, rows: list[Row]) -> None:
         name = max(len(row.name) for row in rows)
-        beside = max(len(row.beside) for row in rows)
-        self._widths = (name, 10, beside, 10, 8, 15, 12, 0)
+        reference = max(len(row.reference) for row in rows)
+        self._widths = (name, 10, reference, 10, 8, 15, 12, 0)
 
     def heading(self) -> str:
         return self.line(COLUMNS)
@@ -57,21 +66,21 @@ class Terminal:
 
 
 def summary(results: list[Result]) -> str:
-    """Which bars are met, and which are not."""
-    verdicts = [result.verdict for result in results if result.row.bar]
-    lines = [f"{verdicts.count('met')} of {len(verdicts)} bars are met, {verdicts.count('skipped')} skipped."]
+    """Return how many targets are met, and which are not."""
+    verdicts = [result.verdict for result in results if result.row.target]
+    lines = [f"{verdicts.count('met')} of {len(verdicts)} targets are met, {verdicts.count('skipped')} skipped."]
     lines += [f"{result.verdict}: {_short(result)}" for result in results if result.failed]
     return "\n".join(lines)
 
 
 def _short(result: Result) -> str:
-    name, mine, beside, _, ratio, _, bar, _ = cells(result)
-    return f"{name} ({bar}): {result.error or f'{mine}, {ratio} beside {beside}'}"
+    name, mine, reference, _, ratio, _, target, _ = cells(result)
+    return f"{name} ({target}): {result.error or f'{mine}, {ratio} compared with {reference}'}"
 
 
 def page(results: list[Result], facts: dict[str, str]) -> str:
-    """The table with all that belongs to it, as Markdown."""
-    lines = ["# Results", "", "Written by `make bench`; not to be edited.", ""]
+    """Return the table with its summary as Markdown."""
+    lines = ["# Results", "", "Written by `make bench`. Do not edit.", ""]
     lines += [f"- {name}: {fact}" for name, fact in facts.items()]
     lines += ["", LEGEND, _markdown(COLUMNS), _markdown(("---",) * len(COLUMNS))]
     lines += [_markdown(cells(result)) for result in results]

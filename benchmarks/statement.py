@@ -1,6 +1,6 @@
-"""What one run of a statement takes.
+"""Times a statement.
 
-Nothing but the standard library: peers are timed by this in Pythons of their own.
+This module uses only the standard library, because it also runs in the Python of a peer.
 """
 
 import time
@@ -9,21 +9,21 @@ from collections.abc import Callable
 from typing import Any
 
 SAMPLE_NS = 400_000
-"""Short enough to fit between two switches of the scheduler."""
+"""Duration of a sample: short enough to fit into a time slice of the scheduler."""
 LONG_NS = 20_000_000
-"""A run that takes so long needs no other one to warm up."""
+"""A run of at least this duration needs no warm-up run."""
 
 
 class Statement:
-    """A statement in a bare loop, timed by its thread's processor time.
+    """A statement in a loop, timed by the processor time of its thread.
 
     Args:
-        code: The statement; it is compiled into the loop, so that no call is added to what it does.
-        names: What it may use.
-        setup: Runs before each sample and is not timed; what it assigns, the statement may use.
-        items: How many things one run does: the time is told for one of them.
-        limit: How many runs one setup is good for.
-        clock: Nanoseconds. `time.process_time_ns` counts helping threads, `time.perf_counter_ns` is the wall's.
+        code: The statement. It is compiled into the loop, so that no function call is added.
+        names: The names that it can use.
+        setup: Code that runs before each sample and is not timed. The statement can use the names it assigns.
+        items: Number of items per run; the result is the time per item.
+        limit: Maximum number of runs after one setup.
+        clock: Returns nanoseconds: `time.process_time_ns` for all threads, `time.perf_counter_ns` for wall time.
     """
 
     def __init__(
@@ -43,11 +43,11 @@ class Statement:
         self._long = False
 
     def sample(self) -> float:
-        """Nanoseconds an item, from about `SAMPLE_NS` of runs and at least one."""
+        """Return nanoseconds per item, from runs of about `SAMPLE_NS` in total, at least one run."""
         if not self._runs:
             self._runs = self._runs_of_a_sample()
         if not self._long:
-            self._spend(1)  # the caches were the other contender's
+            self._spend(1)  # Fills the caches, which the other contender used.
         return self._spend(self._runs) / (self._runs * self._items)
 
     def _spend(self, runs: int) -> int:

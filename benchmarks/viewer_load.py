@@ -1,10 +1,10 @@
-"""What a tab of the viewer costs its server, at 30 Hz and beyond the look-ups themselves.
+"""Measures the cost of a tab of the viewer for its server, at 30 Hz and in addition to the lookups.
 
     python -m benchmarks.viewer_load 1000 5     frames, seconds: percent of one core
 
-So many frames move, five deep, and are heard of 30 times a second. The tab is another process, which says after each
-tick that it is drawn. Prints what the viewer's threads take beyond the look-ups, then what these take, and the ticks a
-second.
+The frames move in chains of five and are updated 30 times per second. The tab is another process, which confirms each
+frame update. The program prints the processor time of the viewer's threads without the lookups, that of the lookups,
+and the frame updates per second.
 """
 
 import re
@@ -24,7 +24,7 @@ RATE_HZ = 30
 DEPTH = 5
 WARM_UP = 1.0
 MAGIC = 0x5EC0_5EC0
-"""A stamp's seconds, to be found in the bytes."""
+"""Seconds of the stamps, to find them in the bytes."""
 
 TAB = """
 import sys
@@ -39,7 +39,7 @@ with connect(sys.argv[1].replace("http", "ws") + "ws", max_size=None, compressio
 
 
 class Broadcaster:
-    """Stores a sample of each frame again and again, as a listener would, and counts what that takes."""
+    """Stores a sample of each frame repeatedly, as a listener does, and measures its processor time."""
 
     def __init__(self, buffer: coframe.Buffer, frames: int) -> None:
         stamped = find("geometry_msgs/msg/TransformStamped")
@@ -52,8 +52,8 @@ class Broadcaster:
             transforms.append(one)
         message = serialize(find("tf2_msgs/msg/TFMessage")(transforms=transforms))
         self._bytes = np.frombuffer(bytearray(message), np.uint8)
-        places = [match.start() for match in re.finditer(re.escape(MAGIC.to_bytes(4, "little")), message)]
-        self._stamps = np.add.outer(places, np.arange(8))
+        offsets = [match.start() for match in re.finditer(re.escape(MAGIC.to_bytes(4, "little")), message)]
+        self._stamps = np.add.outer(offsets, np.arange(8))
         self._buffer = buffer
         self._ended = threading.Event()
         self.spent = 0.0
@@ -75,15 +75,15 @@ class Broadcaster:
             self.spent = time.thread_time()
 
 
-def look_ups(buffer: coframe.Buffer, ticks: int) -> float:
-    """The seconds that so many ticks of look-ups take."""
+def lookups(buffer: coframe.Buffer, updates: int) -> float:
+    """Return the seconds that the lookups of a number of frame updates take."""
     names = buffer.frame_names()
     roots: list[str | None] = [None] * len(names)
-    poses, told = np.empty((len(names), 7)), np.empty(len(names), np.uint8)
+    poses, states = np.empty((len(names), 7)), np.empty(len(names), np.uint8)
     table = _core.PoseTable(buffer, "map", names, roots)
     begin = time.thread_time()
-    for _ in range(ticks):
-        table.look_up(0, 0, poses, told)
+    for _ in range(updates):
+        table.look_up(0, 0, poses, states)
     return time.thread_time() - begin
 
 
@@ -92,13 +92,13 @@ def main(frames: int, seconds: float) -> None:
     with Broadcaster(buffer, frames) as broadcaster, coframe.show(buffer, fixed="map", port=0) as viewer:
         tab = subprocess.Popen([sys.executable, "-c", TAB, viewer.url], stdout=subprocess.PIPE)
         assert tab.stdout
-        ticks = 0
+        updates = 0
         counted = threading.Event()
 
         def count() -> None:
-            nonlocal ticks
+            nonlocal updates
             for _ in tab.stdout or ():
-                ticks += counted.is_set()
+                updates += counted.is_set()
 
         threading.Thread(target=count, daemon=True).start()
         time.sleep(WARM_UP)
@@ -106,11 +106,11 @@ def main(frames: int, seconds: float) -> None:
         begin, cpu, others = time.monotonic(), time.process_time(), broadcaster.spent
         time.sleep(seconds)
         cpu = time.process_time() - cpu - (broadcaster.spent - others)
-        wall, seen = time.monotonic() - begin, ticks
+        wall, received = time.monotonic() - begin, updates
         tab.kill()
         tab.wait()
-    floor = look_ups(buffer, seen)
-    print(f"{100 * (cpu - floor) / wall:.2f} {100 * floor / wall:.2f} {seen / wall:.1f}")
+    floor = lookups(buffer, received)
+    print(f"{100 * (cpu - floor) / wall:.2f} {100 * floor / wall:.2f} {received / wall:.1f}")
 
 
 if __name__ == "__main__":

@@ -1,9 +1,9 @@
-"""How long `coframe view` takes until a tab has what it draws first: nanoseconds, by the wall's clock.
+"""Measures the time that `coframe view` takes until a tab receives its first frame update.
 
     python -m benchmarks.viewer_start
 
-Prints the time until a tab has a tick of the graph that was joined, then until the address was there. A browser's own
-time begins at the latter.
+Prints two wall times in nanoseconds: until a tab receives a frame update of the ROS graph, and until the address was
+printed, which is when a browser starts to load the page.
 """
 
 import json
@@ -35,8 +35,8 @@ def main() -> None:
                         break
                     tab.send('{"type":"ready"}')
                 else:
-                    told = json.loads(message)
-                    joined |= told["type"] == "hello" and told["can_publish"]
+                    content = json.loads(message)
+                    joined |= content["type"] == "hello" and content["can_publish"]
         print(time.monotonic_ns() - begin, announced - begin)
     finally:
         server.terminate()

@@ -1,15 +1,15 @@
-"""How long a transform is on its way between two processes, and what listening costs.
+"""Measures the latency of transforms between two processes, and the processor time of a listener.
 
-A talker publishes messages of ten transforms at 1 kHz, all of them stamped by the monotonic clock and the first one at
-the last moment before it is sent: its latency is measured. The figures of the listener:
+A talker publishes messages of ten transforms at 1 kHz. They are stamped with the monotonic clock, and the first one
+right before it is sent: its latency is measured.
 
-    python -m benchmarks.wire_latency cpu coframe 5         processor time, percent of one core
-    python -m benchmarks.wire_latency latency coframe 5     till it is there: nanoseconds, median and 99th percentile
-    python -m benchmarks.wire_latency awake coframe 5       till a Python thread that waits for it is awake: the same
+    python -m benchmarks.wire_latency cpu coframe 5         processor time of the listener, percent of one core
+    python -m benchmarks.wire_latency latency coframe 5     until it is stored: nanoseconds, median and 99th percentile
+    python -m benchmarks.wire_latency awake coframe 5       until a waiting Python thread is awake: the same
 
-A transform is there when whoever asks the buffer gets it: the reader notes the time on the thread that has stored it.
-Listeners are `coframe`, the buffer's own reader; `tf2`, the TransformListener of whoever provides tf2_ros; and `udp`, a
-bare socket that is sent the same bytes: the floor, where there and awake are one.
+A transform is stored when a lookup returns it; the reader records the time on the thread that stores it. The listeners
+are `coframe`, the native reader of a buffer; `tf2`, the TransformListener of the installed tf2_ros; and `udp`, a bare
+socket that receives the same bytes. The socket is the floor, and its two latencies are the same.
 """
 
 import contextlib
@@ -27,29 +27,29 @@ RATE_HZ = 1000
 TRANSFORMS = 10
 TARGET, SOURCE = "base_link_0", "arm_link_0"
 STAMP_AT = 8
-"""Where the first stamp is in the message's bytes."""
+"""Offset of the first stamp in the bytes of the message."""
 NS = 1_000_000_000
 PATIENCE = 30.0
 
 
 class Listener(Protocol):
-    """Takes messages in from when it is made."""
+    """Receives messages from its creation on."""
 
     address: str
-    """What a talker is to be told."""
+    """The address argument of the talker."""
 
-    def heard(self) -> bool:
-        """Whether there was a first message."""
+    def has_received(self) -> bool:
+        """Return whether the first message has been received."""
 
     def listen(self, seconds: float) -> None:
-        """Goes on for so long."""
+        """Receive messages for a time."""
 
     def next_message(self) -> tuple[int, int]:
-        """Waits for a message: its stamp, and when it was there; nanoseconds."""
+        """Wait for a message; return its stamp and the time when it was stored, in nanoseconds."""
 
 
 class Coframe:
-    """The native reader of a buffer."""
+    """Listener: the native reader of a buffer."""
 
     address = "dds"
 
@@ -60,27 +60,27 @@ class Coframe:
         self._buffer = coframe.Buffer()
         participant = Participant.get()
         self._reader = participant.tf_reader(participant.add_node("/", "listener"), "/tf", self._buffer, static=False)
-        self._seen = 0
+        self._last = 0
 
-    def heard(self) -> bool:
+    def has_received(self) -> bool:
         if self._buffer.can_transform(TARGET, SOURCE):
-            self._seen = self._buffer.lookup(TARGET, SOURCE).stamp or 0
-        return self._seen > 0
+            self._last = self._buffer.lookup(TARGET, SOURCE).stamp or 0
+        return self._last > 0
 
     def listen(self, seconds: float) -> None:
         time.sleep(seconds)
 
     def next_message(self) -> tuple[int, int]:
-        self._buffer.lookup(TARGET, SOURCE, self._seen + 1, timeout=NS)  # possible once there is a newer one
+        self._buffer.lookup(TARGET, SOURCE, self._last + 1, timeout=NS)  # Waits for a newer one.
         while True:
-            there = self._reader.stored_at
-            self._seen = self._buffer.lookup(TARGET, SOURCE).stamp or 0
-            if self._seen < there == self._reader.stored_at:  # else the next message is coming in just now
-                return self._seen, there
+            stored = self._reader.stored_at
+            self._last = self._buffer.lookup(TARGET, SOURCE).stamp or 0
+            if self._last < stored == self._reader.stored_at:  # Otherwise the next message is being stored.
+                return self._last, stored
 
 
 class Tf2:
-    """The listener of tf2_ros, which spins in a thread of its own."""
+    """Listener: tf2_ros.TransformListener, which spins in its own thread."""
 
     address = "dds"
 
@@ -95,18 +95,18 @@ class Tf2:
         self._listener = tf2_ros.TransformListener(self._buffer, self._node, spin_thread=True)
         self._latest = Time()
 
-    def heard(self) -> bool:
+    def has_received(self) -> bool:
         return bool(self._buffer.can_transform(TARGET, SOURCE, self._latest))
 
     def listen(self, seconds: float) -> None:
         time.sleep(seconds)
 
     def next_message(self) -> tuple[int, int]:
-        raise SystemExit("tf2_ros has nothing to wait with for the next message: ask for cpu")
+        raise SystemExit("tf2_ros cannot wait for the next message: only cpu can be measured")
 
 
 class Udp:
-    """A bare socket."""
+    """Listener: a bare UDP socket."""
 
     def __init__(self) -> None:
         self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -115,10 +115,10 @@ class Udp:
         self.address = str(self._socket.getsockname()[1])
         self._message = bytearray(4096)
 
-    def heard(self) -> bool:
+    def has_received(self) -> bool:
         try:
             return self.next_message()[0] > 0
-        except TimeoutError:  # on a busy machine the talker needs its time to start
+        except TimeoutError:  # On a busy machine, the talker takes a while to start.
             return False
 
     def listen(self, seconds: float) -> None:
@@ -128,16 +128,16 @@ class Udp:
 
     def next_message(self) -> tuple[int, int]:
         self._socket.recv_into(self._message)
-        there = time.monotonic_ns()
+        received = time.monotonic_ns()
         seconds, nanoseconds = struct.unpack_from("<II", self._message, STAMP_AT)
-        return int(seconds * NS + nanoseconds), there
+        return int(seconds * NS + nanoseconds), received
 
 
 LISTENERS: dict[str, Callable[[], Listener]] = {"coframe": Coframe, "tf2": Tf2, "udp": Udp}
 
 
 def message() -> bytearray:
-    """A TFMessage's bytes."""
+    """Return the bytes of a TFMessage."""
     from coframe.messages import codec, find
 
     result = find("tf2_msgs/msg/TFMessage")()
@@ -150,8 +150,8 @@ def message() -> bytearray:
 
 
 @contextlib.contextmanager
-def road(address: str) -> Iterator[Callable[[bytes], object]]:
-    """What sends bytes to a listener."""
+def sender_to(address: str) -> Iterator[Callable[[bytes], object]]:
+    """Yield the function that sends bytes to a listener."""
     if address != "dds":
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
             sender.connect(("127.0.0.1", int(address)))
@@ -162,7 +162,7 @@ def road(address: str) -> Iterator[Callable[[bytes], object]]:
     from coframe.wire.qos import TF
 
     participant = Participant.get()
-    node = participant.add_node("/", "talker")  # it has no buffer of its own
+    node = participant.add_node("/", "talker")  # It has no buffer.
     publisher = participant.publisher(node, "/tf", find("tf2_msgs/msg/TFMessage"), TF)
     while not publisher.matched:
         time.sleep(0.01)
@@ -171,40 +171,40 @@ def road(address: str) -> Iterator[Callable[[bytes], object]]:
 
 
 def stamps_at(data: bytearray) -> list[int]:
-    """Where the stamps are in the message's bytes: each in front of the length and the name of its parent."""
+    """Return the offsets of the stamps in the bytes; each is followed by length and name of the parent."""
     return [data.index(f"base_link_{number}".encode()) - 12 for number in range(TRANSFORMS)]
 
 
-def stamp(data: bytearray, place: int) -> None:
+def stamp(data: bytearray, offset: int) -> None:
     now = time.monotonic_ns()
-    struct.pack_into("<II", data, place, now // NS, now % NS)
+    struct.pack_into("<II", data, offset, now // NS, now % NS)
 
 
 def talk(address: str, seconds: float) -> None:
     data = message()
-    places = stamps_at(data)
-    with road(address) as send:
+    offsets = stamps_at(data)
+    with sender_to(address) as send:
         begin = time.monotonic_ns()
         for number in range(int(seconds * RATE_HZ)):
             left = begin + number * NS // RATE_HZ - time.monotonic_ns()
             if left > 0:
                 time.sleep(left / NS)
-            for place in reversed(places):
-                stamp(data, place)
-            with contextlib.suppress(ConnectionRefusedError):  # the socket has been closed
+            for offset in reversed(offsets):
+                stamp(data, offset)
+            with contextlib.suppress(ConnectionRefusedError):  # The listener has closed its socket.
                 send(bytes(data))
 
 
 @contextlib.contextmanager
 def talker(python: str, listener: Listener, seconds: float) -> Iterator[None]:
-    """A process that talks; from when its first message was heard."""
+    """Run a talker process, from the receipt of its first message."""
     command = [python, "-E", "-m", "benchmarks.wire_latency", "talk", listener.address, str(seconds + PATIENCE)]
     process = subprocess.Popen(command)
     try:
         end = time.monotonic() + PATIENCE
-        while not listener.heard():
+        while not listener.has_received():
             if time.monotonic() > end:
-                raise SystemExit(f"nothing was heard for {PATIENCE:g} s")
+                raise SystemExit(f"no message was received within {PATIENCE:g} s")
             time.sleep(0.01)
         yield
     finally:
@@ -219,39 +219,39 @@ def cpu(listener: Listener, seconds: float) -> tuple[float, ...]:
 
 
 def latencies(listener: Listener, seconds: float) -> Iterator[tuple[int, int]]:
-    """From before the write till the message was there, and till this thread was awake."""
+    """Yield the times from before the write until the message was stored, and until this thread was awake."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
-        stamp, there = listener.next_message()
-        yield there - stamp, time.monotonic_ns() - stamp
+        stamp, stored = listener.next_message()
+        yield stored - stamp, time.monotonic_ns() - stamp
 
 
-def percentiles(figures: Iterable[int]) -> tuple[float, ...]:
-    cuts = statistics.quantiles(figures, n=100)
+def percentiles(samples: Iterable[int]) -> tuple[float, ...]:
+    cuts = statistics.quantiles(samples, n=100)
     return cuts[49], cuts[98]
 
 
 def latency(listener: Listener, seconds: float) -> tuple[float, ...]:
-    return percentiles(there for there, _ in latencies(listener, seconds))
+    return percentiles(stored for stored, _ in latencies(listener, seconds))
 
 
 def awake(listener: Listener, seconds: float) -> tuple[float, ...]:
     return percentiles(awake for _, awake in latencies(listener, seconds))
 
 
-FIGURES: dict[str, Callable[[Listener, float], tuple[float, ...]]] = {"cpu": cpu, "latency": latency, "awake": awake}
+QUANTITIES: dict[str, Callable[[Listener, float], tuple[float, ...]]] = {"cpu": cpu, "latency": latency, "awake": awake}
 
 
-def main(figure: str, who: str, seconds: str, talkers_python: str = sys.executable) -> None:
-    if figure == "talk":
-        talk(who, float(seconds))
+def main(quantity: str, name: str, seconds: str, talkers_python: str = sys.executable) -> None:
+    if quantity == "talk":
+        talk(name, float(seconds))
         return
-    # This machine's loopback only, and away from whoever else is on it.
+    # Use only the loopback interface, and a domain of its own.
     os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
     os.environ.setdefault("ROS_DOMAIN_ID", str(100 + os.getpid() % 100))
-    listener = LISTENERS[who]()
+    listener = LISTENERS[name]()
     with talker(talkers_python, listener, float(seconds)):
-        print(*FIGURES[figure](listener, float(seconds)), flush=True)
+        print(*QUANTITIES[quantity](listener, float(seconds)), flush=True)
 
 
 if __name__ == "__main__":

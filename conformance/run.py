@@ -1,10 +1,10 @@
-"""Runs the conformance cases of tf2's semantics against coframe, or against any other implementation.
+"""Run the conformance cases of tf2's semantics against coframe or any other implementation.
 
     python conformance/run.py                                   all cases, against coframe.Buffer
-    python conformance/run.py interpolation reparenting         two rules
-    python conformance/run.py --adapter "node my_adapter.js"    another implementation, by JSON lines
+    python conformance/run.py interpolation reparenting         the cases of two rules
+    python conformance/run.py --adapter "node my_adapter.js"    another implementation, with JSON lines
 
-The format of the cases and of the JSON lines is described in README.md beside this file.
+README.md in the same folder describes the format of the cases and of the JSON lines.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ NANOSECONDS_PER_SECOND = 1_000_000_000
 Step = dict[str, Any]
 Answer = dict[str, Any]
 Adapter = Callable[[Step], Answer]
-"""An implementation under test: takes a step, `{"op": "new", "cache": "10"}` first, and gives its answer."""
+"""An implementation under test: returns the answer to a step, the first of which is `{"op": "new", "cache": "10"}`."""
 
 STEP_DEFAULTS: dict[str, Step] = {
     "set": {"stamp": "0", "translation": [0, 0, 0], "rotation": [0, 0, 0, 1], "authority": "test"},
@@ -47,7 +47,7 @@ EXPECTED_DEFAULTS: dict[str, Answer] = {
 
 @dataclass(frozen=True)
 class Case:
-    """One case: what it shows, the steps to run, and where the rule is told."""
+    """A case: what it shows, the steps to run, and a reference to the rule."""
 
     id: str
     rule: str
@@ -59,17 +59,17 @@ class Case:
 
 @dataclass(frozen=True)
 class Difference:
-    """A step whose answer is not the expected one; `step` counts from 0, the scene's and repeated ones, too."""
+    """A step whose answer is not the expected one; `step` counts from 0 and includes scenes and repetitions."""
 
     step: int
-    asked: Step
+    request: Step
     expected: Answer
     found: Answer
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a case; `unsupported` says why it could not be run, or is empty."""
+    """The result of a case; `unsupported` is the reason why it could not be run, or empty."""
 
     case: Case
     differences: tuple[Difference, ...]
@@ -77,37 +77,37 @@ class Outcome:
 
 
 def nanoseconds(seconds: str) -> int:
-    """Exact nanoseconds of a stamp as the cases write it: "1.5" is 1500000000."""
+    """Return a stamp of a case in nanoseconds: "1.5" is 1500000000."""
     return int(Decimal(seconds) * NANOSECONDS_PER_SECOND)
 
 
 def seconds(stamp: int) -> str:
-    """The other way round: 1500000000 is "1.5"."""
+    """Return nanoseconds as a stamp of a case: 1500000000 is "1.5"."""
     return format(Decimal(stamp).scaleb(-9).normalize(), "f")
 
 
 def load_cases(folder: Path = CASES) -> list[Case]:
-    """All cases of a folder, in the order of the files' names; scenes and repetitions are written out."""
+    """Return all cases of a folder in the order of the file names, with scenes and repetitions expanded."""
     return [case for path in sorted(folder.glob("*.json")) for case in _cases_of(json.loads(path.read_text("utf-8")))]
 
 
 def run_case(case: Case, adapter: Adapter) -> Outcome:
-    """Runs all steps of a case and compares every answer."""
+    """Run all steps of a case and compare every answer."""
     adapter({"op": "new", "cache": case.cache})
     differences = []
     for number, step in enumerate(case.steps):
-        asked = {key: value for key, value in step.items() if key != "expect"}
-        found = adapter(asked)
+        request = {key: value for key, value in step.items() if key != "expect"}
+        found = adapter(request)
         if "unsupported" in found:
             return Outcome(case, (), found["unsupported"])
         expected = step.get("expect", EXPECTED_DEFAULTS.get(step["op"], {}))
         if not matches(expected, found):
-            differences.append(Difference(number, asked, expected, found))
+            differences.append(Difference(number, request, expected, found))
     return Outcome(case, tuple(differences))
 
 
 def matches(expected: Answer, found: Answer) -> bool:
-    """Whether an answer is the expected one. What the case does not tell is not compared."""
+    """Return whether an answer is the expected one; keys without an expectation are not compared."""
     if "raises" in found and "raises" not in expected:
         return False
     tolerance = expected.get("tolerance", DEFAULT_TOLERANCE)
@@ -118,13 +118,13 @@ class CoframeAdapter:
     """coframe.Buffer under test."""
 
     def __init__(self) -> None:
-        import coframe  # noqa: PLC0415 - other implementations are tested where there is no coframe
+        import coframe  # noqa: PLC0415 - other implementations can be tested without coframe
 
         self._coframe = coframe
         self._buffer = coframe.Buffer()
 
     def __call__(self, step: Step) -> Answer:
-        """The answer to one step."""
+        """Return the answer to one step."""
         try:
             answer: Answer = getattr(self, "_" + step["op"])(step)
         except self._coframe.TransformException as error:
@@ -186,11 +186,11 @@ class CoframeAdapter:
 
 
 class AdapterError(RuntimeError):
-    """The program under test does not answer."""
+    """The program under test does not return valid answers."""
 
 
 class ProcessAdapter:
-    """Another implementation under test: a program that answers each line of JSON with a line of JSON."""
+    """Another implementation under test: a program that replies to each line of JSON with a line of JSON."""
 
     def __init__(self, command: Sequence[str]) -> None:
         self._command = command
@@ -200,7 +200,7 @@ class ProcessAdapter:
             raise AdapterError(f"the adapter {shlex.join(command)} cannot be started: {error.strerror}") from None
 
     def __call__(self, step: Step) -> Answer:
-        """The answer to one step."""
+        """Return the answer to one step."""
         stdin, stdout = self._process.stdin, self._process.stdout
         assert stdin is not None
         assert stdout is not None
@@ -211,15 +211,15 @@ class ProcessAdapter:
         except BrokenPipeError:
             line = ""
         if not line:
-            raise AdapterError(f"the adapter {shlex.join(self._command)} has ended; the last step was {step}")
+            raise AdapterError(f"the adapter {shlex.join(self._command)} has exited; the last step was {step}")
         try:
             answer: Answer = json.loads(line)
         except ValueError:
-            raise AdapterError(f"the adapter answers {line.strip()!r} to {step}, which is no JSON") from None
+            raise AdapterError(f"the adapter replied {line.strip()!r} to {step}, which is not JSON") from None
         return answer
 
     def close(self) -> None:
-        """Closes the program's input, which ends it."""
+        """Close the standard input of the program, which ends it."""
         with contextlib.suppress(BrokenPipeError):
             self._process.communicate()
 
@@ -238,7 +238,7 @@ def _cases_of(file: dict[str, Any]) -> Iterator[Case]:
 
 
 def _repeated(step: Step) -> Iterator[Step]:
-    """A step with "for": [first, last] as one step a number, which takes the place of {i}; {i+1} is the next one."""
+    """Expand a step with "for": [first, last] into one step per number, which replaces {i}; {i+1} is the next one."""
     step = dict(step)
     if "for" not in step:
         yield step
@@ -251,7 +251,7 @@ def _repeated(step: Step) -> Iterator[Step]:
 
 def _same(key: str, expected: Any, found: Any, tolerance: float) -> bool:
     if key in {"accepted", "log"} and found is None:
-        return True  # an implementation that keeps this for itself
+        return True  # The implementation does not report this value.
     if key == "stamp":
         return found is not None and nanoseconds(expected) == nanoseconds(found)
     if key in {"translation", "rotation"}:
@@ -318,7 +318,7 @@ def _report(outcomes: list[Outcome]) -> None:
     for outcome in outcomes:
         for difference in outcome.differences:
             print(f"FAILED {outcome.case.id} ({outcome.case.reference}): {outcome.case.shows}")
-            print(f"  step {difference.step}  {json.dumps(difference.asked, ensure_ascii=False)}")
+            print(f"  step {difference.step}  {json.dumps(difference.request, ensure_ascii=False)}")
             print(f"  expected {json.dumps(difference.expected, ensure_ascii=False)}")
             print(f"  found    {json.dumps(difference.found, ensure_ascii=False)}")
     total = Counter(outcome.case.rule for outcome in outcomes)
@@ -333,17 +333,19 @@ def _report(outcomes: list[Outcome]) -> None:
 
 
 def main() -> int:
-    """The command line; 0 when all cases pass."""
+    """Run the command; return 0 if all cases pass."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("rules", nargs="*", metavar="rule", help="only these rules or case ids; default: all")
-    parser.add_argument("--adapter", metavar="COMMAND", help="a program that speaks the JSON lines; default: coframe")
+    parser.add_argument(
+        "--adapter", metavar="COMMAND", help="a program that reads and writes the JSON lines; default: coframe"
+    )
     options = parser.parse_args()
     cases = load_cases()
     chosen = [case for case in cases if not options.rules or {case.rule, case.id} & set(options.rules)]
     unknown = set(options.rules) - {name for case in cases for name in (case.rule, case.id)}
     if unknown:
         rules = ", ".join(dict.fromkeys(case.rule for case in cases))
-        parser.error(f"no rule and no case is named {', '.join(sorted(unknown))}; the rules are: {rules}")
+        parser.error(f"no rule or case named {', '.join(sorted(unknown))}. Rules: {rules}")
     try:
         outcomes = _run(chosen, options.adapter)
     except AdapterError as error:

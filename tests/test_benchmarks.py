@@ -1,4 +1,4 @@
-"""The arithmetic of `make bench`, on contenders whose figures are known, and that it has a row for every bar."""
+"""The arithmetic of `make bench`, with contenders whose results are known, and one row for each target."""
 
 import contextlib
 import itertools
@@ -24,7 +24,7 @@ EFFORT = Effort(rounds=5, seconds=60.0)
 
 
 class Fake:
-    """Has its figures ready, and writes down whose turn it was; the first one is for warming up."""
+    """Returns given results and records the turns; the first result is for the warm-up."""
 
     def __init__(self, name, figures, turns=None):
         self.name, self.figures, self.turns = name, itertools.chain([1.0], figures), turns
@@ -35,8 +35,8 @@ class Fake:
         return next(self.figures)
 
 
-def row(ours, theirs, bar=None, name="work", **more):
-    """A row with these figures; an exception in the place of some is raised instead."""
+def row(ours, theirs, target=None, name="work", **more):
+    """Return a row with these results; an exception in place of results is raised."""
 
     def contenders():
         for figures in (ours, theirs):
@@ -44,7 +44,7 @@ def row(ours, theirs, bar=None, name="work", **more):
                 raise figures
             yield Fake("", figures)
 
-    return Row(name, "peer", contenders, bar, **more)
+    return Row(name, "peer", contenders, target, **more)
 
 
 def test_contenders_take_turns():
@@ -63,7 +63,7 @@ def test_contenders_take_turns():
 
 
 def test_the_ratio_is_the_median_of_the_rounds_not_the_ratio_of_the_medians():
-    # The machine was twice as slow in two rounds: both contenders felt it.
+    # The machine was half as fast in two rounds, for both contenders.
     result = measure(row([10, 20, 10, 20, 10], [50, 100, 70, 100, 30]), EFFORT)
     assert sorted(their / our for our, their in zip(result.ours, result.theirs, strict=True)) == [3, 5, 5, 5, 7]
     assert result.ratio == (5, 5, 5)
@@ -72,46 +72,46 @@ def test_the_ratio_is_the_median_of_the_rounds_not_the_ratio_of_the_medians():
 
 
 @pytest.mark.parametrize(
-    ("bar", "ours", "theirs", "verdict"),
+    ("target", "ours", "theirs", "verdict"),
     [
         (TimesAsFast(5), [10] * 5, [50] * 5, "met"),
-        (TimesAsFast(5), [10] * 5, [49] * 5, "FALLS SHORT"),
+        (TimesAsFast(5), [10] * 5, [49] * 5, "MISSED"),
         (TimesAsFast(5), [10] * 5, MissingPeerError("apt-get install peer"), "skipped"),
-        (TimesAsFast(5), AttributeError("no such call"), [50] * 5, "FAILS"),
-        (TimesAsFast(5), [10] * 5, PeerError("it crashed"), "FAILS"),
+        (TimesAsFast(5), AttributeError("no such call"), [50] * 5, "ERROR"),
+        (TimesAsFast(5), [10] * 5, PeerError("it crashed"), "ERROR"),
         (AtMost(10), [9, 9, 10, 99, 99], [1] * 5, "met"),
-        (AtMost(10), [9, 9, 10.1, 99, 99], [1] * 5, "FALLS SHORT"),
-        (AtMost(10), [11] * 5, MissingPeerError("peer"), "FALLS SHORT"),
+        (AtMost(10), [9, 9, 10.1, 99, 99], [1] * 5, "MISSED"),
+        (AtMost(10), [11] * 5, MissingPeerError("peer"), "MISSED"),
         (GrowsAtMost(2), [20] * 5, [10] * 5, "met"),
-        (GrowsAtMost(2), [21] * 5, [10] * 5, "FALLS SHORT"),
+        (GrowsAtMost(2), [21] * 5, [10] * 5, "MISSED"),
         (None, [10] * 5, [1] * 5, ""),
         (None, [10] * 5, MissingPeerError("peer"), "skipped"),
-        (None, ValueError("no"), [1] * 5, "fails"),
+        (None, ValueError("no"), [1] * 5, "error"),
     ],
 )
-def test_a_bar_is_checked(bar, ours, theirs, verdict, capsys):
-    one = row(ours, theirs, bar)
+def test_targets_are_checked(target, ours, theirs, verdict, capsys):
+    one = row(ours, theirs, target)
     assert measure(one, EFFORT).verdict == verdict
-    assert bench.run([one], EFFORT, None) == (verdict in {"FALLS SHORT", "FAILS"})
+    assert bench.run([one], EFFORT, None) == (verdict in {"MISSED", "ERROR"})
     printed = capsys.readouterr().out
     for reason in (ours, theirs):
         if isinstance(reason, Exception):
             assert str(reason) in printed
 
 
-def test_one_bar_that_falls_short_is_enough_to_fail(capsys):
+def test_one_missed_target_fails_the_run(capsys):
     rows = [row([10] * 5, [50] * 5, TimesAsFast(5)), row([10] * 5, [40] * 5, TimesAsFast(5), name="slow work")]
     assert bench.run(rows, EFFORT, None) == 1
-    assert "1 of 2 bars are met, 0 skipped.\nFALLS SHORT: slow work (≥ 5x): 10.0 ns, 4.00x" in capsys.readouterr().out
+    assert "1 of 2 targets are met, 0 skipped.\nMISSED: slow work (≥ 5x): 10.0 ns, 4.00x" in capsys.readouterr().out
 
 
-def test_rows_end_by_rounds_or_by_time():
+def test_a_row_ends_after_its_rounds_or_its_time():
     assert len(measure(row([1.0] * 99, [1.0] * 99), Effort(rounds=9)).ours) == 9
     assert len(measure(row([1.0] * 99, [1.0] * 99, least=3), Effort(rounds=9, seconds=0.0)).ours) == 3
     assert len(measure(row([1.0] * 99, [1.0] * 99, least=3), Effort(rounds=9, seconds=0.0, least=2)).theirs) == 2
 
 
-def test_the_page_has_every_row_with_the_machine_and_is_written_by_a_full_run_only(tmp_path, monkeypatch, capsys):
+def test_only_a_full_run_writes_the_page_with_all_rows_and_the_machine(tmp_path, monkeypatch, capsys):
     page = tmp_path / "RESULTS.md"
     monkeypatch.setattr(bench, "RESULTS", page)
     monkeypatch.setattr(bench, "ROWS", {"subject": [row([10.0] * 99, [50.0] * 99, TimesAsFast(5))]})
@@ -128,18 +128,18 @@ def test_the_page_has_every_row_with_the_machine_and_is_written_by_a_full_run_on
     assert str(page) in capsys.readouterr().out
 
 
-def test_a_row_is_chosen_by_subject_or_by_a_word_of_its_name():
+def test_rows_are_chosen_by_subject_or_by_a_word_of_their_name():
     assert bench.chosen(["startup"]) == ROWS["startup"]
     assert all("deskew" in row.name for row in bench.chosen(["deskew"]))
     assert len(bench.chosen([])) == sum(map(len, ROWS.values()))
 
 
-def test_times_are_told_in_a_unit_that_fits():
-    told = [nanoseconds(value) for value in (6.54, 999.4, 9_999.0, 12_345.0, 123_456.0, 60e6, 12e9)]
-    assert told == ["6.5 ns", "999 ns", "9999 ns", "12.3 us", "123 us", "60.0 ms", "12.0 s"]
+def test_times_have_a_suitable_unit():
+    formatted = [nanoseconds(value) for value in (6.54, 999.4, 9_999.0, 12_345.0, 123_456.0, 60e6, 12e9)]
+    assert formatted == ["6.5 ns", "999 ns", "9999 ns", "12.3 us", "123 us", "60.0 ms", "12.0 s"]
 
 
-def test_a_statement_is_timed_without_its_setup_and_told_for_one_item():
+def test_the_time_of_a_statement_excludes_the_setup_and_is_per_item():
     now = 0
 
     def spend(nanoseconds):
@@ -151,34 +151,34 @@ def test_a_statement_is_timed_without_its_setup_and_told_for_one_item():
     assert statement.sample() == 200
 
 
-def test_a_setup_is_good_for_so_many_runs():
+def test_the_number_of_runs_per_setup_is_limited():
     statement = Statement(
         "next(left)", {"iter": iter}, setup="left = iter([1, 2, 3])", limit=3, clock=itertools.count().__next__
     )
     assert statement.sample() > 0
 
 
-def test_statements_are_timed_in_another_python():
+def test_statements_can_be_timed_in_another_python():
     with contextlib.closing(Worker(OWN_PYTHON, "benchmarks.peers.tf2")) as worker:
         assert RemoteStatement(worker, "lookup", 1).sample() > 0
         with pytest.raises(PeerError, match="no attribute 'jump'"):
             RemoteStatement(worker, "jump").sample()
         assert RemoteStatement(worker, "can_transform", 1).sample() > 0
     with (
-        contextlib.closing(Worker(OWN_PYTHON, "benchmarks.peers.nobody")) as worker,
+        contextlib.closing(Worker(OWN_PYTHON, "benchmarks.peers.unknown")) as worker,
         pytest.raises(PeerError, match="No module named"),
     ):
         RemoteStatement(worker, "lookup", 1).sample()
 
 
-def test_a_program_is_a_contender_by_what_it_prints():
+def test_a_program_is_a_contender_that_prints_its_results():
     assert Program("-c", "print(1.5, 2)").sample() == 1.5
     with pytest.raises(PeerError, match="ValueError: not today"):
         Program("-c", "raise ValueError('not today')").sample()
 
 
-# What the project has set itself to reach.
-BARS = [
+# The targets of the project.
+TARGETS = [
     ("lookup, newest, D=1", "Debian's tf2", TimesAsFast(35)),
     ("lookup, newest, D=5", "Debian's tf2", TimesAsFast(25)),
     ("lookup, newest, D=10", "Debian's tf2", TimesAsFast(18)),
@@ -191,8 +191,8 @@ BARS = [
     ("failing lookup, caught, D=5", "Debian's tf2", TimesAsFast(10)),
     ("tf2_py: set_transform(message)", "Debian's tf2", TimesAsFast(3)),
     ("set, from numbers", "Debian's tf2", TimesAsFast(8)),
-    ("TFMessage bytes of 10 into the buffer, per transform", "floor: copying the bytes", AtMost(60)),
-    ("TFMessage bytes of 10 into the buffer, per transform", "decoding alone, rosbags", TimesAsFast(50)),
+    ("ingest a TFMessage of 10, per transform", "floor: copying the bytes", AtMost(60)),
+    ("ingest a TFMessage of 10, per transform", "rosbags, decoding only", TimesAsFast(50)),
     ("lookup_many, N=1e5, sorted, D=5, into an array", "tf_tree, Plan", TimesAsFast(5)),
     ("lookup_many, N=1e5, random, D=5, into an array", "tf_tree, Plan", TimesAsFast(5)),
     ("lookup_many, N=1e6, random, D=10, n=1e5, per edge", "floor: sorted, n=100", AtMost(15)),
@@ -207,32 +207,32 @@ BARS = [
     ("listener, 1 kHz x 10, latency, p50", "floor: a bare UDP socket", AtMost(40_000)),
     (
         "relay, 10 robots x 20 x 50 Hz, nothing lost, CPU of one core",
-        "floor: no relay, the listener names the frames",
+        "floor: no relay, the listener renames the frames",
         AtMost(10.0),
     ),
-    ("coframe doctor, MCAP of 1e6 transforms, wall clock", "floor: open_bag alone", AtMost(3e9)),
-    ("coframe doctor, MCAP of 1e6 transforms, processor", "floor: open_bag alone", AtMost(3e9)),
-    ("coframe doctor --watch, 1 kHz x 10, CPU of one core", "floor: a buffer that listens", AtMost(5)),
-    ("open_bag, MCAP, zstd, per transform", "rosbags, reading and decoding alone", TimesAsFast(10)),
+    ("coframe doctor, MCAP of 1e6 transforms, wall clock", "floor: open_bag only", AtMost(3e9)),
+    ("coframe doctor, MCAP of 1e6 transforms, processor", "floor: open_bag only", AtMost(3e9)),
+    ("coframe doctor --watch, 1 kHz x 10, CPU of one core", "floor: a listening buffer", AtMost(5)),
+    ("open_bag, MCAP, zstd, per transform", "rosbags, reading and decoding only", TimesAsFast(10)),
     ("open_bag, MCAP, zstd, per transform", "tf_tree.ingest_bag", TimesAsFast(1)),
-    ("open_bag, SQLite, per transform", "rosbags, reading and decoding alone", TimesAsFast(10)),
-    ("load of a frozen file, 1e7 transforms", "floor: opening it and reading a page", AtMost(5_000_000)),
+    ("open_bag, SQLite, per transform", "rosbags, reading and decoding only", TimesAsFast(10)),
+    ("load of a frozen file, 1e7 transforms", "floor: open it and read a page", AtMost(5_000_000)),
     ("lookup_many at 1e5 random times, all, D=5, n=2e6", "the same, in order", AtMost(100_000_000)),
     ("lookup_many at 1e5 random times, frozen, D=5, n=2e6", "the same in memory", GrowsAtMost(1.5)),
     ("lookup at 1e5 times in order, frozen, D=5, n=2e6", "the same in memory", GrowsAtMost(1.5)),
-    ("most memory of a process, 1e7 transforms set", "floor: arrays of numpy", AtMost(1e9)),
-    ("most memory of a process, 1e7 transforms out of an MCAP", "floor: arrays of numpy", AtMost(1e9)),
+    ("peak memory of a process, 1e7 transforms set", "floor: NumPy arrays", AtMost(1e9)),
+    ("peak memory of a process, 1e7 transforms from an MCAP", "floor: NumPy arrays", AtMost(1e9)),
     ("lookup, newest, D=1, n=1e6", "the same, n=100", GrowsAtMost(2)),
     ("lookup at an old time, D=1, n=1e6", "the same, n=100", GrowsAtMost(2)),
-    ("lookup at one time after the other, D=1, n=1e6", "the same, n=100", GrowsAtMost(2)),
-    ("memory per stored transform", "floor: arrays of numpy", AtMost(80)),
-    ("import coframe, numpy is there", "floor: import numpy", AtMost(60_000_000)),
-    ("a tab of the viewer, 10 frames at 30 Hz, CPU of one core", "the look-ups themselves", AtMost(3)),
-    ("a tab of the viewer, 100 frames at 30 Hz, CPU of one core", "the look-ups themselves", AtMost(3)),
-    ("a tab of the viewer, 1000 frames at 30 Hz, CPU of one core", "the look-ups themselves", AtMost(5)),
+    ("lookup at increasing times, D=1, n=1e6", "the same, n=100", GrowsAtMost(2)),
+    ("memory per stored transform", "floor: NumPy arrays", AtMost(80)),
+    ("import coframe after numpy", "floor: import numpy", AtMost(60_000_000)),
+    ("a tab of the viewer, 10 frames at 30 Hz, CPU of one core", "the lookups alone", AtMost(3)),
+    ("a tab of the viewer, 100 frames at 30 Hz, CPU of one core", "the lookups alone", AtMost(3)),
+    ("a tab of the viewer, 1000 frames at 30 Hz, CPU of one core", "the lookups alone", AtMost(5)),
 ]
 
 
-def test_every_bar_has_its_row():
-    rows = {(row.name, row.beside, row.bar) for row in bench.chosen([]) if row.bar}
-    assert rows == set(BARS)
+def test_every_target_has_its_row():
+    rows = {(row.name, row.reference, row.target) for row in bench.chosen([]) if row.target}
+    assert rows == set(TARGETS)

@@ -44,6 +44,7 @@ def test_the_contracts_hold(sources):
     [
         ("coframe.analysis.tree", "coframe.doctor.observation"),
         ("coframe.wire.participant", "coframe.tf_relay"),
+        ("coframe.wire.endpoints", "coframe.wire.participant"),
         ("coframe.bags.recording", "coframe.cli.bag"),
     ],
 )

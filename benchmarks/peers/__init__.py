@@ -1,4 +1,4 @@
-"""Where the peers are, and what to install where one is not."""
+"""Finds the peers, and says what to install if one is missing."""
 
 import importlib
 import os
@@ -11,16 +11,16 @@ from benchmarks.measuring import MissingPeerError
 from benchmarks.process import OWN_PYTHON, Python, can_import
 
 DEBIAN_PYTHON: Python = ("/usr/bin/python3", "-E")
-"""Whatever PYTHONPATH names is for another Python."""
+"""Ignores PYTHONPATH, which is meant for another Python."""
 
 
 @dataclass(frozen=True)
 class Tf2:
-    """A tf2 that is not ours.
+    """Another implementation of tf2.
 
     Attributes:
-        name: Whose it is.
-        python: The Python that has it, and these packages, too; a MissingPeerError if there is none.
+        name: Name of the provider.
+        python: Returns the Python that has it and the given packages; raises a MissingPeerError if there is none.
     """
 
     name: str
@@ -43,18 +43,18 @@ def _ros2(*also: str) -> Python:
 DEBIAN = Tf2("Debian's tf2", _debian)
 """ROS 1's C++ core and its Python binding."""
 ROS2 = Tf2("ROS 2's tf2", _ros2)
-"""Of a ROS 2 that has been sourced."""
+"""The tf2 of the sourced ROS 2."""
 
 
 def package(name: str) -> Any:
-    """A package from PyPI in this Python."""
+    """Import a package from PyPI."""
     try:
         return importlib.import_module(name)
     except ImportError:
-        raise MissingPeerError("make bench installs it where there is a package index") from None
+        raise MissingPeerError("run make bench with access to a package index") from None
 
 
 def own_python(name: str) -> Python:
-    """This Python, where it has a package from PyPI."""
+    """Return this Python if it has a package from PyPI."""
     package(name)
     return OWN_PYTHON

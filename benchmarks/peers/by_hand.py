@@ -1,6 +1,6 @@
-"""A chain's poses at many times, as one writes it oneself: with numpy, with scipy, with pytransform3d.
+"""The poses of a chain at many times, implemented by hand with NumPy, SciPy and pytransform3d.
 
-Each class is given the links' stamps (n,) and values (n, 7), and asked for (N, 7) or (N, 4, 4).
+Each class receives the stamps (n,) and values (n, 7) of the edges, and returns poses (N, 7) or (N, 4, 4).
 """
 
 import functools
@@ -19,12 +19,12 @@ from benchmarks.peers import package
 class Numpy:
     """Binary search, slerp and quaternion products on arrays."""
 
-    def __init__(self, links: list[tuple[Stamps, Values]]) -> None:
-        self._links = links
+    def __init__(self, edges: list[tuple[Stamps, Values]]) -> None:
+        self._edges = edges
 
     def at(self, times: Stamps) -> Values:
         result = np.tile([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], (len(times), 1))
-        for stamps, values in self._links:
+        for stamps, values in self._edges:
             step = _interpolated(stamps, values, times)
             result[:, :3] += _rotated(result[:, 3:], step[:, :3])
             result[:, 3:] = _product(result[:, 3:], step[:, 3:])
@@ -59,20 +59,20 @@ def _product(a: Values, b: Values) -> Values:
 
 
 class Scipy:
-    """Slerp for the rotations, interpolation by numpy for the rest, RigidTransform for the chain."""
+    """SciPy's Slerp for the rotations, NumPy for the positions, and RigidTransform for the chain."""
 
-    def __init__(self, links: list[tuple[Stamps, Values]]) -> None:
+    def __init__(self, edges: list[tuple[Stamps, Values]]) -> None:
         self._spatial = package("scipy.spatial.transform")
         if not hasattr(self._spatial, "RigidTransform"):
             raise MissingPeerError("scipy 1.16 or newer, which needs Python 3.11")
         slerp, rotation = self._spatial.Slerp, self._spatial.Rotation
-        self._links = [
-            (stamps, slerp(stamps, rotation.from_quat(values[:, 3:])), values[:, :3]) for stamps, values in links
+        self._edges = [
+            (stamps, slerp(stamps, rotation.from_quat(values[:, 3:])), values[:, :3]) for stamps, values in edges
         ]
 
     def at(self, times: Stamps) -> NDArray[np.float64]:
         steps = []
-        for stamps, slerp, points in self._links:
+        for stamps, slerp, points in self._edges:
             between = np.stack([np.interp(times, stamps, column) for column in points.T], axis=1)
             steps.append(self._spatial.RigidTransform.from_components(between, slerp(times)))
         matrices: NDArray[np.float64] = functools.reduce(operator.mul, steps).as_matrix()
@@ -80,17 +80,17 @@ class Scipy:
 
 
 class Pytransform3d:
-    """Its manager of transforms over time."""
+    """pytransform3d's TemporalTransformManager."""
 
-    def __init__(self, links: list[tuple[Stamps, Values]]) -> None:
+    def __init__(self, edges: list[tuple[Stamps, Values]]) -> None:
         manager = package("pytransform3d.transform_manager")
         self._manager = manager.TemporalTransformManager()
-        for link, (stamps, values) in enumerate(links):
+        for edge, (stamps, values) in enumerate(edges):
             seconds = stamps / 1e9
             poses = values[:, [0, 1, 2, 6, 3, 4, 5]]
             series = manager.NumpyTimeseriesTransform(seconds, poses, time_clipping=False)
-            self._manager.add_transform(frame(link + 1), frame(link), series)
-        self._source = frame(len(links))
+            self._manager.add_transform(frame(edge + 1), frame(edge), series)
+        self._source = frame(len(edges))
 
     def at(self, times: Stamps) -> Any:
         return self._manager.get_transform_at_time(self._source, "f0", times / 1e9)

@@ -1,4 +1,4 @@
-"""Pinocchio's forward kinematics as a program in Python asks for it, and the robot that it is asked about."""
+"""Pinocchio's forward kinematics from Python, and the robot used for the comparison."""
 
 import importlib
 import importlib.metadata
@@ -14,7 +14,7 @@ INSTALL = "make .venv/.oracle"
 
 
 def talos() -> Path:
-    """The humanoid talos of example-robot-data: 60 links, 44 joints that move."""
+    """Return the URDF of the humanoid talos of example-robot-data, with 60 links and 44 movable joints."""
     try:
         files = importlib.metadata.files("example-robot-data") or []
     except importlib.metadata.PackageNotFoundError:
@@ -23,12 +23,12 @@ def talos() -> Path:
 
 
 class Kinematics:
-    """A robot of Pinocchio's.
+    """A robot in Pinocchio.
 
     Args:
         path: Its URDF.
-        robot: Ours, for the names.
-        positions: By joint, (N,).
+        robot: coframe's model of the robot, for the names.
+        positions: Joint positions by joint, (N,).
     """
 
     def __init__(self, path: Path, robot: Robot, positions: dict[str, Any]) -> None:
@@ -44,13 +44,13 @@ class Kinematics:
         self.links = [self.model.getFrameId(link, self.pin.FrameType.BODY) for link in robot.frames()]
 
     def move(self) -> None:
-        """All configurations, one after the other; each one's poses replace the last one's."""
+        """Compute all configurations in turn; the poses of each one replace the previous ones."""
         for q in self.q:
             self.pin.forwardKinematics(self.model, self.data, q)
             self.pin.updateFramePlacements(self.model, self.data)
 
     def poses(self) -> Any:
-        """The poses of all links in all configurations, (L, N, 7)."""
+        """Return the poses of all links in all configurations, (L, N, 7)."""
         rows = np.empty((len(self.links), len(self.q), 7))
         for i, q in enumerate(self.q):
             self.pin.forwardKinematics(self.model, self.data, q)

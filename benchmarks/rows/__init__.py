@@ -1,4 +1,4 @@
-"""The rows of the table, a file for each of their subjects."""
+"""The rows of the table, one module per subject."""
 
 from benchmarks.rows import (
     batch,
@@ -30,4 +30,4 @@ ROWS = {
     "startup": startup.ROWS,
     "viewer": viewer.ROWS,
 }
-"""By subject."""
+"""The rows by subject."""

@@ -1,4 +1,4 @@
-"""Many look-ups and many insertions in one call."""
+"""Many lookups and many insertions in one call."""
 
 import time
 from collections.abc import Callable, Generator
@@ -8,7 +8,7 @@ import numpy as np
 
 import coframe
 from benchmarks import ours
-from benchmarks.measuring import AtMost, Bar, Contender, Row, TimesAsFast
+from benchmarks.measuring import AtMost, Contender, Row, Target, TimesAsFast
 from benchmarks.motion import frame
 from benchmarks.ours import Stamps
 from benchmarks.peers import by_hand, tf_trees
@@ -21,14 +21,14 @@ STORED = 100_000
 
 def filled(depth: int, samples: int) -> coframe.Buffer:
     buffer = coframe.Buffer(None)
-    for link in range(depth):
-        stamps, values = ours.stamps_and_values(link, samples)
-        buffer.set_many(frame(link), frame(link + 1), stamps, values)
+    for edge in range(depth):
+        stamps, values = ours.stamps_and_values(edge, samples)
+        buffer.set_many(frame(edge), frame(edge + 1), stamps, values)
     return buffer
 
 
 def batch(code: str, items: int, clock: Callable[[], int] = time.process_time_ns, **names: Any) -> Statement:
-    """Runs that are long, and that may have threads of their own: those count, too."""
+    """Return a statement for long runs, timed by the processor time of all threads."""
     return Statement(code, names, items=items, clock=clock)
 
 
@@ -44,12 +44,12 @@ def looking_up(depth: int, times: Stamps, samples: int, *, items: int | None = N
 
 
 def matrices(depth: int, times: Stamps, samples: int) -> Any:
-    """Ours, for a comparison of the answers."""
+    """Return coframe's results, to check those of a peer."""
     return filled(depth, samples).lookup_many("f0", frame(depth), times).matrix
 
 
-def beside_tf_tree(order: str, code: str, their_code: str, bar: Bar | None) -> Row:
-    """Arrays of quaternions and positions at 1e5 times, from both."""
+def versus_tf_tree(order: str, code: str, their_code: str, target: Target | None) -> Row:
+    """Return a row for arrays of positions and quaternions at 1e5 times."""
 
     def contenders() -> Generator[Contender]:
         times = ours.random_times(LOOKUPS, SAMPLES, in_order=order == "sorted")
@@ -59,11 +59,11 @@ def beside_tf_tree(order: str, code: str, their_code: str, bar: Bar | None) -> R
         yield batch(their_code, LOOKUPS, plan=plan, times=times, out=np.empty((LOOKUPS, 7)))
 
     into = "into an array" if "out" in code else "a new array"
-    return Row(f"lookup_many, N=1e5, {order}, D=5, {into}", "tf_tree, Plan", contenders, bar)
+    return Row(f"lookup_many, N=1e5, {order}, D=5, {into}", "tf_tree, Plan", contenders, target)
 
 
 def with_twists() -> Row:
-    """Velocities as well; tf_tree has them only along screws, which is another interpolation."""
+    """Return a row for poses with twists; tf_tree has these only with screw interpolation."""
 
     def contenders() -> Generator[Contender]:
         times = ours.random_times(LOOKUPS, SAMPLES, in_order=True)
@@ -72,20 +72,23 @@ def with_twists() -> Row:
         names = {"plan": plan, "times": times, "out": np.empty((LOOKUPS, 13))}
         yield batch("plan.at_into(times, out, layout='quat_twist')", LOOKUPS, **names)
 
-    return Row("lookup_many, N=1e5, sorted, D=5, with twists", "tf_tree, Plan, by screws", contenders)
+    return Row("lookup_many, N=1e5, sorted, D=5, with twists", "tf_tree, Plan, screw interpolation", contenders)
 
 
 OURS_INTO, OURS_NEW = "buffer.lookup_many('f0', source, times, out=out)", "buffer.lookup_many('f0', source, times)"
 THEIRS_INTO, THEIRS_NEW = "plan.at_into(times, out, layout='quat')", "plan.at(times, layout='quat')"
 
 
-def beside_hand(depth: int, beside: str, make: Callable[[Any], Any], tolerance: float = 1e-9) -> Row:
-    """pytransform3d moves along screws, and so comes to slightly different places between two samples."""
+def versus_hand(depth: int, reference: str, make: Callable[[Any], Any], tolerance: float = 1e-9) -> Row:
+    """Return a row for a peer implemented by hand.
+
+    pytransform3d uses screw interpolation, so that its poses between two samples differ slightly.
+    """
 
     def contenders() -> Generator[Contender]:
         times = ours.random_times(LOOKUPS, SAMPLES, in_order=True)
         yield looking_up(depth, times, SAMPLES)
-        other = make([ours.stamps_and_values(link, SAMPLES) for link in range(depth)])
+        other = make([ours.stamps_and_values(edge, SAMPLES) for edge in range(depth)])
         found = other.at(times[:100])
         expected = matrices(depth, times[:100], SAMPLES)
         np.testing.assert_allclose(
@@ -93,11 +96,11 @@ def beside_hand(depth: int, beside: str, make: Callable[[Any], Any], tolerance: 
         )
         yield batch("other.at(times)", LOOKUPS, other=other, times=times)
 
-    return Row(f"lookup_many, N=1e5, sorted, D={depth}", beside, contenders)
+    return Row(f"lookup_many, N=1e5, sorted, D={depth}", reference, contenders)
 
 
 def large() -> Row:
-    """A million times in random order in long histories, and the same arithmetic on samples that are all at hand."""
+    """Return a row for a million random times in long histories, compared with the same work on cached samples."""
 
     def contenders() -> Generator[Contender]:
         edges = MANY_LOOKUPS * DEEP
@@ -120,10 +123,10 @@ def by_two_threads() -> Row:
             }
             yield batch(code, MANY_LOOKUPS * DEEP, time.perf_counter_ns, **names)
 
-    return Row("the same by 2 threads, wall clock, per edge", "1 thread", contenders, processors=2)
+    return Row("the same with 2 threads, wall clock, per edge", "1 thread", contenders, processors=2)
 
 
-def storing(other: Callable[[Stamps, Any], Statement], beside: str, bar: Bar | None) -> Row:
+def storing(other: Callable[[Stamps, Any], Statement], reference: str, target: Target | None) -> Row:
     def contenders() -> Generator[Contender]:
         stamps, values = ours.stamps_and_values(0, STORED)
         names = {"Buffer": coframe.Buffer, "stamps": stamps, "values": values}
@@ -131,7 +134,7 @@ def storing(other: Callable[[Stamps, Any], Statement], beside: str, bar: Bar | N
         yield Statement(code, names, setup="buffer = Buffer(None)", items=STORED, limit=1)
         yield other(stamps, values)
 
-    return Row("set_many, N=1e5, in order, per sample", beside, contenders, bar)
+    return Row("set_many, N=1e5, in order, per sample", reference, contenders, target)
 
 
 def copying(stamps: Stamps, values: Any) -> Statement:
@@ -140,7 +143,7 @@ def copying(stamps: Stamps, values: Any) -> Statement:
 
 
 def pushing(stamps: Stamps, values: Any) -> Statement:
-    tf_trees.empty(1, 2)  # tells what to install, should it be missing
+    tf_trees.empty(1, 2)  # Raises here if tf_tree is not installed.
     names = {
         "build": lambda: tf_trees.empty(1, STORED),
         "stamps": stamps,
@@ -151,16 +154,16 @@ def pushing(stamps: Stamps, values: Any) -> Statement:
 
 
 ROWS = [
-    beside_tf_tree("sorted", OURS_INTO, THEIRS_INTO, TimesAsFast(5)),
-    beside_tf_tree("random", OURS_INTO, THEIRS_INTO, TimesAsFast(5)),
-    beside_tf_tree("sorted", OURS_NEW, THEIRS_NEW, None),
+    versus_tf_tree("sorted", OURS_INTO, THEIRS_INTO, TimesAsFast(5)),
+    versus_tf_tree("random", OURS_INTO, THEIRS_INTO, TimesAsFast(5)),
+    versus_tf_tree("sorted", OURS_NEW, THEIRS_NEW, None),
     with_twists(),
-    beside_hand(1, "numpy by hand", by_hand.Numpy),
-    beside_hand(10, "numpy by hand", by_hand.Numpy),
-    beside_hand(1, "scipy, Slerp", by_hand.Scipy),
-    beside_hand(10, "scipy, Slerp and RigidTransform", by_hand.Scipy),
-    beside_hand(1, "pytransform3d", by_hand.Pytransform3d, 1e-4),
-    beside_hand(10, "pytransform3d", by_hand.Pytransform3d, 1e-4),
+    versus_hand(1, "numpy by hand", by_hand.Numpy),
+    versus_hand(10, "numpy by hand", by_hand.Numpy),
+    versus_hand(1, "scipy, Slerp", by_hand.Scipy),
+    versus_hand(10, "scipy, Slerp and RigidTransform", by_hand.Scipy),
+    versus_hand(1, "pytransform3d", by_hand.Pytransform3d, 1e-4),
+    versus_hand(10, "pytransform3d", by_hand.Pytransform3d, 1e-4),
     large(),
     by_two_threads(),
     storing(copying, "floor: copying the arrays", AtMost(10)),

@@ -1,4 +1,4 @@
-"""The doctor: over a recording of a million transforms, and live with ten thousand a second."""
+"""The doctor, on a recording of a million transforms, and live with ten thousand transforms per second."""
 
 import functools
 import os
@@ -29,7 +29,7 @@ def recording() -> str:
 
 
 class Run:
-    """What a command takes as a whole: nanoseconds of the wall's clock, or of the processor."""
+    """The wall time or the processor time of a command, in nanoseconds."""
 
     def __init__(self, *arguments: str, of_processor: bool) -> None:
         self._command = [*OWN_PYTHON, *arguments]
@@ -40,7 +40,7 @@ class Run:
         process = subprocess.Popen(self._command, cwd=ROOT, stdout=subprocess.DEVNULL)
         _, status, used = os.wait4(process.pid, 0)
         wall = time.perf_counter_ns() - begin
-        if os.waitstatus_to_exitcode(status) not in {0, 1}:  # 1: it has found something
+        if os.waitstatus_to_exitcode(status) not in {0, 1}:  # 1: the doctor has findings
             raise PeerError(f"exit status {status}")
         return 1e9 * (used.ru_utime + used.ru_stime) if self._of_processor else wall
 
@@ -53,7 +53,7 @@ def recorded(clock: str) -> Row:
         yield Run("-c", opening, recording(), of_processor=clock == "processor")
 
     name = f"coframe doctor, MCAP of 1e6 transforms, {clock}"
-    return Row(name, "floor: open_bag alone", contenders, AtMost(LIMIT), least=3, processors=2)
+    return Row(name, "floor: open_bag only", contenders, AtMost(LIMIT), least=3, processors=2)
 
 
 def live() -> Row:
@@ -62,7 +62,7 @@ def live() -> Row:
         yield Program("-m", "benchmarks.wire_latency", "cpu", "coframe", "3", sys.executable)
 
     name = "coframe doctor --watch, 1 kHz x 10, CPU of one core"
-    return Row(name, "floor: a buffer that listens", contenders, AtMost(5.0), percent, least=2, processors=2)
+    return Row(name, "floor: a listening buffer", contenders, AtMost(5.0), percent, least=2, processors=2)
 
 
 ROWS = [recorded("wall clock"), recorded("processor"), live()]

@@ -1,4 +1,4 @@
-"""Ten robots, each a process that sends 20 frames at 50 Hz, through one relay into one buffer."""
+"""Ten robots, each a process that publishes 20 frames at 50 Hz, through one relay into one buffer."""
 
 from collections.abc import Generator
 
@@ -10,7 +10,7 @@ CPU, LOST = 0, 1
 
 
 class Run:
-    """What the relay takes; a transform that did not arrive is an error."""
+    """The processor time of the relay; a lost transform is an error."""
 
     def __init__(self) -> None:
         self._program = Program("-m", "benchmarks.fleet", ROBOTS, FRAMES, HERTZ, SECONDS)
@@ -23,7 +23,7 @@ class Run:
 
 
 class Floor:
-    """The same messages with the buffer listening to the robots itself: what its process takes."""
+    """The processor time of a listener that subscribes to the robots itself, without a relay."""
 
     def __init__(self) -> None:
         self._program = Program("-m", "benchmarks.fleet", "direct", ROBOTS, FRAMES, HERTZ, SECONDS)
@@ -40,7 +40,7 @@ def contenders() -> Generator[Contender]:
 ROWS = [
     Row(
         "relay, 10 robots x 20 x 50 Hz, nothing lost, CPU of one core",
-        "floor: no relay, the listener names the frames",
+        "floor: no relay, the listener renames the frames",
         contenders,
         AtMost(10.0),
         percent,

@@ -1,18 +1,18 @@
-"""Transforms into the buffer, one message or one set of numbers at a time."""
+"""Insertion of transforms into the buffer, one message or one set of numbers at a time."""
 
 from collections.abc import Callable, Generator
 from typing import Any
 
 import coframe
 from benchmarks import motion, peers
-from benchmarks.measuring import AtMost, Bar, Contender, Row, TimesAsFast
+from benchmarks.measuring import AtMost, Contender, Row, Target, TimesAsFast
 from benchmarks.motion import STEP, frame
 from benchmarks.peers import DEBIAN, ROS2, tf_trees
-from benchmarks.rows.beside_tf2 import beside_tf2, drop_in
+from benchmarks.rows.tf2_rows import drop_in, versus_tf2
 from benchmarks.statement import Statement
 
 FRESH = 8 * motion.SAMPLES
-"""Samples for one setup; the buffers keep as long as tf2's do by default, an eighth of it."""
+"""Samples for one setup; the buffers keep an eighth of them, with tf2's default cache time."""
 TRANSFORMS = 10
 MESSAGES = 250
 
@@ -20,8 +20,8 @@ NUMBERS = "buffer._set_values('f0', 'f1', next(fresh), 1.0, 2.0, 3.0, 0.0, 0.0, 
 TRANSFORM = "buffer.set('f0', 'f1', transform, next(fresh))"
 
 
-def one_link(code: str) -> Statement:
-    """New samples of one link, by their stamps."""
+def one_edge(code: str) -> Statement:
+    """Return the insertion of new samples of one edge."""
     end = motion.START + FRESH * STEP
     names = {
         "buffer": coframe.Buffer(),
@@ -31,10 +31,10 @@ def one_link(code: str) -> Statement:
     return Statement(code, names, setup="buffer.clear(); fresh = iter(stamps)", limit=FRESH)
 
 
-def beside_push() -> Row:
+def versus_push() -> Row:
     def contenders() -> Generator[Contender]:
-        yield one_link(NUMBERS)
-        tree = tf_trees.empty  # a new one each time: a stamp cannot be pushed twice
+        yield one_edge(NUMBERS)
+        tree = tf_trees.empty  # A new tree each time, because a stamp cannot be pushed twice.
         tree(1, motion.SAMPLES)
         end = motion.START + FRESH * STEP
         names = {
@@ -54,22 +54,22 @@ def beside_push() -> Row:
 
 
 def messages() -> list[bytes]:
-    """CDR of messages of ten transforms each, as a robot's joints send them."""
+    """Return CDR messages with ten transforms each."""
     from benchmarks.peers import tf2
     from coframe.messages import codec, find
 
     message = find("tf2_msgs/msg/TFMessage")()
-    message.transforms = [tf2.message(link, 7) for link in range(TRANSFORMS)]
+    message.transforms = [tf2.message(edge, 7) for edge in range(TRANSFORMS)]
     result = []
     for index in range(MESSAGES):
-        for link, transform in enumerate(message.transforms):
-            transform.header.stamp = tf2.message_time(motion.stamp(link, index))
+        for edge, transform in enumerate(message.transforms):
+            transform.header.stamp = tf2.message_time(motion.stamp(edge, index))
         result.append(codec.serialize(message))
     return result
 
 
-def ingesting(other: Callable[[list[bytes]], Statement], beside: str, bar: Bar) -> Row:
-    """Bytes into the buffer, and something that another does with the same bytes."""
+def ingesting(other: Callable[[list[bytes]], Statement], reference: str, target: Target) -> Row:
+    """Return a row for ingesting bytes, compared with another operation on the same bytes."""
 
     def contenders() -> Generator[Contender]:
         names = {"buffer": coframe.Buffer(), "messages": messages()}
@@ -77,11 +77,11 @@ def ingesting(other: Callable[[list[bytes]], Statement], beside: str, bar: Bar) 
         yield Statement("buffer.ingest(next(fresh))", names, setup=setup, items=TRANSFORMS, limit=MESSAGES)
         yield other(messages())
 
-    return Row(f"TFMessage bytes of {TRANSFORMS} into the buffer, per transform", beside, contenders, bar)
+    return Row(f"ingest a TFMessage of {TRANSFORMS}, per transform", reference, contenders, target)
 
 
 def each(code: str, data: list[bytes], **names: Any) -> Statement:
-    """A statement with one of the messages after the other, as `next(fresh)`."""
+    """Return a statement that uses the messages one after the other, as `next(fresh)`."""
     names["messages"] = data
     return Statement(code, names, setup="fresh = iter(messages)", items=TRANSFORMS, limit=MESSAGES)
 
@@ -101,7 +101,7 @@ def copying(data: list[bytes]) -> Statement:
 
 
 def decoding_and_setting() -> Row:
-    """What a listener in Python does: bytes to messages, and one call a transform."""
+    """Return a row for a listener in Python: it decodes messages and inserts each transform with one call."""
 
     def contenders() -> Generator[Contender]:
         from benchmarks.peers import tf2
@@ -120,16 +120,16 @@ for transform in decode(next(fresh), message_type).transforms:
         yield Statement(code, names, setup="buffer.clear(); fresh = iter(messages)", items=TRANSFORMS, limit=MESSAGES)
         yield decoding_by_rosbags(messages())
 
-    return Row("the same through messages and tf2_py, per transform", "decoding alone, rosbags", contenders)
+    return Row("the same through messages and tf2_py, per transform", "rosbags, decoding only", contenders)
 
 
 ROWS = [
-    drop_in("tf2_py: set_transform(message)", DEBIAN, "set_transform", bar=TimesAsFast(3)),
+    drop_in("tf2_py: set_transform(message)", DEBIAN, "set_transform", target=TimesAsFast(3)),
     drop_in("tf2_py: set_transform(message)", ROS2, "set_transform"),
-    beside_tf2("set, from numbers", lambda: one_link(NUMBERS), DEBIAN, "set_transform", bar=TimesAsFast(8)),
-    beside_tf2("set, from a Transform", lambda: one_link(TRANSFORM), DEBIAN, "set_transform"),
-    beside_push(),
-    ingesting(decoding_by_rosbags, "decoding alone, rosbags", TimesAsFast(50)),
+    versus_tf2("set, from numbers", lambda: one_edge(NUMBERS), DEBIAN, "set_transform", target=TimesAsFast(8)),
+    versus_tf2("set, from a Transform", lambda: one_edge(TRANSFORM), DEBIAN, "set_transform"),
+    versus_push(),
+    ingesting(decoding_by_rosbags, "rosbags, decoding only", TimesAsFast(50)),
     ingesting(copying, "floor: copying the bytes", AtMost(60)),
     decoding_and_setting(),
 ]

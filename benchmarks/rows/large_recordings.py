@@ -1,4 +1,4 @@
-"""Ten million transforms: in memory, and as a frozen file."""
+"""Ten million transforms in memory and in a frozen file."""
 
 import functools
 import itertools
@@ -40,7 +40,7 @@ def loading() -> Row:
         code = "with open(path, 'rb') as file: file.read(4096)"
         yield Statement(code, {"path": frozen()}, clock=time.perf_counter_ns)
 
-    return Row("load of a frozen file, 1e7 transforms", "floor: opening it and reading a page", contenders, AtMost(5e6))
+    return Row("load of a frozen file, 1e7 transforms", "floor: open it and read a page", contenders, AtMost(5e6))
 
 
 def many() -> Row:
@@ -70,13 +70,13 @@ def one_after_the_other() -> dict[str, object]:
 
 
 class Once:
-    """What a program prints, which takes long and is nearly the same each time."""
+    """The output of a program that runs once, because it is slow and its results hardly vary."""
 
     def __init__(self, what: str) -> None:
-        self._figure = functools.cache(Program("-m", "benchmarks.large", what).sample)
+        self._result = functools.cache(Program("-m", "benchmarks.large", what).sample)
 
     def sample(self) -> float:
-        return self._figure()
+        return self._result()
 
 
 def memory(name: str, what: str) -> Row:
@@ -84,8 +84,8 @@ def memory(name: str, what: str) -> Row:
         yield Once(what)
         yield Once("arrays")
 
-    beside = "floor: arrays of numpy"
-    return Row(f"most memory of a process, {name}", beside, contenders, AtMost(GIGABYTE), megabytes, least=1)
+    reference = "floor: NumPy arrays"
+    return Row(f"peak memory of a process, {name}", reference, contenders, AtMost(GIGABYTE), megabytes, least=1)
 
 
 def megabytes(value: float) -> str:
@@ -98,5 +98,5 @@ ROWS = [
     as_in_memory("lookup_many at 1e5 random times", "buffer.lookup_many('f0', 'f5', stamps)", random_stamps, 1.5),
     as_in_memory("lookup at 1e5 times in order", "buffer.lookup('f0', 'f5', next(times))", one_after_the_other, 1.5),
     memory("1e7 transforms set", "buffer"),
-    memory("1e7 transforms out of an MCAP", "mcap"),
+    memory("1e7 transforms from an MCAP", "mcap"),
 ]

@@ -4,7 +4,7 @@ import os
 import sys
 from collections.abc import Callable, Generator
 
-from benchmarks.measuring import AtMost, Bar, Contender, Row, nanoseconds, percent
+from benchmarks.measuring import AtMost, Contender, Row, Target, nanoseconds, percent
 from benchmarks.peers import ROS2
 from benchmarks.process import OWN_PYTHON, Program, Python
 
@@ -13,33 +13,35 @@ CPU, LATENCY, AWAKE = "cpu", "latency", "awake"
 NAMES: dict[str, tuple[str, Callable[[float], str]]] = {
     CPU: ("CPU of one core", percent),
     LATENCY: ("latency, p50", nanoseconds),
-    AWAKE: ("latency till a thread that waits is awake, p50", nanoseconds),
+    AWAKE: ("latency until a waiting thread is awake, p50", nanoseconds),
 }
 
 
-def measured(figure: str, who: str, python: Python = OWN_PYTHON, **environment: str) -> Program:
-    """The talker is in our Python whoever listens."""
-    command = ("-m", "benchmarks.wire_latency", figure, who, SECONDS, sys.executable)
+def measured(quantity: str, listener: str, python: Python = OWN_PYTHON, **environment: str) -> Program:
+    """Return a program that measures a listener; the talker always runs in coframe's Python."""
+    command = ("-m", "benchmarks.wire_latency", quantity, listener, SECONDS, sys.executable)
     return Program(*command, python=python, environment=environment)
 
 
-def row(figure: str, who: str, beside: str, other: Callable[[], Program], bar: Bar | None = None) -> Row:
+def row(
+    quantity: str, listener: str, reference: str, other: Callable[[], Program], target: Target | None = None
+) -> Row:
     def contenders() -> Generator[Contender]:
-        yield measured(figure, who)
+        yield measured(quantity, listener)
         yield other()
 
-    name, unit = NAMES[figure]
-    whose = "listener" if who == "coframe" else "tf2_ros.TransformListener"
-    return Row(f"{whose}, 1 kHz x 10, {name}", beside, contenders, bar, unit, least=3, processors=2)
+    label, unit = NAMES[quantity]
+    subject = "listener" if listener == "coframe" else "tf2_ros.TransformListener"
+    return Row(f"{subject}, 1 kHz x 10, {label}", reference, contenders, target, unit, least=3, processors=2)
 
 
-def udp(figure: str) -> Callable[[], Program]:
-    return lambda: measured(figure, "udp")
+def udp(quantity: str) -> Callable[[], Program]:
+    return lambda: measured(quantity, "udp")
 
 
 def ros2() -> Program:
     python = ROS2.python("tf2_ros")
-    if os.environ["ROS_DISTRO"] == "humble":  # its word for what later ones call ROS_AUTOMATIC_DISCOVERY_RANGE
+    if os.environ["ROS_DISTRO"] == "humble":  # Later distributions use ROS_AUTOMATIC_DISCOVERY_RANGE.
         return measured(CPU, "tf2", python, ROS_LOCALHOST_ONLY="1")
     return measured(CPU, "tf2", python)
 

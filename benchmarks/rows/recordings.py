@@ -1,4 +1,4 @@
-"""All transforms of a recording: from its file into a buffer."""
+"""Opening a recording: all transforms from its file into a buffer."""
 
 import functools
 import sqlite3
@@ -9,7 +9,7 @@ from typing import Any
 
 import coframe
 from benchmarks import motion, peers
-from benchmarks.measuring import Bar, Contender, Row, TimesAsFast
+from benchmarks.measuring import Contender, Row, Target, TimesAsFast
 from benchmarks.motion import frame
 from benchmarks.statement import Statement
 
@@ -19,14 +19,14 @@ MESSAGES, TRANSFORMS = 20_000, 2
 
 @functools.cache
 def messages() -> list[tuple[int, bytes]]:
-    """When they were received, and their bytes."""
+    """Return time of receipt and bytes of the messages."""
     found = []
     for i in range(MESSAGES):
         moment = coframe.Buffer(None)
-        for link in range(TRANSFORMS):
-            *translation, qx, qy, qz, qw = motion.values(link, i)
+        for edge in range(TRANSFORMS):
+            *translation, qx, qy, qz, qw = motion.values(edge, i)
             pose = coframe.Transform(translation, (qx, qy, qz, qw))
-            moment.set(frame(link), frame(link + 1), pose, motion.stamp(link, i))
+            moment.set(frame(edge), frame(edge + 1), pose, motion.stamp(edge, i))
         found.append((motion.stamp(0, i), moment.encode(static=False)))
     return found
 
@@ -70,7 +70,7 @@ def statement(code: str, **names: object) -> Statement:
 
 
 def rosbags(path: Path) -> Statement:
-    """Reading and decoding, and nothing done with it."""
+    """Return a statement that reads and decodes all messages."""
     peers.package("rosbags")
     from rosbags.highlevel import AnyReader
     from rosbags.typesys import Stores, get_typestore
@@ -87,7 +87,9 @@ def tf_tree(path: Path) -> Statement:
     return statement("ingest(path)", ingest=peers.package("tf_tree").ingest_bag, path=path)
 
 
-def opening(name: str, write: Callable[[Path], Path], beside: str, other: Callable[[Path], Contender], bar: Bar) -> Row:
+def opening(
+    name: str, write: Callable[[Path], Path], reference: str, other: Callable[[Path], Contender], target: Target
+) -> Row:
     def contenders() -> Generator[Contender]:
         with tempfile.TemporaryDirectory() as folder:
             path = write(Path(folder))
@@ -96,11 +98,11 @@ def opening(name: str, write: Callable[[Path], Path], beside: str, other: Callab
             yield statement("open_bag(path)", open_bag=coframe.open_bag, path=path)
             yield other(path)
 
-    return Row(f"open_bag, {name}, per transform", beside, contenders, bar)
+    return Row(f"open_bag, {name}, per transform", reference, contenders, target)
 
 
 ROWS = [
-    opening("MCAP, zstd", mcap, "rosbags, reading and decoding alone", rosbags, TimesAsFast(10)),
+    opening("MCAP, zstd", mcap, "rosbags, reading and decoding only", rosbags, TimesAsFast(10)),
     opening("MCAP, zstd", mcap, "tf_tree.ingest_bag", tf_tree, TimesAsFast(1)),
-    opening("SQLite", sqlite, "rosbags, reading and decoding alone", rosbags, TimesAsFast(10)),
+    opening("SQLite", sqlite, "rosbags, reading and decoding only", rosbags, TimesAsFast(10)),
 ]

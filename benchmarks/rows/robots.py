@@ -1,22 +1,22 @@
-"""Where the links of a robot are: for many configurations in one call, and for one."""
+"""Forward kinematics of a robot, for many configurations in one call and for a single one."""
 
 from collections.abc import Generator
 from typing import Any
 
 import numpy as np
 
-from benchmarks.measuring import Bar, Contender, Row, TimesAsFast
+from benchmarks.measuring import Contender, Row, Target, TimesAsFast
 from benchmarks.peers import pinocchio
 from benchmarks.rows.batch import batch
 from benchmarks.statement import Statement
 from coframe.robots import load
 
 MANY, THEIRS = 100_000, 1_000
-"""Configurations of ours in one call, and of theirs in a sample: theirs take the same time each."""
+"""Configurations per call of coframe, and per sample of Pinocchio, which computes them one by one."""
 
 
 def contenders(ours: str, theirs: str, count: int, their_count: int) -> Generator[Contender]:
-    """Statements that may use `robot`, `positions`, `out`, and `other`."""
+    """Yield the two statements, which can use `robot`, `positions` and `out`, or `other`."""
     path = pinocchio.talos()
     robot = load(path)
     rng = np.random.default_rng(1)
@@ -33,8 +33,10 @@ def contenders(ours: str, theirs: str, count: int, their_count: int) -> Generato
     yield batch(theirs, their_count, other=other)
 
 
-def many(name: str, ours: str, theirs: str, beside: str, bar: Bar | None = None) -> Row:
-    return Row(f"talos, 1e5 configurations, {name}, each", beside, lambda: contenders(ours, theirs, MANY, THEIRS), bar)
+def many(name: str, ours: str, theirs: str, reference: str, target: Target | None = None) -> Row:
+    return Row(
+        f"talos, 1e5 configurations, {name}, each", reference, lambda: contenders(ours, theirs, MANY, THEIRS), target
+    )
 
 
 NEW, INTO = "robot.frames(positions)", "robot.frames(positions, out=out)"

@@ -1,4 +1,4 @@
-"""Clouds of points seen from another frame, and points that were each taken at a time of their own."""
+"""Transformation of point clouds, and deskewing of points with individual times."""
 
 from collections.abc import Callable, Generator
 from typing import Any
@@ -6,23 +6,23 @@ from typing import Any
 import numpy as np
 
 from benchmarks import motion, ours
-from benchmarks.measuring import AtMost, Bar, Contender, Row, TimesAsFast
+from benchmarks.measuring import AtMost, Contender, Row, Target, TimesAsFast
 from benchmarks.peers import DEBIAN, ROS2, Tf2, by_hand
 from benchmarks.rows.batch import batch, filled
-from benchmarks.rows.beside_tf2 import beside_tf2, drop_in
+from benchmarks.rows.tf2_rows import drop_in, versus_tf2
 from benchmarks.statement import Statement
 
 CLOUD = 100_000
 SCAN, SCAN_SAMPLES = 1_000_000, 1_000
 FIRINGS = 1_800
-"""Times in a scan of a rotating lidar: all channels of a column measure at once."""
+"""Distinct times in a sweep of a rotating lidar: all channels of a column measure at the same time."""
 
 
 NEW, INTO = "transform_cloud(cloud, transform)", "transform_cloud(cloud, transform, out=out)"
 
 
 def transforming(code: str = NEW) -> Statement:
-    """A cloud of points with intensities, message to message."""
+    """Return the transformation of a cloud with intensities, from message to message."""
     from benchmarks.peers import tf2
     from coframe.sensors import transform_cloud
 
@@ -36,7 +36,7 @@ def transforming(code: str = NEW) -> Statement:
     return batch(code, CLOUD, **names)
 
 
-def beside_copying(name: str, code: str, bar: Bar | None) -> Row:
+def versus_copying(name: str, code: str, target: Target | None) -> Row:
     def contenders() -> Generator[Contender]:
         from benchmarks.peers import tf2
 
@@ -44,11 +44,11 @@ def beside_copying(name: str, code: str, bar: Bar | None) -> Row:
         data = np.frombuffer(bytes(tf2.cloud(CLOUD).data), dtype=np.uint8)
         yield batch("data.tobytes()", CLOUD, data=data)
 
-    return Row(name, "floor: copying the bytes", contenders, bar)
+    return Row(name, "floor: copying the bytes", contenders, target)
 
 
-def beside_numpy() -> Row:
-    """The cloud's fields as an array, a matrix product, and back."""
+def versus_numpy() -> Row:
+    """Return a row for a matrix product on the fields of the cloud."""
 
     def contenders() -> Generator[Contender]:
         from benchmarks.peers import tf2
@@ -74,7 +74,7 @@ def cloud_drop_in(peer: Tf2) -> Row:
 
 
 def scan(times: int) -> dict[str, Any]:
-    """A million points of float32, measured at so many times."""
+    """Return a million float32 points and their times, with a number of distinct times."""
     instants = ours.random_times(times, SCAN_SAMPLES, in_order=True)
     return {
         "points": np.random.default_rng(7).uniform(-50.0, 50.0, (SCAN, 3)).astype(np.float32),
@@ -90,16 +90,16 @@ def deskewing(times: int) -> Statement:
     return batch("deskew(points, times, buffer, 'f1', source='f1', fixed='f0', at=stamp)", SCAN, **names)
 
 
-def deskew_beside_copying(name: str, times: int, bar: Bar | None) -> Row:
+def deskew_versus_copying(name: str, times: int, target: Target | None) -> Row:
     def contenders() -> Generator[Contender]:
         yield deskewing(times)
         yield batch("points.copy()", SCAN, **scan(times))
 
-    return Row(f"deskew, 1e6 points, {name}, D=1, per point", "floor: copying the points", contenders, bar)
+    return Row(f"deskew, 1e6 points, {name}, D=1, per point", "floor: copying the points", contenders, target)
 
 
-def deskew_beside_hand(beside: str, make: Callable[[Any], Any]) -> Row:
-    """Theirs is only the poses: what it takes to move the points comes on top."""
+def deskew_versus_hand(reference: str, make: Callable[[Any], Any]) -> Row:
+    """Return a row for a peer that computes only the poses, without transforming the points."""
 
     def contenders() -> Generator[Contender]:
         yield deskewing(SCAN)
@@ -107,26 +107,26 @@ def deskew_beside_hand(beside: str, make: Callable[[Any], Any]) -> Row:
             "other.at(times)", SCAN, other=make([ours.stamps_and_values(0, SCAN_SAMPLES)]), times=scan(SCAN)["times"]
         )
 
-    return Row("deskew, 1e6 points, distinct times, D=1, per point", beside, contenders)
+    return Row("deskew, 1e6 points, distinct times, D=1, per point", reference, contenders)
 
 
 ROWS = [
-    beside_tf2(
+    versus_tf2(
         "transform_cloud, 1e5 points, per point",
         transforming,
         DEBIAN,
         "transform_cloud",
         CLOUD,
-        bar=TimesAsFast(500),
+        target=TimesAsFast(500),
         needs=("tf2_sensor_msgs",),
     ),
-    beside_copying("transform_cloud, 1e5 points, per point", NEW, AtMost(3)),
-    beside_copying("transform_cloud, 1e5 points, into a message, per point", INTO, None),
-    beside_numpy(),
+    versus_copying("transform_cloud, 1e5 points, per point", NEW, AtMost(3)),
+    versus_copying("transform_cloud, 1e5 points, into a message, per point", INTO, None),
+    versus_numpy(),
     cloud_drop_in(DEBIAN),
     cloud_drop_in(ROS2),
-    deskew_beside_copying("distinct times", SCAN, AtMost(10)),
-    deskew_beside_copying("1800 times", FIRINGS, None),
-    deskew_beside_hand("poses alone, numpy by hand", by_hand.Numpy),
-    deskew_beside_hand("poses alone, scipy's Slerp", by_hand.Scipy),
+    deskew_versus_copying("distinct times", SCAN, AtMost(10)),
+    deskew_versus_copying("1800 times", FIRINGS, None),
+    deskew_versus_hand("poses only, numpy by hand", by_hand.Numpy),
+    deskew_versus_hand("poses only, scipy's Slerp", by_hand.Scipy),
 ]

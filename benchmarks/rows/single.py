@@ -1,4 +1,4 @@
-"""Single questions from Python."""
+"""Single lookups from Python."""
 
 from collections.abc import Generator
 
@@ -6,10 +6,10 @@ import numpy as np
 
 import coframe
 from benchmarks import motion, ours
-from benchmarks.measuring import Bar, Contender, Row, TimesAsFast
+from benchmarks.measuring import Contender, Row, Target, TimesAsFast
 from benchmarks.motion import frame
 from benchmarks.peers import DEBIAN, ROS2, Tf2, tf_trees
-from benchmarks.rows.beside_tf2 import beside_tf2, drop_in
+from benchmarks.rows.tf2_rows import drop_in, versus_tf2
 from benchmarks.statement import Statement
 
 TIME = motion.between(490)
@@ -28,7 +28,7 @@ except TransformException as error:
 FAILING_WITH_TEXT = FAILING.replace("pass", "str(error)")
 
 
-def question(code: str, depth: int) -> Statement:
+def lookup(code: str, depth: int) -> Statement:
     names = {
         "buffer": ours.filled(depth),
         "source": frame(depth),
@@ -39,20 +39,20 @@ def question(code: str, depth: int) -> Statement:
     return Statement(code, names)
 
 
-def newest(depth: int, peer: Tf2, bar: Bar | None = None) -> Row:
-    return beside_tf2(f"lookup, newest, D={depth}", lambda: question(NEWEST, depth), peer, "lookup", depth, bar=bar)
+def newest(depth: int, peer: Tf2, target: Target | None = None) -> Row:
+    return versus_tf2(f"lookup, newest, D={depth}", lambda: lookup(NEWEST, depth), peer, "lookup", depth, target=target)
 
 
-def beside_debian(name: str, code: str, function: str, *arguments: object, bar: Bar | None = None) -> Row:
-    """A question about a chain of five links."""
-    return beside_tf2(f"{name}, D=5", lambda: question(code, 5), DEBIAN, function, 5, *arguments, bar=bar)
+def versus_debian(name: str, code: str, function: str, *arguments: object, target: Target | None = None) -> Row:
+    """Return a row for a lookup over a chain of five edges."""
+    return versus_tf2(f"{name}, D=5", lambda: lookup(code, 5), DEBIAN, function, 5, *arguments, target=target)
 
 
-def beside_tf_tree(depth: int, what: str, code: str, bar: Bar | None = None) -> Row:
-    """Ours by name; theirs by name as well, or by a plan that was compiled before."""
+def versus_tf_tree(depth: int, what: str, code: str, target: Target | None = None) -> Row:
+    """Return a row for a lookup by name, compared with tf_tree's lookup by name or its compiled plan."""
 
     def contenders() -> Generator[Contender]:
-        yield question(AT_A_TIME, depth)
+        yield lookup(AT_A_TIME, depth)
         tree = tf_trees.filled(depth)
         plan = tree.plan("f0", frame(depth))
         expected = ours.filled(depth).lookup("f0", frame(depth), TIME).matrix
@@ -60,7 +60,7 @@ def beside_tf_tree(depth: int, what: str, code: str, bar: Bar | None = None) -> 
         names = {"tree": tree, "plan": plan, "source": frame(depth), "time": TIME, "out": np.empty((4, 4))}
         yield Statement(code, names)
 
-    return Row(f"lookup at a time, D={depth}", f"tf_tree, {what}", contenders, bar)
+    return Row(f"lookup at a time, D={depth}", f"tf_tree, {what}", contenders, target)
 
 
 ROWS = [
@@ -69,17 +69,17 @@ ROWS = [
     newest(10, DEBIAN, TimesAsFast(18)),
     newest(50, DEBIAN, TimesAsFast(10)),
     newest(5, ROS2),
-    beside_debian("lookup at a time", AT_A_TIME, "lookup", TIME),
-    beside_tf_tree(1, "Plan.at", "plan.at(time)", TimesAsFast(2.5)),
-    beside_tf_tree(5, "Plan.at", "plan.at(time)", TimesAsFast(3)),
-    beside_tf_tree(5, "Plan.at_into", "plan.at_into(time, out)"),
-    beside_tf_tree(5, "Tree.lookup", "tree.lookup('f0', source, time)"),
-    beside_debian("time travel", TIME_TRAVEL, "time_travel"),
-    beside_debian("can_transform, newest", POSSIBLE, "can_transform", bar=TimesAsFast(12)),
-    beside_debian("can_transform at a time", POSSIBLE_AT_A_TIME, "can_transform", TIME, bar=TimesAsFast(12)),
-    beside_debian("failing lookup, caught", FAILING, "failing_lookup", bar=TimesAsFast(10)),
-    beside_debian("failing lookup, text read", FAILING_WITH_TEXT, "failing_lookup", "str(error)"),
-    drop_in("tf2_py: lookup_transform_core, D=5", DEBIAN, "lookup", 5, bar=TimesAsFast(8)),
+    versus_debian("lookup at a time", AT_A_TIME, "lookup", TIME),
+    versus_tf_tree(1, "Plan.at", "plan.at(time)", TimesAsFast(2.5)),
+    versus_tf_tree(5, "Plan.at", "plan.at(time)", TimesAsFast(3)),
+    versus_tf_tree(5, "Plan.at_into", "plan.at_into(time, out)"),
+    versus_tf_tree(5, "Tree.lookup", "tree.lookup('f0', source, time)"),
+    versus_debian("time travel", TIME_TRAVEL, "time_travel"),
+    versus_debian("can_transform, newest", POSSIBLE, "can_transform", target=TimesAsFast(12)),
+    versus_debian("can_transform at a time", POSSIBLE_AT_A_TIME, "can_transform", TIME, target=TimesAsFast(12)),
+    versus_debian("failing lookup, caught", FAILING, "failing_lookup", target=TimesAsFast(10)),
+    versus_debian("failing lookup, text read", FAILING_WITH_TEXT, "failing_lookup", "str(error)"),
+    drop_in("tf2_py: lookup_transform_core, D=5", DEBIAN, "lookup", 5, target=TimesAsFast(8)),
     drop_in("tf2_py: lookup_transform_core, D=5", ROS2, "lookup", 5),
     drop_in("tf2_py: can_transform_core, D=5", DEBIAN, "can_transform", 5),
     drop_in("tf2_py: can_transform_core, D=5", ROS2, "can_transform", 5),

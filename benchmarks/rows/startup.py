@@ -1,9 +1,9 @@
-"""How long a program waits for its first line."""
+"""Import times."""
 
 from collections.abc import Callable, Generator
 
 from benchmarks import peers
-from benchmarks.measuring import AtMost, Bar, Contender, Row
+from benchmarks.measuring import AtMost, Contender, Row, Target
 from benchmarks.peers import DEBIAN
 from benchmarks.process import OWN_PYTHON, Program, Python
 
@@ -11,22 +11,22 @@ LIMIT_NS = 60_000_000
 
 
 def importing(module: str, after: str = "time", python: Python = OWN_PYTHON) -> Program:
-    """The processor time of an import in a fresh process that has already imported something else."""
+    """Return a program that measures the processor time of an import after another import."""
     code = (
         f"import {after}, time; begin = time.process_time_ns(); import {module}; print(time.process_time_ns() - begin)"
     )
     return Program("-c", code, python=python)
 
 
-def row(name: str, mine: Program, beside: str, other: Callable[[], Program], bar: Bar | None = None) -> Row:
+def row(name: str, mine: Program, reference: str, other: Callable[[], Program], target: Target | None = None) -> Row:
     def contenders() -> Generator[Contender]:
         yield mine
         yield other()
 
-    return Row(name, beside, contenders, bar)
+    return Row(name, reference, contenders, target)
 
 
-COFRAME = "import coframe, numpy is there", importing("coframe", "numpy")
+COFRAME = "import coframe after numpy", importing("coframe", "numpy")
 
 ROWS = [
     row(*COFRAME, "floor: import numpy", lambda: importing("numpy"), AtMost(LIMIT_NS)),

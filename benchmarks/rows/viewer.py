@@ -1,4 +1,4 @@
-"""The viewer's server: what a tab costs 30 times a second, and how soon there is something to draw."""
+"""The server of the viewer: the cost of a tab at 30 Hz, and the time until the first frame update."""
 
 from collections.abc import Generator
 
@@ -7,7 +7,7 @@ from benchmarks.process import Program
 
 SECONDS = "4"
 LIMITS = {10: 3.0, 100: 3.0, 1000: 5.0}
-"""Percent of one core, beyond the look-ups, by the number of frames."""
+"""Percent of one core in addition to the lookups, by the number of frames."""
 IMPORTS = """
 import time
 begin = time.monotonic_ns()
@@ -16,8 +16,8 @@ print(time.monotonic_ns() - begin)
 """
 
 
-class LookUps:
-    """The second figure of the same program."""
+class Lookups:
+    """The second result of the same program."""
 
     def __init__(self, frames: int) -> None:
         self._program = Program("-m", "benchmarks.viewer_load", str(frames), "1")
@@ -29,10 +29,10 @@ class LookUps:
 def row(frames: int, limit: float) -> Row:
     def contenders() -> Generator[Contender]:
         yield Program("-m", "benchmarks.viewer_load", str(frames), SECONDS)
-        yield LookUps(frames)
+        yield Lookups(frames)
 
     name = f"a tab of the viewer, {frames} frames at 30 Hz, CPU of one core"
-    return Row(name, "the look-ups themselves", contenders, AtMost(limit), percent, least=3, processors=2)
+    return Row(name, "the lookups alone", contenders, AtMost(limit), percent, least=3, processors=2)
 
 
 def start() -> Row:
@@ -40,7 +40,7 @@ def start() -> Row:
         yield Program("-m", "benchmarks.viewer_start")
         yield Program("-c", IMPORTS)
 
-    name = "coframe view, until a tab has its first tick of the graph"
+    name = "coframe view, until a tab receives its first frame update"
     return Row(name, "floor: importing numpy, typer and DDS", contenders, processors=2)
 
 

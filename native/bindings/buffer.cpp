@@ -477,32 +477,80 @@ nb::bytes encode(const BufferObject& self, bool is_static) {
 void add_frequent_methods(nb::handle cls) {
   add_method(cls, "lookup", &py_lookup,
              "lookup($self, /, target, source, stamp=None, *, timeout=None, extrapolate=None, hold=False)\n--\n\n"
-             "The transform that takes coordinates in `source` to coordinates in `target` at `stamp`.");
+             R"doc(Return the transform at `stamp` that transforms data from `source` into `target`.
+
+Args:
+    target: The target frame.
+    source: The source frame.
+    stamp: Time of the lookup: nanoseconds, datetime64, an aware datetime, or a Time; 0 or None means the
+        latest time at which all edges between the frames have data.
+    timeout: How long to wait for the transform, such as ``"100ms"``; None and 0 do not wait. Other Python
+        threads run meanwhile.
+    extrapolate: How far the lookup may extrapolate beyond the samples of an edge, such as ``"50ms"``, after
+        waiting has not helped; None does not extrapolate, as tf2.
+    hold: Whether extrapolation holds the last pose instead of continuing with the last twist.
+
+Returns:
+    A single transform: translation in metres, unit quaternion x, y, z, w, and the time of the lookup in
+    ``stamp``. Its ``extrapolated`` is the length of the extrapolation in nanoseconds.
+
+Raises:
+    LookupException: A frame does not exist, or the tree contains a loop.
+    ConnectivityException: The frames are in different trees.
+    ExtrapolationException: An edge has no sample at that time.
+    InvalidArgumentException: A name is empty or has a leading slash.
+    TypeError: A stamp or duration has a wrong type, such as a float of seconds.
+
+Example:
+    >>> import coframe
+    >>> buffer = coframe.Buffer()
+    >>> for second in (1, 2):
+    ...     _ = buffer.set("odom", "base", coframe.Transform([second, 0, 0]), second * 1_000_000_000)
+    >>> buffer.lookup("odom", "base", 1_500_000_000).translation.tolist()
+    [1.5, 0.0, 0.0])doc");
   add_method(cls, "can_transform", &py_can_transform,
              "can_transform($self, /, target, source, stamp=None, *, timeout=None)\n--\n\n"
-             "Whether lookup() would succeed, or does within `timeout`.");
+             R"doc(Return whether :meth:`lookup` would succeed, or succeeds within `timeout`.
+
+Args:
+    target: The target frame.
+    source: The source frame.
+    stamp: Time of the lookup, as in :meth:`lookup`.
+    timeout: How long to wait for the transform; None and 0 do not wait.)doc");
   add_method(cls, "_set_values", &py_set_values,
              "_set_values($self, /, parent, child, stamp, x, y, z, qx, qy, qz, qw, static, authority)\n--\n\n"
-             "Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts).");
+             "Store a transform from numbers; return 0, or the reasons for refusal as bits (see insert_texts).");
   add_method(cls, "_set_plain", &py_set_plain,
              "_set_plain($self, /, parent, child, transform, stamp, static)\n--\n\n"
-             "_set_values() of a dynamic Transform between known frames; None where it is not just that.");
+             "Do as _set_values() for a dynamic Transform between known frames; return None for any other case.");
   add_method(cls, "ingest", &py_ingest,
              "ingest($self, /, cdr, *, static=False, authority='no recorded authority')\n--\n\n"
-             "Takes in a TFMessage's bytes; returns how many of its transforms were stored.");
+             R"doc(Store the transforms of a serialized tf2_msgs/msg/TFMessage, all of them or none.
+
+Args:
+    cdr: The message as CDR bytes.
+    static: Whether the transforms are static, as on /tf_static.
+    authority: Name of the publisher, as reports show it.
+
+Returns:
+    The number of stored transforms.
+
+Raises:
+    DecodeError: The bytes are not a TFMessage; `statistics` counts such messages.)doc");
 }
 
 }  // namespace
 
 void define_buffer(nb::module_& module) {
   using nb::arg;
-  // None is let through: what a frame name or a stamp must be is said by the functions themselves.
+  // None is accepted here, because the functions themselves report what a frame name or a stamp must be.
   const auto any = [](const char* name) { return nb::arg(name).none(); };
   nb::class_<BufferObject> cls(module, "Buffer", "The native buffer; coframe.Buffer is the public class on top of it.",
                                nb::is_weak_referenceable());
   cls
       .def(nb::init<Stamp>(), arg("cache_ns"))
-      .def_prop_ro("cache_ns", [](const BufferObject& self) { return self.core->cache_length(); })
+      .def_prop_ro("cache_ns", [](const BufferObject& self) { return self.core->cache_length(); },
+                   R"doc(Length of the cache for dynamic transforms in nanoseconds; negative if the buffer keeps everything.)doc")
       .def("_lookup_full", &py_lookup_full, any("target"), any("target_stamp"), any("source"),
            any("source_stamp"), any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
       .def("_lookup_rows", &lookup_rows, any("target"), any("source"), arg("stamps"), arg("poses"), any("twists"),
@@ -515,40 +563,70 @@ void define_buffer(nb::module_& module) {
       .def("_why_not", &why_not, any("target"), any("source"), arg("stamp") = nb::none())
       .def("_why_not_full", &why_not_full, any("target"), any("target_stamp"), any("source"),
            any("source_stamp"), any("fixed"))
-      .def("latest_common_time", &py_latest_common_time, any("target"), any("source"))
+      .def("latest_common_time", &py_latest_common_time, any("target"), any("source"), R"doc(Return the newest time at which every edge between two frames has data.
+
+Returns:
+    Nanoseconds; 0 if all edges are static.
+
+Raises:
+    LookupException: A frame does not exist.
+    TransformException: The frames are in different trees, or the tree contains a loop (tf2 chooses the class).)doc")
       .def("chain", &py_chain, any("target"), any("target_stamp"), any("source"), any("source_stamp"),
-           any("fixed"))
-      .def("encode", &encode, nb::kw_only(), arg("static"))
-      .def("clear", [](BufferObject& self) { self.core->clear(); })
+           any("fixed"), R"doc(Return the frames on the path from `source` through `fixed` to `target`.
+
+Args:
+    target: The target frame.
+    target_stamp: Time of the target, as in :meth:`lookup`.
+    source: The source frame.
+    source_stamp: Time of the source, as in :meth:`lookup`.
+    fixed: A frame that does not move between the two times.
+
+Raises:
+    TransformException: As :meth:`lookup`.)doc")
+      .def("encode", &encode, nb::kw_only(), arg("static"),
+           R"doc(Return the newest sample of every static, or of every dynamic, frame as the CDR bytes of one TFMessage.)doc")
+      .def("clear", [](BufferObject& self) { self.core->clear(); },
+           R"doc(Remove all dynamic samples; frames stay known, and static transforms stay, as in tf2.)doc")
       .def("remove_frame", [](BufferObject& self, std::string_view name) { return self.core->remove_frame(name); },
-           arg("name"))
-      .def("freeze", [](BufferObject& self) { self.core->freeze(); })
-      .def_prop_ro("frozen", [](const BufferObject& self) { return self.core->frozen(); })
+           arg("name"), R"doc(Remove a frame with the edges to its parent and to its children, also static ones.
+
+Returns:
+    Whether the frame existed.)doc")
+      .def("freeze", [](BufferObject& self) { self.core->freeze(); },
+           R"doc(Make the buffer read-only: from now on it stores nothing and removes nothing.)doc")
+      .def_prop_ro("frozen", [](const BufferObject& self) { return self.core->frozen(); }, R"doc(Whether the buffer is read-only.)doc")
       .def("_become_snapshot", [](BufferObject& self, const BufferObject& other) { self.core = other.core->snapshot(); },
            arg("other"))
       .def("_frame_tuples", &frame_tuples)
       .def("_edge_at", &edge_at, arg("child"), arg("stamp"))
       .def("_edge_tuples", &edge_tuples, arg("children") = nb::none())
-      .def("frame_names", [](const BufferObject& self) { return self.core->frame_names(); })
+      .def("frame_names", [](const BufferObject& self) { return self.core->frame_names(); },
+           R"doc(Return the names of all frames in the order in which the buffer received them, a child before its parent.)doc")
       .def("frame_exists",
            [](const BufferObject& self, std::string_view name) {
              return name == "NO_PARENT" || self.core->find(name) != 0;
            },
-           arg("name"))
-      .def("all_frames_as_string", [](const BufferObject& self) { return self.core->read(frames_as_string); })
-      .def("all_frames_as_yaml", [](const BufferObject& self) { return self.core->read(frames_as_yaml); })
+           arg("name"), R"doc(Return whether the buffer has received a transform that names the frame.)doc")
+      .def("all_frames_as_string", [](const BufferObject& self) { return self.core->read(frames_as_string); },
+           R"doc(Return tf2's text of the tree, with one line per frame.)doc")
+      .def("all_frames_as_yaml", [](const BufferObject& self) { return self.core->read(frames_as_yaml); },
+           R"doc(Return tf2's YAML of the tree; unlike in tf2, it is valid YAML for every frame name.)doc")
       .def(
           "all_frames_as_dot",
           [](const BufferObject& self, Stamp now) {
             return self.core->read([now](const Tree& tree) { return frames_as_dot(tree, now); });
           },
-          arg("now") = 0)
-      .def_prop_ro("statistics", &statistics)
+          arg("now") = 0, R"doc(Return tf2's graphviz text of the tree.
+
+Args:
+    now: Current time in nanoseconds, for ages and a legend; 0 omits them.)doc")
+      .def_prop_ro("statistics", &statistics,
+                   R"doc(Counters: ``messages``, ``malformed`` (ingested as bytes); ``stored``, ``refused``, ``old`` (transforms).)doc")
       .def_prop_ro("_changes", [](const BufferObject& self) { return self.core->changes(); });
   add_frequent_methods(cls);
   module.def("register_buffer_class", [](nb::type_object_t<BufferObject> cls) { add_frequent_methods(cls); }, arg("cls"),
-             "Gives a class on top of Buffer the most frequent methods as its own: CPython has a shorter way to call "
-             "those of an object's very class.");
+             "Add the most frequent methods to a subclass of Buffer as its own, because CPython calls methods of the "
+             "object's own class faster.");
   module.def("insert_texts", &py_insert_texts, arg("refusals"), arg("parent"), arg("child"), arg("stamp"), arg("x"),
              arg("y"), arg("z"), arg("qx"), arg("qy"), arg("qz"), arg("qw"), arg("authority"),
              "tf2's log lines for a transform that _set_values refused: (level, text).");

@@ -27,30 +27,30 @@ class Transform:
     ) -> None: ...
     @property
     def values(self) -> tuple[float, float, float, float, float, float, float]:
-        """(x, y, z, qx, qy, qz, qw) as floats; of a batch: the identity."""
+        """(x, y, z, qx, qy, qz, qw) as floats, translation in metres; for a batch the identity."""
 
     @property
     def stamp(self) -> int | None:
-        """Nanoseconds, or None."""
+        """Time in nanoseconds, or None."""
 
     @property
     def target(self) -> str | None:
-        """The frame that the values are told in, or None."""
+        """The target frame, in which the values are expressed, or None."""
 
     @property
     def source(self) -> str | None:
-        """The frame that the values are of, or None."""
+        """The source frame, whose pose the values are, or None."""
 
     @property
     def _beyond(self) -> int:
-        """How many nanoseconds beyond the data of a link it was extrapolated; 0: not at all."""
+        """How far the lookup extrapolated beyond the samples of an edge, in nanoseconds."""
 
     @property
     def _batch(self) -> Any:
         """None, or (translations, quaternions, stamps, extrapolated) as arrays; the last two may be None."""
 
 class Failure:
-    """The facts of a failed look-up; str() gives tf2's text."""
+    """The facts of a failed lookup; str() returns the text of tf2."""
 
     @property
     def code(self) -> str: ...
@@ -79,7 +79,7 @@ class Buffer:
     def __init__(self, cache_ns: int) -> None: ...
     @property
     def cache_ns(self) -> int:
-        """How far back dynamic transforms are kept, in nanoseconds; negative: everything."""
+        """Length of the cache for dynamic transforms in nanoseconds; negative if the buffer keeps everything."""
 
     def lookup(
         self,
@@ -91,22 +91,37 @@ class Buffer:
         extrapolate: DurationLike | None = None,
         hold: bool = False,
     ) -> PublicTransform:
-        """The transform that takes coordinates in `source` to coordinates in `target` at `stamp`.
+        """Return the transform at `stamp` that transforms data from `source` into `target`.
 
         Args:
-            target: The frame the answer is in.
-            source: The frame that is asked about.
-            stamp: Nanoseconds or a Time; 0 or None is the latest time at which all links have data.
-            timeout: How long to wait for it, without the GIL; None and 0 do not wait.
-            extrapolate: How far beyond the samples of a link it may be guessed, once waiting has not helped; None: not
-                at all, as tf2. The answer's ``extrapolated`` tells how far it was.
-            hold: Guess that the frame stands still there, instead of keeping the twist that it last had.
+            target: The target frame.
+            source: The source frame.
+            stamp: Time of the lookup: nanoseconds, datetime64, an aware datetime, or a Time; 0 or None means the
+                latest time at which all edges between the frames have data.
+            timeout: How long to wait for the transform, such as ``"100ms"``; None and 0 do not wait. Other Python
+                threads run meanwhile.
+            extrapolate: How far the lookup may extrapolate beyond the samples of an edge, such as ``"50ms"``, after
+                waiting has not helped; None does not extrapolate, as tf2.
+            hold: Whether extrapolation holds the last pose instead of continuing with the last twist.
+
+        Returns:
+            A single transform: translation in metres, unit quaternion x, y, z, w, and the time of the lookup in
+            ``stamp``. Its ``extrapolated`` is the length of the extrapolation in nanoseconds.
 
         Raises:
-            LookupException: A frame that nobody has mentioned.
+            LookupException: A frame does not exist, or the tree contains a loop.
             ConnectivityException: The frames are in different trees.
-            ExtrapolationException: A link has no sample at that time.
-            InvalidArgumentException: An empty name, or one with a leading slash.
+            ExtrapolationException: An edge has no sample at that time.
+            InvalidArgumentException: A name is empty or has a leading slash.
+            TypeError: A stamp or duration has a wrong type, such as a float of seconds.
+
+        Example:
+            >>> import coframe
+            >>> buffer = coframe.Buffer()
+            >>> for second in (1, 2):
+            ...     _ = buffer.set("odom", "base", coframe.Transform([second, 0, 0]), second * 1_000_000_000)
+            >>> buffer.lookup("odom", "base", 1_500_000_000).translation.tolist()
+            [1.5, 0.0, 0.0]
         """
 
     def _lookup_full(
@@ -119,9 +134,9 @@ class Buffer:
         *,
         timeout: DurationLike | None = None,
     ) -> PublicTransform:
-        """Time travel: `source` as it was at `source_stamp`, seen from `target` at `target_stamp`.
+        """Return the pose of `source` at `source_stamp` relative to `target` at `target_stamp`.
 
-        `fixed` is the frame that is taken not to move between the two times. Raises as lookup().
+        The frame `fixed` is assumed not to move between the two times. Raises as lookup().
         """
 
     def _lookup_rows(
@@ -137,24 +152,32 @@ class Buffer:
         extrapolate: DurationLike | None = None,
         hold: bool = False,
     ) -> int:
-        """lookup() for each of the `stamps`, which become those of the answers; the arrays are written to.
+        """Do lookup() for each of the `stamps`, which become the stamps of the results; the arrays are written to.
 
         Returns:
-            The first row without an answer, which raises unless NaN stands for it; the number of rows if there is none.
+            The first row without a transform that is an error, unless NaN marks such rows; the number of rows if there
+            is none.
         """
 
     def _stamps_between(self, target: str, source: str, first: int, last: int) -> bytes:
-        """The stamps of all samples between two times on the links between two frames, in order, as int64."""
+        """Return the stamps of all samples between two times on the edges between two frames, sorted, as int64."""
 
     def _set_rows(
         self, parent: str, child: str, stamps: Any, poses: Any, static: bool, authority: str
     ) -> tuple[int, int, int]:
-        """_set_values() for each row: the reasons for refusal as bits, how many were stored, the first refused row."""
+        """Do _set_values() for each row; return reasons for refusal, the number stored, and the first refused row."""
 
     def can_transform(
         self, target: str, source: str, stamp: StampLike | None = None, *, timeout: DurationLike | None = None
     ) -> bool:
-        """Whether lookup() would succeed, or does within `timeout`."""
+        """Return whether :meth:`lookup` would succeed, or succeeds within `timeout`.
+
+        Args:
+            target: The target frame.
+            source: The source frame.
+            stamp: Time of the lookup, as in :meth:`lookup`.
+            timeout: How long to wait for the transform; None and 0 do not wait.
+        """
 
     def _can_transform_full(
         self,
@@ -166,28 +189,42 @@ class Buffer:
         *,
         timeout: DurationLike | None = None,
     ) -> bool:
-        """Whether _lookup_full() would succeed, or does within `timeout`."""
+        """Return whether _lookup_full() would succeed, or succeeds within `timeout`."""
 
     def _why_not(self, target: str, source: str, stamp: StampLike | None = None) -> str:
-        """Why can_transform() is False, in tf2's words; "" when it is True."""
+        """Return tf2's text for why can_transform() is False; "" if it is True."""
 
     def _why_not_full(
         self, target: str, target_stamp: StampLike | None, source: str, source_stamp: StampLike | None, fixed: str
     ) -> str:
-        """Why _can_transform_full() is False, in tf2's words; "" when it is True."""
+        """Return tf2's text for why _can_transform_full() is False; "" if it is True."""
 
     def latest_common_time(self, target: str, source: str) -> int:
-        """The newest time at which every link between both frames has data, in nanoseconds; 0 if all are static.
+        """Return the newest time at which every edge between two frames has data.
+
+        Returns:
+            Nanoseconds; 0 if all edges are static.
 
         Raises:
-            LookupException: A frame that nobody has mentioned.
-            TransformException: The frames are in different trees or a loop is in the way (tf2's choice of exception).
+            LookupException: A frame does not exist.
+            TransformException: The frames are in different trees, or the tree contains a loop (tf2 chooses the class).
         """
 
     def chain(
         self, target: str, target_stamp: StampLike | None, source: str, source_stamp: StampLike | None, fixed: str
     ) -> list[str]:
-        """The frames that _lookup_full() walks through."""
+        """Return the frames on the path from `source` through `fixed` to `target`.
+
+        Args:
+            target: The target frame.
+            target_stamp: Time of the target, as in :meth:`lookup`.
+            source: The source frame.
+            source_stamp: Time of the source, as in :meth:`lookup`.
+            fixed: A frame that does not move between the two times.
+
+        Raises:
+            TransformException: As :meth:`lookup`.
+        """
 
     def _set_values(
         self,
@@ -204,48 +241,56 @@ class Buffer:
         static: bool,
         authority: str,
     ) -> int:
-        """Takes in a transform from numbers; 0, or the reasons for refusal as bits (see insert_texts)."""
+        """Store a transform from numbers; return 0, or the reasons for refusal as bits (see insert_texts)."""
 
     def _set_plain(
         self, parent: str, child: str, transform: PublicTransform, stamp: StampLike | None, static: bool
     ) -> int | None:
-        """_set_values() of a dynamic Transform between known frames; None where it is not just that."""
+        """Do as _set_values() for a dynamic Transform between known frames; return None for any other case."""
 
     def _set_message(self, message: Any, static: bool, authority: str) -> int | None:
-        """_set_values() of a TransformStamped between known frames; None where it is not just that."""
+        """Do as _set_values() for a TransformStamped between known frames; return None for any other case."""
 
     def _lookup_message(self, target: str, source: str, time: Any) -> Any:
-        """lookup() as a TransformStamped, for a Time; None where lookup() has to decide."""
+        """Return lookup() as a TransformStamped for a Time; None if lookup() has to decide."""
 
     def ingest(self, cdr: Any, *, static: bool = False, authority: str = "no recorded authority") -> int:
-        """Takes in a tf2_msgs/msg/TFMessage as CDR bytes, whole or not at all; returns how many transforms it stored.
+        """Store the transforms of a serialized tf2_msgs/msg/TFMessage, all of them or none.
+
+        Args:
+            cdr: The message as CDR bytes.
+            static: Whether the transforms are static, as on /tf_static.
+            authority: Name of the publisher, as reports show it.
+
+        Returns:
+            The number of stored transforms.
 
         Raises:
-            DecodeError: The bytes are no TFMessage; it is counted in `statistics`.
+            DecodeError: The bytes are not a TFMessage; `statistics` counts such messages.
         """
 
     def encode(self, *, static: bool) -> bytes:
-        """The newest sample of every static, or every dynamic, frame as the CDR of one TFMessage."""
+        """Return the newest sample of every static, or of every dynamic, frame as the CDR bytes of one TFMessage."""
 
     def clear(self) -> None:
-        """Forgets all dynamic samples; frames stay known, and static transforms stay, as in tf2."""
+        """Remove all dynamic samples; frames stay known, and static transforms stay, as in tf2."""
 
     def remove_frame(self, name: str) -> bool:
-        """Forgets a frame with its link to its parent and those of its children to it, also static ones.
+        """Remove a frame with the edges to its parent and to its children, also static ones.
 
         Returns:
-            False if nobody has mentioned it.
+            Whether the frame existed.
         """
 
     def freeze(self) -> None:
-        """From now on nothing is taken in, and nothing is forgotten."""
+        """Make the buffer read-only: from now on it stores nothing and removes nothing."""
 
     @property
     def frozen(self) -> bool:
-        """Whether it takes nothing in any more."""
+        """Whether the buffer is read-only."""
 
     def _become_snapshot(self, other: Buffer) -> None:
-        """Becomes what `other` is now, frozen; for a buffer that nobody uses yet."""
+        """Become a frozen copy of `other` as it is now; only for a buffer that is not used yet."""
 
     def _frame_tuples(self) -> list[tuple[str, str, bool, int, int, int, float, str]]: ...
     def _edge_tuples(
@@ -259,35 +304,39 @@ class Buffer:
         ]
     ]: ...
     def _edge_at(self, child: str, stamp: int) -> tuple[str, str, int, int] | None:
-        """What a frame's samples have for a time; 0 is the latest. None for a frame that nobody has told a parent of.
+        """Return the state of a frame's samples at a time; 0 is the latest. None for a frame without a parent.
 
         Returns:
-            What is wrong (``ok``, or ``too_new`` and its like, as a Failure's code), the parent that was told then (or
-            last, where there is no sample then; "" without any), and the stamps of the samples before and after.
+            The state (``ok``, or a code of Failure such as ``too_new``), the parent at that time (or the last parent if
+            there is no sample at that time; "" without any), and the stamps of the samples before and after.
         """
 
     def frame_names(self) -> list[str]:
-        """All frames in the order in which they were first mentioned (a child before its parent)."""
+        """Return the names of all frames in the order in which the buffer received them, a child before its parent."""
 
     def frame_exists(self, name: str) -> bool:
-        """Whether the frame was ever mentioned."""
+        """Return whether the buffer has received a transform that names the frame."""
 
     def all_frames_as_string(self) -> str:
-        """tf2's text of the tree, a line a frame."""
+        """Return tf2's text of the tree, with one line per frame."""
 
     def all_frames_as_yaml(self) -> str:
-        """tf2's YAML of the tree, which is valid YAML here for every frame name."""
+        """Return tf2's YAML of the tree; unlike in tf2, it is valid YAML for every frame name."""
 
     def all_frames_as_dot(self, now: int = 0) -> str:
-        """tf2's graphviz text of the tree; with `now` in nanoseconds also ages and a legend."""
+        """Return tf2's graphviz text of the tree.
+
+        Args:
+            now: Current time in nanoseconds, for ages and a legend; 0 omits them.
+        """
 
     @property
     def statistics(self) -> dict[str, int]:
-        """Counts: messages and malformed (taken in as bytes); stored, refused, old (transforms)."""
+        """Counters: ``messages``, ``malformed`` (ingested as bytes); ``stored``, ``refused``, ``old`` (transforms)."""
 
     @property
     def _changes(self) -> int:
-        """A counter that rises with every insertion."""
+        """A counter that increases with every insertion."""
 
 class Mailbox:
     """Where waits and watches leave their token when something has happened."""

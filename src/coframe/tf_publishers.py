@@ -100,6 +100,9 @@ def publisher_state(publishers: Iterable[TfPublisher]) -> str:
 
 def publishers_of(participant: Participant, reader: TfReader) -> list[TfPublisher]:
     """Return the publishers that a reader has received transforms from, including those that have left."""
+    received = reader.writer_statistics()
+    if not received:
+        return []
     topic = any_ros_name(reader.topic)
     present = participant.writers(topic)
     return [
@@ -110,7 +113,7 @@ def publishers_of(participant: Participant, reader: TfReader) -> list[TfPublishe
             static=reader.static,
             present=statistics.writer in present,
         )
-        for statistics in reader.writer_statistics()
+        for statistics in received
     ]
 
 

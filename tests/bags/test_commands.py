@@ -92,7 +92,7 @@ def test_time_travel(bag):
     ("arguments", "reason", "hint"),
     [
         (("odom", "lider"), '"lider" passed to lookupTransform argument source_frame does not exist', "'lidar'"),
-        (("odom", "base", "--at", "1h"), "Lookup would require extrapolation into the future", "base, odom from"),
+        (("odom", "base", "--at", "1h"), "Lookup would require extrapolation into the future", "base and odom from"),
     ],
 )
 def test_a_failed_lookup_prints_one_sentence_and_a_hint(bag, arguments, reason, hint):
@@ -106,8 +106,8 @@ def test_a_failed_lookup_prints_one_sentence_and_a_hint(bag, arguments, reason, 
 @pytest.mark.parametrize(
     ("arguments", "frames"),
     [
-        (("odom", "lidar", "--at", "1h"), "lidar, odom"),
-        (("lidar", "base", "--at", "1s", "--fixed", "odom", "--source-time", "-1h"), "base, lidar, odom"),
+        (("odom", "lidar", "--at", "1h"), "lidar and odom"),
+        (("lidar", "base", "--at", "1s", "--fixed", "odom", "--source-time", "-1h"), "base, lidar and odom"),
     ],
 )
 def test_a_time_outside_the_recording_prints_the_valid_range(bag, arguments, frames):

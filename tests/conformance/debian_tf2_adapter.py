@@ -1,4 +1,4 @@
-"""Debian's real tf2 (ROS 1) behind the JSON lines of the conformance cases; runs in Debian's own Python.
+"""An adapter from the JSON lines of the conformance cases to Debian's real tf2 (ROS 1); runs in Debian's Python.
 
 Every insertion tells what it has made of the log.
 """
@@ -15,7 +15,7 @@ from geometry_msgs.msg import TransformStamped
 
 
 class UnsupportedError(Exception):
-    """The Python binding of ROS 1 cannot carry it."""
+    """The Python binding of ROS 1 does not support the value."""
 
 
 def split(text):

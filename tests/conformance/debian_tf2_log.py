@@ -1,4 +1,4 @@
-"""What Debian's tf2 logs: its C++ writes to the process's standard error, whatever Python thinks that is."""
+"""Capture of the log of Debian's tf2, whose C++ code writes to the process's standard error."""
 
 import os
 import sys
@@ -7,7 +7,7 @@ LEVELS = {"Error": "error", "Warning": "warning"}
 
 
 class Log:
-    """Takes the place of standard error; Python's own words still go where they belong."""
+    """Replaces the process's standard error; output from Python still goes to the original one."""
 
     def __init__(self):
         sys.stderr = os.fdopen(os.dup(2), "w")
@@ -15,7 +15,7 @@ class Log:
         os.dup2(self.file, 2)
 
     def lines(self):
-        """(level, text) of what was logged since the last call."""
+        """Return (level, text) of the lines logged since the last call."""
         size = os.lseek(self.file, 0, os.SEEK_CUR)
         if size == 0:
             return []

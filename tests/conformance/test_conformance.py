@@ -1,4 +1,4 @@
-"""tf2's semantics, case by case: coframe, the drop-in BufferCore, and Debian's real tf2 of ROS 1."""
+"""The conformance cases, run against coframe, the drop-in BufferCore, and Debian's real tf2 of ROS 1."""
 
 import collections
 import contextlib
@@ -42,13 +42,13 @@ def assert_passes(case, adapter):
         pytest.skip(outcome.unsupported)
     for difference in outcome.differences:
         pytest.fail(
-            f"{case.shows}\nstep {difference.step}: {difference.asked}\n"
+            f"{case.shows}\nstep {difference.step}: {difference.request}\n"
             f"expected {difference.expected}\nfound    {difference.found}"
         )
 
 
 class BufferCoreAdapter:
-    """The drop-in tf2_py.BufferCore under test, as a ROS program meets it: messages in and out, the log on stderr."""
+    """The drop-in tf2_py.BufferCore under test, through its public interface: messages, and the log on stderr."""
 
     def __call__(self, step):
         try:
@@ -160,7 +160,7 @@ def debian():
 
 
 def in_words_of_ros2(answer):
-    """ROS 1's answer with the texts that differ everywhere put as ROS 2 does."""
+    """Return an answer of ROS 1 with the texts that always differ replaced by those of ROS 2."""
 
     def put(text):
         for rule in ROS1["texts"]:
@@ -189,13 +189,13 @@ def test_ros1(case, debian):
         assert run.matches(answer, found[step]), f"step {step}: ROS 1 answers {found[step]}, listed is {answer}"
 
 
-def test_every_listed_difference_is_one_of_a_case_and_has_a_reason():
+def test_every_listed_difference_belongs_to_a_case_and_has_a_reason():
     assert {*LISTED, *ROS1["unsupported"]["cases"]} <= {case.id for case in CASES}
     assert all(rule["reason"] for rule in [*ROS1["texts"], *ROS1["cases"], ROS1["unsupported"]])
     assert len(LISTED) == sum(len(group["answers"]) for group in ROS1["cases"])
 
 
-def test_every_listed_wording_of_ros1_is_met(debian):
+def test_every_listed_text_of_ros1_occurs(debian):
     texts = set()
 
     def listen(step):
@@ -208,7 +208,7 @@ def test_every_listed_wording_of_ros1_is_met(debian):
     assert [rule["ros1"] for rule in ROS1["texts"] if not any(re.search(rule["ros1"], text) for text in texts)] == []
 
 
-def test_cases_are_told_apart_and_refer_to_a_rule():
+def test_cases_have_unique_ids_and_refer_to_a_rule():
     rules = {}
     for path in sorted((FOLDER / "cases").glob("*.json")):
         file = json.loads(path.read_text("utf-8"))
@@ -221,14 +221,14 @@ def test_cases_are_told_apart_and_refer_to_a_rule():
     assert len(CASES) >= 300
 
 
-def test_the_readme_tells_every_operation():
+def test_the_readme_describes_every_operation():
     readme = (FOLDER / "README.md").read_text("utf-8")
     for operation in {step["op"] for case in CASES for step in case.steps}:
         assert f"| `{operation}`" in readme
 
 
-class Off:
-    """coframe, but a little wrong."""
+class WithError:
+    """coframe with a small error."""
 
     def __init__(self, change):
         self.adapter, self.change = run.CoframeAdapter(), change
@@ -251,8 +251,8 @@ class Off:
         ("can-transform", lambda answer: answer | {"possible": True}),
     ],
 )
-def test_what_is_a_little_wrong_fails(rule, change):
-    outcomes = [run.run_case(case, Off(change)) for case in CASES if case.rule == rule]
+def test_small_errors_are_detected(rule, change):
+    outcomes = [run.run_case(case, WithError(change)) for case in CASES if case.rule == rule]
     assert any(outcome.differences for outcome in outcomes)
 
 
@@ -262,13 +262,13 @@ def command(*arguments):
     )
 
 
-def test_the_command_counts_by_rule():
+def test_the_command_prints_a_summary_by_rule():
     result = command()
     assert result.returncode == 0, result.stdout
     assert result.stdout.splitlines()[-1].split() == ["all", str(len(CASES)), "0", "0"]
 
 
-def test_the_command_tells_expected_and_found_of_another_implementation(tmp_path):
+def test_the_command_prints_expected_and_actual_answers_of_another_implementation(tmp_path):
     adapter = tmp_path / "adapter.py"
     adapter.write_text('import sys\nfor line in sys.stdin: print(\'{"stamp": "7"}\', flush=True)')
     result = command("latest-one-link", "--adapter", f"{sys.executable} {adapter}")
@@ -276,7 +276,7 @@ def test_the_command_tells_expected_and_found_of_another_implementation(tmp_path
     assert 'expected {"stamp": "4"}\n  found    {"stamp": "7"}' in result.stdout
 
 
-def test_the_command_passes_over_what_is_not_supported(tmp_path):
+def test_the_command_counts_unsupported_cases(tmp_path):
     adapter = tmp_path / "adapter.py"
     adapter.write_text('import sys\nfor line in sys.stdin: print(\'{"unsupported": "no"}\', flush=True)')
     result = command("dumps", "--adapter", f"{sys.executable} {adapter}")
@@ -284,10 +284,10 @@ def test_the_command_passes_over_what_is_not_supported(tmp_path):
     assert result.stdout.splitlines()[-1].split()[1:3] == ["0", "0"]
 
 
-def test_the_command_names_an_adapter_that_has_ended():
+def test_the_command_names_an_adapter_that_has_exited():
     result = command("dumps", "--adapter", f"{sys.executable} -c pass")
     assert result.returncode == 2
-    assert "has ended" in result.stderr
+    assert "has exited" in result.stderr
     assert "Traceback" not in result.stderr
 
 
@@ -297,18 +297,18 @@ def test_the_command_names_an_adapter_that_does_not_start():
     assert "the adapter no-such-program --fast cannot be started: No such file" in result.stderr
 
 
-def test_the_command_shows_what_is_no_json(tmp_path):
+def test_the_command_shows_a_reply_that_is_not_json(tmp_path):
     adapter = tmp_path / "adapter.py"
     adapter.write_text("import sys\nfor line in sys.stdin: print('hello', flush=True)")
     result = command("dumps", "--adapter", f"{sys.executable} {adapter}")
     assert result.returncode == 2
-    assert "answers 'hello' to {'op': 'new', 'cache': '10'}, which is no JSON" in result.stderr
+    assert "replied 'hello' to {'op': 'new', 'cache': '10'}, which is not JSON" in result.stderr
 
 
-def test_the_command_names_the_rules_there_are():
+def test_the_command_lists_the_rules_for_an_unknown_name():
     result = command("interpolatoin")
     assert result.returncode == 2
-    assert "no rule and no case is named interpolatoin; the rules are: can-transform, chain, clear" in result.stderr
+    assert "no rule or case named interpolatoin. Rules: can-transform, chain, clear" in result.stderr
 
 
 def test_help_shows_an_example():

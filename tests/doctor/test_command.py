@@ -43,7 +43,7 @@ def test_one_finding_a_line_then_why_and_what_to_do(ill):
     first, why, fix, *_ = result.stdout.splitlines()
     assert first.startswith("TF001 warning: 2 separate trees: ")
     assert first.endswith("; first stamp 1700000000.000000000")
-    assert why.startswith("      why: A look-up between frames of two trees never succeeds")
+    assert why.startswith("      why: A lookup between frames of two trees never succeeds")
     assert fix.startswith(
         "      do:  In the node that publishes 'base_lnk', change the line to t.header.frame_id = 'base_link'"
     )

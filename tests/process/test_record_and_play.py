@@ -22,12 +22,12 @@ LISTENER = """
 import sys, time
 from pathlib import Path
 import coframe, numpy as np
-wanted, answers = map(Path, sys.argv[1:])
+stamps_file, answers = map(Path, sys.argv[1:])
 with coframe.connect("listener", cache=None) as ros:
     print("ready", flush=True)
-    while not wanted.exists():
+    while not stamps_file.exists():
         time.sleep(0.05)
-    stamps = np.load(wanted)
+    stamps = np.load(stamps_file)
     while not ros.buffer.can_transform("world", "camera_link", int(stamps[-1])):
         time.sleep(0.05)
     np.save(answers, ros.buffer.lookup_many("world", "camera_link", stamps).matrix)
@@ -37,7 +37,7 @@ with coframe.connect("listener", cache=None) as ros:
 def eventually(condition, what, patience=40.0):
     deadline = time.monotonic() + patience
     while not condition():
-        assert time.monotonic() < deadline, f"waited in vain: {what()}"
+        assert time.monotonic() < deadline, f"timed out: {what()}"
         time.sleep(0.05)
 
 
@@ -191,11 +191,11 @@ def test_an_independent_program_receives_the_replay(processes, shared):
 @pytest.mark.slow
 def test_the_replay_of_a_killed_recording_gives_the_same_transforms(processes, tmp_path):
     """Compare the transforms of the demo with those of the replay of a recording whose recorder was killed."""
-    bag, wanted = tmp_path / "run", tmp_path / "stamps.npy"
+    bag, stamps_file = tmp_path / "run", tmp_path / "stamps.npy"
     answers = {name: tmp_path / f"{name}.npy" for name in ("original", "played")}
 
     def listen(name):
-        processes.start(name, "python", "-c", LISTENER, wanted, answers[name])
+        processes.start(name, "python", "-c", LISTENER, stamps_file, answers[name])
         eventually(lambda: "ready" in processes.text(name), lambda: processes.text(name))
 
     processes.start("demo", *CLI, "demo", "--no-browser", "--port", "0")
@@ -216,7 +216,7 @@ def test_the_replay_of_a_killed_recording_gives_the_same_transforms(processes, t
         stamps = first + np.linspace(0, last - first, 500).astype(np.int64)
         recorded = recording.buffer.lookup_many("world", "camera_link", stamps).matrix
     np.save(tmp_path / "unnamed.npy", stamps)
-    (tmp_path / "unnamed.npy").rename(wanted)
+    (tmp_path / "unnamed.npy").rename(stamps_file)
     eventually(lambda: not processes.running("original"), lambda: processes.text("original"))
     processes.end("demo")
     listen("played")

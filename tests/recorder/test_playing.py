@@ -157,11 +157,11 @@ def test_static_transforms_have_their_values_at_the_start(tmp_path, listen):
     received = listen("/tf_static", TF)
     with coframe.play(tmp_path / "run", delay=SETTLED, rate=20, start_offset="2500ms") as player:
         assert player.wait(20)
-    told = [
+    published = [
         {t.child_frame_id: t.transform.translation.x for t in deserialize(sample.data, find(TF)).transforms}
         for sample in received()
     ]
-    assert told == [{"a": 2.0, "b": 1.0, "c": 1.0}, {"a": 3.0, "b": 1.0, "c": 1.0}]
+    assert published == [{"a": 2.0, "b": 1.0, "c": 1.0}, {"a": 3.0, "b": 1.0, "c": 1.0}]
 
 
 def test_pause_step_and_rate(bag, listen, eventually):
@@ -189,8 +189,8 @@ def test_loop_and_clock(bag, listen, eventually):
         eventually(lambda: len(received_words()) > 2 * COUNT + 10)
         assert player.is_playing
     assert words(received_words())[: 2 * COUNT] == 2 * [f"{i}" for i in range(COUNT)]
-    told = [deserialize(sample.data, find(CLOCK)).clock for sample in ticks()]
-    times = np.array([clock.sec * SECOND + clock.nanosec for clock in told])
+    published = [deserialize(sample.data, find(CLOCK)).clock for sample in ticks()]
+    times = np.array([clock.sec * SECOND + clock.nanosec for clock in published])
     assert times[0] == START + 1000
     assert times.max() <= START + 3 * SECOND
     jumps = np.diff(times)

@@ -38,28 +38,28 @@ def data_by_topic(path):
 
 def test_messages_of_any_type_are_recorded_unchanged(participant, node, eventually, tmp_path):
     early = participant.publisher(node, "/words", STRING, QoS(depth=50))
-    odd = participant.raw_publisher(node, "/odd", "my_pkg/msg/Odd", QoS(depth=3, reliable=False))
+    raw = participant.raw_publisher(node, "/raw", "my_pkg/msg/Unknown", QoS(depth=3, reliable=False))
     hidden = participant.publisher(node, "/fibonacci/_action/status", STRING, QoS())
     statics = participant.raw_publisher(node, "/tf_static", TF_MESSAGE.ROS_TYPE, QoS(depth=1, transient_local=True))
     statics.write(static("lidar"))
     started = time.time_ns()
-    told = []
-    with coframe.record(tmp_path / "run", on_topic=lambda *topic: told.append(topic)) as recorder:
-        eventually(lambda: early.matched and odd.matched and statics.matched)
+    reported = []
+    with coframe.record(tmp_path / "run", on_topic=lambda *topic: reported.append(topic)) as recorder:
+        eventually(lambda: early.matched and raw.matched and statics.matched)
         late = participant.publisher(node, "/later", STRING, QoS())
         eventually(lambda: late.matched)
         for i in range(20):
             for publisher in (early, late, hidden):
                 publisher.write(text(f"{i}"))
-            odd.write(b"\0\1\0\0" + bytes([i, 2, 3, 4]))
+            raw.write(b"\0\1\0\0" + bytes([i, 2, 3, 4]))
         eventually(lambda: recorder.statistics.messages == 61)
-        told_of = recorder.statistics
-    assert (told_of.topics, told_of.dropped, told_of.missing) == (4, {}, [])
-    assert ("/odd", "my_pkg/msg/Odd") in told
-    assert recorder.writer.undescribed == ["my_pkg/msg/Odd"]
+        statistics = recorder.statistics
+    assert (statistics.topics, statistics.dropped, statistics.missing) == (4, {}, [])
+    assert ("/raw", "my_pkg/msg/Unknown") in reported
+    assert recorder.writer.undescribed == ["my_pkg/msg/Unknown"]
     data = data_by_topic(tmp_path / "run")
     assert data["/words"] == data["/later"] == [text(f"{i}") for i in range(20)]
-    assert data["/odd"] == [b"\0\1\0\0" + bytes([i, 2, 3, 4]) for i in range(20)]
+    assert data["/raw"] == [b"\0\1\0\0" + bytes([i, 2, 3, 4]) for i in range(20)]
     assert data["/tf_static"] == [static("lidar")]
     assert "/fibonacci/_action/status" not in data
     with coframe.open_bag(tmp_path / "run") as bag:
@@ -67,7 +67,7 @@ def test_messages_of_any_type_are_recorded_unchanged(participant, node, eventual
         assert started < bag.start < bag.end < time.time_ns()
     assert offered["/tf_static"].transient_local
     assert offered["/tf_static"].reliable
-    assert not offered["/odd"].reliable
+    assert not offered["/raw"].reliable
 
 
 def test_messages_of_publishers_with_different_qos_are_recorded_once(participant, node, eventually, tmp_path):
@@ -89,7 +89,7 @@ def test_topics_without_a_ros_type_are_refused(participant, node, eventually, tm
     from coframe.wire import types
 
     entity = participant._native.entity
-    topic = types.create_unchecked_topic(entity, "rt/odd", "NotOfRos")
+    topic = types.create_unchecked_topic(entity, "rt/raw", "NotOfRos")
     foreign = _core.Writer(entity, topic, _core.QosProfile(1, True, True, False), "")
     publisher = participant.publisher(node, "/words", STRING, QoS())
     with coframe.record(tmp_path / "run") as recorder:
@@ -97,7 +97,7 @@ def test_topics_without_a_ros_type_are_refused(participant, node, eventually, tm
         publisher.write(text("hello"))
         foreign.forward(b"\0\1\0\0abcd")
         eventually(lambda: recorder.statistics.messages == 1)
-        assert recorder.statistics.refused == ["/odd"]
+        assert recorder.statistics.refused == ["/raw"]
     foreign.close()
     assert data_by_topic(tmp_path / "run") == {"/words": [text("hello")]}
 
@@ -114,8 +114,8 @@ def test_topics_without_a_ros_type_are_refused(participant, node, eventually, tm
     ],
 )
 def test_topic_filter(choice, chosen):
-    wanted = TopicFilter(*choice)
-    assert {topic for topic in ("/tf", "/tf_static", "/scan", "/a/_action/feedback") if wanted(topic)} == chosen
+    topic_filter = TopicFilter(*choice)
+    assert {topic for topic in ("/tf", "/tf_static", "/scan", "/a/_action/feedback") if topic_filter(topic)} == chosen
 
 
 def test_requested_topics_without_a_publisher_are_missing():
@@ -179,31 +179,31 @@ def test_one_robot_is_recorded_under_a_prefix(participant, node, eventually, tmp
     statics.write(static("lidar"))
     kind = type(scan).ROS_TYPE
     scans = [participant.raw_publisher(node, f"/{name}/scan", kind, QoS(10)) for name in ("robot1", "robot2")]
-    odd = participant.raw_publisher(node, "/robot1/odd", "my_pkg/msg/Odd", QoS(3))
+    raw = participant.raw_publisher(node, "/robot1/raw", "my_pkg/msg/Unknown", QoS(3))
     robot = {"tf_topic": "/robot1/tf", "tf_static_topic": "/robot1/tf_static", "prefix": "robot1/", "keep": ["base"]}
     with coframe.record(tmp_path / "run", **robot) as recorder:
-        eventually(lambda: odd.matched and all(publisher.matched for publisher in scans))
+        eventually(lambda: raw.matched and all(publisher.matched for publisher in scans))
         for publisher in scans:
             publisher.write(serialize(scan))
         scans[0].write(b"\0\1\0\0cut off")
-        odd.write(b"\0\1\0\0bytes")
+        raw.write(b"\0\1\0\0bytes")
         eventually(lambda: recorder.statistics.messages == 5)
-        assert recorder.statistics.not_renamed == ["/robot1/odd"]
+        assert recorder.statistics.not_renamed == ["/robot1/raw"]
     with coframe.open_bag(tmp_path / "run") as bag:
         assert bag.buffer.lookup("base", "robot1/lidar").translation.tolist() == [0, 0, 0]
         first, cut = bag.messages("/robot1/scan")
         assert first.message.header.frame_id == "robot1/lidar"
         assert cut.data == b"\0\1\0\0cut off"
         assert [one.message.header.frame_id for one in bag.messages("/robot2/scan")] == ["lidar"]
-        assert [one.data for one in bag.messages("/robot1/odd")] == [b"\0\1\0\0bytes"]
+        assert [one.data for one in bag.messages("/robot1/raw")] == [b"\0\1\0\0bytes"]
 
 
 def test_a_topic_with_two_unknown_types_is_reported_once():
     frames = FrameRenamer(renaming("robot1/"), "/robot1/tf", "/robot1/tf_static")
-    for kind in ("my_pkg/msg/Odd", "my_pkg/msg/Other"):
-        for topic in ("/robot1/odd", "/robot1/b", "/robot2/odd"):
+    for kind in ("my_pkg/msg/Unknown", "my_pkg/msg/Other"):
+        for topic in ("/robot1/raw", "/robot1/b", "/robot2/raw"):
             assert frames.renamed(Source(topic, kind, latched=False), b"bytes") == b"bytes"
-    assert list(frames.not_renamed) == ["/robot1/odd", "/robot1/b"]
+    assert list(frames.not_renamed) == ["/robot1/raw", "/robot1/b"]
 
 
 def test_recorded_transforms_give_the_same_lookups(participant, node, eventually, tmp_path):

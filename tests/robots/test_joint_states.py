@@ -20,8 +20,8 @@ def robot(**joints):
     return parse_urdf(f"<robot name='r'>{links}{described}</robot>")
 
 
-def mimic(whom, multiplier=1.0, offset=0.0):
-    return LIMIT.format(-9, 9) + f"<mimic joint='{whom}' multiplier='{multiplier}' offset='{offset}'/>"
+def mimic(leader, multiplier=1.0, offset=0.0):
+    return LIMIT.format(-9, 9) + f"<mimic joint='{leader}' multiplier='{multiplier}' offset='{offset}'/>"
 
 
 def fields(states):
@@ -61,7 +61,7 @@ def test_sources_override_default_positions_but_not_mimic_joints():
         {"spin": 0, "lift": 0.1, "near": 0.3, "far": -0.6}
     )
     assert dict(zip(names, efforts, strict=True)) == pytest.approx({"spin": 0, "lift": 2, "near": 2, "far": 2})
-    states.update(["spin"], [], [0.5])  # a source may tell of velocities alone
+    states.update(["spin"], [], [0.5])  # a source can contain only velocities
     assert fields(states)["spin"] == 0.0
     for wrong in ([1.0, 2.0], [float("nan")]):
         with pytest.raises(ValueError, match=r"values|not finite"):
@@ -99,7 +99,7 @@ def test_steps_move_joints_back_and_forth_or_around():
     [
         ({"spin": ("near", 1.0, 0.0), "lift": ("spin", 1.0, 0.0)}, r"infinite recursive mimic chain: \['spin', 'near'"),
         ({"spin": ("spin", 1.0, 0.0)}, "infinite recursive mimic chain"),
-        ({"spin": ("nobody", 1.0, 0.0)}, "joint 'spin' depends on 'nobody'"),
+        ({"spin": ("missing", 1.0, 0.0)}, "joint 'spin' depends on 'missing'"),
         ({"spin": ("free", 1.0, 0.0)}, "joint 'spin' depends on 'free', which is not a revolute"),
     ],
 )

@@ -59,12 +59,12 @@ def test_a_hundred_configurations_agree_with_pinocchio(path):
             angle = positions[joint.name][i]
             q[theirs.idx_q : theirs.idx_q + theirs.nq] = angle if theirs.nq == 1 else (np.cos(angle), np.sin(angle))
         pinocchio.framesForwardKinematics(model, data, q)
-        for frame, ours in frames.values():
-            np.testing.assert_allclose(ours[i], data.oMf[frame].homogeneous, rtol=0, atol=1e-12)
+        for frame, computed in frames.values():
+            np.testing.assert_allclose(computed[i], data.oMf[frame].homogeneous, rtol=0, atol=1e-12)
         if follows_nothing and i < 10:
             jacobian = pinocchio.computeFrameJacobian(
                 model, data, q, frames[some][0], pinocchio.ReferenceFrame.LOCAL_WORLD_ALIGNED
             )
             columns = [model.joints[model.getJointId(name)].idx_v for name in robot.free_joints]
-            ours = robot.jacobian(some, {name: values[i] for name, values in positions.items()})
-            np.testing.assert_allclose(ours, jacobian[:, columns], rtol=0, atol=1e-12)
+            computed = robot.jacobian(some, {name: values[i] for name, values in positions.items()})
+            np.testing.assert_allclose(computed, jacobian[:, columns], rtol=0, atol=1e-12)

@@ -1,4 +1,4 @@
-"""A sensor that moves."""
+"""Fixtures: a moving sensor and its points."""
 
 import numpy as np
 import pytest

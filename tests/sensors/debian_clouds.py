@@ -1,4 +1,4 @@
-"""Runs in Debian's own Python: takes a cloud, and gives what its do_transform_cloud makes of it. Both as pickles."""
+"""Transform a pickled cloud with Debian's do_transform_cloud and return it pickled; runs in Debian's Python."""
 
 import pickle
 import sys

@@ -1,4 +1,4 @@
-"""Clouds, and a sensor that moves."""
+"""Test data: point clouds and a moving sensor."""
 
 from array import array
 
@@ -17,7 +17,7 @@ DATATYPES = {"i1": 1, "u1": 2, "i2": 3, "u2": 4, "i4": 5, "u4": 6, "f4": 7, "f8"
 
 
 def message_of(points, *, frame="lidar", stamp=START, row_padding=0, big_endian=False):
-    """A PointCloud2 of a structured array with one or two axes, whatever its layout."""
+    """Return a PointCloud2 from a structured array with one or two axes and any layout."""
     cloud = find("sensor_msgs/msg/PointCloud2")()
     field_class = find("sensor_msgs/msg/PointField")
     cloud.header.frame_id = frame
@@ -38,7 +38,7 @@ def message_of(points, *, frame="lidar", stamp=START, row_padding=0, big_endian=
 
 
 def array_of(cloud):
-    """The points of a message, by hand: shape (height, width)."""
+    """Return the points of a message, read independently: shape (height, width)."""
     kinds = {number: kind for kind, number in DATATYPES.items()}
     order = ">" if cloud.is_bigendian else "<"
     dtype = np.dtype(
@@ -55,12 +55,12 @@ def array_of(cloud):
 
 
 def xyz(points, names=("x", "y", "z")):
-    """Three fields of a structured array as float64, shape (..., 3)."""
+    """Return three fields of a structured array as float64, shape (..., 3)."""
     return np.stack([points[name] for name in names], axis=-1).astype(np.float64)
 
 
 class Motion:
-    """A sensor whose poses in `odom` are random; where it is in between is for scipy to say."""
+    """A sensor with random poses in `odom`; SciPy interpolates between them."""
 
     def __init__(self, seed=3, samples=SAMPLES):
         self.rotations = Rotation.random(samples, random_state=seed)
@@ -75,7 +75,7 @@ class Motion:
         return self
 
     def at(self, times):
-        """Rotations, and translations of shape (N, 3)."""
+        """Return rotations, and translations of shape (N, 3)."""
         seconds = (np.asarray(times) - self.first) / SECOND
         known = (self.stamps - self.first) / SECOND
         moved = np.stack([np.interp(seconds, known, column) for column in self.translations.T], axis=1)

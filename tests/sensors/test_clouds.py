@@ -1,4 +1,4 @@
-"""transform_cloud, with scipy as an independent answer."""
+"""transform_cloud compared with SciPy."""
 
 import copy
 from array import array
@@ -23,7 +23,7 @@ def moved(points):
 
 
 def layout(**fields):
-    """A dtype from name=(kind, offset) with `size` bytes a point."""
+    """Return a dtype from name=(kind, offset) with `size` bytes per point."""
     size = fields.pop("size")
     kinds, offsets = zip(*fields.values(), strict=True)
     return np.dtype({"names": list(fields), "formats": kinds, "offsets": offsets, "itemsize": size})
@@ -71,7 +71,7 @@ def test_messages_of_any_layout(name, shape, big_endian):
     for other in set(points.dtype.names) - set("xyz"):
         assert np.array_equal(got[other], given[other])
     between = np.frombuffer(result.data, np.uint8).reshape(result.height, -1)[:, result.width * result.point_step :]
-    assert (between == 0xEE).all(), "what lies between rows is not touched"
+    assert (between == 0xEE).all(), "what changes between rows is not touched"
 
 
 @pytest.mark.parametrize("order", ["<", ">"])
@@ -112,7 +112,7 @@ def test_float64_is_exact_to_1e_12(random):
     assert np.abs(transform_cloud(points, half_turn) - by_hand).max() < 1e-12
 
 
-def test_points_that_are_nan_stay_nan():
+def test_nan_points_stay_nan():
     points = np.array([[1.0, 2.0, 3.0], [NAN, NAN, NAN], [INF, 0.0, 0.0], [4.0, 5.0, 6.0]], np.float32)
     result = transform_cloud(points, TRANSFORM)
     assert np.isfinite(result).all(axis=1).tolist() == [True, False, False, True]
@@ -130,7 +130,7 @@ def test_in_place_changes_the_message_itself():
     assert near(xyz(array_of(cloud)[0]), moved(xyz(points)), points.dtype)
 
 
-def test_out_is_used_again():
+def test_memory_of_out_is_reused():
     points = filled(LAYOUTS["pcl"], (20,))
     cloud, out = message_of(points), message_of(filled(LAYOUTS["pcl"], (20,), seed=9), frame="other", stamp=7)
     data = out.data
@@ -161,7 +161,7 @@ def test_arrays_as_out(random):
     assert np.allclose(wide, points, atol=1e-6)
 
 
-def test_normals_and_other_vectors_are_turned_only(random):
+def test_normals_and_other_vectors_are_only_rotated(random):
     names = ["x", "y", "z", "normal_x", "normal_y", "normal_z", "nx", "ny", "nz", "vx", "vy", "vz", "ax", "ay", "az"]
     points = np.zeros(200, [(name, "f8") for name in names])
     for name in names:
@@ -185,7 +185,7 @@ def test_columns_as_vectors(random):
     assert np.array_equal(result[:, 3], points[:, 3])
 
 
-def test_a_buffer_is_asked_at_the_clouds_stamp(buffer, motion):
+def test_the_lookup_in_a_buffer_uses_the_stamp_of_the_cloud(buffer, motion):
     points = filled(LAYOUTS["doubles"], (10,))
     stamp = START + SECOND // 7
     cloud = message_of(points, stamp=stamp)
@@ -216,7 +216,7 @@ def test_messages_as_transforms():
     assert transform_cloud(cloud, stamped.transform).header.frame_id == "lidar"
 
 
-def test_a_buffer_of_tf2_ros_will_do():
+def test_a_buffer_of_tf2_ros_is_accepted():
     import tf2_ros
 
     theirs = tf2_ros.Buffer()
@@ -227,7 +227,7 @@ def test_a_buffer_of_tf2_ros_will_do():
     assert transform_cloud(cloud, theirs, "base").data == cloud.data
 
 
-def test_messages_of_a_reader_of_recordings():
+def test_messages_from_rosbags_are_accepted():
     stores = pytest.importorskip("rosbags.typesys")
     types = stores.get_typestore(stores.Stores.ROS2_HUMBLE).types
     points = filled(LAYOUTS["pcl"], (20,))
@@ -256,7 +256,7 @@ def test_messages_of_a_reader_of_recordings():
 
 
 @pytest.mark.parametrize("threads", [2, 3, 7])
-def test_threads_share_the_work(threads, random):
+def test_results_do_not_depend_on_the_number_of_threads(threads, random):
     points = random.normal(size=(10_000, 4)).astype(np.float32)
     assert np.array_equal(transform_cloud(points, TRANSFORM, threads=threads), transform_cloud(points, TRANSFORM))
     organised = filled(LAYOUTS["unaligned"], (13, 77))
@@ -292,7 +292,7 @@ def test_a_cloud_in_another_frame_is_refused():
         ((np.zeros((3, 3)), TRANSFORM, "base"), TypeError, "can be used only with a buffer"),
     ],
 )
-def test_what_makes_no_sense_is_refused(arguments, error, text):
+def test_invalid_arguments_are_refused(arguments, error, text):
     with pytest.raises(error, match=text):
         transform_cloud(*arguments)
 
@@ -310,7 +310,7 @@ def test_what_makes_no_sense_is_refused(arguments, error, text):
         ({"vectors": [(0, 1)]}, ValueError, "three fields"),
     ],
 )
-def test_options_that_make_no_sense_are_refused(options, error, text):
+def test_invalid_options_are_refused(options, error, text):
     points = np.ones((3, 3))
     with pytest.raises(error, match=text):
         transform_cloud(points, TRANSFORM, **options)
@@ -319,7 +319,7 @@ def test_options_that_make_no_sense_are_refused(options, error, text):
 
 def test_data_of_bytes_is_copied_into_an_array():
     class Cloud:
-        """A message whose data is not checked."""
+        """A message that does not check its data."""
 
     ours = message_of(filled(LAYOUTS["packed"], (5,)))
     cloud = Cloud()

@@ -1,4 +1,4 @@
-"""Clouds beside Debian's do_transform_cloud, which is that of ROS 1."""
+"""Comparison with Debian's do_transform_cloud, which is that of ROS 1."""
 
 import pickle
 import subprocess
@@ -23,7 +23,7 @@ def debian_is_there():
 
 
 @pytest.mark.parametrize("kind", ["f4", "f8"])
-def test_the_same_points(kind, random):
+def test_points_equal_those_of_debian(kind, random):
     if not debian_is_there():
         pytest.skip("no tf2_sensor_msgs in /usr/bin/python3 (apt-get install python3-tf2-sensor-msgs)")
     points = np.zeros(500, [(axis, kind) for axis in "xyz"] + [("intensity", "f4"), ("ring", "u2")])

@@ -1,4 +1,4 @@
-"""deskew, with scipy's Slerp and single look-ups as independent answers."""
+"""deskew compared with SciPy's Slerp and with single lookups."""
 
 import copy
 import itertools
@@ -22,7 +22,7 @@ def points(random):
 
 
 def times_of(kind, motion, random):
-    """The orders in which points come."""
+    """Return the orders in which points are given."""
     times = np.sort(random.integers(motion.first, motion.last + 1, COUNT))
     times[0], times[-1] = motion.first, motion.last
     if kind == "shuffled":
@@ -44,7 +44,7 @@ KINDS = ["sorted", "shuffled", "few", "rows", "backwards", "samples", "slow"]
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_each_point_at_its_own_time(kind, buffer, motion, points, random):
+def test_each_point_is_transformed_at_its_own_time(kind, buffer, motion, points, random):
     times = times_of(kind, motion, random)
     before = points.copy()
     result = deskew(points, times, buffer, "odom", source="lidar")
@@ -55,8 +55,8 @@ def test_each_point_at_its_own_time(kind, buffer, motion, points, random):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_along_many_links_up_and_down(kind, buffer, random, points):
-    """lidar -> mast -> base -> odom <- map <- station, the last ones told from the other side."""
+def test_chains_of_many_edges_in_both_directions(kind, buffer, random, points):
+    """lidar -> mast -> base -> odom <- map <- station, with the last edges in the other direction."""
     links = [("odom", "base"), ("base", "mast"), ("map", "odom"), ("map", "station")]
     motions = {child: Motion(seed).fill(buffer, parent, child) for seed, (parent, child) in enumerate(links)}
     for parent, child in (("mast", "tilted"), ("tilted", "lidar"), ("station", "desk")):
@@ -69,7 +69,7 @@ def test_along_many_links_up_and_down(kind, buffer, random, points):
         assert np.abs(result[i] - expected).max() < 1e-12
 
 
-def test_a_target_that_moves_is_meant_at_one_time(buffer, motion, points, random):
+def test_a_moving_target_is_used_at_one_time(buffer, motion, points, random):
     times = times_of("sorted", motion, random)
     at = START + 12 * PERIOD + 345
     in_odom = motion.apply(times, points)
@@ -145,7 +145,7 @@ def test_a_time_for_each_column_of_an_organised_cloud(buffer, motion, random):
 
 
 @pytest.mark.parametrize("dtype", ["f4", ">f4", "f8", ">f8"])
-def test_any_layout_in_place_and_not(dtype, buffer, motion, points, random):
+def test_any_layout_in_place_and_as_a_copy(dtype, buffer, motion, points, random):
     times = times_of("rows", motion, random)
     clouds = np.zeros(COUNT, [("t", "u1"), ("z", dtype), ("y", dtype), ("x", dtype)])
     clouds["x"], clouds["y"], clouds["z"] = points.T
@@ -157,7 +157,7 @@ def test_any_layout_in_place_and_not(dtype, buffer, motion, points, random):
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_normals_are_turned_along(kind, buffer, motion, points, random):
+def test_normals_are_rotated(kind, buffer, motion, points, random):
     times = times_of(kind, motion, random)
     cloud = structured(points, normal_x=points[:, 1], normal_y=points[:, 2], normal_z=points[:, 0])
     result = deskew(cloud, times, buffer, "odom", source="lidar")
@@ -170,13 +170,13 @@ def test_normals_are_turned_along(kind, buffer, motion, points, random):
 
 @pytest.mark.parametrize("threads", [2, 5])
 @pytest.mark.parametrize("kind", KINDS)
-def test_threads_share_the_work(kind, threads, buffer, motion, points, random):
+def test_results_do_not_depend_on_the_number_of_threads(kind, threads, buffer, motion, points, random):
     times = times_of(kind, motion, random)
     alone = deskew(points, times, buffer, "odom", source="lidar")
     assert np.array_equal(deskew(points, times, buffer, "odom", source="lidar", threads=threads), alone)
 
 
-def test_the_error_says_which_point_has_no_transform(buffer, motion, points, random):
+def test_the_error_names_the_point_without_a_transform(buffer, motion, points, random):
     times = times_of("sorted", motion, random)
     times[1234] = motion.last + 7
     before = points.copy()
@@ -195,7 +195,7 @@ def test_the_error_says_which_point_has_no_transform(buffer, motion, points, ran
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_points_without_a_transform_may_become_nan(kind, buffer, motion, points, random):
+def test_points_without_a_transform_become_nan_on_request(kind, buffer, motion, points, random):
     times = times_of(kind, motion, random)
     missing = random.random(COUNT) < 0.1
     times[missing] = random.choice([motion.first - 1, motion.last + 1, 1, -5], missing.sum())
@@ -209,7 +209,7 @@ def test_points_without_a_transform_may_become_nan(kind, buffer, motion, points,
 
 
 def test_times_that_are_nan(buffer, motion, points, random):
-    """Lidars tell no time for beams without an echo."""
+    """Lidars publish no time for beams without an echo."""
     seconds = (times_of("sorted", motion, random) - START) / 1e9
     seconds[::10] = np.nan
     seconds[5] = 1e300
@@ -221,7 +221,7 @@ def test_times_that_are_nan(buffer, motion, points, random):
         deskew(points, seconds, buffer, "odom", **options)
 
 
-def test_nothing_is_touched_if_no_point_has_a_transform(buffer, motion, points):
+def test_points_are_not_changed_if_none_has_a_transform(buffer, motion, points):
     before = points.copy()
     times = np.full(COUNT, motion.last + 1)
     for on_error in ("raise", "nan"):
@@ -230,7 +230,7 @@ def test_nothing_is_touched_if_no_point_has_a_transform(buffer, motion, points):
     assert np.array_equal(points, before)
 
 
-def test_zero_is_the_latest(buffer, motion, points, random):
+def test_time_zero_is_the_latest(buffer, motion, points, random):
     times = times_of("sorted", motion, random)
     times[::3] = 0
     result = deskew(points, times, buffer, "odom", source="lidar")
@@ -248,13 +248,13 @@ def test_zero_is_the_latest(buffer, motion, points, random):
         ("odom", "", coframe.InvalidArgumentException, "^point 0 of 2, "),
     ],
 )
-def test_frames_that_are_not_there(target, source, error, text, buffer, motion):
+def test_unknown_frames_are_refused(target, source, error, text, buffer, motion):
     buffer.set("sea", "island", coframe.Transform(), static=True)
     with pytest.raises(error, match=text):
         deskew(np.zeros((2, 3)), [motion.first, motion.last], buffer, target, source=source)
 
 
-def test_repeated_stamps_are_taken_as_look_ups_take_them(buffer):
+def test_repeated_stamps_are_handled_like_in_lookups(buffer):
     """Several samples of one stamp, at the ends and in the middle."""
     for number, stamp in enumerate([10, 10, 20, 30, 30, 30, 40, 50, 50]):
         buffer.set("odom", "lidar", coframe.Transform([float(number), 0, 0]), stamp)
@@ -270,7 +270,7 @@ def test_repeated_stamps_are_taken_as_look_ups_take_them(buffer):
         assert np.allclose(result, single, rtol=0, atol=1e-12)
 
 
-def test_a_single_sample_and_static_links(buffer, points):
+def test_a_single_sample_and_static_edges(buffer, points):
     buffer.set("odom", "base", coframe.Transform([1, 0, 0]), 100)
     buffer.set("base", "lidar", coframe.Transform([0, 1, 0]), static=True)
     result = deskew(points, np.full(COUNT, 100), buffer, "odom", source="lidar")
@@ -282,7 +282,7 @@ def test_a_single_sample_and_static_links(buffer, points):
 
 
 def test_a_frame_that_changes_its_parent(buffer, motion, points, random):
-    """There is no remembered path then: look-ups decide for each point."""
+    """Such chains are not cached: each point has its own lookup."""
     buffer.set("odom", "base", coframe.Transform([5, 0, 0]), static=True)
     turned = coframe.Transform([0, 0, 1], Rotation.random(random_state=1).as_quat())
     buffer.set("base", "lidar", turned, motion.last + PERIOD)
@@ -301,7 +301,7 @@ def test_a_frame_that_changes_its_parent(buffer, motion, points, random):
         deskew(cloud, times, buffer, "odom", source="lidar")
 
 
-def test_a_fixed_frame_that_is_the_sensors_own(buffer, motion, points):
+def test_the_fixed_frame_can_be_that_of_the_sensor(buffer, motion, points):
     at = motion.first + 12345
     result = deskew(points, np.zeros(COUNT, np.int64), buffer, "odom", source="lidar", fixed="lidar", at=at)
     assert np.abs(result - motion.apply(np.full(COUNT, at), points)).max() < 1e-12
@@ -321,7 +321,7 @@ def test_a_fixed_frame_that_is_the_sensors_own(buffer, motion, points):
         ({"times": [1, 2, 3]}, ValueError, "3 for points of shape"),
     ],
 )
-def test_what_makes_no_sense_is_refused(options, error, text, buffer, motion):
+def test_invalid_arguments_are_refused(options, error, text, buffer, motion):
     times = [motion.first, motion.last]
     arguments = {"times": times, "buffer": buffer, "target": "odom", "source": "lidar", **options}
     with pytest.raises(error, match=text):
@@ -334,8 +334,8 @@ def test_no_points(buffer):
     assert deskew(empty, np.zeros(0, np.int64), buffer, "odom").header.frame_id == "odom"
 
 
-def test_the_buffer_may_be_written_to_meanwhile(buffer, motion, points, random):
-    """The points see one state of the tree, whatever comes in: newer samples, and late ones before others."""
+def test_insertions_during_deskewing(buffer, motion, points, random):
+    """All points use one state of the tree, although newer and older samples are inserted meanwhile."""
     done = threading.Event()
     times = np.tile(times_of("sorted", motion, random), 100)
     wide = np.tile(points, (100, 1))
@@ -361,7 +361,7 @@ def test_the_buffer_may_be_written_to_meanwhile(buffer, motion, points, random):
         writer.join()
 
 
-def test_the_message_given_stays_as_it_is(buffer, motion, points, random):
+def test_the_given_message_is_not_changed(buffer, motion, points, random):
     cloud = message_of(structured(points))
     before = copy.deepcopy(cloud)
     deskew(cloud, times_of("sorted", motion, random), buffer, "odom", at=motion.last)

@@ -1,4 +1,4 @@
-"""Messages that lie about their sizes: a clear error, or a result that touches nothing but its own points."""
+"""Messages with wrong sizes: a clear error, or a result that changes only its own points."""
 
 from array import array
 
@@ -15,8 +15,8 @@ TRANSFORM = coframe.Transform.from_rpy([1, 2, 3], [0.1, 0.2, 0.3])
 LARGEST = 2**32 - 1
 
 
-class Lying:
-    """A PointCloud2 that nobody has checked."""
+class UncheckedCloud:
+    """A PointCloud2 without checks."""
 
     def __init__(self, **values):
         self.header = find("std_msgs/msg/Header")()
@@ -24,25 +24,25 @@ class Lying:
         self.__dict__.update(values)
 
 
-class LyingField:
-    """A PointField that nobody has checked."""
+class UncheckedField:
+    """A PointField without checks."""
 
     def __init__(self, name, offset, datatype, count):
         self.name, self.offset, self.datatype, self.count = name, offset, datatype, count
 
 
-def honest(**lies):
-    fields = [LyingField(name, 4 * i, 7, 1) for i, name in enumerate("xyz")]
+def honest(**changes):
+    fields = [UncheckedField(name, 4 * i, 7, 1) for i, name in enumerate("xyz")]
     values = {"height": 2, "width": 3, "fields": fields, "is_bigendian": False, "point_step": 16, "row_step": 48}
-    return Lying(**{**values, "data": array("B", bytes(96)), **lies})
+    return UncheckedCloud(**{**values, "data": array("B", bytes(96)), **changes})
 
 
-def test_it_is_honest_without_a_lie():
+def test_a_cloud_without_wrong_sizes_is_accepted():
     assert len(transform_cloud(honest(), TRANSFORM).data) == 96
 
 
 @pytest.mark.parametrize(
-    ("lies", "text"),
+    ("changes", "text"),
     [
         ({"width": 4}, "4 points of 16 bytes .* do not fit a row_step of 48"),
         ({"height": 3}, r"data has 96 bytes, but 3 rows of 3 points \(height, width\) need 132"),
@@ -64,26 +64,26 @@ def test_it_is_honest_without_a_lie():
         ({"point_step": -16, "row_step": -48}, "point_step is -16"),
         ({"row_step": -48}, "do not fit a row_step of -48"),
         ({"height": 2**70}, "data has 96 bytes"),
-        ({"fields": [LyingField(name, LARGEST, 7, 1) for name in "xyz"]}, "'x' ends at byte"),
-        ({"fields": [LyingField(name, -4, 7, 1) for name in "xyz"]}, "must not be negative"),
-        ({"fields": [LyingField(name, 0, 9, 1) for name in "xyz"]}, "datatype 9"),
-        ({"fields": [LyingField(name, 0, 7, 3) for name in "xyz"]}, "'x' must have one number per point, not 3"),
-        ({"fields": [LyingField(name, 0, 5, 1) for name in "xyz"]}, "float32 or float64, not int32"),
-        ({"fields": [LyingField(name, 9, 8, 1) for name in "xyz"]}, "'x' ends at byte 17"),
+        ({"fields": [UncheckedField(name, LARGEST, 7, 1) for name in "xyz"]}, "'x' ends at byte"),
+        ({"fields": [UncheckedField(name, -4, 7, 1) for name in "xyz"]}, "must not be negative"),
+        ({"fields": [UncheckedField(name, 0, 9, 1) for name in "xyz"]}, "datatype 9"),
+        ({"fields": [UncheckedField(name, 0, 7, 3) for name in "xyz"]}, "'x' must have one number per point, not 3"),
+        ({"fields": [UncheckedField(name, 0, 5, 1) for name in "xyz"]}, "float32 or float64, not int32"),
+        ({"fields": [UncheckedField(name, 9, 8, 1) for name in "xyz"]}, "'x' ends at byte 17"),
         ({"fields": []}, "no field 'x'. Their fields: none"),
     ],
 )
-def test_what_does_not_fit_is_said(lies, text):
+def test_wrong_sizes_are_refused(changes, text):
     with pytest.raises(ValueError, match=text):
-        transform_cloud(honest(**lies), TRANSFORM)
+        transform_cloud(honest(**changes), TRANSFORM)
     buffer = coframe.Buffer()
     buffer.set("base", "lidar", TRANSFORM, static=True)
     with pytest.raises(ValueError, match=f"{text}|data has|times must have one value per point|must not be negative"):
-        deskew(honest(**lies), np.ones(3, np.int64), buffer, "base", source="lidar")
+        deskew(honest(**changes), np.ones(3, np.int64), buffer, "base", source="lidar")
 
 
-def test_fields_on_top_of_each_other_do_no_harm():
-    cloud = honest(fields=[LyingField(name, 2, 7, 1) for name in "xyz"])
+def test_overlapping_fields_are_safe():
+    cloud = honest(fields=[UncheckedField(name, 2, 7, 1) for name in "xyz"])
     result = transform_cloud(cloud, TRANSFORM)
     assert len(result.data) == 96
 
@@ -100,10 +100,10 @@ SIZES = st.one_of(st.integers(-2, 40), st.sampled_from([2**16, 2**31 - 1, 2**31,
     big_endian=st.booleans(),
     threads=st.integers(1, 3),
 )
-def test_any_sizes(sizes, offsets, kinds, length, big_endian, threads):
-    fields = [LyingField(name, *rest, 1) for name, *rest in zip("xyz", offsets, kinds, strict=True)]
+def test_random_sizes_are_safe(sizes, offsets, kinds, length, big_endian, threads):
+    fields = [UncheckedField(name, *rest, 1) for name, *rest in zip("xyz", offsets, kinds, strict=True)]
     data = array("B", range(200)) * 2
-    cloud = Lying(fields=fields, is_bigendian=big_endian, data=data[:length], **sizes)
+    cloud = UncheckedCloud(fields=fields, is_bigendian=big_endian, data=data[:length], **sizes)
     try:
         result = transform_cloud(cloud, TRANSFORM, threads=threads)
     except ValueError:
@@ -114,7 +114,7 @@ def test_any_sizes(sizes, offsets, kinds, length, big_endian, threads):
 
 
 def bytes_of(cloud):
-    """Of the coordinates of all points."""
+    """Return the bytes of the coordinates of all points."""
     if cloud.height * cloud.width == 0:
         return set()
     row_step = cloud.row_step if cloud.height > 1 and cloud.row_step else cloud.width * cloud.point_step
@@ -133,8 +133,8 @@ def bytes_of(cloud):
     stamps=st.lists(st.one_of(st.integers(1, 50), st.integers(-(2**62), 2**62)), max_size=12),
     threads=st.integers(1, 3),
 )
-def test_any_times(times, stamps, threads):
-    """Each point is where a single look-up puts it, or NaN where that raises."""
+def test_random_times(times, stamps, threads):
+    """Each point equals the result of a single lookup, or is NaN if that raises."""
     buffer = coframe.Buffer(None)
     buffer.set("odom", "base", coframe.Transform([0, 0, 1]), static=True)
     for number, stamp in enumerate(stamps):

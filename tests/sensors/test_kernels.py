@@ -1,4 +1,4 @@
-"""The inner loops: exact, and within 1e-15 the same for every level of the processor."""
+"""The kernels are exact, and their results for all CPU levels agree to 1e-15."""
 
 import os
 import subprocess
@@ -101,7 +101,7 @@ for count in (1, 3, 64, 1001):
 
 
 def answers_of_all_levels(program):
-    """The numbers that a program writes, for each level of the processor."""
+    """Return the numbers that a program prints for each CPU level."""
     answers = {}
     for level in _core.CPU_LEVELS:
         result = subprocess.run(
@@ -115,7 +115,7 @@ def answers_of_all_levels(program):
 
 
 @pytest.mark.parametrize(("dtypes", "rounding"), [(("f8", ">f8"), 0.0), (("f4", ">f4"), 2.0**-23)])
-def test_all_levels_move_points_to_the_same_places(dtypes, rounding):
+def test_all_levels_transform_points_equally(dtypes, rounding):
     answers = answers_of_all_levels(f"DTYPES = {dtypes}\n{MOVED}")
     plain = answers.pop("plain")
     assert plain.size > 300_000
@@ -124,7 +124,7 @@ def test_all_levels_move_points_to_the_same_places(dtypes, rounding):
         np.testing.assert_allclose(moved, plain, rtol=rounding, atol=1e-14, err_msg=level)
 
 
-def test_all_levels_find_the_same_poses():
+def test_all_levels_look_up_the_same_poses():
     answers = answers_of_all_levels(LOOK_UPS)
     plain = answers.pop("plain")
     assert plain.size > 50_000
@@ -132,7 +132,7 @@ def test_all_levels_find_the_same_poses():
         np.testing.assert_allclose(found, plain, rtol=0, atol=1e-14, err_msg=level)
 
 
-def test_all_levels_move_robots_to_the_same_places():
+def test_all_levels_compute_the_same_robot_poses():
     answers = answers_of_all_levels(MOVING)
     plain = answers.pop("plain")
     assert plain.size == 3 * 8 * 7 * (1 + 3 + 64 + 1001)
@@ -140,8 +140,8 @@ def test_all_levels_move_robots_to_the_same_places():
         np.testing.assert_allclose(found, plain, rtol=0, atol=1e-13, err_msg=level)
 
 
-def test_all_levels_store_the_same_samples_to_the_last_bit():
-    """One by one and in batches: the look-ups are at the samples' own times."""
+def test_all_levels_store_bitwise_equal_samples():
+    """Single and in batches; the lookups are at the times of the samples."""
     answers = answers_of_all_levels(STORED)
     plain = answers.pop("plain")
     one_by_one, in_batch = np.split(plain, 2)
@@ -150,7 +150,7 @@ def test_all_levels_store_the_same_samples_to_the_last_bit():
         np.testing.assert_array_equal(found, plain, err_msg=level)
 
 
-def test_the_best_level_is_chosen_and_another_can_be_asked_for():
+def test_the_best_level_is_chosen_and_another_can_be_requested():
     assert _core.CPU_LEVELS[0] == "plain"
     show = "from coframe import _core; print(_core.CPU_LEVEL)"
     environment = {name: value for name, value in os.environ.items() if name != "COFRAME_CPU_LEVEL"}
@@ -171,7 +171,7 @@ def test_the_best_level_is_chosen_and_another_can_be_asked_for():
 
 
 def slerp_by_hand(a, b, t):
-    """With libm, one after the other; the shorter arc."""
+    """Return the interpolation along the shorter arc, computed one by one with libm."""
     cosine = float(np.dot(a, b))
     if cosine < 0.0:
         b, cosine = -b, -cosine
@@ -183,7 +183,7 @@ def slerp_by_hand(a, b, t):
 
 @pytest.fixture(scope="module")
 def turns():
-    """A buffer of samples in pairs, and for each pair some shares: (buffer, times, quaternions by hand)."""
+    """Return a buffer with pairs of samples, times between them, and the expected quaternions."""
     random = np.random.default_rng(7)
     buffer = coframe.Buffer(None)
     times, expected, start = [], [], 1_000_000_000
@@ -204,7 +204,7 @@ def turns():
 
 
 @pytest.mark.parametrize("order", ["as they come", "shuffled", "together"])
-def test_rotations_of_any_size_between_samples(order, turns):
+def test_interpolation_of_rotations_of_any_size(order, turns):
     buffer, times, expected = turns
     corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
     copies = 30 if order == "together" else 1
@@ -221,7 +221,7 @@ def test_rotations_of_any_size_between_samples(order, turns):
     assert np.abs(result[:, copies:] - by_hand).max() < 1e-12
 
 
-def test_the_same_as_scipys_slerp(turns):
+def test_interpolation_equals_scipys_slerp(turns):
     buffer, times, _ = turns
     stamps = np.unique(times // PERIOD * PERIOD)
     small = [i for i, turn in enumerate(np.repeat(TURNS, 4)) if turn < 3.1]  # half a turn may go either way
@@ -234,7 +234,7 @@ def test_the_same_as_scipys_slerp(turns):
         assert np.abs(deskew(points, own, buffer, "odom", source="lidar") - expected).max() < 1e-12
 
 
-def test_single_look_ups_agree(turns):
+def test_batches_equal_single_lookups(turns):
     buffer, times, expected = turns
     for time, by_hand in zip(times[::7], expected[::7], strict=True):
         found = buffer.lookup("odom", "lidar", int(time)).quaternion
@@ -242,7 +242,7 @@ def test_single_look_ups_agree(turns):
 
 
 def test_translations_far_away_and_long_intervals():
-    """Stamps that are further apart than 52 days, and from the beginning of time to its end."""
+    """Stamps more than 52 days apart, up to the full range of int64."""
     far = 1e7
     for length in (2**51, 2**52, 2**53 + 1, 2**62):
         buffer = coframe.Buffer(None)

@@ -1,4 +1,4 @@
-"""project_scan, by hand and with single look-ups as an independent answer."""
+"""project_scan compared with values computed by hand and with single lookups."""
 
 import math
 from array import array
@@ -29,7 +29,7 @@ def scan_of(ranges, *, intensities=(), stamp=0, time_increment=0.0, frame="lidar
     return scan
 
 
-def test_beams_that_hit_something_become_points():
+def test_beams_with_a_valid_range_become_points():
     ranges = [2.0, INF, NAN, 0.05, 10.0, 11.0, -INF, 0.0, 5.0, 0.1]
     found = project_scan(scan_of(ranges, intensities=range(10), stamp=7, time_increment=0.001))
     assert found.beams.tolist() == [0, 8, 9], "the nearest range counts, the farthest does not"
@@ -40,7 +40,7 @@ def test_beams_that_hit_something_become_points():
     assert (found.frame, found.stamp) == ("lidar", 7)
 
 
-def test_intensities_of_another_number_are_none():
+def test_intensities_of_another_length_are_ignored():
     assert project_scan(scan_of([1.0, 2.0])).intensities is None
     assert project_scan(scan_of([1.0, 2.0], intensities=[1.0])).intensities is None
     empty = project_scan(scan_of([]))
@@ -61,7 +61,7 @@ def test_the_cloud_of_a_scan():
 
 
 @pytest.mark.parametrize("time_increment", [0.0, 1e-4])
-def test_each_beam_at_its_own_time(time_increment, buffer, motion, random):
+def test_each_beam_is_transformed_at_its_own_time(time_increment, buffer, motion, random):
     stamp = motion.first + PERIOD // 3
     scan = scan_of(array("f", random.uniform(1.0, 9.0, 720)), stamp=stamp, time_increment=time_increment)
     alone = project_scan(scan)
@@ -75,7 +75,7 @@ def test_each_beam_at_its_own_time(time_increment, buffer, motion, random):
 
 
 def test_a_target_that_moves(buffer, motion, random):
-    """In the sensor's own frame, as if all beams had been measured at once."""
+    """In the frame of the sensor, as if all beams had been measured at once."""
     stamp, increment = motion.first + PERIOD, 1e-4
     scan = scan_of(random.uniform(1.0, 9.0, 360).tolist(), stamp=stamp, time_increment=increment)
     for at in (None, stamp + 3 * PERIOD):
@@ -102,7 +102,7 @@ def test_a_buffer_needs_a_target(buffer):
         project_scan(scan_of([1.0]), target="odom")
 
 
-def test_scans_of_a_reader_of_recordings():
+def test_scans_from_rosbags_are_accepted():
     stores = pytest.importorskip("rosbags.typesys")
     types = stores.get_typestore(stores.Stores.ROS2_HUMBLE).types
     ours = scan_of([1.0, 2.0], intensities=[3.0, 4.0])
@@ -115,15 +115,15 @@ def test_scans_of_a_reader_of_recordings():
     assert project_scan(theirs).to_cloud() == project_scan(ours).to_cloud()
 
 
-def test_scans_of_a_real_ros_become_its_clouds(monkeypatch):
-    """Its messages are recognised by their module."""
+def test_scans_of_a_ros_installation_become_its_clouds(monkeypatch):
+    """Messages of a ROS installation are recognised by their module."""
     import sensor_msgs.msg
 
     class Cloud(sensor_msgs.msg.PointCloud2):
-        """Stands for the class of a real ROS."""
+        """Replaces PointCloud2 of a ROS installation."""
 
     class LaserScan(sensor_msgs.msg.LaserScan):
-        """Likewise."""
+        """A LaserScan of a ROS installation."""
 
     LaserScan.__module__ = "sensor_msgs.msg._laser_scan"
     monkeypatch.setattr(sensor_msgs.msg, "PointCloud2", Cloud)

@@ -56,28 +56,28 @@ class Tab:
         """Return the next message, decoded; confirm frame updates immediately."""
         message = self.socket.recv(TIMEOUT)
         if isinstance(message, str):
-            told = json.loads(message)
-            kind = told["type"]
+            content = json.loads(message)
+            kind = content["type"]
             record = SERVER_MESSAGES[kind]
-            record.check(told, kind)
-            assert told.keys() <= {field.name for field in record.fields}, "the protocol has no such field"
+            record.check(content, kind)
+            assert content.keys() <= {field.name for field in record.fields}, "the protocol has no such field"
         else:
-            kind, told = decode(message)
+            kind, content = decode(message)
             if kind == "tick":
-                self.send("ready", drawn=None if np.isnan(told.time) else told.time)
+                self.send("ready", drawn=None if np.isnan(content.time) else content.time)
             else:
-                self.drawings[told.display, told.sequence] = told
-        self.last[kind] = told
+                self.drawings[content.display, content.sequence] = content
+        self.last[kind] = content
         self.received.append(kind)
-        return kind, told
+        return kind, content
 
     def wait(self, kind, condition=lambda _message: True):
         """Return the next message of a kind that meets a condition."""
         deadline = time.monotonic() + TIMEOUT
         while time.monotonic() < deadline:
-            kind_read, told = self.read()
-            if kind_read == kind and condition(told):
-                return told
+            kind_read, content = self.read()
+            if kind_read == kind and condition(content):
+                return content
         raise AssertionError(f"no {kind} arrived; the last messages: {self.last}")
 
     def has(self, kind):
@@ -116,34 +116,34 @@ def decode(data):
     if kind == messages.BinaryKind.FRAMES:
         return "tick", decode_frames(data)
     display, sequence = struct.unpack_from("<II", data, 4)
-    told = SimpleNamespace(display=display, sequence=sequence, size=len(data))
+    content = SimpleNamespace(display=display, sequence=sequence, size=len(data))
     if kind == messages.BinaryKind.CLOUD:
         head = CLOUD.unpack(data)
-        told.stamp, told.range, told.step = head.stamp, list(head.range), head.flags >> 8
-        told.points = np.frombuffer(data, "<f4", head.points * 3, CLOUD.size).reshape(-1, 3)
-        at = CLOUD.size + told.points.nbytes
+        content.stamp, content.range, content.step = head.stamp, list(head.range), head.flags >> 8
+        content.points = np.frombuffer(data, "<f4", head.points * 3, CLOUD.size).reshape(-1, 3)
+        at = CLOUD.size + content.points.nbytes
         has_scalars, has_colors = head.flags & messages.CloudFlag.SCALARS, head.flags & messages.CloudFlag.COLORS
-        told.scalars = np.frombuffer(data, "<f4", head.points, at) if has_scalars else None
-        told.colours = np.frombuffer(data, np.uint8, head.points * 4, at).reshape(-1, 4) if has_colors else None
-        return "cloud", told
+        content.scalars = np.frombuffer(data, "<f4", head.points, at) if has_scalars else None
+        content.colours = np.frombuffer(data, np.uint8, head.points * 4, at).reshape(-1, 4) if has_colors else None
+        return "cloud", content
     if kind == messages.BinaryKind.GRID:
         head = GRID.unpack(data)
-        told.resolution, told.corner = head.resolution, list(head.corner)
+        content.resolution, content.corner = head.resolution, list(head.corner)
         cells = np.frombuffer(data, np.int8, head.width * head.height, GRID.size)
-        told.cells = cells.reshape(head.height, head.width)
-        return "grid", told
+        content.cells = cells.reshape(head.height, head.width)
+        return "grid", content
     if kind == messages.BinaryKind.IMAGE:
         head = IMAGE.unpack(data)
-        told.width, told.height, told.stamp = head.width, head.height, head.stamp
-        told.format, told.step = head.format & 255, head.format >> 8
-        told.data = np.frombuffer(data, np.uint8, offset=IMAGE.size)
-        return "image", told
+        content.width, content.height, content.stamp = head.width, head.height, head.stamp
+        content.format, content.step = head.format & 255, head.format >> 8
+        content.data = np.frombuffer(data, np.uint8, offset=IMAGE.size)
+        return "image", content
     assert kind == messages.BinaryKind.SHAPES
     length = SHAPES.unpack(data).length
-    told.head = json.loads(data[SHAPES.size : SHAPES.size + length])
-    SHAPES_BY_KIND[told.head["kind"]].check(told.head, "shapes")
-    told.payload = np.frombuffer(data, "<f4", offset=SHAPES.size + length)
-    return "shapes", told
+    content.head = json.loads(data[SHAPES.size : SHAPES.size + length])
+    SHAPES_BY_KIND[content.head["kind"]].check(content.head, "shapes")
+    content.payload = np.frombuffer(data, "<f4", offset=SHAPES.size + length)
+    return "shapes", content
 
 
 def decode_frames(data):

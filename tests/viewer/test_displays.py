@@ -1,4 +1,4 @@
-"""Messages in a tab: sent over DDS by real publishers, drawn at their own stamp, and where they cannot be, why."""
+"""Displays of a tab: messages published over DDS and drawn at their own stamps, or the reason why they cannot be."""
 
 import threading
 import time
@@ -7,7 +7,7 @@ from array import array
 import numpy as np
 import pytest
 
-pytest.importorskip("cyclonedds", reason="live displays come over DDS")
+pytest.importorskip("cyclonedds", reason="live displays need DDS")
 
 import coframe
 from coframe.messages import find
@@ -34,7 +34,7 @@ def scan(frame, stamp, ranges):
 
 
 def cloud(frame, stamp, columns, dtypes=None):
-    """A PointCloud2 of float32 fields, or of those that `dtypes` tells."""
+    """Return a PointCloud2 with float32 fields, or those in `dtypes`."""
     dtypes = dtypes or {}
     layout = np.dtype([(name, dtypes.get(name, "<f4")) for name in columns])
     values = np.empty(len(next(iter(columns.values()))), layout)
@@ -61,7 +61,7 @@ def ros(domain_id):
 
 @pytest.fixture
 def robot(ros):
-    """base moves a metre a second along x of map for ten seconds, until now; the lidar is a metre above it."""
+    """Move base along the x axis of map at 1 m/s for the last ten seconds; the lidar is one metre above it."""
     now = time.time_ns()
     for tenth in range(101):
         ros.buffer.set(
@@ -71,24 +71,24 @@ def robot(ros):
     return now
 
 
-class Talker:
-    """Publishes again and again until told otherwise."""
+class RepeatingPublisher:
+    """Publishes a message repeatedly while a tab waits."""
 
     def __init__(self, ros, tab, topic, made, qos=None):
         self.publisher = ros.publisher(topic, type(made), qos)
         self.tab, self.made = tab, made
 
-    def until(self, kind, condition=lambda _told: True):
+    def until(self, kind, condition=lambda _message: True):
         ended = threading.Event()
-        talking = threading.Thread(target=self._talk, args=(ended,))
-        talking.start()
+        publishing = threading.Thread(target=self._publish, args=(ended,))
+        publishing.start()
         try:
             return self.tab.wait(kind, condition)
         finally:
             ended.set()
-            talking.join()
+            publishing.join()
 
-    def _talk(self, ended):
+    def _publish(self, ended):
         while not ended.is_set():
             self.publisher.publish(self.made)
             ended.wait(0.05)
@@ -98,14 +98,14 @@ def subscribe(tab, topic, number=1, **options):
     tab.send("subscribe", id=number, topic=topic, options=options)
 
 
-def test_a_scan_lies_where_its_sensor_was_at_its_own_stamp(ros, robot, view, open_tab):
+def test_a_scan_is_drawn_at_the_pose_of_its_sensor_at_its_stamp(ros, robot, view, open_tab):
     tab = open_tab(view(ros, fixed="map"))
     subscribe(tab, "/scan")
     stamp = robot - 5 * SECOND
-    talker = Talker(
+    publisher = RepeatingPublisher(
         ros, tab, "/scan", scan("lidar", stamp, [2.0, 3.0, float("inf"), float("nan")]), QoS(5, reliable=False)
     )
-    tick = talker.until("tick", lambda tick: tick.displays)
+    tick = publisher.until("tick", lambda tick: tick.displays)
     ((number, sequence), pose), *others = tick.displays.items()
     assert (number, others) == (1, [])
     np.testing.assert_allclose(pose[:3] + tick.origin, [5.0, 0.0, 1.0], atol=1e-5)
@@ -122,17 +122,17 @@ def test_a_scan_lies_where_its_sensor_was_at_its_own_stamp(ros, robot, view, ope
     tab.tick(lambda tick: not tick.displays)
 
 
-def test_what_cannot_be_transformed_says_why(ros, robot, view, open_tab):
+def test_a_display_without_a_transform_shows_the_reason(ros, robot, view, open_tab):
     tab = open_tab(view(ros, fixed="map"))
     subscribe(tab, "/early", 1)
     subscribe(tab, "/lost", 2)
-    early = Talker(ros, tab, "/early", scan("lidar", robot - 60 * SECOND, [1.0]))
-    told = early.until("display", lambda told: told["id"] == 1 and told["state"] == "error")
-    assert "extrapolation into the past" in told["text"]
-    assert "map -> base no longer has a sample" in told["text"], "the hint"
-    lost = Talker(ros, tab, "/lost", scan("lider", robot, [1.0]))
-    told = lost.until("display", lambda told: told["id"] == 2 and told["state"] == "error")
-    assert "Did you mean 'lidar'?" in told["text"]
+    early = RepeatingPublisher(ros, tab, "/early", scan("lidar", robot - 60 * SECOND, [1.0]))
+    received = early.until("display", lambda received: received["id"] == 1 and received["state"] == "error")
+    assert "extrapolation into the past" in received["text"]
+    assert "map -> base no longer has a sample" in received["text"], "the hint"
+    lost = RepeatingPublisher(ros, tab, "/lost", scan("lider", robot, [1.0]))
+    received = lost.until("display", lambda received: received["id"] == 2 and received["state"] == "error")
+    assert "Did you mean 'lidar'?" in received["text"]
     assert not tab.tick().displays
 
 
@@ -140,8 +140,8 @@ def test_a_message_waits_for_its_transform(ros, robot, view, open_tab):
     tab = open_tab(view(ros, fixed="map"))
     subscribe(tab, "/scan")
     later = robot + SECOND // 2
-    talker = Talker(ros, tab, "/scan", scan("base", later, [1.0]), QoS(transient_local=True))
-    talker.until("tick", lambda _tick: talker.publisher.matched)
+    publisher = RepeatingPublisher(ros, tab, "/scan", scan("base", later, [1.0]), QoS(transient_local=True))
+    publisher.until("tick", lambda _tick: publisher.publisher.matched)
     ros.buffer.set("map", "base", coframe.Transform([20.0, 0.0, 0.0]), later)
     tick = tab.tick(lambda tick: tick.displays)
     np.testing.assert_allclose(next(iter(tick.displays.values()))[:3] + tick.origin, [20.0, 0.0, 0.0], atol=1e-5)
@@ -156,24 +156,26 @@ def test_a_message_waits_for_its_transform(ros, robot, view, open_tab):
         (QoS(), QoS(transient_local=True)),
     ],
 )
-def test_publishers_that_come_later_are_heard_whatever_they_offer(ros, robot, view, open_tab, caplog, first, second):
+def test_messages_of_later_publishers_are_received_whatever_they_offer(
+    ros, robot, view, open_tab, caplog, first, second
+):
     tab = open_tab(view(ros, fixed="map"))
     subscribe(tab, "/pose")
     made = message("geometry_msgs/msg/PoseStamped", "map", robot - 4 * SECOND)
     made.pose.position.x = 1.0
-    assert Talker(ros, tab, "/pose", made, first).until("shapes").payload[0] == 1.0
+    assert RepeatingPublisher(ros, tab, "/pose", made, first).until("shapes").payload[0] == 1.0
     made.header.stamp.sec += 1
     made.pose.position.x = 2.0
-    later = Talker(ros, tab, "/pose", made, second)
+    later = RepeatingPublisher(ros, tab, "/pose", made, second)
     if second.transient_local and second.reliable:
-        later.publisher.publish(made)  # once, before anybody could hear it
+        later.publisher.publish(made)  # Once, before the viewer has subscribed to it.
         assert tab.wait("shapes", lambda shown: shown.payload[0] == 2.0)
     else:
         assert later.until("shapes", lambda shown: shown.payload[0] == 2.0)
     assert "this subscription requests" not in caplog.text
 
 
-def test_what_was_published_before_is_heard_beside_publishers_that_keep_nothing(ros, view, open_tab):
+def test_earlier_messages_are_received_although_another_publisher_keeps_none(ros, view, open_tab):
     marker = find("visualization_msgs/msg/Marker")
 
     def one(number):
@@ -181,25 +183,25 @@ def test_what_was_published_before_is_heard_beside_publishers_that_keep_nothing(
         made.header.frame_id = "map"
         return made
 
-    talker = Talker(ros, None, "/markers", one(1), QoS(reliable=False))
+    publisher = RepeatingPublisher(ros, None, "/markers", one(1), QoS(reliable=False))
     kept = ros.publisher("/markers", marker, QoS(transient_local=True))
     kept.publish(one(2))
-    tab = talker.tab = open_tab(view(ros, fixed="map"))
+    tab = publisher.tab = open_tab(view(ros, fixed="map"))
     subscribe(tab, "/markers")
-    shown = talker.until("shapes", lambda shown: len(shown.head["items"]) == 2)
+    shown = publisher.until("shapes", lambda shown: len(shown.head["items"]) == 2)
     assert {item["id"] for item in shown.head["items"]} == {1, 2}
 
 
-def test_time_travel_brings_back_the_messages_of_that_time(ros, robot, view, open_tab):
+def test_time_travel_shows_the_messages_of_that_time(ros, robot, view, open_tab):
     tab = open_tab(view(ros, fixed="map"))
     subscribe(tab, "/pose")
     made = message("geometry_msgs/msg/PoseStamped", "map", robot - 4 * SECOND)
     made.pose.position.x = 1.0
-    talker = Talker(ros, tab, "/pose", made)
-    talker.until("tick", lambda tick: tick.displays)
-    talker.made.header.stamp.sec += 3
-    talker.made.pose.position.x = 2.0
-    shown = talker.until("shapes", lambda told: told.payload[0] == 2.0)
+    publisher = RepeatingPublisher(ros, tab, "/pose", made)
+    publisher.until("tick", lambda tick: tick.displays)
+    publisher.made.header.stamp.sec += 3
+    publisher.made.pose.position.x = 2.0
+    shown = publisher.until("shapes", lambda received: received.payload[0] == 2.0)
     assert shown.head["kind"] == "poses"
     assert shown.head["poses"] == [0, 1]
     np.testing.assert_allclose(shown.payload, [2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
@@ -229,8 +231,10 @@ def test_markers_are_added_deleted_and_grouped_by_frame(ros, robot, view, open_t
     mesh = one(3, "lidar", frame_locked=True, mesh_resource="package://../../etc/passwd")
     tab = open_tab(view(ros, fixed="map"))
     subscribe(tab, "/markers")
-    talker = Talker(ros, tab, "/markers", array_type(markers=[one(1, "map"), strip, mesh]), QoS(transient_local=True))
-    tick = talker.until("tick", lambda tick: len(tick.displays) == 3)
+    publisher = RepeatingPublisher(
+        ros, tab, "/markers", array_type(markers=[one(1, "map"), strip, mesh]), QoS(transient_local=True)
+    )
+    tick = publisher.until("tick", lambda tick: len(tick.displays) == 3)
     drawn = {tab.drawings[key].head["frame"]: (tab.drawings[key], pose) for key, pose in tick.displays.items()}
     assert set(drawn) == {"map", "base", "lidar"}
     np.testing.assert_allclose(drawn["base"][1][:3] + tick.origin, [9.0, 0.0, 0.0], atol=1e-5)
@@ -242,27 +246,29 @@ def test_markers_are_added_deleted_and_grouped_by_frame(ros, robot, view, open_t
     assert item["mesh"] is None
     assert "ROS package" in item["mesh_problem"]
 
-    talker.made = array_type(markers=[one(2, "base", action=marker.DELETE)])
-    left = talker.until("tick", lambda tick: len(tick.displays) == 2).displays.keys()
-    talker.made = array_type(markers=[one(4, "base"), one(5, "base", action=marker.DELETE)])
-    tick = talker.until("tick", lambda tick: len(tick.displays) == 3)
-    assert left < tick.displays.keys(), "what has not changed is not sent again"
-    talker.made = array_type(markers=[one(0, "map", action=marker.DELETEALL)])
-    talker.until("tick", lambda tick: not tick.displays)
+    publisher.made = array_type(markers=[one(2, "base", action=marker.DELETE)])
+    left = publisher.until("tick", lambda tick: len(tick.displays) == 2).displays.keys()
+    publisher.made = array_type(markers=[one(4, "base"), one(5, "base", action=marker.DELETE)])
+    tick = publisher.until("tick", lambda tick: len(tick.displays) == 3)
+    assert left < tick.displays.keys(), "unchanged drawings are not sent again"
+    publisher.made = array_type(markers=[one(0, "map", action=marker.DELETEALL)])
+    publisher.until("tick", lambda tick: not tick.displays)
 
 
-def test_odometry_leaves_a_trail(ros, robot, view, open_tab):
+def test_odometry_is_drawn_with_a_trail(ros, robot, view, open_tab):
     tab = open_tab(view(ros, fixed="map"))
     subscribe(tab, "/odom", keep=3)
-    talker = Talker(ros, tab, "/odom", message("nav_msgs/msg/Odometry", "map", robot, child_frame_id="base"))
-    talker.until("shapes")
+    publisher = RepeatingPublisher(
+        ros, tab, "/odom", message("nav_msgs/msg/Odometry", "map", robot, child_frame_id="base")
+    )
+    publisher.until("shapes")
     shown = None
     for x in (1.0, 2.0, 3.0, 4.0):
-        talker.made.pose.pose.position.x = x
-        shown = talker.until("shapes", lambda told, x=x: told.payload[-7] == x)
+        publisher.made.pose.pose.position.x = x
+        shown = publisher.until("shapes", lambda received, x=x: received.payload[-7] == x)
     assert shown.head["kind"] == "odometry"
     assert shown.head["child_frame"] == "base"
-    assert shown.head["poses"] == [0, 3], "the last three, however many came"
+    assert shown.head["poses"] == [0, 3], "only the last three poses"
     assert (np.diff(shown.payload.reshape(-1, 7)[:, 0]) >= 0).all()
 
 
@@ -285,41 +291,41 @@ def test_odometry_leaves_a_trail(ros, robot, view, open_tab):
         ),
     ],
 )
-def test_other_shapes(ros, robot, view, open_tab, ros_type, fields, kind, facts):
+def test_other_messages_become_shapes(ros, robot, view, open_tab, ros_type, fields, kind, facts):
     tab = open_tab(view(ros, fixed="map"))
     subscribe(tab, "/thing")
-    shown = Talker(ros, tab, "/thing", message(ros_type, "map", robot, **fields)).until("shapes")
+    shown = RepeatingPublisher(ros, tab, "/thing", message(ros_type, "map", robot, **fields)).until("shapes")
     assert shown.head["kind"] == kind
     assert {name: shown.head[name] for name in facts} == facts
     assert shown.head["stamp"] == robot - int(tab.last["hello"]["origin"])
 
 
-def test_a_million_points(ros, robot, view, open_tab):
+def test_a_cloud_of_a_million_points(ros, robot, view, open_tab):
     generator = np.random.default_rng(1)
     points = generator.normal(size=(1_000_000, 3)).astype(np.float32)
     made = cloud("map", robot, {"x": points[:, 0], "y": points[:, 1], "z": points[:, 2]})
     tab = open_tab(view(ros, fixed="map"))
     subscribe(tab, "/cloud", color_by="axis", axis="z")
-    talker = Talker(ros, tab, "/cloud", made, QoS(1, transient_local=True))
-    shown = talker.until("cloud")
+    publisher = RepeatingPublisher(ros, tab, "/cloud", made, QoS(1, transient_local=True))
+    shown = publisher.until("cloud")
     assert len(shown.points) == 1_000_000
     np.testing.assert_array_equal(shown.points[::1000], points[::1000])
     np.testing.assert_array_equal(shown.scalars[::1000], points[::1000, 2])
 
 
-def test_colours_of_a_cloud(decoded):
+def test_the_colours_of_a_cloud(decoded):
     columns = {"x": [1.0, np.nan], "y": [0.0, 0.0], "z": [2.0, 0.0], "intensity": [5.0, 6.0]}
     made = cloud("map", 0, {**columns, "rgb": [0x00FF8001, 0]}, {"rgb": "<u4"})
     shown = decoded(draw_cloud(made, Options()).data)
-    assert shown.points.tolist() == [[1.0, 0.0, 2.0]], "what has no place is left out"
+    assert shown.points.tolist() == [[1.0, 0.0, 2.0]], "points that are not finite are omitted"
     assert shown.colours.tolist() == [[0xFF, 0x80, 0x01, 255]]
-    for told, expected in (("intensity", [5.0]), ("axis", [2.0]), ("distance", [5**0.5])):
-        shown = decoded(draw_cloud(made, Options(color_by=told, axis=2)).data)
+    for color_by, expected in (("intensity", [5.0]), ("axis", [2.0]), ("distance", [5**0.5])):
+        shown = decoded(draw_cloud(made, Options(color_by=color_by, axis=2)).data)
         np.testing.assert_allclose(shown.scalars, expected)
     assert decoded(draw_cloud(made, Options(color_by="flat")).data).scalars is None
 
 
-def test_grids(decoded):
+def test_an_occupancy_grid(decoded):
     grid = message("nav_msgs/msg/OccupancyGrid", "map", 0, data=[-1, 0, 100, 50, 0, 0])
     grid.info.width, grid.info.height, grid.info.resolution = 3, 2, 0.5
     grid.info.origin.position.x = -4.0
@@ -331,7 +337,7 @@ def test_grids(decoded):
         draw_grid(grid, Options())
 
 
-def test_hostile_clouds_and_scans_are_told_of_and_not_drawn():
+def test_invalid_clouds_and_scans_are_not_drawn():
     made = cloud("map", 0, {"x": [1.0], "y": [1.0], "z": [1.0]})
     made.width = 4_000_000_000
     with pytest.raises(CannotDrawError, match="too few"):
@@ -359,16 +365,18 @@ def image(encoding, height, width, step, data):
     return made
 
 
-def test_an_image_is_as_many_pixels_as_a_page_needs(decoded):
-    told = decoded(draw_image(image("mono8", 2, 3, 4, [1, 2, 3, 0, 4, 5, 6, 0]), Options()).data)
-    assert (told.width, told.height, told.format, told.step) == (3, 2, 0, 1)
-    assert told.data.tolist() == [1, 2, 3, 4, 5, 6]
-    told = decoded(draw_image(image("bgra8", 1, 2, 8, range(8)), Options(origin=SECOND)).data)
-    assert (told.format, told.stamp, told.data.tolist()) == (1, 0.0, [2, 1, 0, 6, 5, 4])
+def test_images_are_thinned_to_the_pixels_that_a_page_needs(decoded):
+    received = decoded(draw_image(image("mono8", 2, 3, 4, [1, 2, 3, 0, 4, 5, 6, 0]), Options()).data)
+    assert (received.width, received.height, received.format, received.step) == (3, 2, 0, 1)
+    assert received.data.tolist() == [1, 2, 3, 4, 5, 6]
+    received = decoded(draw_image(image("bgra8", 1, 2, 8, range(8)), Options(origin=SECOND)).data)
+    assert (received.format, received.stamp, received.data.tolist()) == (1, 0.0, [2, 1, 0, 6, 5, 4])
     large = np.arange(1000 * 2000, dtype=np.uint32).astype(np.uint8).reshape(1000, 2000)
-    told = decoded(draw_image(image("mono8", 1000, 2000, 2000, large.tobytes()), Options()).data)
-    assert told.width * told.height <= MAX_PIXELS
-    np.testing.assert_array_equal(told.data.reshape(told.height, told.width), large[:: told.step, :: told.step])
+    received = decoded(draw_image(image("mono8", 1000, 2000, 2000, large.tobytes()), Options()).data)
+    assert received.width * received.height <= MAX_PIXELS
+    np.testing.assert_array_equal(
+        received.data.reshape(received.height, received.width), large[:: received.step, :: received.step]
+    )
 
 
 def jpeg(width, height, before=b""):
@@ -376,21 +384,21 @@ def jpeg(width, height, before=b""):
     return b"\xff\xd8" + before + size
 
 
-def compressed(data, told="jpeg"):
-    made = message("sensor_msgs/msg/CompressedImage", "camera", SECOND, format=told)
+def compressed(data, image_format="jpeg"):
+    made = message("sensor_msgs/msg/CompressedImage", "camera", SECOND, format=image_format)
     made.data = array("B", data)
     return made
 
 
-def test_a_compressed_image_goes_as_it_came(decoded):
+def test_a_compressed_image_is_sent_unchanged(decoded):
     data = jpeg(640, 480, before=b"\xff\xe0\x00\x06abcd\xff\xff")
-    told = decoded(draw_compressed_image(compressed(data), Options()).data)
-    assert (told.width, told.height, told.format) == (640, 480, 2)
-    assert told.data.tobytes() == data
+    received = decoded(draw_compressed_image(compressed(data), Options()).data)
+    assert (received.width, received.height, received.format) == (640, 480, 2)
+    assert received.data.tobytes() == data
 
 
 @pytest.mark.parametrize(
-    ("draw", "made", "says"),
+    ("draw", "made", "reason"),
     [
         (draw_image, image("32FC1", 1, 1, 4, bytes(4)), "image encoding '32FC1'"),
         (draw_image, image("rgb8", 2, 2, 6, bytes(11)), "has only 11 bytes"),
@@ -404,6 +412,6 @@ def test_a_compressed_image_goes_as_it_came(decoded):
         (draw_compressed_image, compressed(b"\xff\xd8\xff\xe0\x00\x00" * 9), "contains no image size"),
     ],
 )
-def test_images_that_cannot_be_drawn_say_why(draw, made, says):
-    with pytest.raises(CannotDrawError, match=says):
+def test_an_image_that_cannot_be_drawn_gives_the_reason(draw, made, reason):
+    with pytest.raises(CannotDrawError, match=reason):
         draw(made, Options())

@@ -1,4 +1,4 @@
-"""What the doctor says of what is shown, as tabs are told."""
+"""The findings of the doctor that tabs receive."""
 
 import shutil
 import threading
@@ -17,25 +17,26 @@ from coframe.errors import ViewerError
 from coframe.messages import find
 from coframe.viewer.sources.recorded import RecordedSource
 
-PATIENCE = 30.0  # seconds
+TIMEOUT = 30.0  # Seconds.
 
 
 def jumping(frame="base_link"):
-    """A run whose frame jumps by three metres, once: the transform that is wrong, and its time."""
+    """Return a run in which a frame jumps by three metres once."""
     run = Run.healthy(skip={"odom", "scan", "static"})
     for i in range(600):
         run.drive(START + i * SECOND // 50, child=frame, offset=3.0 if i > 300 else 0.0)
     return run
 
 
-def told(tab):
+def findings(tab):
+    """Wait for the result of an examination."""
     return tab.wait("findings", lambda message: message["state"] not in {"none", "waiting"})
 
 
-def test_a_recordings_findings_stand_on_the_rows_that_they_concern(view, open_tab, tmp_path):
+def test_the_findings_of_a_recording_name_the_affected_frames(view, open_tab, tmp_path):
     tab = open_tab(view(coframe.open_bag(jumping().write(tmp_path), prefix="r1/", keep="odom")))
     origin = int(tab.wait("hello")["origin"])
-    message = told(tab)
+    message = findings(tab)
     (finding,) = message["findings"]
     assert (finding["code"], finding["severity"], finding["frames"]) == ("TF020", "warning", ["r1/base_link"])
     assert finding["subject"] == "odom → r1/base_link"
@@ -46,23 +47,23 @@ def test_a_recordings_findings_stand_on_the_rows_that_they_concern(view, open_ta
     assert "there is no page for 'TF999'" in tab.ask("problem", "explain", code="TF999")["text"]
 
 
-def test_of_a_healthy_recording_nothing_is_said(view, open_tab, tmp_path):
+def test_a_healthy_recording_has_no_findings(view, open_tab, tmp_path):
     tab = open_tab(view(Run.healthy(seconds=2).write(tmp_path)))
-    assert told(tab)["findings"] == []
+    assert findings(tab)["findings"] == []
 
 
-def test_a_recording_that_is_gone_is_a_sentence(view, open_tab, tmp_path):
+def test_a_deleted_recording_gives_a_message(view, open_tab, tmp_path):
     folder = tmp_path / "run"
     folder.mkdir()
     tab = open_tab(view(coframe.open_bag(jumping().write(folder))))
     shutil.rmtree(folder)
-    message = told(tab)
+    message = findings(tab)
     assert message["state"] == "failed"
     assert str(folder) in message["text"]
     tab.tick()
 
 
-def test_of_a_recording_that_is_too_long_all_namespaces_are_counted(tmp_path, monkeypatch):
+def test_the_samples_of_all_namespaces_count_towards_the_limit(tmp_path, monkeypatch):
     run = Run()
     for robot in ("/r1", "/r2"):
         for i in range(6):
@@ -75,7 +76,7 @@ def test_of_a_recording_that_is_too_long_all_namespaces_are_counted(tmp_path, mo
         next(RecordedSource(recording).examine())
 
 
-def test_a_buffer_does_not_tell_who_sent_what(view, open_tab):
+def test_a_buffer_is_not_examined(view, open_tab):
     buffer = coframe.Buffer()
     buffer.set("map", "base", coframe.Transform([1.0, 0.0, 0.0]), static=True)
     tab = open_tab(view(buffer))
@@ -83,11 +84,11 @@ def test_a_buffer_does_not_tell_who_sent_what(view, open_tab):
 
 
 @pytest.mark.slow
-def test_the_graph_is_listened_to_while_somebody_looks(domain_id, view, open_tab):
+def test_the_graph_is_examined_while_a_page_is_open(domain_id, view, open_tab):
     pytest.importorskip("cyclonedds", reason="transforms come over DDS")
     with coframe.connect("looker", domain=domain_id) as ros, Publisher("one", domain_id, 0.0):
         tab = open_tab(view(ros))
-        assert told(tab)["findings"] == []
+        assert findings(tab)["findings"] == []
         with Publisher("other", domain_id, 5.0):
             message = tab.wait("findings", lambda message: message["findings"])
         (finding,) = message["findings"]
@@ -95,7 +96,7 @@ def test_the_graph_is_listened_to_while_somebody_looks(domain_id, view, open_tab
         assert sorted(finding["publishers"]) == ["/one", "/other"]
         assert "coframe_view_doctor" in nodes(ros)
         tab.close()
-        deadline = time.monotonic() + PATIENCE
+        deadline = time.monotonic() + TIMEOUT
         while "coframe_view_doctor" in nodes(ros) and time.monotonic() < deadline:
             time.sleep(0.1)
         assert "coframe_view_doctor" not in nodes(ros)
@@ -106,7 +107,7 @@ def nodes(ros):
 
 
 class Publisher:
-    """A node that says again and again where base_link is."""
+    """A node that publishes base_link repeatedly."""
 
     def __init__(self, name, domain, x):
         self._ros = coframe.connect(name, domain=domain)

@@ -1,4 +1,4 @@
-"""The frames of a tab are where the buffer says: at any time, seen from any frame, however far away."""
+"""The poses of frames in a tab equal those of the buffer, at any time, in any fixed frame and at any distance."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ BEGIN = 1_700_000_000 * SECOND
 
 
 def turning_tree(frames=30, offset=(0.0, 0.0, 0.0), seed=1):
-    """A random tree below `map` that moves for ten seconds; its first frame is `offset` away."""
+    """Return a random tree below `map` that moves for ten seconds; its first frame is `offset` away."""
     generator = np.random.default_rng(seed)
     buffer = coframe.Buffer(None)
     stamps = BEGIN + np.arange(0, 11) * SECOND
@@ -35,7 +35,7 @@ def assert_like(buffer, tab, tick, fixed, stamp, tolerance=1e-5):
         assert abs(abs(shown[3:] @ expected.quaternion) - 1.0) < 1e-5, frame
 
 
-def test_live_poses_are_the_buffers_latest(view, open_tab):
+def test_live_poses_are_the_latest_of_the_buffer(view, open_tab):
     buffer = turning_tree()
     tab = open_tab(view(buffer, fixed="map"))
     tick = tab.tick()
@@ -52,7 +52,7 @@ def test_live_poses_are_the_buffers_latest(view, open_tab):
     assert_like(buffer, tab, tick, "map", 0)
 
 
-def test_time_travel_equals_the_buffers_look_ups(view, open_tab):
+def test_time_travel_equals_the_lookups_of_the_buffer(view, open_tab):
     buffer = turning_tree()
     tab = open_tab(view(buffer, fixed="map"))
     tab.tick()
@@ -69,7 +69,7 @@ def test_time_travel_equals_the_buffers_look_ups(view, open_tab):
 
 
 @pytest.mark.parametrize("offset", [(500_000.0, 5_800_000.0, 120.0), (-3e6, 0.0, 0.0)])
-def test_maps_in_utm_coordinates_stay_exact(view, open_tab, offset):
+def test_poses_in_utm_coordinates_stay_exact(view, open_tab, offset):
     buffer = turning_tree(12, offset)
     tab = open_tab(view(buffer, fixed="map"))
     tick = tab.tick()
@@ -77,13 +77,13 @@ def test_maps_in_utm_coordinates_stay_exact(view, open_tab, offset):
     assert_like(buffer, tab, tick, "map", 0)
     tab.send("fixed", frame="f3")
     tick = tab.tick(lambda _tick: tab.last["tree"]["fixed"] == "f3")
-    assert_like(buffer, tab, tick, "f3", 0, tolerance=0.5)  # the map itself is the one that is far away
+    assert_like(buffer, tab, tick, "f3", 0, tolerance=0.5)  # The map itself is far away.
     near = [frame for frame in buffer.frame_names() if frame != "map"]
     for frame in near:
         np.testing.assert_allclose(tab.world(tick, frame)[:3], buffer.lookup("f3", frame).translation, atol=1e-5)
 
 
-def test_trees_that_are_not_connected_are_told_in_their_own_root(view, open_tab):
+def test_frames_of_other_trees_are_expressed_in_their_own_root(view, open_tab):
     buffer = coframe.Buffer(None)
     buffer.set("map", "base", coframe.Transform([1.0, 0.0, 0.0]), BEGIN)
     buffer.set("map", "other", coframe.Transform([1.0, 1.0, 0.0]), BEGIN)
@@ -101,7 +101,7 @@ def test_trees_that_are_not_connected_are_told_in_their_own_root(view, open_tab)
     tab.tick(lambda _tick: tab.last["tree"]["fixed"] == "map")
 
 
-def test_where_samples_end_the_last_pose_is_held_for_the_frame_timeout(view, open_tab):
+def test_the_last_pose_is_held_for_the_frame_timeout(view, open_tab):
     buffer = coframe.Buffer(None)
     for second in range(31):
         buffer.set("map", "base", coframe.Transform([second, 0.0, 0.0]), BEGIN + second * SECOND)
@@ -116,7 +116,7 @@ def test_where_samples_end_the_last_pose_is_held_for_the_frame_timeout(view, ope
         tick = tab.tick(lambda tick, second=second: tick.time == BEGIN + second * SECOND - origin)
         shown[second] = (tab.state(tick, "base"), tab.state(tick, "arm"), tab.world(tick, "arm")[:2].tolist())
     assert shown[5] == (0, 0, [5.0, 5.0])
-    assert shown[12] == (0, 1, [12.0, 10.0]), "held two seconds beyond its samples"
+    assert shown[12] == (0, 1, [12.0, 10.0]), "held for two seconds after its last sample"
     assert shown[28][:2] == (0, 2)
     assert np.isnan(shown[28][2]).all()
     tab.send("frame_timeout", seconds=60)
@@ -125,7 +125,7 @@ def test_where_samples_end_the_last_pose_is_held_for_the_frame_timeout(view, ope
     assert tab.state(tick, "arm") == 1
 
 
-def test_playing_loops_and_stepping(view, open_tab):
+def test_playback_loops_and_steps(view, open_tab):
     buffer = coframe.Buffer(None)
     for tenth in range(101):
         buffer.set("map", "base", coframe.Transform([tenth, 0.0, 0.0]), BEGIN + tenth * SECOND // 10)
@@ -139,12 +139,12 @@ def test_playing_loops_and_stepping(view, open_tab):
     tab.tick(lambda tick: tick.time == begin + SECOND or tick.time < begin + 2 * SECOND)
     times = [tab.tick().time for _ in range(25)]
     assert all(begin + SECOND <= time <= begin + 2 * SECOND for time in times)
-    assert (np.diff(times) < 0).any(), "it began anew"
+    assert (np.diff(times) < 0).any(), "playback started again"
     assert np.median(np.diff(times)) > 0
 
     tab.send("time", mode="at", at=begin + 9 * SECOND, playing=True, speed=20.0, loop=None)
     end = tab.tick(lambda tick: tick.time == begin + 10 * SECOND)
-    assert tab.world(end, "base")[0] == 100.0, "it stops where the data end"
+    assert tab.world(end, "base")[0] == 100.0, "playback stops at the end of the data"
 
     tab.send("time", mode="at", at=begin + 5 * SECOND + 1, playing=False)
     for direction, expected in ((1, 5_100_000_000), (1, 5_200_000_000), (-1, 5_100_000_000)):
@@ -152,7 +152,7 @@ def test_playing_loops_and_stepping(view, open_tab):
         tab.tick(lambda tick, expected=expected: tick.time == begin + expected)
 
 
-def test_statistics_of_each_frame(view, open_tab):
+def test_the_statistics_of_each_frame(view, open_tab):
     buffer = coframe.Buffer(None)
     for tenth in (0, 1, 2, 3, 10):
         buffer.set("map", "base", coframe.Transform(), BEGIN + tenth * SECOND // 10, authority="/driver")
@@ -173,7 +173,7 @@ def test_statistics_of_each_frame(view, open_tab):
 @pytest.mark.parametrize(
     "name", ["<img src=x onerror=alert(1)>", "</script>", "x" * 10_000, "two words", "ä\n\u2028\x00"]
 )
-def test_any_name_is_data(view, open_tab, name):
+def test_any_frame_name_is_treated_as_data(view, open_tab, name):
     buffer = coframe.Buffer(None)
     buffer.set("map", name, coframe.Transform([1.0, 2.0, 3.0]), BEGIN)
     tab = open_tab(view(buffer))
@@ -183,7 +183,7 @@ def test_any_name_is_data(view, open_tab, name):
     tab.tick(lambda _tick: tab.last["tree"]["fixed"] == name)
 
 
-def test_frames_that_come_and_go(view, open_tab):
+def test_frames_are_added_and_removed(view, open_tab):
     buffer = coframe.Buffer(None)
     tab = open_tab(view(buffer))
     tick = tab.tick()
@@ -193,7 +193,7 @@ def test_frames_that_come_and_go(view, open_tab):
     buffer.set("map", "base", coframe.Transform(), BEGIN)
     tick = tab.tick(lambda tick: len(tick.poses) == 2)
     assert tick.revision == tab.last["tree"]["revision"]
-    # Its time is years ago: what the first origin could not tell exactly, a new one can.
+    # The stamp is years ago: a new origin keeps it exact.
     assert int(tab.last["hello"]["origin"]) + tick.time == BEGIN
     assert tab.received.count("hello") == 2
     buffer.set("map", "second", coframe.Transform(), BEGIN)
@@ -202,7 +202,7 @@ def test_frames_that_come_and_go(view, open_tab):
     tab.tick(lambda tick: len(tick.poses) == 2)
 
 
-def test_a_loop_of_parents_is_drawn_as_far_as_it_can_be(view, open_tab):
+def test_frames_outside_a_loop_of_parents_are_drawn(view, open_tab):
     buffer = coframe.Buffer(None)
     for parent, child in (("a", "b"), ("b", "c"), ("c", "a"), ("map", "base")):
         buffer.set(parent, child, coframe.Transform(), BEGIN)

@@ -1,4 +1,4 @@
-"""The page that is committed is what its source makes: nobody needs Node.js to install it, anybody can check it."""
+"""The committed page equals a build of its source, so that installing coframe does not need Node.js."""
 
 import re
 import shutil
@@ -21,24 +21,24 @@ def test_a_rebuild_gives_the_committed_bytes(tmp_path):
     for command in (["ci", "--silent"], ["run", "--silent", "build"]):
         done = subprocess.run([npm, *command], cwd=tmp_path / "viewer", capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr
-    assert _files(tmp_path / STATIC) == _files(ROOT / STATIC), "run `make page` and commit what it makes"
+    assert _files(tmp_path / STATIC) == _files(ROOT / STATIC), "run `make page` and commit the result"
 
 
 def test_the_page_loads_its_own_files_and_nothing_else():
     page = (ROOT / STATIC / "index.html").read_text()
     loaded = re.findall(r'<(?:script|link rel="(?:stylesheet|modulepreload)")[^>]*(?:src|href)="([^"]*)"', page)
     assert loaded == ["./assets/viewer.js", "./assets/viewer.css", "./assets/page.js"]
-    assert "<script>" not in page, "the server's policy allows no script inside the page"
+    assert "<script>" not in page, "the Content-Security-Policy allows no inline script"
 
 
-def test_the_replay_is_one_file_that_may_reach_nothing():
+def test_the_replay_is_one_file_without_network_access():
     page = (ROOT / STATIC / "replay.html").read_text()
     assert re.findall(r"<(?:script|link)[^>]*(?:src|href)=\"(?!data:)[^\"]*\"", page[: page.index("<body>")]) == []
     assert "default-src 'none'" in page
     assert page.count('<script type="application/json" id="replay">null</script>') == 1
 
 
-def test_the_lock_file_names_no_registry():
+def test_the_lock_file_contains_no_registry():
     assert '"resolved"' not in (ROOT / "viewer/package-lock.json").read_text()
 
 

@@ -1,4 +1,4 @@
-"""Real recordings in a tab: their frames and messages at any time of them."""
+"""Recordings in a tab: frames and messages at any time."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ pytest.importorskip("rosbags", reason="recordings need rosbags")
 import coframe
 
 
-def test_a_recording_is_travelled_through(shared, view, open_tab):
+def test_a_recording_at_any_time(shared, view, open_tab):
     path = shared / "recordings" / "tb3_gazebo_walker"
     tab = open_tab(view(path, fixed="odom"))
     hello = tab.wait("hello")
@@ -46,15 +46,15 @@ def test_a_recording_is_travelled_through(shared, view, open_tab):
     bag.close()
 
 
-def test_a_topic_that_no_display_is_for_is_told_and_ends_nothing(shared, view, open_tab):
+def test_a_topic_without_a_display_gives_a_message(shared, view, open_tab):
     tab = open_tab(view(shared / "recordings" / "tb3_gazebo_walker"))
     tab.send("subscribe", id=1, topic="/robot_description", options={})
-    told = tab.wait("display", lambda told: told["state"] == "error")
-    assert "the viewer has no display for std_msgs/msg/String" in told["text"]
+    received = tab.wait("display", lambda received: received["state"] == "error")
+    assert "the viewer has no display for std_msgs/msg/String" in received["text"]
     tab.tick()
 
 
-def test_a_bag_of_ros_1_with_slashes_before_its_names(shared, view, open_tab):
+def test_a_ros_1_bag_with_slashes_in_front_of_frame_names(shared, view, open_tab):
     tab = open_tab(view(shared / "recordings" / "tilt_laser.bag"))
     hello = tab.wait("hello")
     (topic,) = [topic for topic in hello["topics"] if topic["display"] == "LaserScan"]
@@ -65,7 +65,7 @@ def test_a_bag_of_ros_1_with_slashes_before_its_names(shared, view, open_tab):
     assert tab.last["display"]["state"] == "ok"
 
 
-def test_scans_are_drawn_in_the_tree_that_was_given_a_prefix(shared, view, open_tab):
+def test_scans_are_drawn_in_a_tree_with_a_prefix(shared, view, open_tab):
     with coframe.open_bag(shared / "recordings" / "tb3_gazebo_walker", prefix="r1/", keep=["odom"]) as bag:
         tab = open_tab(view(bag, fixed="odom"))
         first, last = tab.wait("hello")["span"]
@@ -76,7 +76,7 @@ def test_scans_are_drawn_in_the_tree_that_was_given_a_prefix(shared, view, open_
         assert tab.last["display"]["state"] == "ok"
 
 
-def test_what_is_no_recording_is_a_sentence(tmp_path):
+def test_a_file_that_is_not_a_recording_gives_a_message(tmp_path):
     (tmp_path / "x.mcap").write_bytes(b"nothing")
     with pytest.raises(coframe.RecordingError):
         coframe.show(tmp_path / "x.mcap", port=0)

@@ -1,4 +1,4 @@
-"""How two frames stand to each other, and what the timeline says of them."""
+"""Relations between two frames, and the timeline."""
 
 import base64
 import shlex
@@ -28,34 +28,34 @@ def buffer():
 
 def test_a_relation_in_every_notation(buffer, view, open_tab):
     tab = open_tab(view(buffer))
-    told = tab.ask("relation", "relate", id=7, target="map", source="the lidar")
+    received = tab.ask("relation", "relate", id=7, target="map", source="the lidar")
     expected = buffer.lookup("map", "the lidar")
-    assert (told["id"], told["ok"], told["error"]) == (7, True, None)
-    assert int(tab.last["hello"]["origin"]) + told["stamp"] == expected.stamp
-    np.testing.assert_allclose(told["translation"], expected.translation)
-    np.testing.assert_allclose(told["quaternion"], expected.quaternion)
-    np.testing.assert_allclose(told["rpy_deg"], np.degrees(expected.rpy))
-    np.testing.assert_allclose(np.reshape(told["matrix"], (4, 4)), expected.matrix)
-    assert told["chain"] == ["the lidar", "base", "map"]
-    words = shlex.split(told["static_command"])
+    assert (received["id"], received["ok"], received["error"]) == (7, True, None)
+    assert int(tab.last["hello"]["origin"]) + received["stamp"] == expected.stamp
+    np.testing.assert_allclose(received["translation"], expected.translation)
+    np.testing.assert_allclose(received["quaternion"], expected.quaternion)
+    np.testing.assert_allclose(received["rpy_deg"], np.degrees(expected.rpy))
+    np.testing.assert_allclose(np.reshape(received["matrix"], (4, 4)), expected.matrix)
+    assert received["chain"] == ["the lidar", "base", "map"]
+    words = shlex.split(received["static_command"])
     assert words[:2] == ["coframe", "static"]
     static = parse(words[2:])
     assert (static.frame_id, static.child_frame_id) == ("map", "the lidar")
     np.testing.assert_allclose(static.transform.values, expected.values, atol=1e-6)
 
 
-def test_a_relation_at_the_time_of_the_playhead(buffer, view, open_tab):
+def test_a_relation_at_the_displayed_time(buffer, view, open_tab):
     tab = open_tab(view(buffer))
     origin = int(tab.wait("hello")["origin"])
     tab.send("time", mode="at", at=BEGIN + SECOND // 4 - origin)
-    told = tab.ask("relation", "relate", id=1, target="arm", source="map")
+    received = tab.ask("relation", "relate", id=1, target="arm", source="map")
     expected = buffer.lookup("arm", "map", BEGIN + SECOND // 4)
-    np.testing.assert_allclose(told["translation"], expected.translation)
-    assert told["chain"] == ["map", "base", "arm"]
+    np.testing.assert_allclose(received["translation"], expected.translation)
+    assert received["chain"] == ["map", "base", "arm"]
 
 
 @pytest.mark.parametrize(
-    ("target", "source", "at", "chain", "broken_at", "says"),
+    ("target", "source", "at", "chain", "broken_at", "reason"),
     [
         ("map", "charger", None, ["charger", "dock", "map"], "dock", "not part of the same tree"),
         ("map", "lider", None, ["lider", "map"], "lider", "does not exist"),
@@ -63,25 +63,30 @@ def test_a_relation_at_the_time_of_the_playhead(buffer, view, open_tab):
         ("the lidar", "arm", 9.5, ["arm", "base", "the lidar"], "arm", "extrapolation into the future"),
     ],
 )
-def test_why_two_frames_have_no_relation(buffer, view, open_tab, target, source, at, chain, broken_at, says):
+def test_a_missing_relation_gives_the_reason(buffer, view, open_tab, target, source, at, chain, broken_at, reason):
     tab = open_tab(view(buffer))
     origin = int(tab.wait("hello")["origin"])
     if at is not None:
         tab.send("time", mode="at", at=BEGIN + at * SECOND - origin)
-    told = tab.ask("relation", "relate", id=1, target=target, source=source)
-    assert (told["ok"], told["matrix"], told["chain"], told["broken_at"]) == (False, None, chain, broken_at)
-    assert says in told["error"]
-    assert told["hint"]
+    received = tab.ask("relation", "relate", id=1, target=target, source=source)
+    assert (received["ok"], received["matrix"], received["chain"], received["broken_at"]) == (
+        False,
+        None,
+        chain,
+        broken_at,
+    )
+    assert reason in received["error"]
+    assert received["hint"]
 
 
-def test_the_timeline_counts_samples_and_finds_gaps(buffer, view, open_tab):
+def test_the_timeline_counts_samples_and_lists_gaps(buffer, view, open_tab):
     tab = open_tab(view(buffer))
     hello = tab.wait("hello")
     first, last = hello["span"]
-    told = tab.ask("timeline", "timeline", **{"from": first, "to": last, "bins": 10})
-    assert (told["bins"], told["from"], told["to"]) == (10, first, last)
+    received = tab.ask("timeline", "timeline", **{"from": first, "to": last, "bins": 10})
+    assert (received["bins"], received["from"], received["to"]) == (10, first, last)
     names = [frame["name"] for frame in tab.last["tree"]["frames"]]
-    edges = {names[edge["frame"]]: edge for edge in told["edges"]}
+    edges = {names[edge["frame"]]: edge for edge in received["edges"]}
     assert set(edges) == {"base", "arm", "charger"}
 
     def counts(name):
@@ -93,7 +98,7 @@ def test_the_timeline_counts_samples_and_finds_gaps(buffer, view, open_tab):
     assert edges["arm"]["gaps"] == [[first + 3 * SECOND // 10, first + 8 * SECOND]]
 
 
-def test_steps_go_from_stamp_to_stamp_over_gaps_and_stop_at_the_ends(view, open_tab):
+def test_steps_move_from_stamp_to_stamp_and_stop_at_the_ends(view, open_tab):
     buffer = coframe.Buffer(None)
     for second in (0, 1, 1000):
         buffer.set("map", "base", coframe.Transform([second, 0.0, 0.0]), BEGIN + second * SECOND)

@@ -1,4 +1,4 @@
-"""A replay is one HTML file with the buffer's own poses in it, and reaches nothing outside."""
+"""A replay is one HTML file that contains the poses of the buffer and requests nothing from the network."""
 
 import base64
 import html.parser
@@ -26,7 +26,7 @@ pytestmark = pytest.mark.skipif(not (STATIC / "replay.html").exists(), reason="t
 
 
 class Scripts(html.parser.HTMLParser):
-    """The script elements of a page, and the addresses that it names."""
+    """The script elements of a page, and its links."""
 
     def __init__(self, text):
         super().__init__()
@@ -34,10 +34,10 @@ class Scripts(html.parser.HTMLParser):
         self.feed(text)
 
     def handle_starttag(self, tag, attributes):
-        told = dict(attributes)
-        self.addresses += [told[name] for name in ("src", "href") if told.get(name)]
+        received = dict(attributes)
+        self.addresses += [received[name] for name in ("src", "href") if received.get(name)]
         if tag == "script":
-            self.scripts.append([told, ""])
+            self.scripts.append([received, ""])
 
     def handle_data(self, data):
         if self.scripts:
@@ -66,8 +66,8 @@ def test_a_replay_contains_the_poses_of_the_buffer(buffer, view, open_tab):
     headers, page = fetch(viewer, **{"from": first + SECOND, "to": first + 3 * SECOND, "rate": 10, "fixed": "utm"})
     assert headers["Content-Disposition"].startswith("attachment")
     read = Scripts(page)
-    (block,) = [text for told, text in read.scripts if told.get("id") == "replay"]
-    assert len(read.scripts) == 2, "the block and the program: no name has become an element"
+    (block,) = [text for received, text in read.scripts if received.get("id") == "replay"]
+    assert len(read.scripts) == 2, "the data and the program: no name has become an element"
     assert [address for address in read.addresses if not address.startswith("data:")] == []
     replay = json.loads(block)
     assert (replay["format"], replay["version"], replay["fixed"]) == ("coframe-replay", 1, "utm")
@@ -93,13 +93,13 @@ def test_a_replay_contains_robots_with_their_meshes(buffer, view, tmp_path):
     link = '<link name="base"><visual><geometry><mesh filename="a.stl"/></geometry></visual></link>'
     (tmp_path / "r.urdf").write_text(f'<robot name="r">{link}</robot>')
     _, page = fetch(view(buffer, robot=tmp_path / "r.urdf"))
-    (block,) = [text for told, text in Scripts(page).scripts if told.get("id") == "replay"]
+    (block,) = [text for received, text in Scripts(page).scripts if received.get("id") == "replay"]
     (robot,) = json.loads(block)["robots"]
     assert robot["meshes"] == {"a.stl": "data:model/stl;base64," + base64.b64encode(b"solid").decode()}
 
 
 @pytest.mark.parametrize(
-    ("query", "says"),
+    ("query", "reason"),
     [
         ({"rate": "fast"}, "must be numbers"),
         ({"rate": 0}, "at most 100 frames per second"),
@@ -108,11 +108,11 @@ def test_a_replay_contains_robots_with_their_meshes(buffer, view, tmp_path):
         ({"from": "inf"}, "must be numbers"),
     ],
 )
-def test_an_invalid_replay_request_is_rejected_with_a_message(buffer, view, query, says):
+def test_an_invalid_replay_request_is_rejected_with_a_message(buffer, view, query, reason):
     with pytest.raises(urllib.error.HTTPError, match="400") as refused:
         fetch(view(buffer), **query)
     with refused.value:
-        assert says in refused.value.read().decode()
+        assert reason in refused.value.read().decode()
 
 
 def test_a_replay_that_is_too_large_is_rejected_with_a_message(view):
@@ -127,7 +127,7 @@ def test_a_replay_that_is_too_large_is_rejected_with_a_message(view):
 
 
 class Replayed:
-    """A display of a replay, read by the documentation of what is in the file."""
+    """A display of a replay, decoded."""
 
     def __init__(self, block, decoded):
         def numbers(name, kind):
@@ -142,21 +142,21 @@ class Replayed:
         ends = np.cumsum(counts)
         self.listings = [rows[end - count : end] for count, end in zip(counts, ends, strict=True)]
 
-    def at(self, picture):
-        """(drawing, pose, stamp) of all that is to be seen."""
-        index = np.searchsorted(self.changes, picture, side="right") - 1
+    def at(self, sample):
+        """Return (drawing, pose, stamp) of all visible drawings."""
+        index = np.searchsorted(self.changes, sample, side="right") - 1
         return [(self.drawings[sequence], pose, stamp) for sequence, pose, stamp in self.listings[index]]
 
 
 @pytest.fixture
 def walker(shared):
-    """The path of a recording of a TurtleBot 3."""
+    """Return the path of a recording of a TurtleBot 3."""
     pytest.importorskip("rosbags", reason="recordings need rosbags")
     return shared / "recordings" / "tb3_gazebo_walker"
 
 
 def replay_of(viewer, open_tab, *displays, seconds=4, rate=5):
-    """A replay from the middle of a recording, with the looks that a tab has told of."""
+    """Return a replay from the middle of a recording, with the settings of a tab."""
     tab = open_tab(viewer)
     first, last = tab.wait("hello")["span"]
     rviz = {
@@ -168,7 +168,7 @@ def replay_of(viewer, open_tab, *displays, seconds=4, rate=5):
     begin = (first + last) // 2
     span = {"from": begin, "to": begin + seconds * SECOND}
     _, page = fetch(viewer, **span, rate=rate, fixed="odom", settings=settings)
-    (block,) = [text for told, text in Scripts(page).scripts if told.get("id") == "replay"]
+    (block,) = [text for received, text in Scripts(page).scripts if received.get("id") == "replay"]
     assert json.loads(block)["rviz"] == rviz
     return json.loads(block)
 
@@ -189,8 +189,8 @@ def test_a_replay_contains_displays_as_a_tab_shows_them(walker, view, open_tab, 
     origin = int(replay["origin"])
     seen = set()
     with coframe.open_bag(walker) as bag:
-        for picture, moment in enumerate(times):
-            ((drawing, pose, stamp),) = scans.at(picture)
+        for sample, moment in enumerate(times):
+            ((drawing, pose, stamp),) = scans.at(sample)
             expected = bag.message_at("/scan", int(moment) + origin).message.header
             assert int(stamp) + origin == expected.stamp.sec * SECOND + expected.stamp.nanosec
             where = bag.buffer.lookup("odom", expected.frame_id, int(stamp) + origin)
@@ -215,14 +215,14 @@ def test_a_display_that_is_too_large_for_the_file_is_thinned_or_omitted(walker, 
         assert len(scans.drawings) >= left
         if left:
             assert block["every"] > 1
-            assert all(picture % block["every"] == 0 for picture in scans.changes)
+            assert all(sample % block["every"] == 0 for sample in scans.changes)
         else:
             assert block["statuses"][0][1] == "error"
             assert "omitted from this replay" in block["statuses"][0][2]
 
 
-class AtHand:
-    """A topic of one message."""
+class OneMessage:
+    """A topic with one message."""
 
     def __init__(self, message):
         self.type = message.ROS_TYPE
@@ -252,7 +252,7 @@ def test_large_clouds_are_thinned_and_contain_the_step(decoded):
     buffer.set("map", "base", coframe.Transform(), BEGIN)
     times = np.arange(3) * SECOND + BEGIN - SECOND
     replay_times = ReplayTimes(buffer, "map", times, np.zeros(3))
-    (block,) = record_displays([ReplayDisplay("/cloud", Options())], {"/cloud": AtHand(cloud)}, replay_times)
+    (block,) = record_displays([ReplayDisplay("/cloud", Options())], {"/cloud": OneMessage(cloud)}, replay_times)
     replayed = Replayed(block, decoded)
     assert replayed.at(0) == []
     ((drawing, _, _),) = replayed.at(2)
@@ -262,7 +262,7 @@ def test_large_clouds_are_thinned_and_contain_the_step(decoded):
 
 
 @pytest.mark.parametrize(
-    ("fields", "says"),
+    ("fields", "reason"),
     [
         ({"displays": [7]}, "displays[0] of a message 'replay' must be an object"),
         ({"displays": [{"topic": "/scan"}] * 101}, "at most"),
@@ -270,8 +270,8 @@ def test_large_clouds_are_thinned_and_contain_the_step(decoded):
         ({"displays": [], "rviz": {"x": float("nan")}}, "is not valid JSON"),
     ],
 )
-def test_invalid_replay_settings_are_rejected_with_a_message(buffer, view, open_tab, fields, says):
-    assert says in open_tab(view(buffer)).ask("problem", "replay", **fields)["text"]
+def test_invalid_replay_settings_are_rejected_with_a_message(buffer, view, open_tab, fields, reason):
+    assert reason in open_tab(view(buffer)).ask("problem", "replay", **fields)["text"]
 
 
 def test_unknown_replay_settings_are_rejected_with_a_message(buffer, view):

@@ -1,4 +1,4 @@
-"""Robots: checked before a page sees them; their meshes and no other files; and their joints."""
+"""Robots in a tab: checked descriptions, meshes but no other files, and joints."""
 
 import time
 import urllib.error
@@ -26,7 +26,7 @@ URDF = """<robot name="arm">
 
 @pytest.fixture
 def package(tmp_path):
-    """A ROS package with meshes, and things around it that are nobody's business."""
+    """Return a ROS package with meshes, next to files that must not be served."""
     folder = tmp_path / "ws" / "arm_description"
     (folder / "meshes").mkdir(parents=True)
     (folder / "textures").mkdir()
@@ -53,7 +53,7 @@ def robot_file(package, mesh):
     return file
 
 
-def test_a_robot_of_a_file_comes_with_its_meshes(package, view, open_tab):
+def test_a_robot_from_a_file_has_its_meshes(package, view, open_tab):
     file = robot_file(package, "package://arm_description/meshes/base%20link.dae")
     viewer = view(coframe.Buffer(None), robot=file)
     robot = open_tab(viewer).wait("robot")
@@ -61,22 +61,22 @@ def test_a_robot_of_a_file_comes_with_its_meshes(package, view, open_tab):
     assert robot["problems"] == []
     assert robot["urdf"].startswith('<robot name="arm">')
     turn = {"name": "turn", "type": "revolute", "lower": 0.5, "upper": 1.5, "value": 1.0}
-    assert robot["joints"] == [turn], "a joint that follows another has no slider"
+    assert robot["joints"] == [turn], "a mimic joint has no slider"
     ((written, url),) = robot["meshes"].items()
     assert written == "package://arm_description/meshes/base%20link.dae"
     assert fetch(viewer, url) == ("model/vnd.collada+xml", b"<COLLADA/>")
-    # What a mesh names lies beside it, however the page puts the names together.
+    # Textures are in the folder of the mesh, however the page joins the names.
     for texture in (url.rsplit("/", 1)[0] + "/../textures/skin.png", url + "/../textures/skin.png"):
         assert fetch(viewer, texture) == ("image/png", b"png")
 
 
-def test_what_is_odd_about_a_description_is_no_problem_of_drawing_it(package, view, open_tab):
+def test_warnings_about_a_description_are_not_problems(package, view, open_tab):
     file = robot_file(package, "package://arm_description/meshes/base%20link.dae")
-    odd = """<link name="odd">
+    unusual = """<link name="unusual">
         <visual><geometry><sphere radius="1"/></geometry><material name="nowhere"/></visual>
       </link>
-      <joint name="to_odd" type="fixed"><parent link="base"/><child link="odd"/></joint>"""
-    file.write_text(file.read_text().replace("</robot>", odd + "</robot>"))
+      <joint name="to_unusual" type="fixed"><parent link="base"/><child link="unusual"/></joint>"""
+    file.write_text(file.read_text().replace("</robot>", unusual + "</robot>"))
     robot = open_tab(view(coframe.Buffer(None), robot=file)).wait("robot")
     assert robot["problems"] == []
     assert len(robot["warnings"]) == 1
@@ -103,7 +103,7 @@ def test_what_is_odd_about_a_description_is_no_problem_of_drawing_it(package, vi
         "x" * 5000 + ".stl",
     ],
 )
-def test_other_files_are_refused_with_a_sentence(package, view, open_tab, mesh):
+def test_other_files_are_rejected_with_a_message(package, view, open_tab, mesh):
     viewer = view(coframe.Buffer(None), robot=robot_file(package, mesh))
     robot = open_tab(viewer).wait("robot")
     assert robot["meshes"] == {}
@@ -111,7 +111,7 @@ def test_other_files_are_refused_with_a_sentence(package, view, open_tab, mesh):
     assert len(robot["problems"][0]) < 300
 
 
-def test_addresses_cannot_be_bent(package, view, open_tab):
+def test_no_url_leads_outside_the_served_folders(package, view, open_tab):
     robot = robot_file(package, "package://arm_description/meshes/base link.dae")
     viewer = view(coframe.Buffer(None), robot=robot)
     (url,) = open_tab(viewer).wait("robot")["meshes"].values()
@@ -136,7 +136,7 @@ def test_addresses_cannot_be_bent(package, view, open_tab):
             assert b"secret" not in refused.value.read()
 
 
-def test_declared_folders_and_the_largest_file(tmp_path, monkeypatch):
+def test_declared_folders_and_the_size_limit(tmp_path, monkeypatch):
     (tmp_path / "a.stl").write_bytes(b"x" * 2000)
     with pytest.raises(MeshError, match="is outside the served folders"):
         MeshTable(lambda _name: None).url(f"file://{tmp_path}/a.stl")
@@ -153,7 +153,7 @@ BOMB = """<!DOCTYPE robot [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a
 <!ENTITY c "&b;&b;&b;&b;&b;&b;&b;&b;&b;&b;">]><robot name="&c;"><link name="base"/></robot>"""
 
 
-def test_a_file_that_is_no_robot_is_a_sentence(tmp_path):
+def test_an_invalid_robot_description_gives_a_message(tmp_path):
     for text in (BOMB, "<sdf/>", "nothing", URDF.replace('child link="tip"', 'child link="base"')):
         (tmp_path / "bad.urdf").write_text(text)
         with pytest.raises(coframe.RobotDescriptionError, match=r"bad\.urdf"):
@@ -161,8 +161,8 @@ def test_a_file_that_is_no_robot_is_a_sentence(tmp_path):
 
 
 @pytest.mark.parametrize(("options", "topic"), [({}, "/joint_states"), ({"joint_states": "/sliders"}, "/sliders")])
-def test_descriptions_come_from_the_topic_and_joint_states_go_back(domain_id, view, open_tab, options, topic):
-    pytest.importorskip("cyclonedds", reason="topics come over DDS")
+def test_descriptions_are_received_and_joint_states_published(domain_id, view, open_tab, options, topic):
+    pytest.importorskip("cyclonedds", reason="topics need DDS")
     from coframe.messages import find
     from coframe.wire.qos import QoS
 
@@ -178,10 +178,10 @@ def test_descriptions_come_from_the_topic_and_joint_states_go_back(domain_id, vi
         assert (robot["name"], robot["description_topic"]) == ("arm", "/robot_description")
         assert robot["problems"] == ["ROS package 'none' not found"]
 
-        heard = ros.subscribe(topic, find("sensor_msgs/msg/JointState"))
+        joint_states = ros.subscribe(topic, find("sensor_msgs/msg/JointState"))
         tab.send("joints", robot=robot["id"], positions={"turn": 1.0}, publish=True)
-        for _ in range(2):  # again and again, as programs that follow them want it
-            state = heard.receive("10s")
+        for _ in range(2):  # robot_state_publisher needs them repeatedly.
+            state = joint_states.receive("10s")
             assert dict(zip(state.name, state.position, strict=True)) == {"turn": 1.0, "grip": -0.5}
         assert abs(state.header.stamp.sec - time.time()) < 10
         tab.send("joints", robot=robot["id"], positions={"elbow": 1.0}, publish=True)
@@ -190,11 +190,11 @@ def test_descriptions_come_from_the_topic_and_joint_states_go_back(domain_id, vi
         assert "not valid JSON" in tab.wait("problem")["text"]
         tab.send("joints", robot=robot["id"], positions={}, publish=False)
         tab.wait("stats")
-        while heard.receive("300ms") is not None:
+        while joint_states.receive("300ms") is not None:
             pass
 
 
-def test_without_a_graph_joint_states_cannot_be_sent(package, view, open_tab):
+def test_joint_states_need_a_live_graph(package, view, open_tab):
     file = robot_file(package, "package://arm_description/meshes/base link.dae")
     tab = open_tab(view(coframe.Buffer(None), robot=Path(file)))
     tab.wait("robot")

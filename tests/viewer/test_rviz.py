@@ -1,4 +1,4 @@
-"""RViz's files: what is known is applied, what is not is listed, and all of it is kept."""
+"""RViz configuration files: known parts are applied, other parts are listed, and everything is preserved."""
 
 import itertools
 import statistics
@@ -76,32 +76,32 @@ Visualization Manager:
 
 
 def test_rviz_2():
-    told = RvizConfig.parse(RVIZ_2).description()
-    grid, scan = told["displays"]
+    received = RvizConfig.parse(RVIZ_2).description()
+    grid, scan = received["displays"]
     assert (grid["class"], grid["name"], grid["enabled"], grid["topic"]) == ("Grid", "Grid", True, None)
     assert grid["options"] == {"Cell Size": 1, "Color": "160; 160; 164"}
     assert (scan["class"], scan["enabled"], scan["topic"]) == ("LaserScan", False, "/scan")
     assert scan["options"]["Decay Time"] == 2
-    assert told["global"] == {"fixed_frame": "odom", "background": [48, 48, 200], "frame_rate": 30.0}
-    assert told["view"] == {"class": "TopDownOrtho", "options": {"Scale": 12.5}}
-    assert told["unknown"] == [
+    assert received["global"] == {"fixed_frame": "odom", "background": [48, 48, 200], "frame_rate": 30.0}
+    assert received["view"] == {"class": "TopDownOrtho", "options": {"Scale": 12.5}}
+    assert received["unknown"] == [
         {"path": "Sensors/Tea", "class": "acme_rviz/Teapot", "name": "Tea"},
         {"path": "Particles", "class": "nav2_rviz_plugins/ParticleCloud", "name": "Particles"},
     ]
 
 
 def test_rviz_1():
-    told = RvizConfig.parse(RVIZ_1).description()
-    assert [(one["class"], one["topic"]) for one in told["displays"]] == [
+    received = RvizConfig.parse(RVIZ_1).description()
+    assert [(one["class"], one["topic"]) for one in received["displays"]] == [
         ("TF", None),
         ("Marker", "/visualization_marker"),
     ]
-    assert told["global"]["fixed_frame"] is None
-    assert told["view"]["class"] == "Orbit"
-    assert [one["class"] for one in told["unknown"]] == ["rviz/PointCloud"]
+    assert received["global"]["fixed_frame"] is None
+    assert received["view"]["class"] == "Orbit"
+    assert [one["class"] for one in received["unknown"]] == ["rviz/PointCloud"]
 
 
-def test_the_labs_file_is_applied_to_every_tab(shared, view, open_tab):
+def test_the_configuration_of_the_lab_is_applied_to_every_tab(shared, view, open_tab):
     buffer = coframe.Buffer(None)
     buffer.set("world", "base_link", coframe.Transform(), 1)
     tab = open_tab(view(buffer, rviz=shared / "lab" / "rviz_config.yaml"))
@@ -119,8 +119,8 @@ def test_the_labs_file_is_applied_to_every_tab(shared, view, open_tab):
 def test_saving_preserves_unknown_parts(view, open_tab):
     viewer = view(coframe.Buffer(None))
     tab = open_tab(viewer)
-    told = tab.ask("rviz", "load_rviz", text=RVIZ_2)
-    scan = told["displays"][1]
+    received = tab.ask("rviz", "load_rviz", text=RVIZ_2)
+    scan = received["displays"][1]
     scan["enabled"] = True
     scan["options"]["Decay Time"] = 5
     added = {"class": "Map", "name": "Map", "enabled": True, "topic": "/map", "options": {"Alpha": 0.7}}
@@ -215,15 +215,15 @@ Visualization Manager:
     - &third {<<: *common, Name: third}
     - *third
 """)
-    told = config.description()["displays"]
-    assert [(one["name"], one["options"]["Length"]) for one in told] == [
+    received = config.description()["displays"]
+    assert [(one["name"], one["options"]["Length"]) for one in received] == [
         ("first", 1),
         ("second", 2),
         ("third", 1),
         ("third", 1),
     ]
-    told[2]["enabled"] = False
-    again = RvizConfig.parse(config.merged(told, {}, {}).text()).description()["displays"]
+    received[2]["enabled"] = False
+    again = RvizConfig.parse(config.merged(received, {}, {}).text()).description()["displays"]
     assert [one["enabled"] for one in again] == [True, True, False, True], "the copies are independent"
 
 
@@ -242,18 +242,18 @@ def test_the_frame_rate_of_a_file_limits_the_updates(view, open_tab, tmp_path, r
     typical = statistics.median(later - earlier for earlier, later in itertools.pairwise(moments))
     assert least <= 1 / typical <= most
     tab.send("save_rviz", displays=[], view={}, **{"global": {"frame_rate": 30}})
-    assert f"Frame Rate: {rate}" in tab.wait("saved")["text"], "what the file said stays"
+    assert f"Frame Rate: {rate}" in tab.wait("saved")["text"], "the rate of the file is preserved"
 
 
 def test_unusual_values_are_ignored():
-    odd = """
+    unusual = """
 Visualization Manager:
   Displays: [3, ~, {Class: 7}, {Name: x}, {Class: rviz/TF, Name: [1], Enabled: maybe, Topic: 5, When: 2020-01-01}]
   Global Options: [1]
   Views: {Current: 4}
 """
-    told = RvizConfig.parse(odd).description()
-    assert told["displays"][0]["options"] == {"Topic": 5, "When": "2020-01-01"}
-    assert told["global"] == {"fixed_frame": None, "background": None, "frame_rate": None}
-    assert told["view"] is None
-    assert "Fixed Frame: map" in RvizConfig.parse(odd).merged([], {"fixed_frame": "map"}, {}).text()
+    received = RvizConfig.parse(unusual).description()
+    assert received["displays"][0]["options"] == {"Topic": 5, "When": "2020-01-01"}
+    assert received["global"] == {"fixed_frame": None, "background": None, "frame_rate": None}
+    assert received["view"] is None
+    assert "Fixed Frame: map" in RvizConfig.parse(unusual).merged([], {"fixed_frame": "map"}, {}).text()

@@ -1,4 +1,4 @@
-"""The server and those who come to it: strangers, garbage, stuck tabs; and how it begins and ends."""
+"""The server: access, invalid and stuck clients, start and end."""
 
 import contextlib
 import http.client
@@ -33,7 +33,7 @@ def small_buffer():
 
 
 def get(url, path="/", **headers):
-    """Status, headers and body, without what a browser would do to the path."""
+    """Return status, headers and body, without normalizing the path as a browser does."""
     address = urlsplit(url)
     connection = http.client.HTTPConnection(address.hostname, address.port, timeout=20)
     connection.putrequest("GET", path, skip_host="Host" in headers)
@@ -48,7 +48,7 @@ def get(url, path="/", **headers):
 
 @pytest.fixture
 def page(tmp_path):
-    """A page that is no page, with something beside it that is nobody's business."""
+    """A server with a small page, next to a file that must not be served."""
     folder = tmp_path / "static"
     (folder / "assets").mkdir(parents=True)
     (folder / "index.html").write_text("<title>page</title>")
@@ -59,13 +59,13 @@ def page(tmp_path):
         yield server.url
 
 
-def test_the_page_comes_with_headers_that_keep_it_in_its_place(page):
+def test_the_page_has_security_headers(page):
     status, headers, body = get(page)
     assert (status, body) == (200, b"<title>page</title>")
     policy = headers["Content-Security-Policy"]
     assert "default-src 'none'; script-src 'self';" in policy
     assert "unsafe-eval" not in policy
-    assert "http://127.0.0.1:*" in policy.partition("frame-ancestors")[2], "Jupyter shows it in a frame"
+    assert "http://127.0.0.1:*" in policy.partition("frame-ancestors")[2], "Jupyter displays it in a frame"
     assert headers["X-Content-Type-Options"] == "nosniff"
     status, headers, body = get(page, "/assets/viewer.js")
     assert (status, headers["Content-Type"], body) == (200, "text/javascript; charset=utf-8", b"1")
@@ -89,7 +89,7 @@ def test_the_page_comes_with_headers_that_keep_it_in_its_place(page):
         "/rviz",
     ],
 )
-def test_nothing_else_can_be_fetched(page, path):
+def test_other_files_cannot_be_fetched(page, path):
     status, _, body = get(page, path)
     assert status == 404
     assert b"secret" not in body
@@ -99,14 +99,14 @@ def test_nothing_else_can_be_fetched(page, path):
 @pytest.mark.parametrize(
     "host", ["evil.example", "evil.example:{port}", "127.0.0.1:1", "", "localhost.evil.example:{port}"]
 )
-def test_names_that_others_made_to_point_here_are_refused(page, host):
+def test_other_host_names_are_rejected(page, host):
     port = urlsplit(page).port
     assert get(page, Host=host.format(port=port))[0] == 403
     assert get(page, Host=f"localhost:{port}")[0] == 200
 
 
 @pytest.mark.parametrize("origin", ["http://evil.example", "https://127.0.0.1:{port}", "http://127.0.0.1:1", "null"])
-def test_pages_of_other_sites_cannot_talk_to_it(page, origin):
+def test_pages_of_other_sites_cannot_connect(page, origin):
     port = urlsplit(page).port
     address = page.replace("http", "ws") + "ws"
     with pytest.raises(InvalidStatus) as refused, connect(address, origin=origin.format(port=port)):
@@ -117,7 +117,7 @@ def test_pages_of_other_sites_cannot_talk_to_it(page, origin):
     assert get(page, "/ws")[0] == 426
 
 
-def test_on_all_addresses_any_of_them_is_ours_but_no_strange_name():
+def test_a_server_on_all_addresses_accepts_addresses_but_no_other_names():
     access = AccessPolicy("0.0.0.0", 7676)
     assert access.allows_host("192.168.1.5:7676")
     assert access.allows_host("[::1]:7676")
@@ -156,7 +156,7 @@ GARBAGE = [
 ]
 
 
-def test_garbage_is_answered_and_survived(view, open_tab):
+def test_invalid_messages_are_answered(view, open_tab):
     viewer = view(small_buffer())
     tab = open_tab(viewer)
     for garbage in GARBAGE:
@@ -176,8 +176,8 @@ def test_garbage_is_answered_and_survived(view, open_tab):
     assert open_tab(viewer).tick().revision == 1
 
 
-def test_long_messages_are_whole_however_they_travel(view, open_tab):
-    """In parts both ways, and with a ping in between."""
+def test_long_and_fragmented_messages_arrive_complete(view, open_tab):
+    """Messages are fragmented in both directions, with a ping in between."""
     buffer = coframe.Buffer(None)
     names = [f"{'long' * 40}_{frame}" for frame in range(3000)]
     for name in names:
@@ -190,7 +190,7 @@ def test_long_messages_are_whole_however_they_travel(view, open_tab):
     assert tab.wait("relation")["id"] == 7
 
 
-def test_text_that_is_none_ends_the_connection_and_no_other(view, open_tab):
+def test_invalid_utf8_closes_only_that_connection(view, open_tab):
     viewer = view(small_buffer())
     tab = open_tab(viewer)
     tab.socket.send(b"\xff\xfe", text=True)
@@ -200,21 +200,21 @@ def test_text_that_is_none_ends_the_connection_and_no_other(view, open_tab):
     assert open_tab(viewer).tick().revision == 1
 
 
-def test_parts_of_a_message_count_together(view, open_tab):
+def test_the_size_limit_applies_to_all_fragments_together(view, open_tab):
     viewer = view(small_buffer())
     tab = open_tab(viewer)
 
-    def ask():
+    def send_requests():
         tab.socket.send("x" * 1000 for _ in range(5000))
         read_forever(tab)
 
     with pytest.raises(ConnectionClosed) as ended:
-        ask()
+        send_requests()
     assert ended.value.rcvd is None or ended.value.rcvd.code == 1009
     assert open_tab(viewer).tick().revision == 1
 
 
-def test_raw_bytes_on_the_port_are_survived(view, open_tab):
+def test_other_protocols_on_the_port_do_no_harm(view, open_tab):
     viewer = view(small_buffer())
     address = urlsplit(viewer.url)
     for data in (
@@ -223,13 +223,13 @@ def test_raw_bytes_on_the_port_are_survived(view, open_tab):
         b"GET / HTTP/1.1\r\n" * 3000,
         b"POST / HTTP/1.1\r\nContent-Length: 9999999999\r\n\r\n",
     ):
-        with socket.create_connection((address.hostname, address.port), timeout=20) as stranger:
-            stranger.sendall(data)
+        with socket.create_connection((address.hostname, address.port), timeout=20) as connection:
+            connection.sendall(data)
     assert open_tab(viewer).tick().revision == 1
 
 
-def test_a_stuck_tab_costs_nothing_and_the_others_go_on(view, open_tab):
-    """One that neither reads nor draws, one that asks and says that it draws but reads nothing; beside a good one."""
+def test_a_stuck_tab_takes_no_memory_and_does_not_delay_others(view, open_tab):
+    """One tab neither reads nor draws, one sends requests and confirmations but reads nothing, and one works."""
     buffer = coframe.Buffer(None)
     for frame in range(1000):
         buffer.set("map", f"f{frame}", coframe.Transform([frame, 0.0, 0.0]), SECOND)
@@ -241,7 +241,7 @@ def test_a_stuck_tab_costs_nothing_and_the_others_go_on(view, open_tab):
     relate = json.dumps({"type": "relate", "id": 1, "target": "f1", "source": "x" * 2000})
     ended = threading.Event()
 
-    def ask():
+    def send_requests():
         try:
             while not ended.wait(0.005):
                 for _ in range(20):
@@ -250,8 +250,8 @@ def test_a_stuck_tab_costs_nothing_and_the_others_go_on(view, open_tab):
         except (ConnectionClosed, OSError):
             pass
 
-    asker = threading.Thread(target=ask, daemon=True)
-    asker.start()
+    requester = threading.Thread(target=send_requests, daemon=True)
+    requester.start()
     good = open_tab(viewer)
     good.tick()
     good.send("time", mode="at", at=2 * SECOND - int(good.last["hello"]["origin"]), playing=True, speed=1.0)
@@ -261,10 +261,10 @@ def test_a_stuck_tab_costs_nothing_and_the_others_go_on(view, open_tab):
             good.tick()
         memory.append(resident_bytes())
     ended.set()
-    for tab in (asking, stuck):  # a closing handshake would be in vain
+    for tab in (asking, stuck):  # A closing handshake would time out.
         tab.socket.socket.shutdown(socket.SHUT_RDWR)
-    asker.join(20)
-    # A tick is 28 kB and an answer 8 kB: what waits unread would soon be tens of megabytes.
+    requester.join(20)
+    # An update has 28 kB and an answer 8 kB: unread messages would soon take tens of megabytes.
     assert memory[-1] - memory[0] < 5_000_000
 
 
@@ -272,18 +272,18 @@ def resident_bytes():
     return int(Path("/proc/self/statm").read_text().split()[1]) * 4096 if sys.platform == "linux" else 0
 
 
-def test_ticks_wait_until_the_last_one_is_drawn(view, open_tab):
+def test_updates_wait_until_the_last_one_is_drawn(view, open_tab):
     buffer = small_buffer()
     tab = open_tab(view(buffer))
     tab.tick()
     ticks = []
-    deadline = time.monotonic() + 1.5  # a tick a second comes even where nothing changes
+    deadline = time.monotonic() + 1.5  # An update is sent every second even if nothing changes.
     while (left := deadline - time.monotonic()) > 0:
         buffer.set("map", "base", coframe.Transform(), 200 * SECOND + len(ticks))
         with contextlib.suppress(TimeoutError):
             message = tab.socket.recv(left)
             ticks += [message] if isinstance(message, bytes) else []
-    assert len(ticks) == 1, "the first was said to be drawn, this one was not"
+    assert len(ticks) == 1, "only the first update was confirmed"
 
 
 def read_forever(tab):
@@ -291,7 +291,7 @@ def read_forever(tab):
         tab.read()
 
 
-def test_it_ends_with_all_of_its_threads(open_tab):
+def test_closing_ends_all_threads(open_tab):
     before = set(threading.enumerate())
     viewer = coframe.show(small_buffer(), port=0)
     tab = open_tab(viewer)
@@ -307,7 +307,7 @@ def test_it_ends_with_all_of_its_threads(open_tab):
         get(url)
 
 
-def test_a_port_that_is_taken_is_a_sentence_and_the_usual_one_gives_way(view):
+def test_a_port_in_use_is_an_error_unless_it_is_the_default(view):
     viewer = view(small_buffer())
     port = urlsplit(viewer.url).port
     with pytest.raises(coframe.ViewerError, match=f"cannot listen on 127.0.0.1:{port}") as error:
@@ -318,14 +318,14 @@ def test_a_port_that_is_taken_is_a_sentence_and_the_usual_one_gives_way(view):
         assert get(second.url)[0] == 200
 
 
-def test_it_shows_itself_in_a_notebook(view):
+def test_the_viewer_is_displayed_in_a_notebook(view):
     viewer = view(small_buffer())
     assert f'<iframe src="{viewer.url}"' in viewer._repr_html_()
     with pytest.raises(TypeError, match=r"coframe\.Buffer"):
         coframe.show(3)
 
 
-def test_what_is_missing_is_one_sentence_and_importing_stays_cheap():
+def test_a_missing_package_gives_a_message_and_importing_stays_cheap():
     code = """
 import sys
 class Missing:
@@ -349,8 +349,8 @@ for options in ({}, {"rviz": sys.argv[1]}):
     ]
 
 
-def test_numbers_that_are_none_pass_as_data(view, open_tab):
-    """A pose that cannot be told is NaN on the wire, and hurts nobody."""
+def test_poses_that_are_not_finite_are_sent(view, open_tab):
+    """A missing pose is sent as NaN."""
     buffer = coframe.Buffer(None)
     buffer.set("map", "late", coframe.Transform(), 100 * SECOND)
     buffer.set("map", "huge", coframe.Transform([1e300, 0.0, 0.0]), 100 * SECOND)

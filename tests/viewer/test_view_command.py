@@ -1,4 +1,4 @@
-"""`coframe view` and `coframe demo` as a user starts them."""
+"""`coframe view` and `coframe demo`, started from the command line."""
 
 import re
 import signal
@@ -16,7 +16,7 @@ COMMAND = [sys.executable, "-m", "coframe.cli"]
 
 
 def start(*arguments):
-    """The process, and the address that it prints on a line of its own."""
+    """Start a command; return the process and the address that it prints."""
     process = subprocess.Popen([*COMMAND, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     line = process.stdout.readline()
     if not re.fullmatch(r"http://127\.0\.0\.1:\d+/\n", line):
@@ -54,7 +54,7 @@ def test_the_demo_in_a_tab(open_tab):
 
 
 @pytest.mark.usefixtures("domain_id")
-def test_view_with_the_labs_file_answers_within_two_seconds_and_ends_on_ctrl_c(shared, open_tab):
+def test_view_answers_within_two_seconds_and_ends_on_ctrl_c(shared, open_tab):
     begin = time.monotonic()
     file = shared / "lab" / "rviz_config.yaml"
     process, url = start("view", "-d", str(file), "--no-browser", "--port", "0")
@@ -65,10 +65,10 @@ def test_view_with_the_labs_file_answers_within_two_seconds_and_ends_on_ctrl_c(s
     assert (process.returncode, output, errors) == (0, "", "")
     assert hello["mode"] == "live"
     assert hello["fixed"] == "base_link"
-    assert waited < 8.0  # two seconds where nobody else uses the machine
+    assert waited < 8.0  # Two seconds on an idle machine.
 
 
-def test_what_is_not_there_is_a_sentence():
+def test_a_missing_recording_gives_a_message():
     result = subprocess.run([*COMMAND, "view", "nowhere.mcap"], capture_output=True, text=True, check=False)
     assert (result.returncode, result.stdout) == (1, "")
     assert result.stderr == (
@@ -77,7 +77,7 @@ def test_what_is_not_there_is_a_sentence():
     )
 
 
-def test_an_address_of_another_machine_is_a_sentence():
+def test_an_address_of_another_machine_gives_a_message():
     command = [*COMMAND, "view", "--host", "192.0.2.1", "--port", "0", "--no-browser"]
     result = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (result.returncode, result.stdout) == (1, "")

@@ -158,8 +158,8 @@ def test_monitor_applies_the_prefix(participant, node):
         "--keep",
         "map",
     ]
-    told = CliRunner().invoke(app, ["monitor", "--once", "--json", "--duration", "500ms", *robot1]).stdout
-    assert [(link["parent"], link["child"]) for link in json.loads(told)["edges"]] == [
+    output = CliRunner().invoke(app, ["monitor", "--once", "--json", "--duration", "500ms", *robot1]).stdout
+    assert [(edge["parent"], edge["child"]) for edge in json.loads(output)["edges"]] == [
         ("map", "robot1/odom"),
         ("robot1/odom", "robot1/base_link"),
     ]

@@ -163,10 +163,10 @@ def test_an_independent_program_publishes_receives_and_lists(beside_rosless):
         publisher = participant.publisher(node, "/ours", STRING, QoS())
         subscription = participant.subscription(node, "/theirs", STRING, QoS())
         theirs = peer.advertise("/theirs", "std_msgs/msg/String")
-        ours = peer.subscribe("/ours", "std_msgs/msg/String", reliability="reliable")
+        from_coframe = peer.subscribe("/ours", "std_msgs/msg/String", reliability="reliable")
         eventually(lambda: publisher.matched and subscription.matched and theirs.subscriber_count)
         publisher.write(codec.serialize(STRING(data="from coframe")))
-        assert ours.read(10).data == "from coframe"
+        assert from_coframe.read(10).data == "from coframe"
         theirs.send({"data": "from rosless"})
         eventually(lambda: [codec.deserialize(s.data, STRING).data for s in subscription.take()] == ["from rosless"])
         listed = {topic.name: topic.type_name for topic in peer.graph().topics}

@@ -202,7 +202,7 @@ def test_a_reader_with_another_qos(participant, node):
 
 def test_a_late_node_name_does_not_insert_transforms_again(participant, node, eventually):
     buffer = coframe.Buffer()
-    reader = participant.tf_reader(node, "/tf_static", buffer, static=True, authority="nobody")
+    reader = participant.tf_reader(node, "/tf_static", buffer, static=True, authority="someone")
     first, second = (participant.publisher(node, "/tf_static", TF_MESSAGE, TF_STATIC_WRITER) for _ in range(2))
     first.write(tf_cdr(stamped("a", "b", 1.0), stamped("a", "c")))
     (handle,) = (h for h, w in participant._graph.writers("rt/tf_static").items() if w.guid == first.guid)

@@ -72,7 +72,7 @@ def open_bag(
         >>> import coframe
         >>> coframe.open_bag("nowhere.mcap")
         Traceback (most recent call last):
-        coframe.errors.RecordingError: nowhere.mcap cannot be read: No such file or directory
+        coframe.RecordingError: nowhere.mcap cannot be read: No such file or directory
     """
     keep = kept(keep)
     tf_topics = None if tf_topics is None else list(tf_topics)

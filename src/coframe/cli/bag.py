@@ -80,7 +80,7 @@ def fix(
     output: Annotated[Path, typer.Argument(metavar="OUT", help="Folder of the copy; it must not exist yet.")],
     statics: Annotated[
         Path | None,
-        typer.Option(metavar="BAG2", help="Recording from which static transforms that BAG lacks are added."),
+        typer.Option(metavar="OTHER", help="Other recording, whose static transforms are added where BAG has none."),
     ] = None,
     tf_topic: TfTopicOption = TF_TOPIC,
     tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,

@@ -95,12 +95,18 @@ def demo(
     Example: coframe demo --duration 10
     """
     console = Console()
-    listening = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
+    listener_options = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
     if robots is not None:
         if urdf:
             fail("--robots cannot be combined with --urdf", "Several robots are simulated without a URDF.", code=2)
         show_robots(
-            robots, duration, own_topics=own_topics, port=port, browser=not no_browser, domain=domain, **listening
+            robots,
+            duration,
+            own_topics=own_topics,
+            port=port,
+            browser=not no_browser,
+            domain=domain,
+            **listener_options,
         )
         return
     remaps = ("-r", f"/tf:={tf_topic}", "-r", f"/tf_static:={tf_static_topic}")
@@ -109,7 +115,7 @@ def demo(
     name = renaming(prefix, keep) or str
     with (
         run_until_interrupted(),
-        coframe.connect("coframe_demo", domain=domain, **listening) as ros,
+        coframe.connect("coframe_demo", domain=domain, **listener_options) as ros,
         Launcher(commands, domain=domain) as nodes,
         optional_viewer(ros, port, browser=not no_browser),
     ):

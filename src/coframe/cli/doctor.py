@@ -6,7 +6,7 @@ import difflib
 import json
 import time
 from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console, Group
@@ -84,8 +84,10 @@ def doctor(
         return
     ignored = _known_codes(ignore or [])
     window, buffers = positive_duration("--duration", duration), positive_duration("--cache", cache)
-    if (as_json and sarif) or (watch and (sarif or bag is not None)):
-        _fail_for_conflict(as_json=as_json, sarif=sarif, watch=watch)
+    if as_json and sarif:
+        fail("--json cannot be combined with --sarif", code=2)
+    if watch and (sarif or bag is not None):
+        fail(f"--watch cannot be combined with {'--sarif' if sarif else 'a recording'}", code=2)
     shared: Any = {"cache": buffers, "prefix": prefix, "keep": keep}
     if bag is None:
         reject_namespace_of_live_graph(namespace)
@@ -93,28 +95,23 @@ def doctor(
         if bag is not None:
             topics = recorded_tf_topics(tf_topic, tf_static_topic)
             with reading_progress() as progress:
-                seen = observe_recording(bag, namespace=namespace, tf_topics=topics, progress=progress, **shared)
-            reports = {name: diagnose(one, ignore=ignored) for name, one in seen.items()}
+                observations = observe_recording(
+                    bag, namespace=namespace, tf_topics=topics, progress=progress, **shared
+                )
+            reports = {name: diagnose(one, ignore=ignored) for name, one in observations.items()}
             _print_and_exit(reports, as_json, sarif, bag)
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
         shared |= {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
-        with LiveObserver(domain, window=window if watch else None, **shared) as listening:
+        with LiveObserver(domain, window=window if watch else None, **shared) as observer:
             if watch:
-                _watch(listening, ignored, as_json)
+                _watch(observer, ignored, as_json)
                 return
             if Console(stderr=True).is_terminal:
                 typer.echo(f"listening for {duration} ...", err=True)
-            listening.listen(window / SECOND)
-            report = diagnose(listening.observe(), ignore=ignored)
+            observer.listen(window / SECOND)
+            report = diagnose(observer.observe(), ignore=ignored)
         _print_and_exit({"": report}, as_json, sarif, None)
-
-
-def _fail_for_conflict(*, as_json: bool, sarif: bool, watch: bool) -> NoReturn:
-    if as_json and sarif:
-        fail("--json cannot be combined with --sarif", code=2)
-    assert watch
-    fail(f"--watch cannot be combined with {'--sarif' if sarif else 'a recording'}", code=2)
 
 
 def _explain(code: str) -> None:
@@ -172,15 +169,15 @@ def _texts(report: Report) -> list[Text]:
     return every
 
 
-def _watch(listening: LiveObserver, ignore: list[str], as_json: bool) -> None:
+def _watch(observer: LiveObserver, ignore: list[str], as_json: bool) -> None:
     """Update the report every second, or less often if the diagnosis takes long, until Ctrl-C."""
     console = Console(highlight=False)
     with Live(console=console, auto_refresh=False, screen=False, transient=False) as live:
         while True:
             begun = time.process_time()
-            report = diagnose(listening.observe(), ignore=ignore)
+            report = diagnose(observer.observe(), ignore=ignore)
             if as_json:
                 print(json.dumps(as_data(report)), flush=True)
             else:
                 live.update(Group(*_texts(report)), refresh=True)
-            listening.listen(max(1.0, (time.process_time() - begun) / _CPU_SHARE))
+            observer.listen(max(1.0, (time.process_time() - begun) / _CPU_SHARE))

@@ -32,7 +32,7 @@ from coframe.time import SECOND
 from coframe.tree_drawing import grow
 from coframe.tree_drawing.graphviz import as_graphviz
 from coframe.tree_drawing.labels import summary
-from coframe.tree_drawing.mermaid import MOST_LINKS, as_markdown, as_mermaid
+from coframe.tree_drawing.mermaid import MOST_EDGES, as_markdown, as_mermaid
 from coframe.tree_drawing.plain import as_data
 from coframe.tree_drawing.svg import as_svg
 
@@ -99,24 +99,30 @@ def frames(
         if bag is not None:
             topics = recorded_tf_topics(tf_topic, tf_static_topic)
             with reading_progress() as progress:
-                seen = observe_recording(bag, namespace=namespace, tf_topics=topics, progress=progress, **names)
-            forests = {name: grow(one) for name, one in seen.items()}
-            for problem in dict.fromkeys(problem for one in seen.values() for problem in one.unread):
+                observations = observe_recording(bag, namespace=namespace, tf_topics=topics, progress=progress, **names)
+            forests = {name: grow(one) for name, one in observations.items()}
+            for problem in dict.fromkeys(problem for one in observations.values() for problem in one.unread):
                 warn(problem)
+            if not any(forest.frames for forest in forests.values()):
+                fail(
+                    f"{bag} contains no transforms", "Other topics can be chosen with --tf-topic and --tf-static-topic."
+                )
             _write_or_print(forests, files, as_json, bag.resolve().name)
             return
         from coframe.doctor.live import LiveObserver  # noqa: PLC0415 - recordings need no DDS
 
         names |= {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
-        with LiveObserver(domain, window=window, node_name="coframe_frames", **names) as listening:
+        with LiveObserver(domain, window=window, node_name="coframe_frames", **names) as observer:
             if watching:
-                watch(listening, as_json)
+                watch(observer, as_json)
                 return
             if Console(stderr=True).is_terminal:
                 typer.echo(f"listening for {duration} ...", err=True)
-            listening.listen(window / SECOND)
-            seen_live = grow(listening.observe())
-        _write_or_print({"": seen_live}, files, as_json, f"live on {names['tf_topic']}")
+            observer.listen(window / SECOND)
+            forest = grow(observer.observe())
+        if not forest.frames:
+            fail("no transforms received", "Check that a broadcaster is running in the same ROS domain.")
+        _write_or_print({"": forest}, files, as_json, f"live on {names['tf_topic']}")
 
 
 def _checked_output(path: Path) -> Path:
@@ -136,8 +142,6 @@ def _checked_output(path: Path) -> Path:
 
 def _write_or_print(forests: dict[str, Forest], files: list[Path], as_json: bool, title: str) -> None:
     """Write the files; without any, print the trees."""
-    if not any(forest.frames for forest in forests.values()):
-        fail("no transforms received", "Check that a broadcaster is running in the same ROS domain.")
     if files and len(forests) > 1:
         names = ", ".join(name or "/" for name in forests)
         fail(f"the recording has trees in several namespaces: {names}", "Choose one with --namespace.", code=2)
@@ -158,8 +162,8 @@ def _write(path: Path, forest: Forest, title: str) -> None:
     except OSError as error:
         fail(f"{path} cannot be written: {error.strerror}", "Check that the folder exists and is writable.")
     typer.echo(f"{path}: {summary(forest)}", err=True)
-    if path.suffix.lower() in {".mmd", ".md"} and len(forest.frames) > MOST_LINKS:
-        warn(f"Mermaid draws at most {MOST_LINKS} edges, unless its option maxEdges is increased")
+    if path.suffix.lower() in {".mmd", ".md"} and len(forest.frames) > MOST_EDGES:
+        warn(f"Mermaid draws at most {MOST_EDGES} edges, unless its option maxEdges is increased")
 
 
 def _print(forests: dict[str, Forest]) -> None:

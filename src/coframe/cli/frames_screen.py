@@ -63,24 +63,24 @@ def tree(forest: Forest, changed: dict[str, str] | None = None, most: int | None
     return Group(table, *more, Text(summary(forest), style=style))
 
 
-def watch(listening: LiveObserver, as_json: bool) -> None:
+def watch(observer: LiveObserver, as_json: bool) -> None:
     """Show the trees until Ctrl-C; without a terminal, print a line for each change, or a line of JSON every second."""
     console = Console(highlight=False)
     if as_json:
-        for forest, news in _steps(listening):
+        for forest, news in _steps(observer):
             print(json.dumps({**as_data(forest), "changes": [change._asdict() for change in news]}), flush=True)
     elif console.is_terminal:
-        _show(console, _steps(listening))
+        _show(console, _steps(observer))
     else:
-        _print_changes(_steps(listening))
+        _print_changes(_steps(observer))
 
 
-def _steps(listening: LiveObserver) -> Iterator[tuple[Forest, list[Change]]]:
+def _steps(observer: LiveObserver) -> Iterator[tuple[Forest, list[Change]]]:
     """Yield the trees every second, and how they differ from those of the second before."""
     before: Forest | None = None
     while True:
-        listening.listen(_PERIOD)
-        forest = grow(listening.observe())
+        observer.listen(_PERIOD)
+        forest = grow(observer.observe())
         yield forest, [] if before is None else list(changes(before, forest))
         before = forest
 

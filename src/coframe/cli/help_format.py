@@ -24,9 +24,11 @@ class PlainCommand(TyperCommand):
         """Return the words after the name of the command."""
         return ["[OPTIONS]", *(_name(argument) for argument in _parameters(self, ctx, "argument"))]
 
-    def format_help_text(self, ctx: Any, formatter: Any) -> None:  # noqa: ARG002 - click's signature
-        """Write the description, whose paragraphs are separated by empty lines."""
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        """Write the help: usage, description, arguments and options."""
+        self.format_usage(ctx, formatter)
         _write_description(self, formatter)
+        self.format_options(ctx, formatter)
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write the arguments and the options."""
@@ -38,9 +40,11 @@ class PlainCommand(TyperCommand):
 class PlainGroup(TyperGroup):
     """A group of commands, each with its one-line description."""
 
-    def format_help_text(self, ctx: Any, formatter: Any) -> None:  # noqa: ARG002 - click's signature
-        """Write the description, whose paragraphs are separated by empty lines."""
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        """Write the help: usage, description, arguments and options."""
+        self.format_usage(ctx, formatter)
         _write_description(self, formatter)
+        self.format_options(ctx, formatter)
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write the options and the commands."""
@@ -53,7 +57,8 @@ class PlainGroup(TyperGroup):
 
 def _option_records(command: Any, ctx: Any) -> list[tuple[str, str]]:
     records = [option.get_help_record(ctx) for option in _parameters(command, ctx, "option")]
-    return [(name, _RANGE.sub("", text or "")) for name, text in filter(None, records)]
+    # Some versions of typer escape brackets for rich.
+    return [(name, _RANGE.sub("", (text or "").replace("\\[", "["))) for name, text in filter(None, records)]
 
 
 def _parameters(command: Any, ctx: Any, kind: str) -> list[Any]:

@@ -103,8 +103,13 @@ def joints(
         overrides = [Parameter(name, value=value) for name, value in values.items()]
         with reported_node_errors(), _running_node(["coframe", *context.args], robot, domain, overrides) as running:
             if gui:
-                listening = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
-                with coframe.connect("coframe_joints", domain=domain, **listening) as ros:
+                listener_options = {
+                    "tf_topic": tf_topic,
+                    "tf_static_topic": tf_static_topic,
+                    "prefix": prefix,
+                    "keep": keep,
+                }
+                with coframe.connect("coframe_joints", domain=domain, **listener_options) as ros:
                     _show_in_viewer(running, robot, ros, port, browser=not no_browser)
             elif sys.stdin.isatty() and sys.stdout.isatty():
                 _show_in_terminal(running)

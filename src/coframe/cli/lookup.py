@@ -101,8 +101,8 @@ def _available_span(recording: Recording, frames: set[str]) -> str:
     first, last = max(first for first, _ in spans), min(last for _, last in spans)
     offsets = [seconds(stamp - recording.span[0]).rstrip("0").rstrip(".") + "s" for stamp in (first, last)]
     return (
-        f"The recording has transforms between {', '.join([one, *others])} from {seconds(first)} to {seconds(last)}, "
-        f"i.e. --at {offsets[0]} to {offsets[1]}."
+        f"The recording has transforms between {', '.join([one, *others[:-1]])} and {others[-1]} "
+        f"from {seconds(first)} to {seconds(last)}, i.e. --at {offsets[0]} to {offsets[1]}."
     )
 
 

@@ -80,56 +80,58 @@ def monitor(
             node_name="coframe_monitor",
             prefix=prefix,
             keep=keep,
-        ) as listening:
+        ) as observer:
             if classic:
                 what = " -> ".join(pair) if pair else "all frames"
                 print(f"Gathering data on {what} for {window / SECOND:g} seconds...", flush=True)
             if not (once or as_json or classic):
-                _watch(listening, pair)
-            _report(listening, pair, window / SECOND, _printer(as_json, classic), once=once)
+                _watch(observer, pair)
+            _report(observer, pair, window / SECOND, _printer(as_json, classic), once=once)
 
 
 def _printer(as_json: bool, classic: bool) -> Callable[[Observation, Pair], None]:
     if as_json:
-        return lambda seen, pair: print(json.dumps(_data(seen, pair)), flush=True)
+        return lambda observation, pair: print(json.dumps(_data(observation, pair)), flush=True)
     if classic:
         return _print_classic
-    return lambda seen, pair: report_console().print(_tables(seen, pair))
+    return lambda observation, pair: report_console().print(_tables(observation, pair))
 
 
 def _report(
-    listening: LiveObserver, pair: Pair, seconds: float, printer: Callable[[Observation, Pair], None], *, once: bool
+    observer: LiveObserver, pair: Pair, seconds: float, printer: Callable[[Observation, Pair], None], *, once: bool
 ) -> None:
     """Print a report after each time window, or only one."""
     while True:
-        listening.listen(seconds)
-        seen = listening.observe()
-        if once and not len(seen.transforms):
+        observer.listen(seconds)
+        observation = observer.observe()
+        if once and not len(observation.transforms):
             fail("no transforms received", "Check that a broadcaster is running in the same ROS domain.")
-        printer(seen, pair)
+        printer(observation, pair)
         if once:
             return
 
 
-def _watch(listening: LiveObserver, pair: Pair) -> NoReturn:
+def _watch(observer: LiveObserver, pair: Pair) -> NoReturn:
     with Live(console=report_console(), auto_refresh=False) as live:
         while True:
-            live.update(_tables(listening.observe(), pair), refresh=True)
-            listening.listen(1.0)
+            live.update(_tables(observer.observe(), pair), refresh=True)
+            observer.listen(1.0)
 
 
-def _tables(seen: Observation, pair: Pair) -> Group:
+def _tables(observation: Observation, pair: Pair) -> Group:
     edges = _table("edge", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms", "count")
-    for row in edge_figures(seen):
+    for row in edge_figures(observation):
         figures = (row.jitter, row.delay, row.delay_p99, row.age)
         rate = "static" if row.static else "stale" if row.stale else _hertz(row.rate)
         cells = (f"{row.parent} -> {row.child}", row.publisher or "unknown", rate, *map(_ms, figures))
         edges.add_row(*_texts(*cells, str(row.transforms)), style="red" if row.stale else "")
     publishers = _table("publisher", "messages/s", "delay ms", "p99 ms")
-    for node in publisher_figures(seen):
+    for node in publisher_figures(observation):
         delays = (_ms(node.delay), _ms(node.delay_p99))
         publishers.add_row(*_texts(node.publisher or "unknown", _hertz(node.rate), *delays))
-    return Group(*([Text(printable(_chain(chain_figures(seen, *pair), pair)))] if pair else []), edges, publishers)
+    return Group(
+        *([Text(printable(_chain(chain_figures(observation, *pair), pair)))] if pair else []), edges, publishers
+    )
 
 
 def _chain(figures: ChainFigures | None, pair: tuple[str, str]) -> str:
@@ -144,33 +146,33 @@ def _chain(figures: ChainFigures | None, pair: tuple[str, str]) -> str:
     )
 
 
-def _data(seen: Observation, pair: Pair) -> dict[str, Any]:
+def _data(observation: Observation, pair: Pair) -> dict[str, Any]:
     data: dict[str, Any] = {
-        "start_ns": seen.start,
-        "end_ns": seen.end,
-        "edges": [row._asdict() for row in edge_figures(seen)],
-        "publishers": [row._asdict() for row in publisher_figures(seen)],
+        "start_ns": observation.start,
+        "end_ns": observation.end,
+        "edges": [row._asdict() for row in edge_figures(observation)],
+        "publishers": [row._asdict() for row in publisher_figures(observation)],
     }
     if pair is not None:
-        chain = chain_figures(seen, *pair)
+        chain = chain_figures(observation, *pair)
         data["chain"] = None if chain is None else chain._asdict()
     return data
 
 
-def _print_classic(seen: Observation, pair: Pair) -> None:
-    for line in _classic(seen, pair):
+def _print_classic(observation: Observation, pair: Pair) -> None:
+    for line in _classic(observation, pair):
         # tf2_monitor prints this line alone on stderr.
         print(line, file=sys.stderr if line == _BROADCASTERS else sys.stdout, flush=True)
 
 
-def _classic(seen: Observation, pair: Pair) -> Iterator[str]:
+def _classic(observation: Observation, pair: Pair) -> Iterator[str]:
     """Yield the lines of tf2_monitor, with the names of publishers instead of ``<no authority available>``.
 
     The delay of a static transform is printed as 0; tf2_monitor prints the age of the transform.
     """
     yield "\n\n"
     if pair is not None:
-        chain = chain_figures(seen, *pair)
+        chain = chain_figures(observation, *pair)
         yield f"RESULTS: for {pair[0]} to {pair[1]}"
         if chain is not None:
             yield f"Chain is: {' -> '.join(chain.frames)}"
@@ -178,12 +180,12 @@ def _classic(seen: Observation, pair: Pair) -> Iterator[str]:
     else:
         yield "RESULTS: for all Frames"
     yield "\nFrames:"
-    for row in edge_figures(seen):
+    for row in edge_figures(observation):
         name = printable(row.publisher) or "<no authority available>"
         frame = printable(row.child)
         yield f"Frame: {frame}, published by {name}, Average Delay: {_g(row.delay)}, Max Delay: {_g(row.delay_max)}"
     yield _BROADCASTERS
-    for node in publisher_figures(seen):
+    for node in publisher_figures(observation):
         name, rate = printable(node.publisher) or "<no authority available>", node.rate or 0.0
         yield f"Node: {name} {rate:g} Hz, Average Delay: {_g(node.delay)} Max Delay: {_g(node.delay_max)}"
 

@@ -70,13 +70,13 @@ def show_robots(
     """
     names = [f"robot{number}" for number in range(1, number_of_robots + 1)]
     shown = renaming(prefix, keep) or str
-    listening = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
+    listener_options = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
     topics = None if own_topics else (tf_topic, tf_static_topic)
     commands = tuple(_command(name, number, number_of_robots, topics) for number, name in enumerate(names))
     warnings: list[str] = []
     with (
         run_until_interrupted(),
-        coframe.connect("coframe_demo", domain=domain, **listening) as ros,
+        coframe.connect("coframe_demo", domain=domain, **listener_options) as ros,
         _optional_relay(names, tf_topic, tf_static_topic, domain, warnings.append, needed=own_topics) as relay,
         Launcher(commands, domain=domain) as nodes,
         optional_viewer(ros, port, browser=browser),
@@ -195,7 +195,7 @@ class _View:
 
     def table(self) -> Table:
         """Return the table with one row for each robot."""
-        title = f"{len(self._names)} robots, poses relative to {self._shown('map')} (metres, degrees)"
+        title = f"{count(len(self._names), 'robot')}, poses relative to {self._shown('map')} (metres, degrees)"
         table = Table(title=title, title_justify="left", box=None, padding=(0, 2, 0, 0), pad_edge=False)
         for column in ("robot", "state", "frames", "rate Hz", "age ms", "clock ms", "x", "y", "yaw"):
             table.add_column(column, justify="left" if column in {"robot", "state"} else "right", no_wrap=True)

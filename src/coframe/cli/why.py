@@ -174,12 +174,12 @@ def _answer_live(graph: _LiveSource, target: str, source: str, at: str | None, w
             tf_static_topic=graph.tf_static_topic,
             node_name="coframe_why_doctor",
             **graph.names._asdict(),
-        ) as listening,
+        ) as observer,
     ):
         if Console(stderr=True).is_terminal:
             typer.echo(f"listening for {window / SECOND:g} s ...", err=True)
-        listening.listen(window / SECOND)
-        seen = listening.observe()
+        observer.listen(window / SECOND)
+        seen = observer.observe()
         clock = int(seen.clock.stamp[-1]) if seen.clock is not None else None
         found = ros.buffer.why(target, source, _lookup_time(at, clock, window), now=clock)
         return _Answer(found, _relevant_reports(found, [seen]), list(_other_topics(found, ros, graph)))

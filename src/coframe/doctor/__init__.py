@@ -1,19 +1,21 @@
-"""What is wrong with the transforms of a robot, why that matters, and what to do: on the wire or in a recording.
+"""Checks of the transforms of a robot: what is wrong, why it matters, and what to do; live or in a recording.
 
-How it is made, from bottom to top:
+The package is built in layers:
 
-- An `Observation` is all that the checks know: every transform as it was sent (a table of columns), who is on which
-  topic with which QoS, the stamps and arrivals of sensor messages, joint states, descriptions, the clock, the log.
-  `recorded` makes it of a recording, `coframe.doctor.live` of what arrives; from there on the path is the same for
-  both. It gives the links (`Edge`) with their statistics, which are calculated when they are first asked for.
+- An `Observation` contains all data that the checks examine: every transform as published (a table of columns), the
+  publishers and subscriptions of the topics with their QoS, the stamps and arrivals of sensor messages, joint states,
+  descriptions, the clock and the log. `recorded` builds it from a recording, `coframe.doctor.live` from a running
+  system; all later steps are the same for both. It provides the edges (`Edge`) with statistics that are computed when
+  they are first used.
 - A check is a module of `checks`: its CODE and ``find``, a pure function from an observation to findings. `diagnosis`
-  finds the modules by itself: a new check is one file there, one page, and one test.
-- `coframe.doctor.codes` has a page for every code: the one text that `--explain`, the documentation, SARIF and the
-  line "why" below a finding are made of.
-- `causes` says as data which finding explains which; consequences stand below their cause.
-- `rendering` has text, plain data for JSON, and SARIF.
+  finds the modules by itself: a new check is a module, a page and a test.
+- `coframe.doctor.codes` reads the page of a code, which `--explain`, the documentation, SARIF and the line "why" below
+  a finding use.
+- `causes` defines as data which findings are consequences of which; consequences are listed below their cause.
+- `rendering` formats reports as text, as plain data for JSON, and as SARIF.
 
-Statistics are taken from the table at diagnosis time, with numpy: nothing is counted at ingest but the transforms.
+Statistics are computed from the table with numpy when they are needed; while transforms are received, only the
+transforms themselves are stored.
 
 Example:
     >>> from coframe.doctor import page

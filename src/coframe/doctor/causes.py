@@ -1,4 +1,4 @@
-"""Which findings are the consequence of which, as data: in a report they stand below their cause."""
+"""The causes of findings, as data: a report lists consequences below their cause."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ if TYPE_CHECKING:
 
 __all__ = ["CAUSES", "joined"]
 
-# (cause, consequence, whether only about a frame that both are about)
+# (cause, consequence, whether both must concern the same frame)
 CAUSES: tuple[tuple[str, str, bool], ...] = (
-    ("TF012", "TF011", False),  # after a jump back, all that is sent looks old
+    ("TF012", "TF011", False),  # after a jump back, all new transforms look old
     ("TF012", "TF013", False),
     ("TF012", "TF008", False),
-    ("TF017", "TF001", False),  # without its static transforms a tree falls apart
+    ("TF017", "TF001", False),  # without its static transforms, a tree is split
     ("TF017", "TF014", False),
-    ("TF016", "TF001", False),  # likewise if they are not delivered
+    ("TF016", "TF001", False),  # and also if these are not delivered
     ("TF016", "TF014", False),
-    ("TF024", "TF022", False),  # no model, no joints
+    ("TF024", "TF022", False),  # without a model there are no joints
     ("TF024", "TF023", False),
-    ("TF006", "TF001", True),  # a name with and without its prefix makes two trees
+    ("TF006", "TF001", True),  # a name with and without its prefix is in two trees
     ("TF006", "TF014", True),
-    ("TF019", "TF001", True),  # a link that tf2 refuses is not there
+    ("TF019", "TF001", True),  # an edge that tf2 refuses does not exist
     ("TF019", "TF014", True),
     ("TF004", "TF001", True),
-    ("TF002", "TF004", True),  # two who disagree about parents make the loop
+    ("TF002", "TF004", True),  # two publishers with different parents can form a loop
     ("TF002", "TF001", True),
     ("TF002", "TF003", True),
-    ("TF003", "TF020", True),  # two who disagree about a pose make it jump
+    ("TF003", "TF020", True),  # two publishers with different poses make it jump
     ("TF003", "TF011", True),
     ("TF003", "TF013", True),
     ("TF005", "TF003", True),
@@ -38,20 +38,20 @@ CAUSES: tuple[tuple[str, str, bool], ...] = (
     ("TF009", "TF015", True),
     ("TF010", "TF008", True),
     ("TF010", "TF014", True),
-    ("TF018", "TF013", True),  # what never changes needs no rate
-    ("TF018", "TF008", True),  # and is sent ahead of time, so that it is there
+    ("TF018", "TF013", True),  # a constant transform needs no rate
+    ("TF018", "TF008", True),  # and is stamped ahead, so that it is available
     ("TF013", "TF014", True),
     ("TF013", "TF025", False),
     ("TF001", "TF014", True),
     ("TF001", "TF025", False),
-    ("TF022", "TF001", True),  # joints without states are not told of
+    ("TF022", "TF001", True),  # joints without states have no transform
     ("TF022", "TF014", True),
     ("TF021", "TF023", True),
 )
 
 
 def joined(findings: list[Finding]) -> list[Finding]:
-    """The causes, worst first, with what they explain; a finding stands below one cause only."""
+    """Return the causes with their consequences, the worst first; each consequence is below one cause only."""
     causes = _causes(findings)
     below: dict[int, list[Finding]] = {}
     for position, cause in causes.items():
@@ -70,8 +70,8 @@ def _worst(finding: Finding) -> int:
 
 
 def _causes(findings: list[Finding]) -> dict[int, int | None]:
-    """By position the first finding of the first code that explains it."""
-    first: dict[tuple[str, str | None], int] = {}  # of a code, and of a code and a frame
+    """Return, by position, the first finding of the first code that is its cause."""
+    first: dict[tuple[str, str | None], int] = {}  # by code, and by code and frame
     for position, finding in enumerate(findings):
         for frame in (None, *finding.frames):
             first.setdefault((finding.code, frame), position)

@@ -1,7 +1,7 @@
-"""A page for every code, which `coframe doctor --explain` prints and the documentation links to.
+"""The page of each code, which `coframe doctor --explain` prints and the documentation links to.
 
-A page is Markdown: a title ``# TF001: ...``, then sections. "Why it matters" opens with the sentence that stands below
-every finding of that code.
+A page is Markdown: a title ``# TF001: ...``, then sections. The first paragraph of "Why it matters" is printed below
+every finding of the code.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ _CODE = re.compile(r"TF\d{3}")
 
 
 class Page(NamedTuple):
-    """One code's page.
+    """The page of a code.
 
     Attributes:
-        code: ``TF001``.
-        title: In a few words.
-        why: Why it matters, in a sentence.
-        text: The whole page, Markdown.
+        code: The code, such as ``TF001``.
+        title: The title of the page.
+        why: Why it matters.
+        text: The whole page in Markdown.
     """
 
     code: str
@@ -35,17 +35,17 @@ class Page(NamedTuple):
 
 @functools.cache
 def codes() -> tuple[str, ...]:
-    """All codes that have a page, in order."""
+    """Return all codes that have a page, in order."""
     names = (file.name.removesuffix(".md") for file in _PAGES.iterdir())
     return tuple(sorted(name for name in names if _CODE.fullmatch(name)))
 
 
 @functools.cache
 def page(code: str) -> Page:
-    """The page of a code, in any case of its letters.
+    """Return the page of a code, in upper or lower case.
 
     Raises:
-        KeyError: There is none.
+        KeyError: There is no such code.
     """
     name = code.upper()
     if name not in codes():

@@ -1,4 +1,4 @@
-"""Collector: messages with transforms, as they come in batches, into the rows of an observation."""
+"""Collector: builds the table of transforms of an observation from batches of messages."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ if TYPE_CHECKING:
 
 __all__ = ["Collector"]
 
-# Names come from the wire: a million of them are somebody's mistake, and would cost as much memory as they like.
+# A publisher may send any number of names by mistake; the limit bounds the memory that they use.
 _MOST_NAMES = 100_000
 
 
 class Collector:
-    """Gathers transforms; names become numbers.
+    """Collects transforms; frame names become numbers.
 
     Args:
-        renaming: What the frames are called from here on; None: as they come.
+        renaming: Returns the new names of frames; None keeps the names.
 
     Attributes:
-        empty: How many messages held no transform.
-        damaged: How many were no TFMessage.
-        left_out: How many came after too many names, and were not looked at.
-        messages: How many there were, by topic.
+        empty: The number of messages without transforms.
+        damaged: The number of messages that are not valid TFMessages.
+        left_out: The number of messages that were ignored because there were too many names before them.
+        messages: The number of messages by topic.
     """
 
     def __init__(self, renaming: _core.Renaming | None = None) -> None:
@@ -55,15 +55,15 @@ class Collector:
         publisher: NDArray[np.int64],
         publishers: Sequence[str],
     ) -> None:
-        """Takes in the transforms of some messages.
+        """Add the transforms of some messages.
 
         Args:
-            topic: Where they came.
-            static: Valid for all time.
+            topic: The topic of the messages.
+            static: Whether it is a topic of static transforms.
             columns: The transforms.
-            arrived: (M,) when each message came.
-            publisher: (M,) number of who sent it.
-            publishers: Their names, "" for one that is not known.
+            arrived: (M,) time of arrival of each message.
+            publisher: (M,) number of the publisher of each message.
+            publishers: The names of the publishers; "" for one that is not known.
         """
         self.messages[topic] = self.messages.get(topic, 0) + len(arrived)
         self.damaged += columns.damaged
@@ -87,7 +87,7 @@ class Collector:
         (self._static if static else self._moving).append(batch)
 
     def forget(self, before: int, most: int) -> None:
-        """Lets go of moving transforms that came before a time, and of the oldest where there are more than so many."""
+        """Remove dynamic transforms that arrived before a time, and the oldest ones beyond a maximum number of rows."""
         while self._moving and self._moving[0].arrived[-1] < before:
             self._moving.popleft()
         for batches in (self._static, self._moving):
@@ -96,10 +96,10 @@ class Collector:
                 rows -= len(batches.popleft())
 
     def transforms(self) -> Transforms:
-        """All rows, in the order in which they came."""
+        """Return all rows in the order of arrival."""
         sent = tuple(self._names)
         return Transforms.joined([*self._static, *self._moving], tuple(map(self._renamed, sent)), sent)
 
     def publishers(self) -> set[str]:
-        """Who sent what has not been let go of."""
+        """Return the names of the publishers of the remaining rows."""
         return {name for batches in (self._static, self._moving) for batch in batches for name in batch.publishers}

@@ -1,4 +1,4 @@
-"""Diagnosis: all checks over one observation, and what came of it."""
+"""Diagnosis: runs all checks on an observation."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from coframe.doctor import checks
 from coframe.doctor.causes import joined
 from coframe.doctor.finding import Severity
 from coframe.doctor.observation import NEVER
+from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator
@@ -24,22 +25,21 @@ if TYPE_CHECKING:
 
 __all__ = ["Report", "SensorFacts", "all_checks", "diagnose"]
 
-_MS = 1_000_000
-# How long a consumer may be prepared to wait for a transform.
-PATIENCE = (0, 50 * _MS, 100 * _MS, 200 * _MS)
+# The timeouts with which a consumer may wait for a transform.
+TIMEOUTS = (0, 50 * MILLISECOND, 100 * MILLISECOND, 200 * MILLISECOND)
 
 
 class SensorFacts(NamedTuple):
-    """How many of a topic's messages could be brought into the root of their tree, and after which wait.
+    """How many messages of a topic could be transformed to the root of their tree, and after which time.
 
     Attributes:
         topic: The topic.
-        frame: What its messages are told in.
-        root: The root of that frame's tree; the frame itself if no transform tells of it.
-        messages: How many there are.
-        possible: How many are possible at once, within 50, 100 and 200 ms of their arrival.
-        median_wait: Of those that are possible at all, in nanoseconds; None without any.
-        longest_wait: Likewise.
+        frame: The frame in which its messages are expressed.
+        root: The root of the tree of that frame; the frame itself if no transform contains it.
+        messages: The number of messages.
+        possible: How many can be transformed at once, and within 50, 100 and 200 ms of their arrival.
+        median_wait: The median wait of those that can be transformed at all, in nanoseconds; None without any.
+        longest_wait: The longest wait of these messages.
     """
 
     topic: str
@@ -52,12 +52,12 @@ class SensorFacts(NamedTuple):
 
 
 class Report(NamedTuple):
-    """What is wrong, worst first, and what was looked at.
+    """The result of a diagnosis.
 
     Attributes:
-        findings: Causes, with what they explain.
-        sensors: When their messages could be transformed.
-        observation: What was looked at.
+        findings: The causes with their consequences, the worst first.
+        sensors: When the messages of each sensor could be transformed.
+        observation: The observation that was examined.
     """
 
     findings: list[Finding]
@@ -66,19 +66,19 @@ class Report(NamedTuple):
 
     @property
     def healthy(self) -> bool:
-        """Whether there are transforms, and no finding of the level of a warning or above."""
+        """Whether there are transforms and no warnings or errors."""
         return len(self.observation.transforms) > 0 and all(
             finding.severity < Severity.WARNING for finding in self.every_finding()
         )
 
     def every_finding(self) -> list[Finding]:
-        """Causes and what they explain, in a row."""
+        """Return the causes and their consequences as one list."""
         return [one for finding in self.findings for one in (finding, *finding.explains)]
 
 
 @cache
 def all_checks() -> dict[str, Check]:
-    """By code: one module of `coframe.doctor.checks` each."""
+    """Return the checks by code: one per module of `coframe.doctor.checks`."""
     modules = [
         importlib.import_module(f"{checks.__name__}.{module.name}") for module in pkgutil.iter_modules(checks.__path__)
     ]
@@ -86,17 +86,17 @@ def all_checks() -> dict[str, Check]:
 
 
 def diagnose(observation: Observation, *, ignore: Collection[str] = ()) -> Report:
-    """All checks but those that are to be ignored.
+    """Run all checks except those to ignore.
 
     Args:
-        observation: What was heard or read.
-        ignore: Codes, such as ``TF012``.
+        observation: What was received or recorded.
+        ignore: The codes of checks to ignore, such as ``TF012``.
     """
-    unwanted = {code.upper() for code in ignore}
-    # What is on the wire may overflow; the checks compare with limits, and NaN is within none.
+    ignored = {code.upper() for code in ignore}
+    # Published values may overflow; comparisons with limits are false for NaN.
     with np.errstate(all="ignore"):
         findings = [
-            finding for code, check in all_checks().items() if code not in unwanted for finding in check(observation)
+            finding for code, check in all_checks().items() if code not in ignored for finding in check(observation)
         ]
     sensors = [_facts(observation, sensor) for sensor in observation.sensors if len(sensor.stamp)]
     return Report(joined(findings), sensors, observation)
@@ -105,13 +105,13 @@ def diagnose(observation: Observation, *, ignore: Collection[str] = ()) -> Repor
 def _facts(observation: Observation, sensor: Sensor) -> SensorFacts:
     known = sensor.frame in observation.frames
     waits = observation.waits(sensor) if known else np.full(len(sensor.stamp), NEVER)
-    told = waits[waits != NEVER]
+    finite = waits[waits != NEVER]
     return SensorFacts(
         sensor.topic,
         sensor.frame,
         observation.root(sensor.frame),
         len(waits),
-        tuple(int(np.count_nonzero(waits <= patience)) for patience in PATIENCE),  # type: ignore[arg-type]
-        int(np.median(told)) if len(told) else None,
-        int(told.max()) if len(told) else None,
+        tuple(int(np.count_nonzero(waits <= timeout)) for timeout in TIMEOUTS),  # type: ignore[arg-type]
+        int(np.median(finite)) if len(finite) else None,
+        int(finite.max()) if len(finite) else None,
     )

@@ -1,4 +1,4 @@
-"""Finding: one thing that is wrong, with its numbers and what to do about it."""
+"""Finding: one problem with its values and what to do about it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ __all__ = ["Finding", "Severity"]
 
 
 class Severity(IntEnum):
-    """How bad it is; from WARNING on, `coframe doctor` ends with exit code 1."""
+    """The severity of a finding; with WARNING and ERROR, the exit code of `coframe doctor` is 1."""
 
     NOTE = 1
     WARNING = 2
@@ -27,20 +27,20 @@ class Severity(IntEnum):
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that is wrong.
+    """One problem.
 
     Attributes:
-        code: Stable, ``TF001``; the catalogue has a page for it.
-        severity: How bad it is.
-        text: What is there, in numbers, without the names of edge and publishers.
-        fix: What to do: the very command, or the line of code to change.
-        edge: The link as (parent, child), or None where it is about something else.
-        frames: Frames that it is about, for joining it with its cause; an edge's two are among them.
-        topic: Which topic it is about, or "".
-        first_stamp: Of the first transform or message concerned, in nanoseconds; None where there is none.
-        publishers: The full names of the nodes that are to blame, as far as they are known.
-        explains: Findings that would go if this one did.
-        harm: Why it matters, where that is not what the page of the code opens with.
+        code: The code, such as ``TF001``; each code has a page.
+        severity: The severity.
+        text: What is wrong, with values; without the names of the edge and the publishers.
+        fix: What to do: the command to run, or the line of code to change.
+        edge: The edge as (parent, child); None if the finding concerns something else.
+        frames: The frames that it concerns, including those of the edge; they connect it to its cause.
+        topic: The topic that it concerns, or "".
+        first_stamp: The stamp of the first affected transform or message, in nanoseconds; None without one.
+        publishers: The full names of the affected publishers, as far as they are known.
+        explains: Its consequences: findings that disappear with this one.
+        harm: Why it matters, if this differs from the page of the code.
     """
 
     code: str
@@ -61,14 +61,14 @@ class Finding:
 
     @property
     def why(self) -> str:
-        """Why it matters, in a sentence."""
+        """Why it matters."""
         return self.harm or page(self.code).why
 
     @property
     def subject(self) -> str:
-        """What it is about: the edge, or else the topic; may be empty."""
+        """The edge or topic that it concerns; may be empty."""
         return " -> ".join(self.edge) if self.edge else self.topic
 
     def explaining(self, others: tuple[Finding, ...]) -> Self:
-        """The same with what it explains."""
+        """Return the finding with its consequences."""
         return replace(self, explains=others)

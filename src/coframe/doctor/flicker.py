@@ -1,4 +1,4 @@
-"""Flicker: a link that goes back and forth between two poses, as two publishers that disagree make it."""
+"""Flicker: an edge that alternates between two poses, as with two publishers that disagree."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ if TYPE_CHECKING:
 
 __all__ = ["Flicker", "flicker"]
 
-_LEAST = 6  # jumps there and back
+_LEAST = 6  # jumps away and back
 _METRES = 1e-3
 _RADIANS = 1e-2
-# A jump is so many times larger than what is left of it one or a few rows later.
+# A jump must be larger than this many usual steps.
 _CLEARLY = 6.0
-_SAMPLE = 1_000  # rows are enough for a quantile
+_SAMPLE = 1_000  # rows, which are enough for a quantile
 _TURNS = 3
 _MOSTLY = 0.4
 _GOLDEN = 0.6180339887498949
-# How many rows the slower publisher may lie apart.
+# The longest distance between two rows of the slower publisher.
 _LONGEST_RUN = 12
 
 
 class Flicker(NamedTuple):
-    """How often a link jumped there and back, how far (metres, radians; medians), and the row of the first jump."""
+    """The number of jumps away and back, their median size (metres, radians), and the row of the first jump."""
 
     jumps: int
     distance: float
@@ -38,7 +38,7 @@ class Flicker(NamedTuple):
 
 
 def flicker(edge: Edge) -> Flicker | None:
-    """Whether a link jumps away and back again and again; None if not."""
+    """Return the flicker of an edge that repeatedly jumps away and back; None if it does not."""
     if edge.count < _LEAST + 2:
         return None
     typical_distance, typical_angle = _typical(edge)
@@ -49,12 +49,12 @@ def flicker(edge: Edge) -> Flicker | None:
         return None
     back = jumps[1:][np.diff(jumps) <= _LONGEST_RUN]
     away = jumps[:-1][np.diff(jumps) <= _LONGEST_RUN]
-    # From the row before a jump to the row after the next one: what is left of it.
+    # The difference between the row before a jump and the row after the next one.
     left = np.linalg.norm(edge.values[away, :3] - edge.values[back + 1, :3], axis=1)
     turned = angles_between(edge.rotations[away], edge.rotations[back + 1])
     distance, angle = edge.distances[away], edge.turns[away]
     returned = (distance > 2.0 * left + _METRES) | (angle > 2.0 * turned + _RADIANS)
-    # Most jumps must be undone by the next one: a robot that is teleported now and then does not flicker.
+    # Most jumps must be reversed by the next one: a robot that is moved to a new pose a few times does not flicker.
     if np.count_nonzero(returned) < max(_LEAST, len(jumps) // 2):
         return None
     rows = away[returned]
@@ -62,10 +62,10 @@ def flicker(edge: Edge) -> Flicker | None:
 
 
 def _typical(edge: Edge) -> tuple[float, float]:
-    """How far it mostly moves where nobody else has told in between.
+    """Return the usual step, in metres and radians, between two rows of the same publisher.
 
-    Of two publishers that take turns every second row is of the same one, and if one is twice as quick every third; if
-    it is quicker than that, half of the rows follow on one of the same.
+    With two publishers that alternate, every second row is from the same one, and every third row if one of them has
+    twice the rate of the other. With a larger ratio, half of the rows follow a row of the same publisher.
     """
     rows = _sample(edge.count - _TURNS)
     moved = [
@@ -76,7 +76,7 @@ def _typical(edge: Edge) -> tuple[float, float]:
 
 
 def _sample(count: int) -> NDArray[np.intp]:
-    """Rows from all over; steps of the same size might meet the turns of one publisher only."""
+    """Return a sample of rows with irregular distances: regular ones could hit the rows of one publisher only."""
     if count <= _SAMPLE:
         return np.arange(count)
     return np.asarray(np.arange(_SAMPLE) * _GOLDEN % 1.0 * count).astype(np.intp)

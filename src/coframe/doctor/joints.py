@@ -1,4 +1,4 @@
-"""Messages of joints as arrays."""
+"""Joint states as arrays."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ __all__ = ["joint_states"]
 
 
 def joint_states(topic: str, stamps: Sequence[int], messages: Sequence[Any]) -> JointStates:
-    """What ``sensor_msgs/JointState`` messages say; one with fewer positions than names tells of the first joints."""
+    """Return the positions in JointState messages; with fewer positions than names, those of the first joints."""
     positions: dict[str, NDArray[np.float64]] = {}
     for row, message in enumerate(messages):
         for name, position in zip(message.name, message.position, strict=False):

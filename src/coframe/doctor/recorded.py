@@ -1,4 +1,4 @@
-"""A recording as observations, one a namespace: robots that each have a /tf of their own may use the same names."""
+"""Observation of a recording, one per namespace: robots with their own /tf may use the same frame names."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ from coframe.doctor.observation import (
 )
 from coframe.errors import DecodeError
 from coframe.frame_names import absolute, renaming
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
     import os
@@ -38,7 +39,7 @@ if TYPE_CHECKING:
 
 __all__ = ["collecting", "observe_recording"]
 
-_MOST_DECODED = 2000  # messages a topic: enough to tell, and quick
+_MOST_DECODED = 2000  # messages per topic; more would only take longer
 _MOST_DESCRIPTIONS = 10
 _LOGS = {"rcl_interfaces/msg/Log", "rosgraph_msgs/msg/Log"}
 
@@ -53,19 +54,20 @@ def observe_recording(
     cache: int = DEFAULT_CACHE,
     progress: Callable[[int, int], object] | None = None,
 ) -> dict[str, Observation]:
-    """What is in a recording, by namespace: ``""`` for ``/tf``, ``/robot1`` for ``/robot1/tf``.
+    """Return the observations of a recording by namespace: ``""`` for ``/tf``, ``/robot1`` for ``/robot1/tf``.
 
     Args:
-        path: A file, or a folder of rosbag2.
-        namespace: Only transforms of this one; None: all.
-        tf_topics: Only transforms of these topics, as those of one robot: in the namespace of the first; None: all.
-        prefix: In front of the names of frames, as it is; those that sensors name, too.
-        keep: The frames that get no prefix, as they are shared.
-        cache: How far back a listener's buffer is taken to reach, in nanoseconds.
-        progress: Called now and then with the bytes that are read and the bytes that there are.
+        path: A file, or the folder of a rosbag2 recording.
+        namespace: Only the transforms of this namespace; None for all.
+        tf_topics: Only the transforms of these topics, as those of one robot in the namespace of the first topic; None
+            for all.
+        prefix: A prefix for all frame names, used unchanged; also for the frames of sensors.
+        keep: The frames without the prefix, because they are shared.
+        cache: The cache length of the buffers of listeners, in nanoseconds.
+        progress: Called repeatedly with the number of bytes read and the total number.
 
     Raises:
-        RecordingError: Nothing of it can be read.
+        RecordingError: The recording cannot be read.
         ValueError: The prefix begins with a slash.
     """
     names = renaming(prefix, keep)
@@ -102,31 +104,31 @@ def observe_recording(
 def collecting(
     collectors: dict[str, Collector], names: _core.Renaming | None = None, tf_topics: Sequence[str] | None = None
 ) -> Callable[[Channel, NDArray[np.int64], Slices], None]:
-    """What :func:`coframe.open_bag` takes as ``heard``: it fills a collector for each namespace.
+    """Return a callback for :func:`coframe.open_bag` that fills a collector for each namespace.
 
-    With `tf_topics` it fills one, as they are one robot's: that of the first one's namespace.
+    With `tf_topics` it fills only the collector of the namespace of the first topic, as for one robot.
     """
     together = namespace_of(tf_topics[0]) if tf_topics else None
 
-    def heard(channel: Channel, received: NDArray[np.int64], messages: Slices) -> None:
+    def collect(channel: Channel, received: NDArray[np.int64], messages: Slices) -> None:
         take = ingest_for(channel)
         if take is not None:
             namespace = namespace_of(channel.topic) if together is None else together
             collector = collectors.setdefault(namespace, Collector(names))
-            nobody = np.zeros(len(received), dtype=np.int64)
-            collector.add(channel.topic, take.static, take.columns(messages), received, nobody, [""])
+            unknown = np.zeros(len(received), dtype=np.int64)
+            collector.add(channel.topic, take.static, take.columns(messages), received, unknown, [""])
 
-    return heard
+    return collect
 
 
 def _belongs(topic: str, namespace: str, namespaces: dict[str, Collector]) -> bool:
-    """Whether a namespace is the longest one that the topic is in."""
+    """Return whether a namespace is the longest one that contains the topic."""
     around = [name for name in namespaces if absolute(topic).startswith(f"{name}/")]
     return namespace == max(around, key=len, default=namespace)
 
 
 class _Facts:
-    """What all namespaces of a recording share."""
+    """The data that all namespaces of a recording share."""
 
     def __init__(self, recording: Recording) -> None:
         self._recording = recording
@@ -146,7 +148,7 @@ class _Facts:
         self.log = tuple(line for name in self._of_type(_LOGS) for line in self._lines(name))
 
     def _publishers(self, topic: str) -> tuple[Endpoint, ...]:
-        """Of static transforms, as far as the recording tells: what they offered, not who they were."""
+        """Return the publishers of a topic of static transforms: their QoS, as the recording has no node names."""
         if not is_static(topic):
             return ()
         channels = (channel for channel in self._recording.channels() if channel.topic == topic)
@@ -163,7 +165,7 @@ class _Facts:
         return Clock(arrived, stamp) if len(stamp) else None
 
     def _decoded(self, topic: str, most: int) -> Iterator[Any]:
-        """Its first messages; those that are damaged are among the recording's problems."""
+        """Yield the first messages of a topic; damaged ones are in the problems of the recording."""
         messages = islice(self._recording.messages(topic), most)
         while (recorded := next(messages, None)) is not None:
             try:
@@ -172,7 +174,7 @@ class _Facts:
                 continue
 
     def _sensor(self, topic: str) -> Sensor | None:
-        """None for messages that name no frame."""
+        """Return the headers of a topic; None if its messages have no frame."""
         facts = self.topics[topic]
         try:
             first = next(self._decoded(topic, 1), None)
@@ -186,7 +188,7 @@ class _Facts:
 
     def _joints(self, topic: str) -> JointStates:
         messages = list(self._decoded(topic, _MOST_DECODED))
-        stamps = [message.header.stamp.sec * 10**9 + message.header.stamp.nanosec for message in messages]
+        stamps = [message.header.stamp.sec * SECOND + message.header.stamp.nanosec for message in messages]
         return joint_states(topic, stamps, messages)
 
     def _lines(self, topic: str) -> Iterator[LogLine]:

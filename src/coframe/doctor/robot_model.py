@@ -1,4 +1,4 @@
-"""The robot that an observation describes."""
+"""The robot model of an observation."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ __all__ = ["model", "parsed"]
 
 @lru_cache(maxsize=16)
 def parsed(text: str) -> Robot:
-    """A description's robot.
+    """Return the robot of a description.
 
     Raises:
-        RobotDescriptionError: It is empty or contradicts itself.
+        RobotDescriptionError: The description is empty or invalid.
     """
     return parse_urdf(text)
 
 
 def model(observation: Observation) -> Robot | None:
-    """The newest description that can be read; None without one."""
+    """Return the robot of the newest valid description; None without one."""
     for text in reversed(observation.descriptions):
         try:
             return parsed(text)

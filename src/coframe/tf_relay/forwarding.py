@@ -38,7 +38,7 @@ _TF_TYPE = "tf2_msgs/msg/TFMessage"
 # together, which reduces the number of wake-ups and writes with many robots.
 _COLLECTION_TIME = 0.005  # seconds
 _FORGET_AFTER = 60 * SECOND
-# The DDS user data by which relays recognise each other's writers, in the format of ROS type hashes.
+# The DDS user data by which relays recognize each other's writers, in the format of ROS type hashes.
 _USER_DATA = "coframe=relay;"
 # The depth is enough to lose no message while the machine is busy for one second.
 _READER_QOS, _WRITER_QOS = QoS(depth=1000), QoS(depth=1000)
@@ -266,7 +266,7 @@ class Relay:
                 self._warn_once(
                     f"relay {topic} {node}",
                     f"{node} on {topic} is a relay. Its transforms are not relayed again, to avoid an endless loop. "
-                    "Read the robots' own topics instead",
+                    "Read the robots' own topics instead.",
                 )
         return self._relay_writers[writer]
 
@@ -304,7 +304,7 @@ class Relay:
                     f"conflict {edge.child} {edge.conflicting_robot}",
                     f"{edge.robot} and {edge.conflicting_robot} both publish a transform to {edge.child!r}. The one of "
                     f"{edge.robot} was first and is used ({edge.node} on {edge.source}). Give each robot its own "
-                    "prefix, or stop one of the publishers",
+                    "prefix, or stop one of the publishers.",
                 )
 
     def _report_state(self, robot: RelayedRobot) -> None:
@@ -312,11 +312,11 @@ class Relay:
         if robot.state == before:
             return
         if robot.state == "gone":
-            self._warn(f"{robot.name} has gone: no node publishes its transforms any more. Its frames are stale")
+            self._warn(f"{robot.name} is gone: no node publishes its transforms any more, so its frames are stale.")
         elif robot.state == "stale":
-            self._warn(f"{robot.name} is stale: its publishers are there, but no dynamic transforms arrive")
+            self._warn(f"{robot.name} is stale: its publishers are on the graph, but no dynamic transforms arrive.")
         elif before != "waiting":
-            self._warn(f"{robot.name} is live again")
+            self._warn(f"{robot.name} is live again.")
 
     def _forget_departed_writers(self) -> None:
         for input_ in self._inputs:

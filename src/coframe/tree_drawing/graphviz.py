@@ -1,4 +1,4 @@
-"""A forest in the language of Graphviz, for `dot` and the programs that read it."""
+"""A forest in the DOT language of Graphviz."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _MOST = 5
 
 
 def as_graphviz(forest: Forest, title: str) -> str:
-    """The file's text: a cluster a tree, links from second parents and round loops in red."""
+    """Return the file as text: one cluster per tree; edges from other parents and those that close a loop in red."""
     ids = {name: _id(number, name) for number, name in enumerate(forest.frames)}
     head = ["digraph frames {", "  rankdir=LR;", "  node [shape=box, fontname=Helvetica];"]
     head += ["  edge [fontname=Helvetica, fontsize=10];", f"  label={_quoted([shown(title), summary(forest)])};"]
@@ -31,9 +31,9 @@ def _trees(forest: Forest, ids: dict[str, str]) -> Iterator[str]:
         yield f"  subgraph cluster_{number} {{"
         yield f"    label={_quoted([f'tree of {shown(tree[0].name)}'])};"
         for name in (frame.name for frame in tree):
-            # In a label that is taken from the name, what a backslash begins would be read as an escape.
-            told = shown(name) == ids[name] and "\\" not in name
-            label = "" if told else f" [label={_quoted([shown(name)])}]"
+            # Without a label Graphviz shows the name, in which it reads backslashes as escapes.
+            is_label = shown(name) == ids[name] and "\\" not in name
+            label = "" if is_label else f" [label={_quoted([shown(name)])}]"
             yield f"    {_quoted([ids[name]])}{label};"
         yield "  }"
 
@@ -44,10 +44,10 @@ def _edges(forest: Forest, ids: dict[str, str]) -> Iterator[str]:
             style = _style(forest, frame)
             label = _quoted([*figures(frame), *alarms(frame)])
             yield f"  {_quoted([ids[frame.parent]])} -> {_quoted([ids[frame.name]])} [label={label}{style}];"
-        for parent, links in _by_parent(frame.other_edges).items():
-            told = [line for link in links[:_MOST] for line in edge_figures(link)]
+        for parent, edges in _by_parent(frame.other_edges).items():
+            lines = [line for edge in edges[:_MOST] for line in edge_figures(edge)]
             ends = f"{_quoted([ids[parent]])} -> {_quoted([ids[frame.name]])}"
-            yield f"  {ends} [label={_quoted(told)}, color=red, constraint=false];"
+            yield f"  {ends} [label={_quoted(lines)}, color=red, constraint=false];"
 
 
 def _style(forest: Forest, frame: Frame) -> str:
@@ -58,18 +58,18 @@ def _style(forest: Forest, frame: Frame) -> str:
     return ", style=dashed" if frame.static else ""
 
 
-def _by_parent(links: Iterable[EdgeFigures]) -> dict[str, list[EdgeFigures]]:
+def _by_parent(edges: Iterable[EdgeFigures]) -> dict[str, list[EdgeFigures]]:
     found: dict[str, list[EdgeFigures]] = {}
-    for link in links:
-        found.setdefault(link.parent, []).append(link)
+    for edge in edges:
+        found.setdefault(edge.parent, []).append(edge)
     return found
 
 
 def _id(number: int, name: str) -> str:
-    """The name itself, if it is one that can be read; else a number."""
+    """Return the name as identifier if it is short and printable; else a number."""
     plain = len(name) <= _LONGEST and name.isprintable() and not name.startswith("#")
     return name if plain else f"#{number}"
 
 
-def _quoted(told: list[str]) -> str:
-    return '"' + "\\n".join(line.replace("\\", "\\\\").replace('"', '\\"') for line in told) + '"'
+def _quoted(lines: list[str]) -> str:
+    return '"' + "\\n".join(line.replace("\\", "\\\\").replace('"', '\\"') for line in lines) + '"'

@@ -1,7 +1,6 @@
-"""A forest as boxes, lines and words on a sheet: roots on the left, each frame right of its parent, no two overlapping.
+"""A forest as boxes, lines and texts on a page: roots on the left, each frame to the right of its parent, no overlaps.
 
-Lengths are points of 1/96 inch, y goes down. Where words are written with another font than the one that is meant, they
-take more or less room: boxes have some to spare.
+Lengths are pixels of 1/96 inch, and y points down. Boxes have a margin, as the width of texts depends on the font.
 """
 
 from __future__ import annotations
@@ -16,10 +15,10 @@ if TYPE_CHECKING:
 
     from coframe.tree_drawing.forest import Forest, Frame
 
-__all__ = ["Box", "Line", "Picture", "Words", "draw"]
+__all__ = ["Box", "Drawing", "Label", "Line", "draw"]
 
 INK, FAINT, ALARM = "#1a1a1a", "#4a5560", "#b3261e"
-# Fill and border of a frame that is a root, moves, never changes, or is no longer told of.
+# The colours of the fill and the border by kind of frame.
 _COLOURS = {
     "root": ("#fff6da", "#9a6b00"),
     "moving": ("#e8f1fd", "#1d5fae"),
@@ -27,7 +26,7 @@ _COLOURS = {
     "stale": ("#fdeceb", ALARM),
 }
 _LINE = "#5c6873"
-_NAME, _SMALL, _TITLE = 14.0, 11.0, 20.0  # sizes of letters
+_NAME, _SMALL, _TITLE = 14.0, 11.0, 20.0  # font sizes
 _LEADING = 1.35
 _PAD = 9.0
 _BROAD = frozenset("mwMW@%\N{HORIZONTAL ELLIPSIS}")
@@ -35,7 +34,7 @@ _GAP, _COLUMN_GAP, _TREE_GAP, _MARGIN = 10.0, 44.0, 40.0, 24.0
 
 
 class Box(NamedTuple):
-    """A rectangle; `title` is its frame's whole name."""
+    """A rectangle; `title` is the full name of its frame."""
 
     x: float
     y: float
@@ -47,15 +46,15 @@ class Box(NamedTuple):
 
 
 class Line(NamedTuple):
-    """Straight from point to point."""
+    """Straight lines from point to point."""
 
     points: tuple[tuple[float, float], ...]
     colour: str
     dashed: bool = False
 
 
-class Words(NamedTuple):
-    """A line of text, `x` at its left, `y` on its base line."""
+class Label(NamedTuple):
+    """A line of text; `x` is its left end, `y` its baseline."""
 
     x: float
     y: float
@@ -65,16 +64,16 @@ class Words(NamedTuple):
     bold: bool = False
 
 
-class Picture(NamedTuple):
-    """What there is to draw, in this order."""
+class Drawing(NamedTuple):
+    """The shapes in the order in which they are drawn."""
 
     width: float
     height: float
-    shapes: list[Box | Line | Words]
+    shapes: list[Box | Line | Label]
 
 
 class _Block(NamedTuple):
-    """A frame's words, each line with its colour, and the size of its box."""
+    """The texts of a frame, each line with its colour, and the size of its box."""
 
     name: str
     lines: list[tuple[str, str]]
@@ -82,8 +81,8 @@ class _Block(NamedTuple):
     height: float
 
 
-class _Spot(NamedTuple):
-    """Where a box is."""
+class _Place(NamedTuple):
+    """The position and size of a box."""
 
     x: float
     y: float
@@ -99,51 +98,51 @@ class _Spot(NamedTuple):
         return self.y + self.height / 2
 
 
-def draw(forest: Forest, title: str, spell: Callable[[str], str] = str) -> Picture:
-    """The trees below each other, with a heading and a legend.
+def draw(forest: Forest, title: str, spell: Callable[[str], str] = str) -> Drawing:
+    """Return a drawing of the trees below each other, with a title and a legend.
 
     Args:
-        forest: What to draw.
-        title: Above it.
-        spell: Gives words the letters that the format has.
+        forest: The forest to draw.
+        title: The title above the trees.
+        spell: Replaces characters that the format does not support.
     """
     blocks = {name: _block(frame, spell) for name, frame in forest.frames.items()}
-    shapes: list[Box | Line | Words] = []
-    shapes.append(Words(_MARGIN, _MARGIN + _TITLE, spell(shown(title)), _TITLE, bold=True))
-    shapes.append(Words(_MARGIN, _MARGIN + _TITLE + 22.0, spell(summary(forest)), _NAME, FAINT))
+    shapes: list[Box | Line | Label] = []
+    shapes.append(Label(_MARGIN, _MARGIN + _TITLE, spell(shown(title)), _TITLE, bold=True))
+    shapes.append(Label(_MARGIN, _MARGIN + _TITLE + 22.0, spell(summary(forest)), _NAME, FAINT))
     shapes += _legend(_MARGIN + _TITLE + 38.0)
     top = _MARGIN + _TITLE + 76.0
-    spots: dict[str, _Spot] = {}
+    places: dict[str, _Place] = {}
     for number, tree in enumerate(forest.by_tree(), 1):
         if len(forest.trees) > 1:
             heading = spell(f"Tree {number} of {len(forest.trees)}: {shown(tree[0].name)}")
-            shapes.append(Words(_MARGIN, top, heading, _NAME, FAINT, bold=True))
+            shapes.append(Label(_MARGIN, top, heading, _NAME, FAINT, bold=True))
             top += 16.0
-        top = _place(tree, blocks, top, spots) + _TREE_GAP
-    shapes += _links(forest, spots)
-    shapes += _alarming_links(forest, spots)
+        top = _place(tree, blocks, top, places) + _TREE_GAP
+    shapes += _edges(forest, places)
+    shapes += _alarming_edges(forest, places)
     for name, frame in forest.frames.items():
-        shapes += _frame(frame, blocks[name], spots[name])
-    right = max((spot.right for spot in spots.values()), default=0.0)
-    written = max(words.x + _width(words.text, words.size, words.bold) for words in shapes if isinstance(words, Words))
-    return Picture(max(right, written) + _MARGIN, top - _TREE_GAP + _MARGIN, shapes)
+        shapes += _frame(frame, blocks[name], places[name])
+    right = max((place.right for place in places.values()), default=0.0)
+    written = max(label.x + _width(label.text, label.size, label.bold) for label in shapes if isinstance(label, Label))
+    return Drawing(max(right, written) + _MARGIN, top - _TREE_GAP + _MARGIN, shapes)
 
 
 def _block(frame: Frame, spell: Callable[[str], str]) -> _Block:
     name = spell(shown(frame.name))
-    told = [(spell(line), FAINT) for line in figures(frame)] + [(spell(line), ALARM) for line in alarms(frame)]
-    width = max([_width(name, _NAME, bold=True), *(_width(line, _SMALL) for line, _ in told)])
-    return _Block(name, told, width + 2 * _PAD, (_NAME + _SMALL * len(told)) * _LEADING + _PAD)
+    lines = [(spell(line), FAINT) for line in figures(frame)] + [(spell(line), ALARM) for line in alarms(frame)]
+    width = max([_width(name, _NAME, bold=True), *(_width(line, _SMALL) for line, _ in lines)])
+    return _Block(name, lines, width + 2 * _PAD, (_NAME + _SMALL * len(lines)) * _LEADING + _PAD)
 
 
 def _width(text: str, size: float, bold: bool = False) -> float:
-    """Roughly, of a font without serifs: a little more than most need."""
+    """Return the estimated width in a sans-serif font; most texts are narrower."""
     units = sum(2.0 if unicodedata.east_asian_width(c) in "WF" else 1.4 if c in _BROAD else 1.0 for c in text)
     return units * size * (0.62 if bold else 0.54)
 
 
 def _columns(tree: list[Frame], blocks: dict[str, _Block]) -> list[float]:
-    """Where the frames of each depth begin, by the widest one to the left of them."""
+    """Return the left end of the frames of each depth, by the widest frame to the left."""
     widest: dict[int, float] = {}
     for frame in tree:
         widest[frame.depth] = max(widest.get(frame.depth, 0.0), blocks[frame.name].width)
@@ -153,11 +152,11 @@ def _columns(tree: list[Frame], blocks: dict[str, _Block]) -> list[float]:
     return left
 
 
-def _place(tree: list[Frame], blocks: dict[str, _Block], top: float, spots: dict[str, _Spot]) -> float:
-    """Gives each frame of a tree its spot; where the tree ends below.
+def _place(tree: list[Frame], blocks: dict[str, _Block], top: float, places: dict[str, _Place]) -> float:
+    """Place the frames of a tree, and return its lower end.
 
-    A frame has the whole height of what is below it for itself, or its own if that is more, and stands in the middle of
-    its first and last child.
+    A frame has as much height as all its children, or its own height if that is larger, and is centred between its
+    first and last child.
     """
     columns = _columns(tree, blocks)
     heights: dict[str, float] = {}
@@ -172,58 +171,58 @@ def _place(tree: list[Frame], blocks: dict[str, _Block], top: float, spots: dict
     for frame in reversed(tree):
         middle = tops[frame.name] + heights[frame.name] / 2
         if frame.children:
-            middle = (spots[frame.children[0]].middle + spots[frame.children[-1]].middle) / 2
+            middle = (places[frame.children[0]].middle + places[frame.children[-1]].middle) / 2
         block = blocks[frame.name]
         lowest = tops[frame.name] + heights[frame.name] - block.height
         y = min(max(middle - block.height / 2, tops[frame.name]), lowest)
-        spots[frame.name] = _Spot(columns[frame.depth], y, block.width, block.height)
+        places[frame.name] = _Place(columns[frame.depth], y, block.width, block.height)
     return top + heights[tree[0].name]
 
 
 def _stack(frame: Frame, heights: dict[str, float]) -> float:
-    """The height of its children, one above the other."""
+    """Return the height of the children of a frame below each other."""
     return sum(heights[child] for child in frame.children) + _GAP * max(len(frame.children) - 1, 0)
 
 
-def _links(forest: Forest, spots: dict[str, _Spot]) -> Iterator[Line]:
+def _edges(forest: Forest, places: dict[str, _Place]) -> Iterator[Line]:
     for name, frame in forest.frames.items():
         if frame.children:
-            children, own = [spots[child] for child in frame.children], spots[name].middle
+            children, own = [places[child] for child in frame.children], places[name].middle
             left = children[0].x
             bend = left - _COLUMN_GAP / 2
-            yield Line(((spots[name].right, own), (bend, own)), _LINE)
+            yield Line(((places[name].right, own), (bend, own)), _LINE)
             yield Line(((bend, min(own, children[0].middle)), (bend, max(own, children[-1].middle))), _LINE)
             for child in children:
                 yield Line(((bend, child.middle), (left, child.middle)), _LINE)
 
 
-def _alarming_links(forest: Forest, spots: dict[str, _Spot]) -> Iterator[Line]:
-    """From second parents, and to where a loop closes."""
+def _alarming_edges(forest: Forest, places: dict[str, _Place]) -> Iterator[Line]:
+    """Yield the edges from other parents, and those that close a loop."""
     for name, frame in forest.frames.items():
-        others = dict.fromkeys(link.parent for link in frame.other_edges)
+        others = dict.fromkeys(edge.parent for edge in frame.other_edges)
         if name in forest.loops:
             others[frame.parent] = None
-        end = (spots[name].x, spots[name].y + spots[name].height - _PAD)
-        for other in (spots[parent] for parent in others):
+        end = (places[name].x, places[name].y + places[name].height - _PAD)
+        for other in (places[parent] for parent in others):
             yield Line(((other.right, other.y + other.height - _PAD), end), ALARM, dashed=True)
 
 
-def _frame(frame: Frame, block: _Block, spot: _Spot) -> Iterator[Box | Words]:
-    yield Box(*spot, *_COLOURS[frame.kind], title=frame.name)
-    base = spot.y + _PAD / 2 + _NAME
-    yield Words(spot.x + _PAD, base, block.name, _NAME, bold=True)
+def _frame(frame: Frame, block: _Block, place: _Place) -> Iterator[Box | Label]:
+    yield Box(*place, *_COLOURS[frame.kind], title=frame.name)
+    base = place.y + _PAD / 2 + _NAME
+    yield Label(place.x + _PAD, base, block.name, _NAME, bold=True)
     for number, (line, colour) in enumerate(block.lines, 1):
-        yield Words(spot.x + _PAD, base + number * _SMALL * _LEADING, line, _SMALL, colour)
+        yield Label(place.x + _PAD, base + number * _SMALL * _LEADING, line, _SMALL, colour)
 
 
-def _legend(top: float) -> Iterator[Box | Words]:
+def _legend(top: float) -> Iterator[Box | Label]:
     x = _MARGIN
     for kind, text in (
         ("root", "root"),
         ("moving", "moving"),
         ("static", "static"),
-        ("stale", "stale: moved, and is silent now"),
+        ("stale", "stale: no recent transform"),
     ):
         yield Box(x, top, 18.0, 12.0, *_COLOURS[kind])
-        yield Words(x + 24.0, top + 10.0, text, _SMALL, FAINT)
+        yield Label(x + 24.0, top + 10.0, text, _SMALL, FAINT)
         x += 44.0 + _width(text, _SMALL)

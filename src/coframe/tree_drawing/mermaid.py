@@ -1,4 +1,4 @@
-"""A forest as Mermaid's flow chart, which code hosts draw inside Markdown."""
+"""A forest as a flowchart of Mermaid, which code hosts draw inside Markdown."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ if TYPE_CHECKING:
 
     from coframe.tree_drawing.forest import Forest
 
-__all__ = ["MOST_LINKS", "as_markdown", "as_mermaid"]
+__all__ = ["MOST_EDGES", "as_markdown", "as_mermaid"]
 
-MOST_LINKS = 500
-"""Mermaid draws no more, unless the page that holds it says otherwise."""
+MOST_EDGES = 500
+"""The default limit of edges that Mermaid draws."""
 _STYLES = {
     "root": "fill:#fff6da,stroke:#9a6b00,color:#1a1a1a",
     "moving": "fill:#e8f1fd,stroke:#1d5fae,color:#1a1a1a",
@@ -25,12 +25,12 @@ _STYLES = {
 
 
 def as_markdown(forest: Forest, title: str) -> str:
-    """A page with the chart in a block of code."""
+    """Return a Markdown page with the flowchart in a code block."""
     return f"```mermaid\n{as_mermaid(forest, title)}```\n"
 
 
 def as_mermaid(forest: Forest, title: str) -> str:
-    """The chart alone."""
+    """Return the flowchart alone."""
     head = ["---", f"title: {json.dumps(f'{shown(title)}: {summary(forest)}')}", "---", "flowchart LR"]
     return "\n".join([*head, *_trees(forest), *_arrows(forest), *_classes(), ""])
 
@@ -46,12 +46,12 @@ def _trees(forest: Forest) -> Iterator[str]:
 
 
 def _arrows(forest: Forest) -> Iterator[str]:
-    """Broken ones from second parents, and to where a loop closes."""
+    """Yield the arrows; those from other parents and those that close a loop are dashed."""
     names = _ids(forest)
     for frame in forest.frames.values():
         if frame.parent:
             yield f"  {names[frame.parent]} {'-.->' if frame.name in forest.loops else '-->'} {names[frame.name]}"
-        for other in dict.fromkeys(link.parent for link in frame.other_edges):
+        for other in dict.fromkeys(edge.parent for edge in frame.other_edges):
             yield f"  {names[other]} -.-> {names[frame.name]}"
 
 
@@ -65,6 +65,6 @@ def _ids(forest: Forest) -> dict[str, str]:
 
 
 def _escaped(text: str) -> str:
-    """What is neither letter, digit nor harmless as Mermaid's code for it."""
-    text = text.replace("\\", "\N{REVERSE SOLIDUS OPERATOR}")  # Mermaid ends a line at \\n, however it is written
+    """Return a text in which special characters are replaced by the codes of Mermaid."""
+    text = text.replace("\\", "\N{REVERSE SOLIDUS OPERATOR}")  # Mermaid breaks lines at \\n, even if it is escaped
     return "".join(c if c.isalnum() or c in " _/.,:" else f"#{ord(c)};" for c in text)

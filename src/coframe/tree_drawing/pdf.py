@@ -1,4 +1,4 @@
-"""A picture as one page of PDF, with the fonts that every reader has: letters beyond theirs are written as escapes."""
+"""A drawing as one page of PDF in the standard fonts; characters that they lack are written as escapes."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from coframe.tree_drawing.layout import Box, Line, draw
 
 if TYPE_CHECKING:
     from coframe.tree_drawing.forest import Forest
-    from coframe.tree_drawing.layout import Words
+    from coframe.tree_drawing.layout import Label
 
 __all__ = ["as_pdf"]
 
-_POINT = 0.75  # points of 1/72 inch in one of the picture
-_ENCODING = "cp1252"  # PDF calls it WinAnsi
+_POINT = 0.75  # points of 1/72 inch per pixel of the drawing
+_ENCODING = "cp1252"  # the name of WinAnsiEncoding in Python
 _FONTS = {"F": "Helvetica", "B": "Helvetica-Bold"}
-_LONGEST = 14_400.0  # points: readers need not show larger pages
+_LONGEST = 14_400.0  # points; PDF readers may not support larger pages
 
 
 def as_pdf(forest: Forest, title: str) -> bytes:
-    """The file's bytes."""
-    picture = draw(forest, title, _spelled)
-    scale = min(_POINT, _LONGEST / max(picture.width, picture.height))
+    """Return the file as bytes."""
+    drawing = draw(forest, title, _spelled)
+    scale = min(_POINT, _LONGEST / max(drawing.width, drawing.height))
     page = pydyf.Stream(compress=True)
-    page.set_matrix(scale, 0, 0, -scale, 0, picture.height * scale)
+    page.set_matrix(scale, 0, 0, -scale, 0, drawing.height * scale)
     page.set_line_width(1)
-    for shape in picture.shapes:
+    for shape in drawing.shapes:
         _draw(page, shape)
     document = pydyf.PDF()
     document.info["Title"] = pydyf.String(shown(title))
@@ -41,7 +41,7 @@ def as_pdf(forest: Forest, title: str) -> bytes:
                 "Type": "/Page",
                 "Parent": document.pages.reference,
                 "Contents": page.reference,
-                "MediaBox": pydyf.Array([0, 0, picture.width * scale, picture.height * scale]),
+                "MediaBox": pydyf.Array([0, 0, drawing.width * scale, drawing.height * scale]),
                 "Resources": pydyf.Dictionary({"Font": fonts}),
             }
         )
@@ -57,7 +57,7 @@ def _font(base: str) -> pydyf.Dictionary:
     )
 
 
-def _draw(page: pydyf.Stream, shape: Box | Line | Words) -> None:
+def _draw(page: pydyf.Stream, shape: Box | Line | Label) -> None:
     if isinstance(shape, Box):
         page.set_color_rgb(*_rgb(shape.fill))
         page.set_color_rgb(*_rgb(shape.border), stroke=True)

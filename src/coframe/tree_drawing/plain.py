@@ -11,7 +11,7 @@ __all__ = ["as_data"]
 
 
 def as_data(forest: Forest) -> dict[str, Any]:
-    """What ``--json`` prints; docs/frames.md tells of its keys. All times are integer nanoseconds."""
+    """Return the data that ``--json`` prints, with the keys of docs/frames.md. All times are integer nanoseconds."""
     return {
         "live": forest.live,
         "start_ns": forest.start,

@@ -1,4 +1,4 @@
-"""A picture as SVG, which browsers, documents and code hosts show; nothing in it is loaded from elsewhere."""
+"""A drawing as SVG without external resources."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from coframe.tree_drawing.layout import Box, Line, draw
 
 if TYPE_CHECKING:
     from coframe.tree_drawing.forest import Forest
-    from coframe.tree_drawing.layout import Words
+    from coframe.tree_drawing.layout import Label
 
 __all__ = ["as_svg"]
 
@@ -17,19 +17,19 @@ _FONT = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif"
 
 
 def as_svg(forest: Forest, title: str) -> str:
-    """The file's text."""
-    picture = draw(forest, title)
-    size = f"{picture.width:.0f}", f"{picture.height:.0f}"
+    """Return the file as text."""
+    drawing = draw(forest, title)
+    size = f"{drawing.width:.0f}", f"{drawing.height:.0f}"
     head = (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{size[0]}" height="{size[1]}" '
         f'viewBox="0 0 {size[0]} {size[1]}" font-family="{_FONT}">\n'
         f"<title>{_text(title)}</title>\n"
         f'<rect width="100%" height="100%" fill="#ffffff"/>\n'
     )
-    return head + "\n".join(map(_shape, picture.shapes)) + "\n</svg>\n"
+    return head + "\n".join(map(_shape, drawing.shapes)) + "\n</svg>\n"
 
 
-def _shape(shape: Box | Line | Words) -> str:
+def _shape(shape: Box | Line | Label) -> str:
     if isinstance(shape, Box):
         title = f"<title>{_text(shape.title)}</title>" if shape.title else ""
         return (
@@ -48,5 +48,5 @@ def _shape(shape: Box | Line | Words) -> str:
 
 
 def _text(text: str) -> str:
-    """Without what XML cannot hold at all."""
+    """Return an escaped text without the characters that XML does not allow."""
     return escape("".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text), quote=False)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe.time import MILLISECOND
 from coframe.tree_drawing.labels import shown
 
 if TYPE_CHECKING:
@@ -15,20 +16,19 @@ if TYPE_CHECKING:
 __all__ = ["COLUMNS", "Row", "rows"]
 
 COLUMNS = ("frame", "publisher", "Hz", "jitter ms", "delay ms", "p99 ms", "age ms")
-_MS = 1e6
 _DEEPEST = 24
-"""Levels: what is below is drawn there, too, with its depth as a number."""
+"""The deepest indentation; frames below it have the same one, with their depth as a number."""
 
 
 class Row(NamedTuple):
-    """A line of the picture.
+    """A row of the table.
 
     Attributes:
-        branches: What leads to the name from its parent's row.
-        name: Of a frame; "" in further rows of the same one.
-        cells: What stands below the other :data:`COLUMNS`.
-        frame: Which frame it is about.
-        kind: As :attr:`Frame.kind`, or ``other``: it is told to be below another parent, too.
+        branches: The branches in front of the name.
+        name: The name of the frame; "" in further rows of the same frame.
+        cells: The texts of the other :data:`COLUMNS`.
+        frame: The frame of the row.
+        kind: As :attr:`Frame.kind`, or ``other`` for an edge from another parent.
     """
 
     branches: str
@@ -39,8 +39,8 @@ class Row(NamedTuple):
 
 
 def rows(forest: Forest) -> Iterator[Row]:
-    """Tree after tree, a row for each frame and for each further publisher of it."""
-    last: list[bool] = []  # of each level down to the frame: whether it is the last child
+    """Yield the rows of tree after tree: one for each frame, and one for each further publisher of its edge."""
+    last: list[bool] = []  # for each level down to the frame, whether it is the last child
     for frame in forest.frames.values():
         del last[max(frame.depth - 1, 0) :]
         if frame.depth:
@@ -51,17 +51,17 @@ def rows(forest: Forest) -> Iterator[Row]:
 
 def _rows(frame: Frame, last: list[bool]) -> Iterator[Row]:
     to_name, below = _branches(frame, last)
-    for number, link in enumerate(frame.edges or (None,)):
+    for number, edge in enumerate(frame.edges or (None,)):
         name = "" if number else shown(frame.name)
-        yield Row(below if number else to_name, name, _cells(link), frame.name, frame.kind)
+        yield Row(below if number else to_name, name, _cells(edge), frame.name, frame.kind)
     if frame.is_root and frame.parent:
         yield Row(f"{below}in a loop: below ", shown(frame.parent), ("",) * 6, frame.name, "other")
-    for link in frame.other_edges:
-        yield Row(f"{below}also below ", shown(link.parent), _cells(link), frame.name, "other")
+    for edge in frame.other_edges:
+        yield Row(f"{below}also below ", shown(edge.parent), _cells(edge), frame.name, "other")
 
 
 def _branches(frame: Frame, last: list[bool]) -> tuple[str, str]:
-    """What stands in front of a frame's name, and in front of its further rows."""
+    """Return the branches in front of the name of a frame, and in front of its further rows."""
     stem = "│ " if frame.children else "  "
     if not last:
         return "", stem
@@ -71,15 +71,15 @@ def _branches(frame: Frame, last: list[bool]) -> tuple[str, str]:
     return trunks + deep + ("└─ " if last[-1] else "├─ "), trunks + deep + ("   " if last[-1] else "│  ") + stem
 
 
-def _cells(link: EdgeFigures | None) -> tuple[str, ...]:
-    if link is None:
+def _cells(edge: EdgeFigures | None) -> tuple[str, ...]:
+    if edge is None:
         return ("", "root", *[""] * 4)
-    if link.static:
-        return (shown(link.publisher), "static", *[""] * 4)
-    times = (link.jitter, link.delay, link.delay_p99, link.age)
-    rate = "" if link.rate is None else f"{link.rate:.1f}"
+    if edge.static:
+        return (shown(edge.publisher), "static", *[""] * 4)
+    times = (edge.jitter, edge.delay, edge.delay_p99, edge.age)
+    rate = "" if edge.rate is None else f"{edge.rate:.1f}"
     return (
-        shown(link.publisher),
+        shown(edge.publisher),
         rate,
-        *("" if time is None else f"{round(time / _MS, 1) + 0.0:.1f}" for time in times),
+        *("" if time is None else f"{round(time / MILLISECOND, 1) + 0.0:.1f}" for time in times),
     )

@@ -51,19 +51,19 @@ def mismatch_reasons(writer: DiscoveredEndpoint, reader: DiscoveredEndpoint) -> 
 def mismatch_text(own: LocalEndpoint, peer: DiscoveredEndpoint, node: str | None, reason: str) -> str:
     """Return the warning for an endpoint of this process and one of `node` that do not match."""
     who = f"Node {node}" if node else "An unnamed node"
-    ours = "publisher" if own.is_writer else "subscription"
+    role = "publisher" if own.is_writer else "subscription"
     topic = names.any_ros_name(own.topic)
     own_type = names.ros_type(own.description.type)
     if reason == "type":
         their_verb, our_verb = ("expects", "publishes") if own.is_writer else ("publishes", "expects")
         return (
-            f"{who} {their_verb} {names.ros_type(peer.type)} on {topic}, but this {ours} {our_verb} {own_type}: "
+            f"{who} {their_verb} {names.ros_type(peer.type)} on {topic}, but this {role} {our_verb} {own_type}: "
             "no messages will arrive. Use the same message type, or another topic name."
         )
     if reason == "other":
         what = _OTHER_POLICIES.get(own.refused_policy, f"definition of {own_type}")
         return (
-            f"{who} on {topic} has a different {what} from this {ours}: no messages will arrive. "
+            f"{who} on {topic} has a different {what} from this {role}: no messages will arrive. "
             "Use the same message definitions and the same quality of service on both sides."
         )
     offered, requested, advice = _QOS[reason]

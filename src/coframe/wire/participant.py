@@ -483,9 +483,9 @@ def _create(make: Callable[[], Any], topic: str) -> Any:
 
 def _renew_locks() -> None:
     """Replace the locks in a forked child, where the threads that held them do not exist."""
-    Participant._instances_lock = threading.RLock()  # noqa: SLF001 - our own class
-    for participant in Participant._instances.values():  # noqa: SLF001 - our own class
-        participant._lock = threading.RLock()  # noqa: SLF001 - our own class
+    Participant._instances_lock = threading.RLock()  # noqa: SLF001 - this module's class
+    for participant in Participant._instances.values():  # noqa: SLF001 - this module's class
+        participant._lock = threading.RLock()  # noqa: SLF001 - this module's class
 
 
 if hasattr(os, "register_at_fork"):
@@ -495,7 +495,7 @@ if hasattr(os, "register_at_fork"):
 @atexit.register
 def _end_all() -> None:
     """Close all participants, because the DDS threads must stop before the interpreter exits."""
-    with Participant._instances_lock:  # noqa: SLF001 - our own class
-        for participant in list(Participant._instances.values()):  # noqa: SLF001 - our own class
-            if participant._process == os.getpid():  # noqa: SLF001 - our own class
-                participant._end()  # noqa: SLF001 - our own class
+    with Participant._instances_lock:  # noqa: SLF001 - this module's class
+        for participant in list(Participant._instances.values()):  # noqa: SLF001 - this module's class
+            if participant._process == os.getpid():  # noqa: SLF001 - this module's class
+                participant._end()  # noqa: SLF001 - this module's class

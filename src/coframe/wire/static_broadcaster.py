@@ -80,12 +80,14 @@ class SharedStaticPublisher:
             new = {transform.child_frame_id: (member, copy.deepcopy(transform)) for transform in transforms}
             if replace_all:
                 self._transforms = {
-                    child: (owner, known)
-                    for child, (owner, known) in self._transforms.items()
+                    child: (owner, transform)
+                    for child, (owner, transform) in self._transforms.items()
                     if owner is not member or child in new
                 }
             self._transforms |= new
-            message = find("tf2_msgs/msg/TFMessage")(transforms=[known for _, known in self._transforms.values()])
+            message = find("tf2_msgs/msg/TFMessage")(
+                transforms=[transform for _, transform in self._transforms.values()]
+            )
             self._publisher.write(serialize(message))
 
     def leave(self, member: StaticBroadcaster) -> None:

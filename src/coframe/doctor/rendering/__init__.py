@@ -1,1 +1,1 @@
-"""A report as text, as JSON and as SARIF: three modules that know nothing of each other."""
+"""Formats of reports: text, JSON and SARIF, in three independent modules."""

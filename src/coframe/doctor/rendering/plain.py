@@ -14,7 +14,7 @@ __all__ = ["as_data"]
 
 
 def as_data(report: Report) -> dict[str, Any]:
-    """What ``--json`` prints. All times are integer nanoseconds."""
+    """Return the data that ``--json`` prints. All times are integer nanoseconds."""
     seen = report.observation
     return {
         "healthy": report.healthy,

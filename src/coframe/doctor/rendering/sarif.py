@@ -1,4 +1,4 @@
-"""A report as SARIF 2.1.0, which code hosts show beside a change."""
+"""A report as SARIF 2.1.0, which code hosts show next to a change."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ _LEVELS = {Severity.NOTE: "note", Severity.WARNING: "warning", Severity.ERROR: "
 
 
 def as_sarif(reports: dict[str, Report], recording: Path | None) -> dict[str, Any]:
-    """One run with a result for every finding.
+    """Return one run with a result for every finding.
 
     Args:
-        reports: By namespace.
-        recording: What was looked at; None: the running system.
+        reports: The reports by namespace.
+        recording: The path of the examined recording; None for the running system.
     """
     rules = [
         {
@@ -73,5 +73,5 @@ def _result(finding: Finding, namespace: str, recording: Path | None) -> dict[st
 
 
 def _uri(path: Path) -> str:
-    """Of a relative path a relative one, which code hosts look for in the repository."""
+    """Return the URI of a path; a relative one for a relative path, which code hosts search in the repository."""
     return path.as_uri() if path.is_absolute() else quote(path.as_posix())

@@ -246,8 +246,8 @@ class FramesFeed(_Feed):
         self._sent = now
         scene = self._viewer.scene
         placed = scene.place(fixed, at, self._client.frame_timeout)
-        near = self._origin.bring_near(placed, scene.structure.places.get(fixed))
-        return encode_frames(scene.revision, self._time(at), self._origin.xyz, near, placed.states, entries)
+        local = self._origin.localize(placed, scene.structure.indices.get(fixed))
+        return encode_frames(scene.revision, self._time(at), self._origin.xyz, local, placed.states, entries)
 
     def _time(self, at: int) -> float:
         """Return the displayed time relative to the origin; NaN while there is no data."""

@@ -1,4 +1,4 @@
-"""What there is to draw of a buffer: its trees, how fresh each frame is, and where all frames are at a time."""
+"""What the page draws of a buffer: its trees, the liveness of each frame, and the poses of all frames at a time."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ import numpy as np
 from coframe import _core
 from coframe.analysis.liveness import LivenessTracker
 from coframe.analysis.tree import FrameTrees
+from coframe.time import SECOND
+from coframe.viewer.protocol.messages import FrameState
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,29 +20,25 @@ if TYPE_CHECKING:
 
     from coframe import Buffer, FrameInfo
 
-__all__ = ["FRESH", "GONE", "OTHER_TREE", "STALE", "LocalOrigin", "Placed", "Scene", "Structure"]
-
-FRESH, STALE, GONE, OTHER_TREE = 0, 1, 2, 3
-
-_NS = 1_000_000_000
+__all__ = ["LocalOrigin", "PlacedFrames", "Scene", "Structure"]
 
 
 class Structure(NamedTuple):
-    """How frames hang together.
+    """The trees of the frames.
 
     Attributes:
-        names: N frames, in the order of all else.
-        places: Where each one is in it.
-        parents: The index of each one's parent; -1 for roots.
-        static: Whether each is valid for all time; also True for roots.
-        components: The index of each one's tree.
-        roots: The frame at the top of each tree; where a tree is a loop, one of its frames.
-        order: Indices such that parents come before their children.
-        largest: The root of the tree with the most frames; "" where there is none.
+        names: The N frames, in the order of the other attributes.
+        indices: The index of each frame by its name.
+        parents: The index of each frame's parent; -1 for roots.
+        static: Whether each frame is static; also True for roots.
+        components: The index of each frame's tree.
+        roots: The root of each tree; if the tree is a loop, one of its frames.
+        order: Indices such that parents precede their children.
+        largest: The root of the tree with the most frames; "" if there are no frames.
     """
 
     names: list[str]
-    places: dict[str, int]
+    indices: dict[str, int]
     parents: list[int]
     static: list[bool]
     components: list[int]
@@ -49,24 +47,24 @@ class Structure(NamedTuple):
     largest: str
 
     def component_of(self, frame: str) -> int | None:
-        """Which tree a frame is in; None if nobody knows it."""
-        return self.components[self.places[frame]] if frame in self.places else None
+        """Return the index of a frame's tree; None if the frame does not exist."""
+        return self.components[self.indices[frame]] if frame in self.indices else None
 
 
-class Placed(NamedTuple):
-    """All frames at one time: poses (N, 7) float64 in the fixed frame, and states (N,) uint8."""
+class PlacedFrames(NamedTuple):
+    """All frames at one time: poses, (N, 7) float64, in the fixed frame, and `FrameState` values, (N,) uint8."""
 
     poses: NDArray[np.float64]
     states: NDArray[np.uint8]
 
 
 class Scene:
-    """A buffer as the tabs see it; used by one thread.
+    """The frames of a buffer; used by one thread.
 
     Args:
-        buffer: What is shown.
-        ages: Whether frames that are not heard of any more become stale and go, as it is with a live buffer.
-        clock: Returns the monotonic time in nanoseconds.
+        buffer: The buffer.
+        ages: Whether frames become stale when their publisher stops, as in a live buffer.
+        clock: Return the monotonic time in nanoseconds.
     """
 
     def __init__(self, buffer: Buffer, *, ages: bool, clock: Callable[[], int] = time.monotonic_ns) -> None:
@@ -77,55 +75,57 @@ class Scene:
         self.span: tuple[int, int] | None = None
         self.infos: list[FrameInfo] = []
         self._changes: int | None = None
-        self._links: list[tuple[str, str, bool]] = []
+        self._edges: list[tuple[str, str, bool]] = []
         self._liveness = LivenessTracker(buffer, clock)
         self._tables: dict[str, _core.PoseTable] = {}
 
     def refresh(self) -> None:
-        """Takes in what has changed; costs a look at each frame."""
+        """Follow changes of the buffer; the cost is proportional to the number of frames."""
         changes = self.buffer._changes
         if changes == self._changes:
             return
         self._changes = changes
         self.infos = self.buffer.frames()
-        self._note_structure()
+        self._update_structure()
         dynamic = [info for info in self.infos if info.samples and not info.static]
         self.span = (min(info.oldest for info in dynamic), max(info.newest for info in dynamic)) if dynamic else None
         self._liveness.update(self.infos)
 
     def ages_now(self) -> NDArray[np.float64]:
-        """For how many seconds each frame was not heard of, (N,); 0 for those that need not be."""
-        return self._liveness.silences() / _NS
+        """Return how many seconds ago each frame's last sample arrived, (N,); 0 for static frames."""
+        return self._liveness.silences() / SECOND
 
     def states_now(self, timeout: float) -> NDArray[np.uint8]:
-        """Whether each frame is fresh, stale or gone, (N,): as old as the oldest link up to its root."""
+        """Return the `FrameState` of each frame now, (N,): the worst state of all edges up to its root."""
         states = np.zeros(len(self.structure.names), np.uint8)
         # Most of the time no frame is stale, which costs one comparison.
         if self.ages and self._liveness.any_stale():
             stale = self._liveness.stale()
-            states[stale] = STALE
-            states[stale & (self.ages_now() > timeout)] = GONE
-            self._pass_on(states)
+            states[stale] = FrameState.STALE
+            states[stale & (self.ages_now() > timeout)] = FrameState.GONE
+            self._inherit(states)
         return states
 
-    def place(self, fixed: str, stamp: int, timeout: float) -> Placed:
-        """Where all frames are.
+    def place(self, fixed: str, stamp: int, timeout: float) -> PlacedFrames:
+        """Return the poses and states of all frames.
 
         Args:
-            fixed: The frame that they are told in; where it is not known, each is told in the root of its tree.
-            stamp: Nanoseconds; 0 is now: the latest of each.
-            timeout: So many seconds a frame is shown where it was last, as a stale one.
+            fixed: The frame in which the poses are expressed; frames that are not connected with it are expressed in
+                the root of their own tree.
+            stamp: The time in nanoseconds; 0 selects the latest pose of each frame.
+            timeout: How many seconds after its last sample a frame is shown at its last pose, as a stale frame.
         """
         count = len(self.structure.names)
         poses = np.empty((count, 7))
-        told = np.empty(count, np.uint8)
-        self._table_of(fixed).look_up(stamp, round(timeout * _NS), poses, told)
+        states = np.empty(count, np.uint8)
+        self._table_of(fixed).look_up(stamp, round(timeout * SECOND), poses, states)
         if stamp == 0 and self.ages and self._liveness.any_stale():
-            connected = told == FRESH
-            told[connected] = self.states_now(timeout)[connected]
-        return Placed(poses, told)
+            connected = states == FrameState.OK
+            states[connected] = self.states_now(timeout)[connected]
+        return PlacedFrames(poses, states)
 
-    def _pass_on(self, states: NDArray[np.uint8]) -> None:
+    def _inherit(self, states: NDArray[np.uint8]) -> None:
+        """Set each state to the worst one up to the frame's root."""
         parents = self.structure.parents
         worst = states.tolist()
         for frame in self.structure.order:
@@ -135,7 +135,7 @@ class Scene:
         states[:] = worst
 
     def _table_of(self, fixed: str) -> _core.PoseTable:
-        """All frames, seen from the fixed one; from the root of their tree where that is not connected with it."""
+        """Return a table that looks up all frames relative to the fixed frame or the root of their own tree."""
         table = self._tables.get(fixed)
         if table is None:
             structure = self.structure
@@ -146,10 +146,10 @@ class Scene:
             table = self._tables[fixed] = _core.PoseTable(self.buffer, fixed, structure.names, roots)
         return table
 
-    def _note_structure(self) -> None:
-        links = [(info.name, info.parent, info.static) for info in self.infos]
-        if links != self._links:
-            self._links = links
+    def _update_structure(self) -> None:
+        edges = [(info.name, info.parent, info.static) for info in self.infos]
+        if edges != self._edges:
+            self._edges = edges
             self.structure = _structure_of(self.infos)
             self.revision += 1
             self._tables.clear()
@@ -166,49 +166,59 @@ def _structure_of(infos: list[FrameInfo]) -> Structure:
 
 
 class LocalOrigin:
-    """What is subtracted from positions before they become float32, where metres far away would lose millimetres."""
+    """The point relative to which positions are sent as float32, which would lose millimetres far from the origin."""
 
-    # Multiples of it are exact in float32 as far as any map reaches: what lies at zero stays exact, too.
+    # Multiples of this step are exact in float32 within any map, so that positions of zero stay exact, too.
     STEP = 64.0
+    # Positions within this distance, in metres, are near.
     NEAR = 96.0
-    # How often, in seconds, a better one is looked for where some frames are far from each that there may be.
+    # Seconds between searches for a better origin while some frames are far from every possible one.
     PERIOD = 1.0
 
     def __init__(self) -> None:
         self.xyz: NDArray[np.float64] = np.zeros(3)
-        self._far = 0
+        self._far_count = 0
         self._due = 0.0
 
-    def bring_near(self, placed: Placed, fixed: int | None) -> NDArray[np.float32]:
-        """The poses as float32, (N, 7), relative to the origin: the same as before while most of them are near it."""
-        near = np.empty((len(placed.states), 7), np.float32)
-        far = self._near_into(placed, fixed, near)
-        if far > self._far or (far and time.monotonic() >= self._due):
+    def localize(self, placed: PlacedFrames, fixed: int | None) -> NDArray[np.float32]:
+        """Return the poses relative to the origin, (N, 7), and move the origin if too many frames are far from it.
+
+        Args:
+            placed: All frames.
+            fixed: The index of the fixed frame; None if it does not exist.
+        """
+        local = np.empty((len(placed.states), 7), np.float32)
+        far_count = self._localize_into(placed, fixed, local)
+        if far_count > self._far_count or (far_count and time.monotonic() >= self._due):
             self._due = time.monotonic() + self.PERIOD
             self.follow(placed, fixed)
-            far = self._near_into(placed, fixed, near)
-        self._far = far
-        return near
+            far_count = self._localize_into(placed, fixed, local)
+        self._far_count = far_count
+        return local
 
-    def follow(self, placed: Placed, fixed: int | None) -> NDArray[np.float64]:
-        """The origin for these poses: the same as before while most of them are near it."""
-        shown = placed.states <= STALE
+    def follow(self, placed: PlacedFrames, fixed: int | None) -> NDArray[np.float64]:
+        """Return an origin for these poses; it stays the same while most of them are near it."""
+        shown = placed.states <= FrameState.STALE
         if fixed is not None:
-            shown[fixed] = False  # it lies at zero, wherever the others are
+            shown[fixed] = False  # The fixed frame is always at zero.
         positions = placed.poses[shown, :3]
         if len(positions) and not (np.abs(positions - self.xyz) <= self.NEAR).all():
             self._move_to(positions[np.isfinite(positions).all(axis=1)])
         return self.xyz
 
-    def _near_into(self, placed: Placed, fixed: int | None, near: NDArray[np.float32]) -> int:
-        """How many are far from the origin."""
+    def _localize_into(self, placed: PlacedFrames, fixed: int | None, local: NDArray[np.float32]) -> int:
+        """Write the local poses and return how many are far from the origin."""
         index = -1 if fixed is None else fixed
-        return _core.poses_near(placed.poses, placed.states, self.xyz, index, self.NEAR, near)
+        return _core.poses_near(placed.poses, placed.states, self.xyz, index, self.NEAR, local)
 
     def _move_to(self, positions: NDArray[np.float64]) -> None:
-        """Stays, or goes to the fixed frame or to the middle: where it is near to the most."""
+        """Keep the origin, or move it to the fixed frame or the median position: whichever has most frames near it."""
         if not len(positions):
             return
-        middle = np.partition(positions, len(positions) // 2, axis=0)[len(positions) // 2]
-        places = (self.xyz, np.zeros(3), np.round(middle / self.STEP) * self.STEP)
-        self.xyz = max(places, key=lambda place: int((np.abs(positions - place) <= self.NEAR).all(axis=1).sum()))
+        median = np.partition(positions, len(positions) // 2, axis=0)[len(positions) // 2]
+        candidates = (self.xyz, np.zeros(3), np.round(median / self.STEP) * self.STEP)
+
+        def near_count(xyz: NDArray[np.float64]) -> int:
+            return int((np.abs(positions - xyz) <= self.NEAR).all(axis=1).sum())
+
+        self.xyz = max(candidates, key=near_count)

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from coframe.time import SECOND
-from coframe.viewer.protocol.messages import FrameStats
-from coframe.viewer.scene.scene import STALE
+from coframe.viewer.protocol.messages import FrameState, FrameStats
 
 if TYPE_CHECKING:
     from coframe.viewer.protocol.messages import FrameActivity
@@ -42,7 +41,7 @@ def frame_rows(scene: Scene, origin: int, timeout: float) -> list[FrameStats]:
                 publisher=info.authority or None,
                 samples=info.samples,
                 longest_gap=round(longest / SECOND, 6) if longest else None,
-                state=_STATES[state] if moves or state >= STALE else "static",
+                state=_STATES[state] if moves or state >= FrameState.STALE else "static",
             )
         )
     return rows
