@@ -136,7 +136,7 @@ def typescript(version: str) -> str:
     """Return the TypeScript module."""
     all_records = records()
     parts = [
-        f"// {NOTICE}\n\n",
+        f"// SPDX-License-Identifier: Apache-2.0\n// {NOTICE}\n\n",
         f'export const PROTOCOL_VERSION = "{version}";\n\n',
         PREAMBLE,
         *(

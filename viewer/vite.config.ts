@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import { createHash } from "node:crypto";
 import { readFileSync } from "node:fs";
 import type { Plugin } from "vite";
@@ -62,7 +63,8 @@ function replayPage(): Plugin {
 function preload(): Plugin {
   return {
     name: "preload",
-    transformIndexHtml: (html) => html.replace("</head>", `  <link rel="modulepreload" href="./assets/page.js" />\n  </head>`),
+    transformIndexHtml: (html) =>
+      html.replace("</head>", `  <link rel="modulepreload" href="./assets/page.js" />\n  </head>`),
   };
 }
 

@@ -1,15 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
 /**
  * What runs first, while the page itself is still being read: the server is asked for the frames, and the browser for
  * the canvas's context, which takes it as long.
  */
 
 import "./styles/index.css";
-import { drawingSize, opaqueContext } from "./context";
-import { byId } from "./dom";
-import { fatal } from "./fatal";
-import { ReplaySource, replayBlock } from "./replay";
-import { SocketSource, socketUrl } from "./socket";
-import type { Source } from "./source";
+import { drawingSize, opaqueContext } from "./scene/context";
+import { byId } from "./util/dom";
+import { fatal } from "./util/fatal";
+import { ReplaySource, replayBlock } from "./replay/source";
+import { SocketSource, socketUrl } from "./protocol/socket";
+import type { Source } from "./protocol/source";
 
 /** Which of the two it is is known when the page is built: neither holds what only the other needs. */
 function openSource(): Source {

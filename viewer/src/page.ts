@@ -1,26 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The page: what comes from the source goes to the model, and every part listens to that. */
 
-import { Bar } from "./bar";
+import { Bar } from "./panels/bar";
 import { Displays } from "./displays/manager";
-import { DisplaysPanel } from "./displays_panel";
-import { byId } from "./dom";
-import { ReplayExport, savePicture } from "./export";
-import { FindingsPanel, marksOf } from "./findings";
-import { Inspector } from "./inspector";
-import { JointsPanel } from "./joints";
-import { Forest, Model } from "./model";
-import { Overlay } from "./overlay";
-import { Panel } from "./panel";
+import { DisplaysPanel } from "./panels/displays";
+import { byId } from "./util/dom";
+import { ReplayExport, savePicture } from "./panels/export";
+import { FindingsPanel, marksOf } from "./panels/findings";
+import { Inspector } from "./panels/inspector";
+import { JointsPanel } from "./panels/joints";
+import { Forest, Model } from "./model/model";
+import { Overlay } from "./panels/overlay";
+import { Panel } from "./panels/side_panel";
 import { exposeProbe } from "./probe";
-import type { BinaryMessage, ServerMessage } from "./protocol";
-import { RvizPanel } from "./rviz_panel";
-import { Shortcuts } from "./shortcuts";
-import type { Source } from "./source";
-import { Theme } from "./theme";
-import { Timeline } from "./timeline";
-import { toast } from "./toast";
-import { TreePanel } from "./tree_panel";
-import { View } from "./view";
+import type { BinaryMessage, ServerMessage } from "./protocol/messages";
+import { RvizPanel } from "./panels/rviz";
+import { Shortcuts } from "./panels/shortcuts";
+import type { Source } from "./protocol/source";
+import { Theme } from "./util/theme";
+import { Timeline } from "./panels/timeline";
+import { toast } from "./util/toast";
+import { TreePanel } from "./panels/tree";
+import { View } from "./scene/view";
 
 const HIDDEN_PING_MS = 1000;
 

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 /** What tests, and the curious, can read of the page: `window.coframe`, told anew with each picture. */
 
 import * as THREE from "three";
 import type { Displays } from "./displays/manager";
-import type { Model } from "./model";
-import type { Vector } from "./protocol";
-import type { View } from "./view";
+import type { Model } from "./model/model";
+import type { Vector } from "./protocol/messages";
+import type { View } from "./scene/view";
 
 interface FrameProbe {
   /** In the fixed frame, in metres, as float64. */
@@ -65,7 +66,9 @@ export function exposeProbe(model: Model, view: View, displays: Displays): void 
     /** Where a point of the fixed frame is on the canvas, in pixels. */
     pixel(point: Vector): [number, number] {
       const { width, height, camera } = view.stage;
-      const place = new THREE.Vector3(...point).sub(new THREE.Vector3(...view.placement.origin)).project(camera.current);
+      const place = new THREE.Vector3(...point)
+        .sub(new THREE.Vector3(...view.placement.origin))
+        .project(camera.current);
       return [((place.x + 1) / 2) * width, ((1 - place.y) / 2) * height];
     },
     get connected() {

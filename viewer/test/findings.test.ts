@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { marksOf, verdict } from "../src/findings";
-import type { Finding, Findings } from "../src/protocol";
+import { marksOf, verdict } from "../src/panels/findings";
+import type { Finding, Findings } from "../src/protocol/messages";
 
 const finding = (change: Partial<Finding>): Finding => ({
   ...{ code: "TF013", severity: "note", title: "", subject: "", frames: [], text: "rare", why: "", fix: "" },

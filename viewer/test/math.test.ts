@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 import * as THREE from "three";
 import { describe, expect, it } from "vitest";
 import {
@@ -14,7 +15,7 @@ import {
   rpyDegrees,
   type Pose,
   type Quaternion,
-} from "../src/math";
+} from "../src/util/math";
 
 /** The same numbers at every run. */
 function* numbers(): Generator<number> {
@@ -78,12 +79,23 @@ describe("poses agree with three.js", () => {
     // 0.09, 0.04 and 0.01 along axes that are turned by a third of a turn about (1, 1, 1) and then by 30 degrees about z.
     const turn = multiply([0, 0, Math.sin(Math.PI / 12), Math.cos(Math.PI / 12)], [0.5, 0.5, 0.5, 0.5]);
     const wanted = [0.09, 0.04, 0.01];
-    const columns = ([[1, 0, 0], [0, 1, 0], [0, 0, 1]] as const).map((axis) => rotate(turn, [...axis]));
+    const columns = (
+      [
+        [1, 0, 0],
+        [0, 1, 0],
+        [0, 0, 1],
+      ] as const
+    ).map((axis) => rotate(turn, [...axis]));
     const entry = (i: number, j: number): number =>
       wanted.reduce((sum, value, k) => sum + value * (columns[k]?.[i] as number) * (columns[k]?.[j] as number), 0);
     const matrix = [0, 1, 2].flatMap((i) => [0, 1, 2].map((j) => entry(i, j)));
     const { variances, quaternion } = principalAxes(matrix);
-    expect([...variances].sort().reverse().map((value) => Math.round(value * 1e9) / 1e9)).toEqual(wanted);
+    expect(
+      [...variances]
+        .sort()
+        .reverse()
+        .map((value) => Math.round(value * 1e9) / 1e9),
+    ).toEqual(wanted);
     variances.forEach((variance, k) => {
       const axis = rotate(quaternion, [Number(k === 0), Number(k === 1), Number(k === 2)]);
       const image = [0, 1, 2].map((i) => [0, 1, 2].reduce((sum, j) => sum + entry(i, j) * (axis[j] as number), 0));

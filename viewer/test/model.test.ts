@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { Forest, Model } from "../src/model";
-import type { ClientMessage, Tick } from "../src/protocol";
-import { decodeCounts } from "../src/sparklines";
+import { Forest, Model } from "../src/model/model";
+import type { ClientMessage, Tick } from "../src/protocol/messages";
+import { decodeCounts } from "../src/panels/sparklines";
 import { cssColour, Options, rvizColour } from "../src/displays/options";
-import * as format from "../src/format";
+import * as format from "../src/util/format";
 
 const frame = (name: string, parent: number, component = 0) => ({ name, parent, static: false, component });
 
@@ -58,7 +59,9 @@ describe("the playhead", () => {
       model.setClock({ live: false, playing: false }, model.playhead + 1e9);
       model.take(tick(10e9)); // one that was on its way
     }
-    expect(sent.map((message) => message.type === "time" && message.mode === "at" && message.at)).toEqual([11e9, 12e9, 13e9]);
+    expect(sent.map((message) => message.type === "time" && message.mode === "at" && message.at)).toEqual([
+      11e9, 12e9, 13e9,
+    ]);
     expect([model.playhead, model.waiting]).toEqual([13e9, true]);
     model.take(tick(13e9));
     model.take(tick(14e9));

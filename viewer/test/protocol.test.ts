@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { decode, ProtocolError, slice } from "../src/protocol";
+import { decode, ProtocolError, slice } from "../src/protocol/messages";
 
-/** Writes the fields one after another, as the server does. */
+/** Packs the fields one after another, as the server does. */
 function pack(...fields: ["u32" | "f32" | "f64" | "u8", ...number[]][]): ArrayBuffer {
   const bytes: number[] = [];
   for (const [type, ...values] of fields)
@@ -19,7 +20,7 @@ function pack(...fields: ["u32" | "f32" | "f64" | "u8", ...number[]][]): ArrayBu
 
 const POSE = [1, 2, 3, 0, 0, 0, 1];
 
-describe("ticks", () => {
+describe("frame updates", () => {
   const tick = pack(
     ["u32", 1, 7],
     ["f64", 2 ** 52 + 1, 500000.125, 4e6, 0],
@@ -31,7 +32,7 @@ describe("ticks", () => {
     ["u32", 1],
   );
 
-  it("are read whole, with times and origins exact", () => {
+  it("are decoded, with exact times and origins", () => {
     const read = decode(tick);
     if (read.kind !== "tick") throw new Error(read.kind);
     expect(read.revision).toBe(7);
@@ -44,19 +45,19 @@ describe("ticks", () => {
     expect(read.displays[0]).toMatchObject({ id: 9, sequence: 4, ok: false });
   });
 
-  it("are refused at every length that is too short", () => {
+  it("are rejected at every length that is too short", () => {
     for (let length = 0; length < tick.byteLength; length++)
       expect(() => decode(tick.slice(0, length)), `of ${length} bytes`).toThrow(ProtocolError);
   });
 
-  it("that announce more frames than there are bytes take no memory", () => {
-    const lie = pack(["u32", 1, 1], ["f64", 0, 0, 0, 0], ["u32", 0xffffffff, 0xffffffff]);
-    expect(() => decode(lie)).toThrow(ProtocolError);
+  it("with more frames than bytes allocate no memory", () => {
+    const invalid = pack(["u32", 1, 1], ["f64", 0, 0, 0, 0], ["u32", 0xffffffff, 0xffffffff]);
+    expect(() => decode(invalid)).toThrow(ProtocolError);
   });
 });
 
 describe("display messages", () => {
-  it("clouds carry scalars or colours", () => {
+  it("contain the scalars or colours of clouds", () => {
     const head = (flags: number): Parameters<typeof pack> => [
       ["u32", 2, 5, 6, 2, flags],
       ["f64", 10],
@@ -72,19 +73,25 @@ describe("display messages", () => {
     expect(rgba.kind === "cloud" && Array.from(rgba.rgba ?? [])).toEqual([1, 2, 3, 4, 5, 6, 7, 8]);
   });
 
-  it("grids keep -1 for what is unknown", () => {
+  it("contain -1 for unknown cells of grids", () => {
     const grid = decode(pack(["u32", 3, 1, 1, 2, 1], ["f32", 0.5, ...POSE], ["u8", 255, 100]));
     expect(grid.kind === "grid" && Array.from(grid.cells)).toEqual([-1, 100]);
   });
 
-  it("shapes' rows stay inside the payload", () => {
+  it("refer to rows inside the payload of shapes only", () => {
     const payload = new Float32Array([0, 1, 2, 3, 4, 5]);
     expect(Array.from(slice(payload, [3, 1], 3))).toEqual([3, 4, 5]);
-    for (const pair of [[3, 2], [-1, 1], [0, -1], [NaN, 1], [0, 1e12]] as [number, number][])
+    for (const pair of [
+      [3, 2],
+      [-1, 1],
+      [0, -1],
+      [NaN, 1],
+      [0, 1e12],
+    ] as [number, number][])
       expect(slice(payload, pair, 3)).toHaveLength(0);
   });
 
-  it("of unknown kinds, or with a description that is no JSON, are refused", () => {
+  it("of unknown kinds, or with a description that is not JSON, are rejected", () => {
     expect(() => decode(pack(["u32", 77]))).toThrow("unknown kind 77");
     expect(() => decode(pack(["u32", 4, 1, 1, 4], ["u8", 123, 123, 123, 123]))).toThrow("JSON");
   });

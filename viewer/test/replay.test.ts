@@ -1,9 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import type { BinaryMessage, Relation, ReplayBlock, ReplayDisplayBlock, ServerMessage, Tick } from "../src/protocol";
-import { ReplaySource } from "../src/replay";
-import type { SourceEvents } from "../src/source";
+import type {
+  BinaryMessage,
+  Relation,
+  ReplayBlock,
+  ReplayDisplayBlock,
+  ServerMessage,
+  Tick,
+} from "../src/protocol/messages";
+import { ReplaySource } from "../src/replay/source";
+import type { SourceEvents } from "../src/protocol/source";
 
-const base64 = (array: ArrayBufferView): string => Buffer.from(array.buffer, array.byteOffset, array.byteLength).toString("base64");
+const base64 = (array: ArrayBufferView): string =>
+  Buffer.from(array.buffer, array.byteOffset, array.byteLength).toString("base64");
 const HALF = Math.SQRT1_2;
 
 /** map > base, which turns left by 90 degrees and goes from x = 1 to x = 2; beside them a tree of its own. */
@@ -126,7 +135,8 @@ describe("a replay", () => {
 
   it("shows each message while it was to be seen, and where it was", () => {
     const { source, tick, drawings } = play({ ...block, displays: [scans] });
-    const at = (ns: number): void => source.send({ type: "time", mode: "at", at: ns, playing: false, speed: 1, loop: null });
+    const at = (ns: number): void =>
+      source.send({ type: "time", mode: "at", at: ns, playing: false, speed: 1, loop: null });
     source.send({ type: "subscribe", id: 9, topic: "/scan", options: { color_by: "axis" } });
     expect(tick().displays).toEqual([]);
     at(1e9);
@@ -156,7 +166,9 @@ describe("a replay", () => {
     source.send({ type: "subscribe", id: 1, topic: "/scan", options: { color_by: "intensity" } });
     source.send({ type: "subscribe", id: 2, topic: "/other", options: {} });
     source.send({ type: "time", mode: "at", at: 1e9, playing: false, speed: 1, loop: null });
-    expect(told("display").map((message) => message.type === "display" && [message.id, message.text, message.note])).toEqual([
+    expect(
+      told("display").map((message) => message.type === "display" && [message.id, message.text, message.note]),
+    ).toEqual([
       [1, "no message before this time", "1 of 2 pictures"],
       [2, "This replay holds nothing of /other.", undefined],
       [1, "This replay holds no other colours than those that it was saved with.", "1 of 2 pictures"],

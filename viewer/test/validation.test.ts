@@ -1,5 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { checkServerMessage, ProtocolError } from "../src/validation";
+import { checkServerMessage, ProtocolError } from "../src/protocol/validation";
 
 const tree = {
   type: "tree",
@@ -24,10 +25,16 @@ describe("messages from the server", () => {
   it("are rejected with the name of the invalid field", () => {
     const { fixed: _, ...incomplete } = tree;
     expect(() => checkServerMessage(incomplete)).toThrow("tree.fixed must be a string");
-    expect(() => checkServerMessage({ ...tree, frames: [{ name: "map" }] })).toThrow("tree.frames[0].parent must be a number");
+    expect(() => checkServerMessage({ ...tree, frames: [{ name: "map" }] })).toThrow(
+      "tree.frames[0].parent must be a number",
+    );
     expect(() => checkServerMessage({ ...stats, span: [1] })).toThrow("stats.span must be an array of 2");
-    expect(() => checkServerMessage({ type: "display", id: 1, state: "fine", text: "" })).toThrow("ok or waiting or error");
-    expect(() => checkServerMessage({ type: "display", id: 1, state: "ok", text: "", note: 3 })).toThrow("display.note");
+    expect(() => checkServerMessage({ type: "display", id: 1, state: "fine", text: "" })).toThrow(
+      "ok or waiting or error",
+    );
+    expect(() => checkServerMessage({ type: "display", id: 1, state: "ok", text: "", note: 3 })).toThrow(
+      "display.note",
+    );
   });
 
   it("of unknown types, and other values, are rejected", () => {

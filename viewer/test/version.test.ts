@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { PROTOCOL_VERSION } from "../src/generated/protocol";
-import { compareVersion } from "../src/version";
+import { compareVersion } from "../src/protocol/version";
 
 function storage(): Pick<Storage, "getItem" | "setItem" | "removeItem"> {
   const values = new Map<string, string>();

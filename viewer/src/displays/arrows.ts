@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Arrows along x and small axes, many at once. */
 
 import * as THREE from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
-import { axesGeometry } from "../frames";
-import type { Palette } from "../theme";
+import { axesGeometry } from "../scene/frames";
+import type { Palette } from "../util/theme";
 import { axesMaterial } from "./axes";
 
 export interface ArrowShape {

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Axes: one frame, drawn large. */
 
 import * as THREE from "three";
-import { axesGeometry } from "../frames";
-import type { Placement } from "../placement";
-import type { Tick } from "../protocol";
+import { axesGeometry } from "../scene/frames";
+import type { Placement } from "../scene/frame_poses";
+import type { Tick } from "../protocol/messages";
 import { Display, release, toFrame } from "./display";
 import { FIXED_FRAME, type OptionSpec } from "./options";
 

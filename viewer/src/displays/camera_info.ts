@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Camera: what a camera sees, as a pyramid from its optical frame, from the intrinsics in CameraInfo. */
 
 import * as THREE from "three";
-import type { Shapes } from "../protocol";
+import type { Shapes } from "../protocol/messages";
 import { MessageDisplay } from "./display";
 import type { OptionSpec } from "./options";
 

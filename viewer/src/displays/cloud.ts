@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 /** LaserScan and PointCloud2: points, coloured on the graphics card. */
 
 import * as THREE from "three";
-import { displayed } from "../frames";
-import type { Cloud, DisplayOptions } from "../protocol";
+import { displayed } from "../scene/frames";
+import type { Cloud, DisplayOptions } from "../protocol/messages";
 import { MessageDisplay } from "./display";
 import type { OptionSpec } from "./options";
 
@@ -24,7 +25,12 @@ export function cloudSpecs(size: number, colourBy: (typeof TRANSFORMERS)[number]
     { key: "Axis", kind: "choice", value: "Z", choices: ["X", "Y", "Z"] },
     { key: "Use Fixed Frame", label: "Axis of the fixed frame", kind: "flag", value: true },
     { key: "Color", label: "Flat colour", kind: "colour", value: "#ff5a36" },
-    { key: "Style", kind: "choice", value: "Points", choices: ["Points", "Flat Squares", "Spheres", "Boxes", "Squares"] },
+    {
+      key: "Style",
+      kind: "choice",
+      value: "Points",
+      choices: ["Points", "Flat Squares", "Spheres", "Boxes", "Squares"],
+    },
     { key: "Size (Pixels)", kind: "number", value: 3, min: 1, max: 40, step: 1 },
     { key: "Size (m)", kind: "number", value: size, min: 0.001, max: 10, step: 0.01 },
     { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
@@ -48,8 +54,7 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(message.points, 3));
     const mode = this.mode(message);
-    if (mode === "rgb" && message.rgba)
-      geometry.setAttribute("rgba", new THREE.BufferAttribute(message.rgba, 4, true));
+    if (mode === "rgb" && message.rgba) geometry.setAttribute("rgba", new THREE.BufferAttribute(message.rgba, 4, true));
     if (mode === "scalar" && message.scalar)
       geometry.setAttribute("scalar", new THREE.BufferAttribute(message.scalar, 1));
     const points = new THREE.Points(geometry, this.material(mode, message));
@@ -60,7 +65,12 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
   protected override describe(message: Cloud, object: THREE.Object3D): Record<string, unknown> {
     const { range } = ((object as THREE.Points).material as THREE.ShaderMaterial).uniforms;
     const colours = (range as THREE.IUniform<THREE.Vector2>).value.toArray();
-    return { points: message.count, step: message.step, colours, first: Array.from(message.points.subarray(0, 3 * 1024)) };
+    return {
+      points: message.count,
+      step: message.step,
+      colours,
+      first: Array.from(message.points.subarray(0, 3 * 1024)),
+    };
   }
 
   private mode(message: Cloud): "rgb" | "scalar" | "axis" | "flat" {

@@ -1,20 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
 /** How uncertain a pose is: an ellipsoid of one standard deviation about it, and a cone that its x axis may lie in. */
 
 import * as THREE from "three";
-import { principalAxes } from "../math";
+import { principalAxes } from "../util/math";
 import type { OptionSpec, Options } from "./options";
 
 export const COVARIANCE_SPECS: readonly OptionSpec[] = [
   { key: "Covariance/Value", label: "Covariance", kind: "flag", value: false },
   { key: "Covariance/Position/Value", label: "Of the position", needs: "Covariance/Value", kind: "flag", value: true },
-  { key: "Covariance/Position/Scale", label: "Standard deviations", needs: "Covariance/Value", kind: "number", value: 1, min: 0, max: 1000, step: 1 },
-  { key: "Covariance/Position/Color", label: "Its colour", needs: "Covariance/Value", kind: "colour", value: "#cc33cc" },
-  { key: "Covariance/Position/Alpha", label: "Its alpha", needs: "Covariance/Value", kind: "number", value: 0.3, min: 0, max: 1, step: 0.05 },
-  { key: "Covariance/Orientation/Value", label: "Of the direction", needs: "Covariance/Value", kind: "flag", value: true },
-  { key: "Covariance/Orientation/Scale", label: "Standard deviations", needs: "Covariance/Value", kind: "number", value: 1, min: 0, max: 1000, step: 1 },
-  { key: "Covariance/Orientation/Offset", label: "Its length", needs: "Covariance/Value", kind: "number", value: 1, min: 0, max: 100, step: 0.1, unit: "m" },
-  { key: "Covariance/Orientation/Color", label: "Its colour", needs: "Covariance/Value", kind: "colour", value: "#ffff7f" },
-  { key: "Covariance/Orientation/Alpha", label: "Its alpha", needs: "Covariance/Value", kind: "number", value: 0.5, min: 0, max: 1, step: 0.05 },
+  {
+    key: "Covariance/Position/Scale",
+    label: "Standard deviations",
+    needs: "Covariance/Value",
+    kind: "number",
+    value: 1,
+    min: 0,
+    max: 1000,
+    step: 1,
+  },
+  {
+    key: "Covariance/Position/Color",
+    label: "Its colour",
+    needs: "Covariance/Value",
+    kind: "colour",
+    value: "#cc33cc",
+  },
+  {
+    key: "Covariance/Position/Alpha",
+    label: "Its alpha",
+    needs: "Covariance/Value",
+    kind: "number",
+    value: 0.3,
+    min: 0,
+    max: 1,
+    step: 0.05,
+  },
+  {
+    key: "Covariance/Orientation/Value",
+    label: "Of the direction",
+    needs: "Covariance/Value",
+    kind: "flag",
+    value: true,
+  },
+  {
+    key: "Covariance/Orientation/Scale",
+    label: "Standard deviations",
+    needs: "Covariance/Value",
+    kind: "number",
+    value: 1,
+    min: 0,
+    max: 1000,
+    step: 1,
+  },
+  {
+    key: "Covariance/Orientation/Offset",
+    label: "Its length",
+    needs: "Covariance/Value",
+    kind: "number",
+    value: 1,
+    min: 0,
+    max: 100,
+    step: 0.1,
+    unit: "m",
+  },
+  {
+    key: "Covariance/Orientation/Color",
+    label: "Its colour",
+    needs: "Covariance/Value",
+    kind: "colour",
+    value: "#ffff7f",
+  },
+  {
+    key: "Covariance/Orientation/Alpha",
+    label: "Its alpha",
+    needs: "Covariance/Value",
+    kind: "number",
+    value: 0.5,
+    min: 0,
+    max: 1,
+    step: 0.05,
+  },
 ];
 
 /** A quarter turn would be a disc, and beyond it a cone opens backwards. */
@@ -24,7 +89,11 @@ const WIDEST = 1.5;
  * @param pose x, y, z, qx, qy, qz, qw.
  * @param covariance 6 x 6, row after row: x, y, z along the message's axes, and turns about the pose's own.
  */
-export function covarianceShapes(pose: Float32Array, covariance: readonly (number | null)[], options: Options): THREE.Object3D {
+export function covarianceShapes(
+  pose: Float32Array,
+  covariance: readonly (number | null)[],
+  options: Options,
+): THREE.Object3D {
   const group = new THREE.Group();
   if (!options.flag("Covariance/Value") || covariance.length !== 36 || !pose.every(Number.isFinite)) return group;
   const at = (i: number, j: number): number => ((covariance[i * 6 + j] ?? NaN) + (covariance[j * 6 + i] ?? NaN)) / 2;

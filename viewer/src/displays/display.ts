@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 /** What all displays have: a place in the scene, options, and a word on how they are doing. */
 
 import * as THREE from "three";
-import type { Model } from "../model";
-import type { Placement } from "../placement";
-import type { DisplayMessage, DisplayPose, JsonObject, DisplayOptions, Tick } from "../protocol";
-import type { Palette } from "../theme";
+import type { Model } from "../model/model";
+import type { Placement } from "../scene/frame_poses";
+import type { DisplayMessage, DisplayPose, JsonObject, DisplayOptions, Tick } from "../protocol/messages";
+import type { Palette } from "../util/theme";
 import { Options, type OptionSpec } from "./options";
 
 export interface DisplayConfig {

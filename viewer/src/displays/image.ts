@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Image: what a camera sees, in a corner over the scene. */
 
 import * as THREE from "three";
-import { byId, h, setText, shorten } from "../dom";
-import type { Placement } from "../placement";
-import { ImageFormat, type DisplayMessage, type Image, type Tick } from "../protocol";
+import { byId, h, setText, shorten } from "../util/dom";
+import type { Placement } from "../scene/frame_poses";
+import { ImageFormat, type DisplayMessage, type Image, type Tick } from "../protocol/messages";
 import { MessageDisplay, type Context, type DisplayConfig } from "./display";
 import type { OptionSpec } from "./options";
 

@@ -1,12 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
 /** The list of displays: made from an .rviz file, from what was shown last time, or from what there is to see. */
 
 import * as THREE from "three";
-import { Meshes } from "../meshes";
-import type { DisplayMessage, DisplayStatus, Robot, RvizConfiguration, RvizDisplay, DisplayOptions, Topic } from "../protocol";
-import { remember, remembered } from "../storage";
-import type { Theme } from "../theme";
-import type { View } from "../view";
-import type { Model } from "../model";
+import { Meshes } from "../scene/meshes";
+import type {
+  DisplayMessage,
+  DisplayStatus,
+  Robot,
+  RvizConfiguration,
+  RvizDisplay,
+  DisplayOptions,
+  Topic,
+} from "../protocol/messages";
+import { remember, remembered } from "../util/storage";
+import type { Theme } from "../util/theme";
+import type { View } from "../scene/view";
+import type { Model } from "../model/model";
 import { MessageDisplay, type Context, type Display, type DisplayConfig } from "./display";
 import { KINDS, kindName } from "./registry";
 import { RobotDisplay } from "./robot";

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Map: an occupancy grid as a picture on the ground. */
 
 import * as THREE from "three";
-import type { Grid } from "../protocol";
+import type { Grid } from "../protocol/messages";
 import { MessageDisplay } from "./display";
 import type { OptionSpec } from "./options";
 

@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Marker and MarkerArray: whatever a program wants drawn. The numbers are visualization_msgs' own. */
 
 import * as THREE from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
-import { materialsOf, type Meshes } from "../meshes";
-import { slice, type DisplayMessage, type MarkerItem, type Shapes, type Vector } from "../protocol";
+import { materialsOf, type Meshes } from "../scene/meshes";
+import { slice, type DisplayMessage, type MarkerItem, type Shapes, type Vector } from "../protocol/messages";
 import { arrowGeometry } from "./arrows";
 import { MessageDisplay, type Context, type DisplayConfig } from "./display";
 import type { OptionSpec } from "./options";
@@ -302,7 +303,9 @@ function text(item: DrawableMarker): THREE.Object3D | null {
   lines.forEach((line, i) => context.fillText(line, canvas.width / 2, (i + 0.5) * TEXT_PX * 1.2));
   const texture = new THREE.CanvasTexture(canvas);
   texture.colorSpace = THREE.SRGBColorSpace;
-  const sprite = new THREE.Sprite(new THREE.SpriteMaterial({ map: texture, opacity: alphaOf(item), depthWrite: false }));
+  const sprite = new THREE.Sprite(
+    new THREE.SpriteMaterial({ map: texture, opacity: alphaOf(item), depthWrite: false }),
+  );
   const height = item.scale[2] * lines.length * 1.2;
   sprite.scale.set((height * canvas.width) / canvas.height, height, 1);
   return sprite;

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 /**
  * A display's options, under RViz's own names, so that a file's values are used as they stand and saved unharmed.
  * Those that stand inside of others have a path: "Covariance/Position/Alpha".
  */
 
-import type { Json, JsonObject } from "../protocol";
+import type { Json, JsonObject } from "../protocol/messages";
 
 /** `needs` names a flag without which it has no effect, and is not shown. */
 export type OptionSpec = { key: string; label?: string; needs?: string } & (

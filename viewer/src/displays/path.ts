@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Path: a line through poses, with axes or arrows at each if wanted. */
 
 import * as THREE from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { Line2 } from "three/examples/jsm/lines/Line2.js";
 import { LineGeometry } from "three/examples/jsm/lines/LineGeometry.js";
-import { slice, type Shapes } from "../protocol";
+import { slice, type Shapes } from "../protocol/messages";
 import { arrowGeometry, instances, poseAxes } from "./arrows";
 import { MessageDisplay } from "./display";
 import type { OptionSpec } from "./options";

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Pose, PoseArray and Odometry: arrows or axes, the newest bright and its trail behind it. */
 
 import * as THREE from "three";
-import { slice, type Shapes, type DisplayOptions } from "../protocol";
+import { slice, type Shapes, type DisplayOptions } from "../protocol/messages";
 import { arrowGeometry, instances, poseAxes } from "./arrows";
 import { COVARIANCE_SPECS, covarianceShapes } from "./covariance";
 import { MessageDisplay } from "./display";
@@ -39,7 +40,8 @@ export class PosesDisplay extends MessageDisplay<Shapes> {
     const count = Math.floor(poses.length / 7);
     if (count === 0) return group;
     const newest = poses.subarray((count - 1) * 7);
-    if (head.covariance && this.specs !== POSE_SPECS) group.add(covarianceShapes(newest, head.covariance, this.options));
+    if (head.covariance && this.specs !== POSE_SPECS)
+      group.add(covarianceShapes(newest, head.covariance, this.options));
     if (head.kind === "poses") {
       group.add(this.shape(poses, 1));
       return group;

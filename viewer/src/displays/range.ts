@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Range: the cone that an ultrasound or infrared sensor looks into, as far as it sees. */
 
 import * as THREE from "three";
-import type { Shapes } from "../protocol";
+import type { Shapes } from "../protocol/messages";
 import { MessageDisplay } from "./display";
 import type { OptionSpec } from "./options";
 

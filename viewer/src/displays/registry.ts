@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 /** Which displays there are, by RViz's names. */
 
-import type { Meshes } from "../meshes";
+import type { Meshes } from "../scene/meshes";
 import { Axes, AXES_SPECS } from "./axes";
 import { CameraDisplay, CAMERA_SPECS } from "./camera_info";
 import { CloudDisplay, cloudSpecs } from "./cloud";
 import type { Context, Display, DisplayConfig } from "./display";
-import { Ground, GROUND_SPECS } from "./ground";
+import { Ground, GROUND_SPECS } from "./grid";
 import { IMAGE_SPECS, ImageDisplay } from "./image";
 import { MapDisplay, MAP_SPECS } from "./map";
 import { MarkersDisplay, MARKER_SPECS } from "./markers";

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 /** RobotModel: a URDF's links, each where its frame is; where there is no such frame, where the joints put it. */
 
 import * as THREE from "three";
 import URDFLoader, { type URDFJoint, type URDFRobot } from "urdf-loader";
-import { dropEmptyTextures, hasPicture, materialsOf, NOTHING, type Meshes } from "../meshes";
-import type { Placement } from "../placement";
-import type { Robot, Tick } from "../protocol";
+import { dropEmptyTextures, hasPicture, materialsOf, NOTHING, type Meshes } from "../scene/meshes";
+import type { Placement } from "../scene/frame_poses";
+import type { Robot, Tick } from "../protocol/messages";
 import { Display, release, type Context, type DisplayConfig } from "./display";
 import type { OptionSpec } from "./options";
 
@@ -66,7 +67,15 @@ export class RobotDisplay extends Display {
       for (const { map } of materialsOf(part) as THREE.MeshPhongMaterial[]) textures += map && hasPicture(map) ? 1 : 0;
     });
     const visible = (this.model?.visible ?? false) && this.object.visible;
-    return { ...super.probe(), robot: this.robot?.name ?? null, meshes, textures, loading: this.loading, visible, links: this.linkPoses() };
+    return {
+      ...super.probe(),
+      robot: this.robot?.name ?? null,
+      meshes,
+      textures,
+      loading: this.loading,
+      visible,
+      links: this.linkPoses(),
+    };
   }
 
   /** In the scene: where each link is drawn. */
@@ -214,12 +223,7 @@ export class RobotDisplay extends Display {
   }
 }
 
-function matrixOf(
-  placement: Placement,
-  model: Context["model"],
-  prefix: string,
-  link: string,
-): THREE.Matrix4 | null {
+function matrixOf(placement: Placement, model: Context["model"], prefix: string, link: string): THREE.Matrix4 | null {
   const i = model.forest.index.get(prefix + link) ?? -1;
   if (i < 0 || i >= placement.count || !Number.isFinite(placement.positions[i * 3] as number)) return null;
   return new THREE.Matrix4().compose(

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /** TF: how frames themselves are drawn. */
 
 import { Display } from "./display";

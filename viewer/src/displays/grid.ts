@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Grid: lines on the ground, to see how large and how level things are. */
+
+import * as THREE from "three";
+import type { Placement } from "../scene/frame_poses";
+import type { Tick } from "../protocol/messages";
+import { Display, release, toFrame } from "./display";
+import { FIXED_FRAME, type OptionSpec } from "./options";
+
+export const GROUND_SPECS: readonly OptionSpec[] = [
+  { key: "Cell Size", kind: "number", value: 1, min: 0.001, max: 10000, step: 0.1, unit: "m" },
+  { key: "Plane Cell Count", kind: "number", value: 10, min: 1, max: 1000, step: 1 },
+  { key: "Plane", kind: "choice", value: "XY", choices: ["XY", "XZ", "YZ"] },
+  { key: "Color", kind: "colour", value: "" },
+  { key: "Alpha", kind: "number", value: 0.5, min: 0, max: 1, step: 0.05 },
+  { key: "Reference Frame", kind: "frame", value: FIXED_FRAME },
+];
+
+export class Ground extends Display {
+  private lines: THREE.LineSegments | null = null;
+
+  override restyle(): void {
+    if (this.lines) {
+      release(this.lines);
+      this.lines.removeFromParent();
+    }
+    const colour = this.options.colour("Color") || this.context.palette().grid;
+    const geometry = gridGeometry(
+      Math.round(this.options.number("Plane Cell Count")),
+      this.options.number("Cell Size"),
+    );
+    const alpha = this.config.options["Alpha"] === undefined ? 1 : this.options.number("Alpha");
+    const material = new THREE.LineBasicMaterial({ color: colour, transparent: alpha < 1, opacity: alpha });
+    this.lines = new THREE.LineSegments(geometry, material);
+    const plane = this.options.choice("Plane");
+    if (plane === "XZ") this.lines.rotation.x = Math.PI / 2;
+    if (plane === "YZ") this.lines.rotation.y = Math.PI / 2;
+    this.object.add(this.lines);
+  }
+
+  override place(placement: Placement, _tick: Tick): void {
+    if (!this.lines) this.restyle();
+    const frame = this.options.text("Reference Frame");
+    const shown = this.config.enabled;
+    if (frame !== FIXED_FRAME && frame !== "") {
+      const known = toFrame(this.object, frame, placement, this.context.model);
+      this.object.visible = shown && known;
+      return;
+    }
+    // Far from the world's origin the grid still lies on its lines, but below what is looked at.
+    const cell = this.options.number("Cell Size");
+    const [x, y, z] = placement.origin;
+    const lines = (value: number): number => -(value - Math.round(value / cell) * cell);
+    this.object.visible = shown;
+    this.object.quaternion.identity();
+    const far = Math.hypot(x, y) > 1000;
+    this.object.position.set(far ? lines(x) : -x, far ? lines(y) : -y, Math.abs(z) > 50 ? 0 : -z);
+  }
+}
+
+function gridGeometry(count: number, cell: number): THREE.BufferGeometry {
+  const half = (count * cell) / 2;
+  const points: number[] = [];
+  for (let k = 0; k <= count; k++) {
+    const at = k * cell - half;
+    points.push(-half, at, 0, half, at, 0, at, -half, 0, at, half, 0);
+  }
+  return new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+}

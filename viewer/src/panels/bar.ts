@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The bar at the top: what is shown, in which frame, and whether it is alive. */
+
+import { fillSelect, h, iconButton, select, setText } from "../util/dom";
+import * as format from "../util/format";
+import type { Model } from "../model/model";
+import { remember, remembered } from "../util/storage";
+
+export interface BarActions {
+  toggleTheme(): void;
+  toggleDistinct(): void;
+  help(): void;
+  togglePanel(): void;
+  savePicture(): void;
+  saveReplay(): void;
+}
+
+export class Bar {
+  private readonly title = h("span", { class: "source-title" });
+  private readonly state = h("span");
+  private readonly pill = h("span", { class: "pill", role: "status", data: { state: "off" } });
+  private readonly fixed: HTMLSelectElement;
+  private names = "";
+  /** The frame that was fixed at the last visit, until it is there again. */
+  private wanted = "";
+
+  constructor(
+    root: HTMLElement,
+    private readonly model: Model,
+    actions: BarActions,
+    live: boolean,
+  ) {
+    this.fixed = select("Fixed frame", [], "", (frame) => {
+      model.setFixed(frame);
+      remember("fixed", frame);
+    });
+    this.fixed.id = "fixed";
+    this.pill.append(h("span", { class: "dot" }), this.state);
+    root.append(
+      iconButton("menu", "Show or hide the panel (p)", actions.togglePanel),
+      h("div", { class: "brand" }, brandMark(), h("span", { class: "wide-only" }, "coframe")),
+      this.title,
+      h("span", { class: "spacer" }),
+      h("label", {}, h("span", {}, "Fixed frame"), this.fixed),
+      this.pill,
+      menu("download", "Export", [
+        ["Picture (PNG)", "The scene as it is now", actions.savePicture],
+        ...(live ? ([["Replay (HTML)", "One file that plays without a server", actions.saveReplay]] as const) : []),
+      ]),
+      menu("sun", "Appearance", [
+        ["Dark or light", "Key: d", actions.toggleTheme],
+        ["Colour-blind safe colours", "On or off", actions.toggleDistinct],
+      ]),
+      iconButton("help", "Keyboard shortcuts (?)", actions.help, "wide-only"),
+    );
+    model.on("hello", (hello) => {
+      setText(this.title, hello.title);
+      document.title = hello.title ? `${hello.title} – coframe` : "coframe";
+      const wanted = remembered("fixed", "");
+      if (wanted && hello.mode !== "replay") this.wanted = wanted;
+    });
+    model.on("tree", () => this.refill());
+    model.on("fixed", () => this.refill());
+    for (const event of ["connected", "clock", "hello"] as const) model.on(event, () => this.tellState());
+    this.tellState();
+    this.refill();
+  }
+
+  private refill(): void {
+    const { forest, fixed } = this.model;
+    if (this.wanted && this.wanted !== fixed && forest.index.has(this.wanted)) {
+      const frame = this.wanted;
+      this.wanted = "";
+      this.model.setFixed(frame);
+      return;
+    }
+    const names = format.sorted(forest.frames.map((frame) => frame.name));
+    if (fixed && !forest.index.has(fixed)) names.unshift(fixed);
+    const key = JSON.stringify(names);
+    if (key !== this.names) {
+      this.names = key;
+      const options = names.map((name) => [name, name] as const);
+      fillSelect(this.fixed, options.length ? options : [["", "no frames yet"]], fixed);
+    }
+    this.fixed.value = fixed;
+  }
+
+  private tellState(): void {
+    const { connected, hello, clock } = this.model;
+    const [state, text] =
+      hello?.mode === "replay"
+        ? ["paused", "Replay"]
+        : !connected
+          ? ["off", "Not connected"]
+          : clock.live
+            ? ["live", hello?.mode === "recording" ? "Recording" : "Live"]
+            : ["paused", clock.playing ? "Playing" : "Paused"];
+    this.pill.dataset.state = state;
+    setText(this.state, text);
+  }
+}
+
+function menu(
+  iconName: "download" | "sun",
+  label: string,
+  items: readonly (readonly [text: string, detail: string, act: () => void])[],
+): HTMLElement {
+  const list = h("div", { class: "menu-list", role: "menu", hidden: true });
+  const open = (shown: boolean): void => {
+    list.hidden = !shown;
+    button.setAttribute("aria-expanded", String(shown));
+  };
+  const button = iconButton(iconName, label, () => open(list.hidden === true));
+  button.setAttribute("aria-haspopup", "menu");
+  for (const [text, detail, act] of items)
+    list.append(
+      h(
+        "button",
+        {
+          type: "button",
+          role: "menuitem",
+          on: {
+            click: () => {
+              open(false);
+              act();
+            },
+          },
+        },
+        text,
+        h("small", {}, detail),
+      ),
+    );
+  const element = h("div", { class: "menu" }, button, list);
+  document.addEventListener("pointerdown", (event) => {
+    if (!element.contains(event.target as Node)) open(false);
+  });
+  element.addEventListener("keydown", (event) => {
+    if (event.key === "Escape") open(false);
+  });
+  return element;
+}
+
+function brandMark(): SVGElement {
+  const svg = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  svg.setAttribute("viewBox", "0 0 20 20");
+  svg.setAttribute("fill", "none");
+  svg.setAttribute("stroke-width", "2.6");
+  svg.setAttribute("stroke-linecap", "round");
+  svg.setAttribute("aria-hidden", "true");
+  for (const [d, colour] of [
+    ["M8 12V2.5", "#4a8df8"],
+    ["M8 12l9.5 3", "#e5484d"],
+    ["M8 12l-5 5.5", "#30a46c"],
+  ] as const) {
+    const path = document.createElementNS("http://www.w3.org/2000/svg", "path");
+    path.setAttribute("d", d);
+    path.setAttribute("stroke", colour);
+    svg.append(path);
+  }
+  return svg;
+}

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The list of displays with their options, and what can be added. */
+
+import type { Display } from "../displays/display";
+import type { Displays } from "../displays/manager";
+import { MarkersDisplay } from "../displays/markers";
+import { FIXED_FRAME, rvizColour, type OptionSpec } from "../displays/options";
+import { KINDS, kindName } from "../displays/registry";
+import { fillSelect, h, iconButton, setText, shorten } from "../util/dom";
+import type { Model } from "../model/model";
+
+interface Card {
+  display: Display;
+  element: HTMLElement;
+  head: HTMLElement;
+  box: HTMLInputElement;
+  detail: HTMLElement;
+  status: HTMLElement;
+  body: HTMLElement | null;
+}
+
+const BUILT_IN = ["TF", "Grid", "Axes", "RobotModel"];
+
+export class DisplaysPanel {
+  readonly element: HTMLElement;
+  private readonly cards = h("div");
+  private readonly adding: HTMLSelectElement;
+  private readonly known = new Map<number, Card>();
+
+  constructor(
+    private readonly model: Model,
+    private readonly displays: Displays,
+  ) {
+    this.adding = h("select", { aria: { label: "Add a display" }, on: { change: () => this.add() } });
+    this.element = h("section", { class: "tab-body" }, h("div", { class: "toolbar" }, this.adding), this.cards);
+    displays.onChange(() => this.render());
+    model.on("topics", () => this.fillAdding());
+    setInterval(() => this.tellAll(), 500);
+    this.fillAdding();
+  }
+
+  private fillAdding(): void {
+    const topics = this.model.topics.filter(({ display }) => KINDS[display]);
+    fillSelect(
+      this.adding,
+      [
+        ["", "Add a display…"],
+        ...BUILT_IN.map((name) => [JSON.stringify([name, null]), name] as const),
+        ...topics.map(({ topic, display }) => [JSON.stringify([display, topic]), `${display}: ${topic}`] as const),
+      ],
+      "",
+    );
+  }
+
+  private add(): void {
+    if (!this.adding.value) return;
+    const [kind, topic] = JSON.parse(this.adding.value) as [string, string | null];
+    this.adding.value = "";
+    this.displays.add(kind, topic);
+  }
+
+  private render(): void {
+    const current = new Set(this.displays.list.map((display) => display.id));
+    for (const [id, card] of this.known)
+      if (!current.has(id)) {
+        card.element.remove();
+        this.known.delete(id);
+      }
+    for (const display of this.displays.list) {
+      const card = this.known.get(display.id) ?? this.makeCard(display);
+      this.cards.append(card.element);
+    }
+    this.tellAll();
+  }
+
+  private makeCard(display: Display): Card {
+    const { config } = display;
+    const box = h("input", {
+      type: "checkbox",
+      aria: { label: `Show ${config.name}` },
+      on: { change: () => this.displays.setEnabled(display, box.checked) },
+    });
+    const detail = h("small");
+    const title = h(
+      "button",
+      {
+        type: "button",
+        class: "card-title",
+        aria: { expanded: "false" },
+        on: { click: () => this.unfold(card, title) },
+      },
+      h("span", {}, shorten(config.name, 60)),
+      h("span", {}, detail),
+    );
+    const head = h(
+      "div",
+      { class: "card-head" },
+      box,
+      title,
+      iconButton("close", `Remove ${config.name}`, () => this.displays.remove(display)),
+    );
+    const status = h("div", { class: "status", role: "status", hidden: true });
+    const element = h("div", { class: "card", data: { display: config.name } }, head, status);
+    const card: Card = { display, element, head, box, detail, status, body: null };
+    this.known.set(display.id, card);
+    return card;
+  }
+
+  private unfold(card: Card, title: HTMLElement): void {
+    if (card.body) {
+      card.body.remove();
+      card.body = null;
+    } else {
+      card.body = this.options(card.display);
+      card.element.append(card.body);
+    }
+    title.setAttribute("aria-expanded", String(card.body !== null));
+  }
+
+  private tellAll(): void {
+    for (const { display, box, head, detail, status } of this.known.values()) {
+      box.checked = display.config.enabled;
+      const { state, text } = display.config.enabled ? display.status : { state: "ok", text: "" };
+      if (head.dataset.state !== state) head.dataset.state = state;
+      const kind = kindName(display.config.class);
+      const what = display.config.topic ?? (kind === display.config.name ? "" : kind);
+      const short = state === "error" ? "Error" : state === "waiting" ? "Waiting" : "";
+      setText(detail, [short, what, display.note, display.leftOut].filter(Boolean).join(" · ") || kind);
+      status.hidden = state === "ok" || !text;
+      setText(status, text.slice(0, 1000));
+    }
+  }
+
+  private options(display: Display): HTMLElement {
+    const body = h("div", { class: "card-body" });
+    const kind = KINDS[kindName(display.config.class)];
+    if (kind?.topic) body.append(this.topicField(display));
+    const fields = display.specs.map((spec) => ({ spec, element: this.field(display, spec) }));
+    const hide = (): void => {
+      for (const { spec, element } of fields)
+        element.hidden = spec.needs !== undefined && !display.options.flag(spec.needs);
+    };
+    hide();
+    body.append(...fields.map(({ element }) => element));
+    body.addEventListener("change", hide);
+    if (display instanceof MarkersDisplay) body.append(this.namespaces(display));
+    if (!body.childElementCount) body.append(h("span", { class: "muted" }, "Nothing to set."));
+    return body;
+  }
+
+  /** A box each, as they become known. */
+  private namespaces(display: MarkersDisplay): HTMLElement {
+    const list = h("fieldset", { class: "namespaces" }, h("legend", {}, "Namespaces"));
+    const known = new Set<string>();
+    const render = (): void => {
+      for (const name of [...display.namespaces].sort()) {
+        if (known.has(name)) continue;
+        known.add(name);
+        const box = h("input", { type: "checkbox" });
+        box.checked = display.isShown(name);
+        box.addEventListener("change", () => {
+          display.show(name, box.checked);
+          this.displays.optionChanged(display);
+        });
+        list.append(h("label", {}, box, h("span", {}, shorten(name, 60) || "(no name)")));
+      }
+      list.hidden = known.size === 0;
+    };
+    render();
+    display.onNamespace = render;
+    return list;
+  }
+
+  private topicField(display: Display): HTMLElement {
+    const kind = kindName(display.config.class);
+    const fitting = this.model.topics.filter((topic) => topic.display === kind).map(({ topic }) => topic);
+    const current = display.config.topic ?? "";
+    const names = [...new Set([current, ...fitting])];
+    const element = h("select", { aria: { label: "Topic" } });
+    fillSelect(
+      element,
+      names.map((name) => [name, name || "Choose a topic…"] as const),
+      current,
+    );
+    element.addEventListener("change", () => {
+      this.displays.setEnabled(display, false);
+      display.config.topic = element.value || null;
+      this.displays.setEnabled(display, true);
+    });
+    return field("Topic", element);
+  }
+
+  private field(display: Display, spec: OptionSpec): HTMLElement {
+    const label = spec.label ?? spec.key;
+    const change = (value: string | number | boolean): void => {
+      display.options.set(spec.key, value);
+      this.displays.optionChanged(display);
+    };
+    const { options } = display;
+    switch (spec.kind) {
+      case "flag": {
+        const box = h("input", { type: "checkbox", aria: { label } });
+        box.checked = options.flag(spec.key);
+        box.addEventListener("change", () => change(box.checked));
+        return field(label, box);
+      }
+      case "number": {
+        const input = h("input", {
+          type: "number",
+          aria: { label },
+          step: String(spec.step ?? 0.1),
+          ...(spec.min === undefined ? {} : { min: String(spec.min) }),
+          ...(spec.max === undefined ? {} : { max: String(spec.max) }),
+        });
+        input.value = String(options.number(spec.key));
+        input.addEventListener("change", () => {
+          if (Number.isFinite(input.valueAsNumber)) change(input.valueAsNumber);
+        });
+        return field(spec.unit ? `${label} (${spec.unit})` : label, input);
+      }
+      case "colour": {
+        const input = h("input", { type: "color", aria: { label } });
+        input.value = options.colour(spec.key) || "#808890";
+        input.addEventListener("input", () => change(rvizColour(input.value)));
+        return field(label, input);
+      }
+      case "choice": {
+        const input = h("select", { aria: { label } });
+        fillSelect(
+          input,
+          spec.choices.map((choice) => [choice, choice] as const),
+          options.choice(spec.key),
+        );
+        input.addEventListener("change", () => change(input.value));
+        return field(label, input);
+      }
+      case "frame": {
+        const input = h("input", { type: "text", aria: { label }, placeholder: spec.value || FIXED_FRAME });
+        input.value = options.text(spec.key);
+        input.addEventListener("change", () => change(input.value.trim() || spec.value));
+        return field(label, input);
+      }
+    }
+  }
+}
+
+function field(label: string, control: HTMLElement): HTMLElement {
+  return h("label", { class: "field" }, h("span", {}, label), control);
+}

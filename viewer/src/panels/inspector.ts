@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+/** One frame seen from another: every way of writing the pose, the chain between the two, and why there is none. */
+
+import { copyText, fillSelect, h, iconButton, setText, shorten } from "../util/dom";
+import * as format from "../util/format";
+import type { Model } from "../model/model";
+import type { Relation } from "../protocol/messages";
+import { toast } from "../util/toast";
+import type { View } from "../scene/view";
+
+const ASK_MS = 200;
+
+export class Inspector {
+  private readonly title = h("h2");
+  private readonly reference = h("select", { aria: { label: "Relative to" } });
+  private readonly distance = h("div", { class: "big numbers", id: "distance" });
+  private readonly age = h("span", { class: "muted numbers" });
+  private readonly results = h("div");
+  private readonly fault = h("div", { class: "fault", role: "alert" });
+  private readonly faultText = h("div");
+  private readonly faultHint = h("p");
+  private readonly chain = h("ol", { class: "chain", aria: { label: "Chain of frames" } });
+  private readonly blocks: Record<"xyz" | "quaternion" | "rpy" | "matrix", HTMLElement[]>;
+  private readonly command = h("pre", { class: "command" });
+  private relation: Relation | null = null;
+  private asked = 0;
+  private waiting = false;
+  private requestId = 0;
+  private chainText = "";
+  private names = "";
+
+  constructor(
+    private readonly root: HTMLElement,
+    private readonly model: Model,
+    view: View,
+  ) {
+    this.reference.addEventListener("change", () =>
+      this.model.select(model.selection.frame, this.reference.value || null),
+    );
+    this.fault.append(this.faultText, this.faultHint);
+    this.blocks = {
+      xyz: this.block("Translation, m", ["x", "y", "z"], "", (r) => r.translation),
+      quaternion: this.block("Quaternion", ["x", "y", "z", "w"], "", (r) => r.quaternion),
+      rpy: this.block("Roll, pitch, yaw, degrees", ["r", "p", "y"], "", (r) => r.rpy_deg),
+      matrix: this.block("Matrix", [], "matrix", (r) => r.matrix),
+    };
+    this.results.append(
+      h(
+        "div",
+        { class: "block" },
+        this.head("Command", () => this.relation?.static_command ?? ""),
+        this.command,
+      ),
+    );
+    root.append(
+      h(
+        "div",
+        { class: "inspector-head" },
+        this.title,
+        iconButton("target", "Follow with the camera (f)", () =>
+          view.setFollowed(view.followed === model.selection.frame ? null : model.selection.frame),
+        ),
+        iconButton("close", "Close (Esc)", () => model.select(null)),
+      ),
+      h("label", { class: "field" }, h("span", {}, "Relative to"), this.reference),
+      h("div", { class: "field" }, h("span", {}, "Distance"), this.distance),
+      h("div", { class: "field" }, h("span", {}, "Stamp"), this.age),
+      this.fault,
+      h("div", { class: "block" }, h("div", { class: "block-head" }, "Chain"), this.chain),
+      this.results,
+      h(
+        "div",
+        { class: "block buttons" },
+        h("button", { type: "button", class: "small", on: { click: () => this.fixHere() } }, "Use as fixed frame"),
+        h("button", { type: "button", class: "small", on: { click: () => this.swap() } }, "Swap the two"),
+      ),
+    );
+    model.on("selection", () => this.open());
+    model.on("tree", () => this.fillReference());
+    model.on("fixed", () => this.ask(true));
+    model.on("relation", (relation) => this.receive(relation));
+    model.on("connected", () => (this.waiting = false));
+    view.onDrawn((tick) => {
+      if (tick) this.ask(false);
+    });
+  }
+
+  private get target(): string {
+    return this.model.selection.reference ?? this.model.fixed;
+  }
+
+  private open(): void {
+    const { frame } = this.model.selection;
+    this.root.hidden = frame === null;
+    if (frame === null) return;
+    setText(this.title, shorten(frame, 100));
+    this.title.title = frame.slice(0, 300);
+    this.fillReference();
+    this.ask(true);
+  }
+
+  private fillReference(): void {
+    const { forest, selection } = this.model;
+    const names = format.sorted(forest.frames.map((frame) => frame.name));
+    const key = JSON.stringify(names);
+    if (key !== this.names) {
+      this.names = key;
+      fillSelect(this.reference, [["", "the fixed frame"], ...names.map((name) => [name, name] as const)], "");
+    }
+    this.reference.value = selection.reference ?? "";
+  }
+
+  /** At most one question is under way, so that a slow server is not asked faster than it answers. */
+  private ask(now: boolean): void {
+    const { frame } = this.model.selection;
+    const time = performance.now();
+    if (frame === null || (!now && (this.waiting ? time - this.asked < 2000 : time - this.asked < ASK_MS))) return;
+    this.asked = time;
+    this.waiting = true;
+    this.model.send({ type: "relate", id: ++this.requestId, target: this.target, source: frame });
+  }
+
+  private receive(relation: Relation): void {
+    if (relation.id === this.requestId) this.waiting = false;
+    if (relation.source !== this.model.selection.frame || relation.target !== this.target) return;
+    this.relation = relation;
+    const t = relation.translation;
+    setText(this.distance, t ? format.metres(Math.hypot(...t)) : "–");
+    setText(this.age, relation.stamp === null ? "static" : format.stamp(this.model.origin, relation.stamp));
+    this.fault.hidden = relation.ok;
+    setText(this.faultText, relation.ok ? "" : (relation.error ?? "There is no transform."));
+    setText(this.faultHint, relation.hint ?? "");
+    this.results.hidden = !relation.ok;
+    this.fill("xyz", t, 4);
+    this.fill("quaternion", relation.quaternion, 4);
+    this.fill("rpy", relation.rpy_deg, 2);
+    this.fill("matrix", relation.matrix, 3);
+    setText(this.command, relation.static_command ?? "");
+    this.showChain(relation);
+  }
+
+  private fill(name: keyof Inspector["blocks"], values: number[] | null, digits: number): void {
+    this.blocks[name].forEach((cell, i) => setText(cell, values ? format.fixed(values[i] ?? NaN, digits) : "–"));
+  }
+
+  private showChain(relation: Relation): void {
+    const text = JSON.stringify([relation.chain, relation.broken_at]);
+    if (text === this.chainText) return;
+    this.chainText = text;
+    this.chain.replaceChildren(
+      ...relation.chain.slice(0, 500).map((name) => {
+        const broken = name === relation.broken_at;
+        const link = h(
+          "button",
+          { type: "button", title: name.slice(0, 300), on: { click: () => this.model.select(name) } },
+          shorten(name, 60),
+        );
+        return h("li", { class: broken ? "broken" : "" }, link, broken ? " – broken here" : null);
+      }),
+    );
+  }
+
+  private block(
+    title: string,
+    labels: string[],
+    className: string,
+    values: (relation: Relation) => number[] | null,
+  ): HTMLElement[] {
+    const cells = Array.from({ length: className === "matrix" ? 16 : labels.length }, () => h("span"));
+    const row = h("div", { class: `values ${className}` });
+    cells.forEach((cell, i) => {
+      const value = h("b");
+      value.style.fontWeight = "inherit";
+      if (labels[i]) cell.append(h("i", {}, labels[i]));
+      cell.append(value);
+      row.append(cell);
+    });
+    const copied = (): string => {
+      const numbers = (this.relation && values(this.relation)) ?? [];
+      return numbers.length === 16
+        ? [0, 4, 8, 12]
+            .map((at) =>
+              numbers
+                .slice(at, at + 4)
+                .map(format.plain)
+                .join(" "),
+            )
+            .join("\n")
+        : numbers.map(format.plain).join(" ");
+    };
+    this.results.append(h("div", { class: "block" }, this.head(title, copied), row));
+    return cells.map((cell) => cell.lastElementChild as HTMLElement);
+  }
+
+  private head(title: string, text: () => string): HTMLElement {
+    const button = iconButton("copy", `Copy: ${title}`, () => {
+      copyText(text()).then(
+        (ok) => toast(ok ? `Copied: ${title.toLowerCase()}` : "The browser does not let this page copy.", null, "info"),
+        () => {},
+      );
+    });
+    return h("div", { class: "block-head" }, h("span", {}, title), button);
+  }
+
+  private fixHere(): void {
+    if (this.model.selection.frame) this.model.setFixed(this.model.selection.frame);
+  }
+
+  private swap(): void {
+    const { frame } = this.model.selection;
+    if (frame) this.model.select(this.target, frame);
+  }
+}

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Sliders for a robot's movable joints: to try poses, and to publish them if asked to. */
+
+import { RobotDisplay } from "../displays/robot";
+import type { Displays } from "../displays/manager";
+import { h, shorten } from "../util/dom";
+import type { Model } from "../model/model";
+import type { Robot, RobotJoint } from "../protocol/messages";
+
+const SEND_MS = 50;
+const DEGREES = 180 / Math.PI;
+
+export class JointsPanel {
+  readonly element: HTMLElement;
+  private readonly body = h("div");
+  private readonly positions = new Map<string | number, Record<string, number>>();
+  private readonly publishing = new Set<string | number>();
+  private readonly timers = new Map<string | number, number>();
+  private shown = "";
+
+  constructor(
+    private readonly model: Model,
+    private readonly displays: Displays,
+  ) {
+    this.element = h("section", { class: "tab-body" }, this.body);
+    displays.onChange(() => this.render());
+    model.on("hello", () => this.render());
+    this.render();
+  }
+
+  private render(): void {
+    const robots = this.displays.robots.filter((display) => display.robot);
+    const key = JSON.stringify(
+      robots.map(({ id, robot }) => [id, robot?.id, robot?.joints.map((joint) => joint.name)]),
+    );
+    if (key === this.shown) return;
+    this.shown = key;
+    if (robots.length === 0) {
+      this.body.replaceChildren(
+        h(
+          "div",
+          { class: "empty" },
+          h("strong", {}, "No robot yet"),
+          h("p", {}, "A robot comes from the topic /robot_description, or from a file:"),
+          h("code", {}, "coframe view --robot my_robot.urdf"),
+        ),
+      );
+      return;
+    }
+    this.body.replaceChildren(...robots.map((display) => this.section(display, display.robot as Robot)));
+  }
+
+  private section(display: RobotDisplay, robot: Robot): HTMLElement {
+    const movable = robot.joints.filter(isMovable);
+    const positions =
+      this.positions.get(robot.id) ?? Object.fromEntries(movable.map((joint) => [joint.name, joint.value]));
+    this.positions.set(robot.id, positions);
+    const rows = movable.map((joint) => this.row(display, robot, joint, positions));
+    const publish = h("input", { type: "checkbox", disabled: !this.model.hello?.can_publish });
+    publish.addEventListener("change", () => {
+      if (publish.checked) this.publishing.add(robot.id);
+      else this.publishing.delete(robot.id);
+      this.send(display, robot);
+    });
+    const set = (value: (joint: RobotJoint) => number): void => {
+      movable.forEach((joint, i) => rows[i]?.set(value(joint)));
+      this.send(display, robot);
+    };
+    return h(
+      "div",
+      { class: "section" },
+      h("h3", {}, shorten(robot.name, 60)),
+      h("p", {}, `${movable.length} movable joints · ${shorten(robot.source, 80)}`),
+      h(
+        "label",
+        { class: "check" },
+        publish,
+        h("span", {}, this.model.hello?.can_publish ? "Publish on /joint_states" : "Publishing needs a live graph"),
+      ),
+      h(
+        "div",
+        { class: "buttons" },
+        h("button", { type: "button", class: "small", on: { click: () => set(neutral) } }, "Centre"),
+        h("button", { type: "button", class: "small", on: { click: () => set(random) } }, "Random"),
+        h("button", { type: "button", class: "small", on: { click: () => this.release(display, robot) } }, "As on /tf"),
+      ),
+      ...rows.map((row) => row.element),
+    );
+  }
+
+  private row(
+    display: RobotDisplay,
+    robot: Robot,
+    joint: RobotJoint,
+    positions: Record<string, number>,
+  ): { element: HTMLElement; set(value: number): void } {
+    const angular = joint.type !== "prismatic";
+    const [lower, upper] = limits(joint);
+    const range = h("input", { type: "range", aria: { label: joint.name.slice(0, 100) }, step: "any" });
+    Object.assign(range, { min: String(lower), max: String(upper) });
+    const number = h("input", {
+      type: "number",
+      step: angular ? "1" : "0.001",
+      aria: { label: `${joint.name.slice(0, 100)}, ${angular ? "degrees" : "metres"}` },
+    });
+    const set = (value: number): void => {
+      const kept = Math.max(lower, Math.min(upper, value));
+      positions[joint.name] = kept;
+      range.value = String(kept);
+      number.value = angular ? (kept * DEGREES).toFixed(1) : kept.toFixed(4);
+    };
+    set(positions[joint.name] ?? joint.value);
+    range.addEventListener("input", () => {
+      set(range.valueAsNumber);
+      this.send(display, robot);
+    });
+    number.addEventListener("change", () => {
+      if (Number.isFinite(number.valueAsNumber)) set(angular ? number.valueAsNumber / DEGREES : number.valueAsNumber);
+      this.send(display, robot);
+    });
+    const name = h("span", { title: joint.name.slice(0, 300) }, shorten(joint.name, 60));
+    return {
+      element: h("div", { class: "joint", data: { joint: joint.name.slice(0, 200) } }, name, number, range),
+      set,
+    };
+  }
+
+  /** The page tries the values out at once; the server hears of them at a rate that it can use. */
+  private send(display: RobotDisplay, robot: Robot): void {
+    const publish = this.publishing.has(robot.id);
+    const positions = this.positions.get(robot.id) ?? {};
+    // What is published comes back as frames, from whoever turns joint states into transforms.
+    display.setJoints({ ...positions }, !publish);
+    if (this.timers.has(robot.id)) return;
+    const timer = window.setTimeout(() => {
+      this.timers.delete(robot.id);
+      this.model.send({
+        type: "joints",
+        robot: robot.id,
+        positions: { ...positions },
+        publish: this.publishing.has(robot.id),
+      });
+    }, SEND_MS);
+    this.timers.set(robot.id, timer);
+  }
+
+  private release(display: RobotDisplay, robot: Robot): void {
+    this.publishing.delete(robot.id);
+    this.positions.delete(robot.id);
+    display.setJoints(Object.fromEntries(robot.joints.map((joint) => [joint.name, joint.value])), false);
+    this.model.send({ type: "joints", robot: robot.id, positions: {}, publish: false });
+    this.shown = "";
+    this.render();
+  }
+}
+
+function isMovable(joint: RobotJoint): boolean {
+  return ["revolute", "continuous", "prismatic"].includes(joint.type);
+}
+
+function limits(joint: RobotJoint): [number, number] {
+  const whole = joint.type === "prismatic" ? 1 : Math.PI;
+  if (joint.type === "continuous" || joint.lower === null || joint.upper === null || !(joint.lower < joint.upper))
+    return [-whole, whole];
+  return [Math.max(joint.lower, -100), Math.min(joint.upper, 100)];
+}
+
+/** Zero where that is allowed, else the middle: as joint_state_publisher_gui has it. */
+function neutral(joint: RobotJoint): number {
+  const [lower, upper] = limits(joint);
+  return lower <= 0 && upper >= 0 ? 0 : (lower + upper) / 2;
+}
+
+function random(joint: RobotJoint): number {
+  const [lower, upper] = limits(joint);
+  return lower + Math.random() * (upper - lower);
+}

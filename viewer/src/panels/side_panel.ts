@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The panel at the side: tabs, a width that can be dragged, hidden when asked. On a phone it is a drawer. */
+
+import { h, iconButton } from "../util/dom";
+import { remember, remembered } from "../util/storage";
+
+const NARROWEST = 260;
+const WIDEST = 640;
+const PHONE = "(max-width: 760px)";
+
+export interface Tab {
+  id: string;
+  title: string;
+  body: HTMLElement;
+}
+
+export class Panel {
+  private readonly buttons: HTMLButtonElement[];
+
+  constructor(
+    root: HTMLElement,
+    private readonly tabs: Tab[],
+  ) {
+    this.buttons = tabs.map((tab, i) =>
+      h(
+        "button",
+        {
+          type: "button",
+          role: "tab",
+          id: `tab-${tab.id}`,
+          aria: { controls: `body-${tab.id}` },
+          on: { click: () => this.choose(tab.id), keydown: (event) => this.key(event, i) },
+        },
+        tab.title,
+      ),
+    );
+    for (const tab of tabs) {
+      tab.body.id = `body-${tab.id}`;
+      tab.body.setAttribute("role", "tabpanel");
+      tab.body.setAttribute("aria-labelledby", `tab-${tab.id}`);
+    }
+    root.append(
+      h(
+        "div",
+        { class: "tabs", role: "tablist" },
+        ...this.buttons,
+        iconButton("close", "Close the panel", () => this.show(false), "narrow-only"),
+      ),
+      ...tabs.map((tab) => tab.body),
+      this.grip(),
+    );
+    this.setWidth(remembered("panel-width", 340));
+    this.show(!matchMedia(PHONE).matches && remembered("panel-shown", true));
+    this.choose(remembered("tab", tabs[0]?.id ?? ""));
+  }
+
+  choose(id: string): void {
+    const chosen = this.tabs.some((tab) => tab.id === id) ? id : this.tabs[0]?.id;
+    this.tabs.forEach((tab, i) => {
+      const selected = tab.id === chosen;
+      tab.body.hidden = !selected;
+      this.buttons[i]?.setAttribute("aria-selected", String(selected));
+      if (this.buttons[i]) this.buttons[i].tabIndex = selected ? 0 : -1;
+    });
+    remember("tab", chosen);
+  }
+
+  entitle(id: string, title: string): void {
+    const button = this.buttons[this.tabs.findIndex((tab) => tab.id === id)];
+    if (button) button.textContent = title;
+  }
+
+  open(id: string): void {
+    this.show(true);
+    this.choose(id);
+  }
+
+  toggle(): void {
+    this.show(document.body.classList.contains("no-panel"));
+  }
+
+  private show(shown: boolean): void {
+    document.body.classList.toggle("no-panel", !shown);
+    if (!matchMedia(PHONE).matches) remember("panel-shown", shown);
+  }
+
+  private key(event: KeyboardEvent, i: number): void {
+    const step = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
+    if (!step) return;
+    const next = (i + step + this.tabs.length) % this.tabs.length;
+    this.choose(this.tabs[next]?.id ?? "");
+    this.buttons[next]?.focus();
+    event.stopPropagation();
+  }
+
+  private setWidth(width: number): void {
+    const kept = Math.max(NARROWEST, Math.min(WIDEST, width));
+    document.documentElement.style.setProperty("--panel-width", `${kept}px`);
+  }
+
+  private grip(): HTMLElement {
+    const grip = h("div", { class: "panel-grip", aria: { hidden: "true" } });
+    grip.addEventListener("pointerdown", (event) => {
+      grip.setPointerCapture(event.pointerId);
+      const move = (at: PointerEvent): void => this.setWidth(at.clientX);
+      grip.addEventListener("pointermove", move);
+      grip.addEventListener(
+        "pointerup",
+        (at) => {
+          grip.removeEventListener("pointermove", move);
+          remember("panel-width", at.clientX);
+        },
+        { once: true },
+      );
+    });
+    return grip;
+  }
+}

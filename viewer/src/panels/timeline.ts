@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The time: pause, scrub, step, speeds, loops, and back to live. */
+
+import { h, icon, iconButton, select, setText } from "../util/dom";
+import * as format from "../util/format";
+import type { Model } from "../model/model";
+import type { Timeline as TimelineMessage } from "../protocol/messages";
+import { bars, decodeEdges, drawRows, prepare, total, type Colours, type Edge } from "./sparklines";
+import { remember, remembered } from "../util/storage";
+
+const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "5", "10"] as const;
+const ASK_MS = 2000;
+const BINS = 240;
+
+export class Timeline {
+  private readonly play: HTMLButtonElement;
+  private readonly live: HTMLButtonElement;
+  private readonly loop: HTMLButtonElement;
+  private readonly sparksButton: HTMLButtonElement;
+  private readonly time = h("span", { class: "time numbers", id: "time" });
+  private readonly canvas = h("canvas", {
+    tabindex: "0",
+    role: "slider",
+    aria: { label: "Time", valuemin: "0", valuemax: "0", valuenow: "0" },
+  });
+  private readonly head = h("div", { class: "head", aria: { hidden: "true" } });
+  private readonly rows = h("canvas", {
+    role: "img",
+    aria: { label: "How often each frame came, and where it has gaps" },
+  });
+  private readonly sparks: HTMLElement;
+  private message: TimelineMessage | null = null;
+  private edges: Edge[] = [];
+  private sum: ArrayLike<number> = [];
+  private asked = 0;
+  private drawing = 0;
+  private dragging: number | null = null;
+  /** Ends of the loop, while they are dragged with Shift. */
+  private loopStart: number | null = null;
+
+  constructor(
+    root: HTMLElement,
+    private readonly model: Model,
+  ) {
+    this.play = iconButton("pause", "Pause or play (Space)", () => this.toggle());
+    this.live = h(
+      "button",
+      { type: "button", class: "small", title: "Back to the newest (l)", on: { click: () => this.goLive() } },
+      "Live",
+    );
+    this.loop = iconButton(
+      "loop",
+      "Loop (o): all, or the part marked by dragging with Shift",
+      () => this.toggleLoop(),
+      "wide-only",
+    );
+    this.sparksButton = iconButton(
+      "chevron",
+      "Rate of each frame over time (t)",
+      () => this.toggleSparks(),
+      "wide-only",
+    );
+    this.sparks = h("div", { class: "sparks", hidden: !remembered("sparks", false) }, this.rows);
+    const speed = select(
+      "Speed",
+      SPEEDS.map((s) => [s, `${s}×`] as const),
+      "1",
+      (value) => this.model.setClock({ speed: Number(value), live: false }),
+    );
+    root.append(
+      h(
+        "div",
+        { class: "transport" },
+        iconButton("back", "One message back (,)", () => this.step(-1)),
+        this.play,
+        iconButton("forward", "One message on (.)", () => this.step(1)),
+        this.live,
+        this.loop,
+        speed,
+        h("div", { class: "scrub" }, this.canvas, this.head),
+        this.time,
+        this.sparksButton,
+      ),
+      this.sparks,
+    );
+    this.listen();
+    model.on("tick", () => this.follow());
+    model.on("stats", () => this.redraw());
+    model.on("clock", () => this.tellButtons());
+    model.on("hello", () => this.start());
+    model.on("timeline", (message) => this.receive(message));
+    new ResizeObserver(() => this.redraw()).observe(this.canvas.parentElement as HTMLElement);
+    this.tellButtons();
+  }
+
+  toggle(): void {
+    const { live, playing } = this.model.clock;
+    const span = this.model.span;
+    const at = this.model.playhead;
+    if (live) this.model.setClock({ live: false, playing: false });
+    else if (!playing && span && at >= span[1] - 1e6) this.model.setClock({ playing: true }, span[0]);
+    else this.model.setClock({ playing: !playing });
+  }
+
+  goLive(): void {
+    this.model.setClock({ live: true, playing: false });
+  }
+
+  step(direction: 1 | -1): void {
+    if (this.model.clock.live || this.model.clock.playing) this.model.setClock({ live: false, playing: false });
+    this.model.step(direction);
+  }
+
+  /** Moves the playhead by seconds. */
+  jump(seconds: number): void {
+    const at = this.model.playhead;
+    if (Number.isFinite(at)) this.seek(at + seconds * 1e9);
+  }
+
+  toggleLoop(): void {
+    const span = this.model.span;
+    this.model.setClock({ loop: this.model.clock.loop || !span ? null : [...span], live: false });
+  }
+
+  toggleSparks(): void {
+    this.sparks.hidden = !this.sparks.hidden;
+    remember("sparks", !this.sparks.hidden);
+    this.tellButtons();
+    this.asked = 0;
+    this.redraw();
+  }
+
+  /** A recording has no "now": it waits at its start. */
+  private start(): void {
+    const { hello } = this.model;
+    this.message = null;
+    const recorded = hello?.mode === "recording" || hello?.mode === "replay";
+    this.live.hidden = recorded;
+    if (recorded && this.model.clock.live) this.model.setClock({ live: false, playing: false }, hello?.span?.[0] ?? 0);
+    else if (!this.model.clock.live) this.model.sendClock();
+  }
+
+  private seek(at: number): void {
+    const span = this.model.span;
+    const kept = span ? Math.max(span[0], Math.min(span[1], at)) : at;
+    this.model.setClock({ live: false, playing: this.model.clock.playing && this.dragging === null }, kept);
+  }
+
+  private receive(message: TimelineMessage): void {
+    this.message = message;
+    this.edges = decodeEdges(message);
+    this.sum = total(this.edges, Math.min(message.bins, 10_000));
+    this.redraw();
+  }
+
+  private follow(): void {
+    const tick = this.model.tick;
+    const span = this.model.span;
+    if (!tick || !span) return;
+    const now = performance.now();
+    const fresh = this.message?.revision === this.model.forest.revision;
+    if (now - this.asked > ASK_MS && span[1] > span[0] && (this.model.clock.live || !fresh)) {
+      this.asked = now;
+      this.model.send({ type: "timeline", from: span[0], to: span[1], bins: BINS });
+    }
+    setText(this.time, format.stamp(this.model.origin, tick.time));
+    this.time.title = `${format.offset(tick.time - span[0])} of ${format.offset(span[1] - span[0])}`;
+    this.placeHead();
+  }
+
+  private placeHead(): void {
+    const span = this.model.span;
+    const at = this.dragging ?? this.model.tick?.time ?? NaN;
+    const part = span && span[1] > span[0] ? (at - span[0]) / (span[1] - span[0]) : NaN;
+    this.head.hidden = !Number.isFinite(part) && !this.model.clock.live;
+    const shown = this.model.clock.live ? 1 : Math.max(0, Math.min(1, part));
+    this.head.style.left = `${(shown * 100).toFixed(3)}%`;
+    if (!span || !Number.isFinite(part)) return;
+    this.canvas.setAttribute("aria-valuemax", ((span[1] - span[0]) / 1e9).toFixed(1));
+    this.canvas.setAttribute("aria-valuenow", ((at - span[0]) / 1e9).toFixed(1));
+  }
+
+  private tellButtons(): void {
+    const { live, playing, loop } = this.model.clock;
+    const running = live || playing;
+    this.play.replaceChildren(icon(running ? "pause" : "play"));
+    this.play.setAttribute("aria-label", running ? "Pause" : "Play");
+    this.live.setAttribute("aria-pressed", String(live));
+    this.loop.setAttribute("aria-pressed", String(loop !== null));
+    this.sparksButton.setAttribute("aria-expanded", String(!this.sparks.hidden));
+    this.sparksButton.style.transform = this.sparks.hidden ? "rotate(-90deg)" : "rotate(90deg)";
+    this.redraw();
+  }
+
+  private colours(): Colours {
+    const style = getComputedStyle(document.documentElement);
+    const read = (name: string): string => style.getPropertyValue(name).trim();
+    return {
+      text: read("--text"),
+      muted: read("--muted"),
+      bar: read("--accent"),
+      gap: `${read("--bad")}44`,
+      line: read("--line"),
+    };
+  }
+
+  /** Soon: what is asked for several times is drawn once. */
+  private redraw(): void {
+    this.drawing ||= requestAnimationFrame(() => {
+      this.drawing = 0;
+      this.draw();
+    });
+  }
+
+  private draw(): void {
+    this.placeHead();
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement ?? this.canvas;
+    const context = prepare(this.canvas, width, height);
+    const span = this.model.span;
+    if (!context || width === 0) return;
+    const colours = this.colours();
+    context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--raised");
+    context.fillRect(0, 0, width, height);
+    if (!span || !(span[1] > span[0])) return;
+    const x = (ns: number): number => ((ns - span[0]) / (span[1] - span[0])) * width;
+    this.drawDensity(context, colours, x, height);
+    const { loop } = this.model.clock;
+    if (loop) {
+      context.fillStyle = `${colours.bar}33`;
+      context.fillRect(x(loop[0]), 0, Math.max(1, x(loop[1]) - x(loop[0])), height);
+    }
+    if (!this.sparks.hidden && this.message) drawRows(this.rows, this.edges, this.message, this.model.forest, colours);
+  }
+
+  private drawDensity(
+    context: CanvasRenderingContext2D,
+    colours: Colours,
+    x: (ns: number) => number,
+    height: number,
+  ): void {
+    const { message } = this;
+    if (!message || message.revision !== this.model.forest.revision) return;
+    // Live, the bars are up to two seconds old: they fill the bar all the same rather than end before it.
+    const { live } = this.model.clock;
+    const width = context.canvas.clientWidth;
+    const place = live ? (ns: number): number => ((ns - message.from) / (message.to - message.from)) * width : x;
+    const [from, to] = [place(message.from), place(message.to)];
+    context.globalAlpha = 0.55;
+    context.fillStyle = colours.bar;
+    bars(context, this.sum, from, 4, to - from, height - 4);
+    context.globalAlpha = 1;
+    context.fillStyle = colours.gap.slice(0, 7);
+    for (const { gaps } of this.edges)
+      for (const [a, b] of gaps) context.fillRect(place(a), 0, Math.max(1.5, place(b) - place(a)), 3);
+  }
+
+  private listen(): void {
+    const { canvas } = this;
+    const timeAt = (event: PointerEvent): number | null => {
+      const span = this.model.span;
+      if (!span) return null;
+      const bounds = canvas.getBoundingClientRect();
+      const part = Math.max(0, Math.min(1, (event.clientX - bounds.left) / bounds.width));
+      return span[0] + part * (span[1] - span[0]);
+    };
+    canvas.addEventListener("pointerdown", (event) => {
+      const at = timeAt(event);
+      if (at === null) return;
+      canvas.setPointerCapture(event.pointerId);
+      this.dragging = at;
+      if (event.shiftKey) this.loopStart = at;
+      else this.seek(at);
+    });
+    canvas.addEventListener("pointermove", (event) => {
+      const at = timeAt(event);
+      if (this.dragging === null || at === null) return;
+      this.dragging = at;
+      if (this.loopStart !== null) {
+        const ends: [number, number] = [Math.min(this.loopStart, at), Math.max(this.loopStart, at)];
+        if (ends[1] > ends[0]) this.model.setClock({ live: false, loop: ends }, ends[0]);
+      } else this.seek(at);
+    });
+    const end = (): void => {
+      this.dragging = null;
+      this.loopStart = null;
+    };
+    canvas.addEventListener("pointerup", end);
+    canvas.addEventListener("pointercancel", end);
+    canvas.addEventListener("keydown", (event) => {
+      const seconds = { ArrowLeft: -1, ArrowRight: 1, PageDown: -10, PageUp: 10 }[event.key];
+      if (seconds === undefined) return;
+      this.jump(seconds * (event.shiftKey ? 0.1 : 1));
+      event.preventDefault();
+      event.stopPropagation();
+    });
+  }
+}

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+/**
+ * The messages between the server and the page.
+ *
+ * Types, headers and checks are generated from `src/coframe/viewer/protocol/messages.py`, which documents the protocol.
+ * This module decodes binary messages with them.
+ */
+
+import {
+  BinaryKind,
+  CloudFlag,
+  ImageFormat,
+  readCloudHeader,
+  readEntryRecord,
+  readFramesHeader,
+  readGridHeader,
+  readImageHeader,
+  readShapesHeader,
+  type FieldReader,
+  type ShapesDescription,
+} from "../generated/protocol";
+import { ProtocolError } from "./validation";
+
+export * from "../generated/protocol";
+export { checkServerMessage, ProtocolError } from "./validation";
+
+export type Vector = [number, number, number];
+
+/** The pose of a displayed message's frame at the stamp of the message. */
+export interface DisplayPose {
+  id: number;
+  sequence: number;
+  /** x, y, z, qx, qy, qz, qw, relative to the origin of the frame update. */
+  pose: Float32Array;
+  ok: boolean;
+}
+
+/** A frame update. */
+export interface Tick {
+  kind: "tick";
+  revision: number;
+  /** Nanoseconds relative to hello.origin; NaN while there is no data. */
+  time: number;
+  origin: Vector;
+  count: number;
+  /** count x (x, y, z, qx, qy, qz, qw), relative to `origin`; NaN for frames without a pose. */
+  poses: Float32Array;
+  states: Uint8Array;
+  displays: DisplayPose[];
+}
+
+export interface Cloud {
+  kind: "cloud";
+  id: number;
+  sequence: number;
+  count: number;
+  /** Every n-th point of the message was sent. */
+  step: number;
+  stamp: number;
+  range: [number, number];
+  points: Float32Array;
+  scalar: Float32Array | null;
+  rgba: Uint8Array | null;
+}
+
+export interface Grid {
+  kind: "grid";
+  id: number;
+  sequence: number;
+  width: number;
+  height: number;
+  resolution: number;
+  /** Pose of the grid's corner in the message's frame: x, y, z, qx, qy, qz, qw. */
+  origin: Float32Array;
+  cells: Int8Array;
+}
+
+export interface Image {
+  kind: "image";
+  id: number;
+  sequence: number;
+  width: number;
+  height: number;
+  format: number;
+  /** Every n-th row and column of the message was sent. */
+  step: number;
+  stamp: number;
+  data: Uint8Array<ArrayBuffer>;
+}
+
+export interface Shapes {
+  kind: "shapes";
+  id: number;
+  sequence: number;
+  head: ShapesDescription;
+  payload: Float32Array;
+}
+
+export type BinaryMessage = Tick | DisplayMessage;
+export type DisplayMessage = Cloud | Grid | Shapes | Image;
+
+/** Reads fields one after another; throws a ProtocolError if the data ends too early. */
+class Reader implements FieldReader {
+  private offset = 0;
+  private readonly view: DataView;
+
+  constructor(
+    private readonly buffer: ArrayBuffer,
+    private readonly what: string,
+  ) {
+    this.view = new DataView(buffer);
+  }
+
+  private take(bytes: number): number {
+    const start = this.offset;
+    if (!Number.isSafeInteger(bytes) || bytes < 0 || start + bytes > this.buffer.byteLength)
+      throw new ProtocolError(`${this.what}: ${bytes} bytes expected at ${start} of ${this.buffer.byteLength}`);
+    this.offset = start + bytes;
+    return start;
+  }
+
+  u32(): number {
+    return this.view.getUint32(this.take(4), true);
+  }
+
+  f32(): number {
+    return this.view.getFloat32(this.take(4), true);
+  }
+
+  f64(): number {
+    return this.view.getFloat64(this.take(8), true);
+  }
+
+  /** A view without a copy if the offset is a multiple of four, as it is in valid messages. */
+  floats(count: number): Float32Array {
+    const start = this.take(count * 4);
+    if (start % 4 === 0) return new Float32Array(this.buffer, start, count);
+    return new Float32Array(this.buffer.slice(start, start + count * 4));
+  }
+
+  bytes(count: number): Uint8Array<ArrayBuffer> {
+    return new Uint8Array(this.buffer, this.take(count), count);
+  }
+
+  align(): void {
+    this.take((4 - (this.offset % 4)) % 4);
+  }
+
+  rest(): number {
+    return this.buffer.byteLength - this.offset;
+  }
+}
+
+export function decode(buffer: ArrayBuffer): BinaryMessage {
+  if (buffer.byteLength < 4) throw new ProtocolError(`a binary message of ${buffer.byteLength} bytes`);
+  const kind = new DataView(buffer).getUint32(0, true);
+  if (kind === BinaryKind.frames) return decodeTick(new Reader(buffer, "frame update"));
+  if (kind === BinaryKind.cloud) return decodeCloud(new Reader(buffer, "cloud"));
+  if (kind === BinaryKind.grid) return decodeGrid(new Reader(buffer, "grid"));
+  if (kind === BinaryKind.shapes) return decodeShapes(new Reader(buffer, "shapes"));
+  if (kind === BinaryKind.image) return decodeImage(new Reader(buffer, "image"));
+  throw new ProtocolError(`a binary message of unknown kind ${kind}`);
+}
+
+function decodeTick(reader: Reader): Tick {
+  const { revision, time, origin, frames: count, entries } = readFramesHeader(reader);
+  const poses = reader.floats(count * 7);
+  const states = reader.bytes(count);
+  reader.align();
+  const displays: DisplayPose[] = [];
+  for (let i = 0; i < entries; i++) {
+    const { display: id, sequence, pose, missing } = readEntryRecord(reader);
+    displays.push({ id, sequence, pose, ok: missing === 0 });
+  }
+  return { kind: "tick", revision, time, origin, count, poses, states, displays };
+}
+
+function decodeCloud(reader: Reader): Cloud {
+  const { display: id, sequence, points: count, flags, stamp, range } = readCloudHeader(reader);
+  const points = reader.floats(count * 3);
+  const scalar = flags & CloudFlag.scalars ? reader.floats(count) : null;
+  const rgba = flags & CloudFlag.colors ? reader.bytes(count * 4) : null;
+  return { kind: "cloud", id, sequence, count, step: Math.max(1, flags >>> 8), stamp, range, points, scalar, rgba };
+}
+
+function decodeGrid(reader: Reader): Grid {
+  const { display: id, sequence, width, height, resolution, corner: origin } = readGridHeader(reader);
+  const bytes = reader.bytes(width * height);
+  const cells = new Int8Array(bytes.buffer, bytes.byteOffset, bytes.length);
+  return { kind: "grid", id, sequence, width, height, resolution, origin, cells };
+}
+
+function decodeShapes(reader: Reader): Shapes {
+  const { display: id, sequence, length } = readShapesHeader(reader);
+  const text = new TextDecoder().decode(reader.bytes(length));
+  reader.align();
+  let head: ShapesDescription;
+  try {
+    head = JSON.parse(text) as ShapesDescription;
+  } catch {
+    throw new ProtocolError("shapes: the description is not JSON");
+  }
+  return { kind: "shapes", id, sequence, head, payload: reader.floats(Math.floor(reader.rest() / 4)) };
+}
+
+function decodeImage(reader: Reader): Image {
+  const { display: id, sequence, width, height, format: flags, stamp } = readImageHeader(reader);
+  const format = flags & 255;
+  const raw = format === ImageFormat.grey ? width * height : format === ImageFormat.rgb ? 3 * width * height : null;
+  const data = reader.bytes(raw ?? reader.rest());
+  return { kind: "image", id, sequence, width, height, format, step: Math.max(1, flags >>> 8), stamp, data };
+}
+
+/** Rows of a payload; empty if the pair is outside of it. */
+export function slice(payload: Float32Array, at: [number, number] | null | undefined, width: number): Float32Array {
+  const [offset, rows] = at ?? [0, 0];
+  const end = offset + rows * width;
+  if (!(offset >= 0 && rows >= 0 && end <= payload.length)) return new Float32Array(0);
+  return payload.subarray(offset, end);
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+/** The WebSocket to the server; opens immediately and reconnects whenever it closes. */
+
+import { fatal } from "../util/fatal";
+import { checkServerMessage, decode, PROTOCOL_VERSION, type ClientMessage } from "./messages";
+import type { Source, SourceEvents } from "./source";
+import { compareVersion } from "./version";
+
+const FIRST_WAIT_MS = 250;
+const LONGEST_WAIT_MS = 4000;
+
+type Listener = <K extends keyof SourceEvents>(event: K, value: SourceEvents[K]) => void;
+
+export class SocketSource implements Source {
+  readonly live = true;
+  private socket: WebSocket | null = null;
+  private wait = FIRST_WAIT_MS;
+  /** False once the page turned out to be older or newer than the server. */
+  private compatible = true;
+  /** Events that occurred before `start`. */
+  private early: (() => void)[] = [];
+  private listener: Listener = (event, value) => void this.early.push(() => this.listener(event, value));
+
+  constructor(private readonly url: string) {
+    this.open();
+  }
+
+  start(listener: Listener): void {
+    this.listener = listener;
+    for (const emit of this.early.splice(0)) emit();
+  }
+
+  send(message: ClientMessage): void {
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+  }
+
+  private open(): void {
+    const socket = new WebSocket(this.url);
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => {
+      this.wait = FIRST_WAIT_MS;
+      this.listener("connected", true);
+    };
+    socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
+      if (this.compatible) this.receive(event.data);
+    };
+    socket.onclose = () => {
+      this.listener("connected", false);
+      if (this.compatible) setTimeout(() => this.open(), this.wait);
+      this.wait = Math.min(this.wait * 2, LONGEST_WAIT_MS);
+    };
+    this.socket = socket;
+  }
+
+  private receive(data: string | ArrayBuffer): void {
+    try {
+      if (typeof data !== "string") {
+        this.listener("binary", decode(data));
+        return;
+      }
+      const message = JSON.parse(data) as unknown;
+      const hello = message as { type?: unknown; version?: unknown } | null;
+      if (hello?.type === "hello" && !this.matches(hello.version)) return;
+      this.listener("text", checkServerMessage(message));
+    } catch (error) {
+      this.listener("broken", error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  /** Whether the page and the server use the same protocol; reloads the page or explains why it cannot go on. */
+  private matches(version: unknown): boolean {
+    const verdict = compareVersion(version, sessionStorage);
+    if (verdict === "current") return true;
+    this.compatible = false;
+    this.socket?.close();
+    if (verdict === "reload") location.reload();
+    else
+      fatal(
+        "This page does not match its server",
+        `The page uses protocol ${PROTOCOL_VERSION}, the server ${String(version).slice(0, 40)}. Clear the browser’s ` +
+          "cache and reload the page. If you built coframe yourself, run “make page” and restart the server.",
+      );
+    return false;
+  }
+}
+
+export function socketUrl(location: Location): string {
+  const url = new URL("ws", location.href);
+  url.protocol = location.protocol === "https:" ? "wss:" : "ws:";
+  url.search = "";
+  url.hash = "";
+  return url.href;
+}

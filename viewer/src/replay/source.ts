@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: Apache-2.0
+/** A recording inside the page: answers what the server would, as far as the pictures in it can tell. */
+
+import {
+  between,
+  compose,
+  IDENTITY,
+  inverse,
+  matrix,
+  relative,
+  rpyDegrees,
+  type Pose,
+  type Quaternion,
+} from "../util/math";
+import { Forest } from "../model/model";
+import {
+  FrameState,
+  PROTOCOL_VERSION,
+  type ClientMessage,
+  type DisplayPose,
+  type Hello,
+  type Relation,
+  type ReplayBlock,
+  type RvizGlobalOptions,
+  type DisplayOptions,
+  type Vector,
+} from "../protocol/messages";
+import { bytes, DAMAGED, lastUpTo, ReplayDisplay, type Seen } from "./displays";
+import type { Source, SourceEvents } from "../protocol/source";
+
+/** A display of the page that shows what was recorded of a topic. */
+interface Subscribed {
+  recorded: ReplayDisplay;
+  /** The drawings that the page has. */
+  shown: Set<number>;
+  told: string;
+  /** Whether it asks for colours that the file does not hold. */
+  otherColours: boolean;
+}
+
+type Listener = <K extends keyof SourceEvents>(event: K, value: SourceEvents[K]) => void;
+
+const PICTURE_MS = 33;
+const NO_GLOBAL_OPTIONS: RvizGlobalOptions = { fixed_frame: null, background: null, frame_rate: null };
+
+/** The recording that the server wrote into this page. */
+export function replayBlock(): ReplayBlock {
+  const block = JSON.parse(document.getElementById("replay")?.textContent ?? "null") as ReplayBlock | null;
+  if (block?.format !== "coframe-replay") throw new Error("There is no recording in it.");
+  return block;
+}
+
+export class ReplaySource implements Source {
+  readonly live = false;
+  private readonly times: Float64Array;
+  private readonly poses: Float32Array;
+  private readonly states: Uint8Array;
+  private readonly forest: Forest;
+  private readonly count: number;
+  private readonly displays: ReplayDisplay[];
+  private readonly subscribed = new Map<number, Subscribed>();
+  private fixed: number;
+  private at: number;
+  private playing = false;
+  private speed = 1;
+  private loop: [number, number] | null = null;
+  private last = 0;
+  private started = false;
+  private listener: Listener = () => {};
+
+  constructor(private readonly block: ReplayBlock) {
+    this.count = block.frames.length;
+    this.times = new Float64Array(bytes(block.times, 8));
+    this.poses = new Float32Array(bytes(block.poses, 4));
+    this.states = new Uint8Array(bytes(block.states, 1));
+    const samples = this.times.length;
+    if (this.poses.length !== samples * this.count * 7 || this.states.length !== samples * this.count)
+      throw new Error(DAMAGED);
+    this.displays = block.displays.map((display) => new ReplayDisplay(display));
+    const components: { root: string; size: number }[] = [];
+    for (const frame of block.frames) {
+      const component = (components[frame.component] ??= { root: frame.name, size: 0 });
+      if (frame.parent < 0) component.root = frame.name;
+      component.size++;
+    }
+    this.forest = new Forest(
+      1,
+      block.frames,
+      Array.from(components, (c) => c ?? { root: "", size: 0 }),
+    );
+    this.fixed = Math.max(0, this.forest.index.get(block.fixed) ?? 0);
+    this.at = block.from;
+  }
+
+  start(listener: Listener): void {
+    this.listener = listener;
+    const { block, forest } = this;
+    const span: [number, number] = [block.from, block.to];
+    listener("connected", true);
+    const hello: Hello = {
+      type: "hello",
+      version: PROTOCOL_VERSION,
+      mode: "replay",
+      title: block.title,
+      origin: block.origin,
+      span,
+      fixed: block.fixed,
+      rviz: block.rviz && {
+        displays: block.rviz.displays,
+        view: block.rviz.view,
+        global: NO_GLOBAL_OPTIONS,
+        unknown: [],
+      },
+      topics: this.displays.map(({ block: { topic, type, display } }) => ({ topic, type, display })),
+      can_publish: false,
+    };
+    listener("text", hello);
+    listener("text", {
+      type: "tree",
+      revision: 1,
+      fixed: block.fixed,
+      frames: forest.frames,
+      components: forest.components,
+    });
+    block.robots.forEach((robot, id) => listener("text", { ...robot, id }));
+    if (block.stats.length === this.count) listener("text", { type: "stats", revision: 1, span, frames: block.stats });
+    this.started = true;
+    this.tick();
+    setInterval(() => this.advance(), PICTURE_MS);
+  }
+
+  send(message: ClientMessage): void {
+    switch (message.type) {
+      case "fixed":
+        this.fixed = this.forest.index.get(message.frame) ?? this.fixed;
+        this.tick();
+        break;
+      case "time":
+        if (message.mode === "at") {
+          this.at = message.at ?? this.at;
+          this.playing = message.playing ?? false;
+          this.speed = message.speed ?? 1;
+          this.loop = message.loop ?? null;
+          this.last = performance.now();
+        }
+        this.tick();
+        break;
+      case "step": {
+        const next = this.times[this.sample() + message.direction];
+        if (next !== undefined) this.at = next;
+        this.tick();
+        break;
+      }
+      case "relate":
+        this.listener("text", this.relate(message.id, message.target, message.source));
+        break;
+      case "subscribe":
+        this.subscribe(message.id, message.topic, message.options ?? {});
+        break;
+      case "unsubscribe":
+        this.subscribed.delete(message.id);
+        this.tick();
+        break;
+      case "timeline": {
+        const { from, to, edges, bins } = this.block;
+        this.listener("text", { type: "timeline", revision: 1, bins, from, to, edges });
+        break;
+      }
+      default:
+        break;
+    }
+  }
+
+  private subscribe(id: number, topic: string, options: DisplayOptions): void {
+    const fitting = this.displays.filter(({ block }) => block.topic === topic);
+    const recorded = fitting.find(({ block }) => block.color_by === (options.color_by ?? null)) ?? fitting[0];
+    if (!recorded) {
+      this.subscribed.delete(id);
+      this.listener("text", { type: "display", id, state: "error", text: `This replay holds nothing of ${topic}.` });
+      return;
+    }
+    const computed = !options.color_by || ["axis", "flat"].includes(options.color_by);
+    const otherColours = !computed && recorded.block.color_by !== options.color_by;
+    this.subscribed.set(id, { recorded, shown: new Set(), told: "", otherColours });
+    this.tick();
+  }
+
+  private advance(): void {
+    if (!this.playing) return;
+    const now = performance.now();
+    const [first, end] = this.loop ?? [this.block.from, this.block.to];
+    this.at += (now - this.last) * 1e6 * this.speed;
+    this.last = now;
+    if (this.at > end) this.at = this.loop ? first + ((this.at - first) % Math.max(1, end - first)) : end;
+    this.tick();
+  }
+
+  /** The last sample that is not later than the playhead. */
+  private sample(): number {
+    return Math.max(0, lastUpTo(this.times, this.at));
+  }
+
+  private pose(sample: number, frame: number): Pose {
+    const p = (sample * this.count + frame) * 7;
+    const row = Array.from(this.poses.subarray(p, p + 7));
+    return { position: row.slice(0, 3) as Vector, quaternion: row.slice(3) as Quaternion };
+  }
+
+  private tick(): void {
+    if (this.times.length === 0 || !this.started) return;
+    const sample = this.sample();
+    const { frames } = this.forest;
+    const poses = new Float32Array(this.count * 7);
+    const states = this.states.slice(sample * this.count, (sample + 1) * this.count);
+    const asRecorded = frames[this.fixed]?.name === this.block.fixed;
+    const own = frames[this.fixed]?.component;
+    const bases = new Map<number, Pose>();
+    for (let i = 0; i < this.count; i++) {
+      let pose = this.pose(sample, i);
+      const component = frames[i]?.component ?? 0;
+      if (!asRecorded) {
+        const root = component === own ? this.fixed : this.rootOf(i);
+        let base = bases.get(root);
+        if (!base) bases.set(root, (base = inverse(this.pose(sample, root))));
+        pose = compose(base, pose);
+        if (component !== own) states[i] = FrameState.otherTree;
+        else if (states[i] === FrameState.otherTree) states[i] = FrameState.ok;
+      }
+      poses.set([...pose.position, ...pose.quaternion], i * 7);
+    }
+    const origin: Vector = asRecorded ? this.block.origin_xyz : [0, 0, 0];
+    this.listener("binary", {
+      kind: "tick",
+      revision: 1,
+      time: this.at,
+      origin,
+      count: this.count,
+      poses,
+      states,
+      displays: this.showDisplays(sample, asRecorded),
+    });
+  }
+
+  /** What is to be seen of the displays; drawings that the page has not got go before it. */
+  private showDisplays(sample: number, asRecorded: boolean): DisplayPose[] {
+    const seen: Seen = asRecorded ? () => IDENTITY : (stamp) => this.recordedFrame(sample, stamp);
+    const all: DisplayPose[] = [];
+    for (const [id, subscribed] of this.subscribed) {
+      const entries = subscribed.recorded.at(sample, id, seen);
+      for (const { sequence } of entries)
+        if (!subscribed.shown.has(sequence)) this.sendDrawing(id, sequence, subscribed);
+      subscribed.shown = new Set(entries.map(({ sequence }) => sequence));
+      this.tellStatus(id, sample, subscribed);
+      all.push(...entries);
+    }
+    return all;
+  }
+
+  private sendDrawing(id: number, sequence: number, { recorded }: Subscribed): void {
+    try {
+      const drawing = recorded.drawing(sequence, id);
+      if (drawing) this.listener("binary", drawing);
+    } catch (error) {
+      this.listener("broken", error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  private tellStatus(id: number, sample: number, subscribed: Subscribed): void {
+    const { recorded, otherColours } = subscribed;
+    const [was, said] = recorded.status(sample);
+    const poor = otherColours && was === "ok";
+    const state = poor ? "error" : was;
+    const text = poor ? "This replay holds no other colours than those that it was saved with." : said;
+    if (subscribed.told === `${state} ${text}`) return;
+    subscribed.told = `${state} ${text}`;
+    this.listener("text", { type: "display", id, state, text, note: recorded.note });
+  }
+
+  /** From the chosen fixed frame, where that of the recording was at a time; null where nobody knows. */
+  private recordedFrame(sample: number, stamp: number): Pose | null {
+    const recorded = this.forest.index.get(this.block.fixed) ?? -1;
+    if (this.forest.frames[recorded]?.component !== this.forest.frames[this.fixed]?.component) return null;
+    const low = Number.isFinite(stamp) ? Math.max(0, lastUpTo(this.times, stamp)) : sample;
+    const high = Math.min(low + (Number.isFinite(stamp) ? 1 : 0), this.times.length - 1);
+    const [from, to] = [this.times[low] as number, this.times[high] as number];
+    const part = to > from ? Math.max(0, Math.min(1, (stamp - from) / (to - from))) : 0;
+    const base = between(this.pose(low, this.fixed), this.pose(high, this.fixed), part);
+    return base.position.every(Number.isFinite) ? inverse(base) : null;
+  }
+
+  private rootOf(i: number): number {
+    return this.forest.ancestors(i).at(-1) ?? i;
+  }
+
+  private relate(id: number, target: string, source: string): Relation {
+    const [t, s] = [this.forest.index.get(target), this.forest.index.get(source)];
+    const answer: Relation = {
+      type: "relation",
+      id,
+      ok: false,
+      target,
+      source,
+      stamp: this.at,
+      translation: null,
+      quaternion: null,
+      rpy_deg: null,
+      matrix: null,
+      static_command: null,
+      chain: [],
+      error: null,
+      hint: null,
+      broken_at: null,
+    };
+    if (t === undefined || s === undefined)
+      return { ...answer, error: `There is no frame “${t === undefined ? target : source}” in this recording.` };
+    const chain = this.forest.chain(s, t);
+    if (!chain) {
+      const roots = [this.rootOf(t), this.rootOf(s)].map((root) => this.forest.name(root));
+      return {
+        ...answer,
+        chain: [source, target],
+        broken_at: target,
+        error: `“${target}” and “${source}” are in two trees that are not connected.`,
+        hint: `Their roots are “${roots[0]}” and “${roots[1]}”: a transform between them is missing.`,
+      };
+    }
+    const sample = this.sample();
+    const names = chain.map((frame) => this.forest.name(frame));
+    const pose = relative(this.pose(sample, t), this.pose(sample, s));
+    if (![...pose.position, ...pose.quaternion].every(Number.isFinite))
+      return { ...answer, chain: names, error: "At this time the recording cannot tell it." };
+    const values = [...pose.position, ...pose.quaternion].map((value) => String(Number(value.toPrecision(9))));
+    const flags = ["x", "y", "z", "qx", "qy", "qz", "qw"].map((name, k) => `--${name} ${values[k]}`).join(" ");
+    return {
+      ...answer,
+      ok: true,
+      chain: names,
+      translation: pose.position,
+      quaternion: pose.quaternion,
+      rpy_deg: rpyDegrees(pose.quaternion),
+      matrix: matrix(pose),
+      static_command: `coframe static ${flags} --frame-id ${quoted(target)} --child-frame-id ${quoted(source)}`,
+    };
+  }
+}
+
+/** For a shell: plain names as they are, others in quotes. */
+function quoted(name: string): string {
+  return /^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", `'\\''`)}'`;
+}

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Rigid poses in float64, as ROS writes them: quaternions x, y, z, w. */
+
+import type { Vector } from "../protocol/messages";
+
+export type Quaternion = [number, number, number, number];
+
+export interface Pose {
+  position: Vector;
+  quaternion: Quaternion;
+}
+
+const SWEEPS = 12;
+
+export const IDENTITY: Pose = { position: [0, 0, 0], quaternion: [0, 0, 0, 1] };
+
+export function multiply(a: Quaternion, b: Quaternion): Quaternion {
+  const [ax, ay, az, aw] = a;
+  const [bx, by, bz, bw] = b;
+  return [
+    aw * bx + ax * bw + ay * bz - az * by,
+    aw * by - ax * bz + ay * bw + az * bx,
+    aw * bz + ax * by - ay * bx + az * bw,
+    aw * bw - ax * bx - ay * by - az * bz,
+  ];
+}
+
+export function normalize(q: Quaternion): Quaternion {
+  const n = Math.hypot(...q);
+  return n > 0 ? [q[0] / n, q[1] / n, q[2] / n, q[3] / n] : [0, 0, 0, 1];
+}
+
+export function rotate(q: Quaternion, v: Vector): Vector {
+  const [x, y, z, w] = q;
+  const tx = 2 * (y * v[2] - z * v[1]);
+  const ty = 2 * (z * v[0] - x * v[2]);
+  const tz = 2 * (x * v[1] - y * v[0]);
+  return [v[0] + w * tx + y * tz - z * ty, v[1] + w * ty + z * tx - x * tz, v[2] + w * tz + x * ty - y * tx];
+}
+
+/** a ∘ b: the pose b, given in the frame a, in a's parent. */
+export function compose(a: Pose, b: Pose): Pose {
+  const moved = rotate(a.quaternion, b.position);
+  return {
+    position: [a.position[0] + moved[0], a.position[1] + moved[1], a.position[2] + moved[2]],
+    quaternion: normalize(multiply(a.quaternion, b.quaternion)),
+  };
+}
+
+export function inverse(a: Pose): Pose {
+  const quaternion: Quaternion = [-a.quaternion[0], -a.quaternion[1], -a.quaternion[2], a.quaternion[3]];
+  const back = rotate(quaternion, a.position);
+  return { position: [-back[0], -back[1], -back[2]], quaternion };
+}
+
+/** The pose a part of the way from one to another, on the straight line and the shorter turn. */
+export function between(a: Pose, b: Pose, part: number): Pose {
+  const mix = (x: number, y: number): number => x + (y - x) * part;
+  const [p, q] = [a.position, b.position];
+  const same = a.quaternion.reduce((sum, value, k) => sum + value * (b.quaternion[k] as number), 0) < 0 ? -1 : 1;
+  // Between two pictures the turn is so small that a straight line through the ball is as good as the arc.
+  const turned = a.quaternion.map((value, k) => mix(value, same * (b.quaternion[k] as number)));
+  return {
+    position: [mix(p[0], q[0]), mix(p[1], q[1]), mix(p[2], q[2])],
+    quaternion: normalize(turned as Quaternion),
+  };
+}
+
+/** The pose of `source` seen from `target`, both given in one frame. */
+export function relative(target: Pose, source: Pose): Pose {
+  return compose(inverse(target), source);
+}
+
+/** Roll, pitch, yaw about the fixed axes x, y, z, in degrees: tf2's getRPY. */
+export function rpyDegrees(q: Quaternion): Vector {
+  const [x, y, z, w] = q;
+  const sinPitch = Math.max(-1, Math.min(1, 2 * (w * y - z * x)));
+  const degrees = 180 / Math.PI;
+  if (Math.abs(sinPitch) > 1 - 1e-12) {
+    // Looking straight up or down only the sum of roll and yaw is known: all of it is called yaw.
+    const yaw = -2 * Math.sign(sinPitch) * Math.atan2(x, w);
+    return [0, Math.sign(sinPitch) * 90, Math.atan2(Math.sin(yaw), Math.cos(yaw)) * degrees];
+  }
+  return [
+    Math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)) * degrees,
+    Math.asin(sinPitch) * degrees,
+    Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)) * degrees,
+  ];
+}
+
+/**
+ * The axes of an ellipsoid, as a rotation, and the variance along each, from a symmetric 3x3 matrix, row after row: by
+ * Jacobi's method. An axis that nothing connects with the others stays as it is.
+ */
+export function principalAxes(matrix: readonly number[]): { variances: Vector; quaternion: Quaternion } {
+  const m = [...matrix];
+  const at = (i: number, j: number): number => m[i * 3 + j] as number;
+  let axes: Quaternion = [0, 0, 0, 1];
+  for (let sweep = 0; sweep < SWEEPS; sweep++)
+    for (const [p, q, r] of [
+      [0, 1, 2],
+      [1, 2, 0],
+      [2, 0, 1],
+    ] as const) {
+      if (Math.abs(at(p, q)) < 1e-300) continue;
+      const angle = 0.5 * Math.atan2(2 * at(p, q), at(p, p) - at(q, q));
+      const [c, s] = [Math.cos(angle), Math.sin(angle)];
+      for (let k = 0; k < 3; k++) {
+        const [kp, kq] = [at(k, p), at(k, q)];
+        m[k * 3 + p] = c * kp + s * kq;
+        m[k * 3 + q] = c * kq - s * kp;
+      }
+      for (let k = 0; k < 3; k++) {
+        const [pk, qk] = [at(p, k), at(q, k)];
+        m[p * 3 + k] = c * pk + s * qk;
+        m[q * 3 + k] = c * qk - s * pk;
+      }
+      const turn: Quaternion = [0, 0, 0, Math.cos(angle / 2)];
+      turn[r] = Math.sin(angle / 2);
+      axes = multiply(axes, turn);
+    }
+  return { variances: [at(0, 0), at(1, 1), at(2, 2)], quaternion: normalize(axes) };
+}
+
+/** The 4x4 matrix, row after row. */
+export function matrix({ position, quaternion }: Pose): number[] {
+  const x = rotate(quaternion, [1, 0, 0]);
+  const y = rotate(quaternion, [0, 1, 0]);
+  const z = rotate(quaternion, [0, 0, 1]);
+  return [
+    x[0], y[0], z[0], position[0],
+    x[1], y[1], z[1], position[1],
+    x[2], y[2], z[2], position[2],
+    0, 0, 0, 1,
+  ]; // prettier-ignore
+}
+
+export function distance(a: Vector, b: Vector): number {
+  return Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}

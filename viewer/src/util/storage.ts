@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/** What the page remembers between visits. A browser that forbids storage just forgets. */
+
+const PREFIX = "coframe.";
+
+export function remembered<T>(key: string, fallback: T): T {
+  try {
+    const text = localStorage.getItem(PREFIX + key);
+    if (text === null) return fallback;
+    const value = JSON.parse(text) as unknown;
+    return typeof value === typeof fallback ? (value as T) : fallback;
+  } catch {
+    return fallback;
+  }
+}
+
+export function remember(key: string, value: unknown): void {
+  try {
+    localStorage.setItem(PREFIX + key, JSON.stringify(value));
+  } catch {
+    // Full or forbidden: nothing a user could do here.
+  }
+}

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+/** Dark, light, and colours that colour-blind people can tell apart. */
+
+import { remember, remembered } from "./storage";
+
+export interface Palette {
+  background: string;
+  grid: string;
+  axes: [string, string, string];
+  edge: [from: string, to: string];
+  chain: string;
+  measure: string;
+}
+
+const RED_GREEN_BLUE: [string, string, string] = ["#e5383b", "#34b53a", "#3f7bf5"];
+/** Okabe and Ito's vermilion, and a yellow and a blue that differ in brightness too. */
+const DISTINCT_DARK: [string, string, string] = ["#e8681a", "#f0e442", "#56b4e9"];
+const DISTINCT_LIGHT: [string, string, string] = ["#c94e00", "#a38a00", "#0072b2"];
+
+export class Theme {
+  dark: boolean;
+  distinct: boolean;
+  /** From an .rviz file; it goes before the theme's own. */
+  background: string | null = null;
+  private readonly listeners: (() => void)[] = [];
+
+  constructor() {
+    const preferred = matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark";
+    this.dark = remembered("theme", preferred) !== "light";
+    this.distinct = remembered("distinct", false);
+    this.apply();
+  }
+
+  onChange(listener: () => void): void {
+    this.listeners.push(listener);
+  }
+
+  toggleDark(): void {
+    this.dark = !this.dark;
+    this.background = null;
+    remember("theme", this.dark ? "dark" : "light");
+    this.apply();
+  }
+
+  toggleDistinct(): void {
+    this.distinct = !this.distinct;
+    remember("distinct", this.distinct);
+    this.apply();
+  }
+
+  setBackground(colour: string | null): void {
+    this.background = colour;
+    this.apply();
+  }
+
+  palette(): Palette {
+    const axes = this.distinct ? (this.dark ? DISTINCT_DARK : DISTINCT_LIGHT) : RED_GREEN_BLUE;
+    return this.dark
+      ? {
+          background: this.background ?? "#22272c",
+          grid: "#4a525b",
+          axes,
+          edge: ["#e0c067", "#8b7a45"],
+          chain: "#ff9ff3",
+          measure: "#ffffff",
+        }
+      : {
+          background: this.background ?? "#eef1f4",
+          grid: "#c3cbd3",
+          axes,
+          edge: ["#a07c1c", "#cdb87c"],
+          chain: "#b1179a",
+          measure: "#1c2329",
+        };
+  }
+
+  private apply(): void {
+    document.documentElement.dataset.theme = this.dark ? "dark" : "light";
+    document.documentElement.dataset.palette = this.distinct ? "distinct" : "usual";
+    for (const listener of this.listeners) listener();
+  }
+}
