@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bindings/arguments.hpp"
 
 #include <array>
@@ -10,9 +11,9 @@ namespace coframe::bindings {
 
 namespace {
 
-nb::handle time_module;  // coframe.time: what is neither int nor None is converted there
+nb::handle time_module;  // coframe.time converts what is neither int nor None
 
-// Durations are mostly written as the same few literals.
+// Most programs use the same few literals as durations.
 struct KnownDuration {
   PyObject* text = nullptr;
   std::int64_t nanoseconds = 0;
@@ -100,7 +101,7 @@ LookupQuery full_query_of(BufferObject& buffer, nb::handle target, nb::handle ta
 }
 
 std::uint32_t IdentityCache::remember(Entry& entry, PyObject* name, std::uint32_t number) {
-  // Letting go of an instance of a subclass could run any code.
+  // Releasing an instance of a subclass could run any code.
   if (number != 0 && PyUnicode_CheckExact(name)) {
     Py_INCREF(name);
     Py_XDECREF(std::exchange(entry.name, name));
@@ -112,7 +113,7 @@ std::uint32_t IdentityCache::remember(Entry& entry, PyObject* name, std::uint32_
 void define_arguments(nb::module_& module) {
   module.def(
       "register_time", [](nb::object time) { time_module = time.release(); }, nb::arg("time"),
-      "Stamps and durations that are not int are converted by this module.");
+      "Register the module that converts stamps and durations other than int.");
 }
 
 }  // namespace coframe::bindings

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The links of one look-up, end to end: quaternions and translations, each worked on as a whole.
 #include "kernels/arc.hpp"
 #include "kernels/four.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several doubles at a time: as many as the level's registers hold. Samples and rows have their numbers one behind the
 // other; on the way to lanes and back they are turned over.
 #pragma once
@@ -158,8 +159,10 @@ COFRAME_INLINE void store_shared_columns(Lanes first, Lanes second, double* cons
 COFRAME_INLINE void store_fours(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d, double* row,
                                 std::size_t step) {
 #if COFRAME_LANES == 4
-  const __m256d low_ab = _mm256_unpacklo_pd((__m256d)a, (__m256d)b), high_ab = _mm256_unpackhi_pd((__m256d)a, (__m256d)b);
-  const __m256d low_cd = _mm256_unpacklo_pd((__m256d)c, (__m256d)d), high_cd = _mm256_unpackhi_pd((__m256d)c, (__m256d)d);
+  const __m256d low_ab = _mm256_unpacklo_pd((__m256d)a, (__m256d)b),
+                high_ab = _mm256_unpackhi_pd((__m256d)a, (__m256d)b);
+  const __m256d low_cd = _mm256_unpacklo_pd((__m256d)c, (__m256d)d),
+                high_cd = _mm256_unpackhi_pd((__m256d)c, (__m256d)d);
   _mm256_storeu_pd(row, _mm256_permute2f128_pd(low_ab, low_cd, 0x20));
   _mm256_storeu_pd(row + step, _mm256_permute2f128_pd(high_ab, high_cd, 0x20));
   _mm256_storeu_pd(row + 2 * step, _mm256_permute2f128_pd(low_ab, low_cd, 0x31));

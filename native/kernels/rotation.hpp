@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The algebra of core/pose.hpp for one number or many at a time: T is a double or Lanes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Many look-ups along one path: poses in the registers' lanes, samples and rows as they lie in memory.
 #include "kernels/arc.hpp"
 #include "kernels/lanes.hpp"
@@ -68,8 +69,8 @@ COFRAME_INLINE void add_step(const PoseLanes& step, const TwistLanes& rate, bool
   store(first && !kDown ? step : seen<kDown>(step, pose), poses, i);
 }
 
-// The step of rows from `i` on: interpolate() of core/pose.hpp, and with kMoving how fast that changes: straight for the
-// translation, about one axis for the rotation, told in the parent's axes.
+// The step of rows from `i` on: interpolate() of core/pose.hpp, and with kMoving how fast that changes: straight for
+// the translation, about one axis for the rotation, told in the parent's axes.
 template <bool kMoving>
 COFRAME_INLINE PoseLanes step_at(const Between& link, std::size_t i, TwistLanes& rate) {
   const Lanes t = load_lanes(link.share + i);
@@ -84,9 +85,9 @@ COFRAME_INLINE PoseLanes step_at(const Between& link, std::size_t i, TwistLanes&
     const Lanes scale = with_sign(2.0 * per_second * weights.angle_by_sine, sign);
     rate = {per_second * (to - from), scale * Vector<Lanes>{turn.x, turn.y, turn.z}};
   }
-  return {{first * a.x + second * b.x, first * a.y + second * b.y, first * a.z + second * b.z,
-           first * a.w + second * b.w},
-          (1.0 - t) * from + t * to};
+  return {
+      {first * a.x + second * b.x, first * a.y + second * b.y, first * a.z + second * b.z, first * a.w + second * b.w},
+      (1.0 - t) * from + t * to};
 }
 
 // Where a link stands still.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points that were measured one after the other while the sensor moved, seen from one frame: each by where the sensor
 // was at the point's own time.
 #pragma once

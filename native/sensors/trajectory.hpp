@@ -1,5 +1,6 @@
-// One frame seen from another over a span of time: what a buffer has of it, copied. Many questions about it then see one
-// state of the tree, and nobody waits for another.
+// SPDX-License-Identifier: Apache-2.0
+// One frame seen from another over a span of time: what a buffer has of it, copied. Many questions about it then see
+// one state of the tree, and nobody waits for another.
 #pragma once
 
 #include <cstddef>

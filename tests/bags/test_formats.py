@@ -185,7 +185,7 @@ def test_a_frame_with_static_and_dynamic_transforms_is_dynamic(tmp_path):
     recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows))
     recordings.assert_same(recording.buffer)
     (problem,) = recording.problems
-    assert "odom -> base is both on /tf_static" in problem
+    assert "odom -> base is published both on /tf_static" in problem
 
 
 @pytest.mark.parametrize("kind", ["ros2", "ros1"])
@@ -211,7 +211,7 @@ def test_robots_of_several_namespaces(tmp_path):
 
     alike = recordings.write_mcap(tmp_path / "alike.mcap", rows=[*rows("/one", ""), *rows("/two", "")])
     recording = coframe.open_bag(alike)
-    assert "/one/tf and /two/tf both tell of 'base'" in recording.problems[0]
+    assert "/one/tf and /two/tf both contain the frame 'base'" in recording.problems[0]
     recordings.assert_same(recording.buffer)
     recordings.assert_same(recording.buffers["/two"])
     chosen = coframe.open_bag(alike, namespace="two")

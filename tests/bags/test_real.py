@@ -98,7 +98,7 @@ def test_compressed_bags_of_ros_1_have_the_same_transforms(folder):
 def test_tilt_laser(folder):
     """A recording of hardware, with leading slashes, unknown types and one sensor without a transform."""
     with coframe.open_bag(folder / "tilt_laser.bag") as recording:
-        assert recording.problems == ["/tf: names of frames begin with '/': it is left off, as tf2 does"]
+        assert recording.problems == ["/tf: frame names begin with '/'; the slash is removed, as in tf2"]
         counts = {name: recording.topics[name].messages for name in ("/scan", "/imu_data", "/position_gps", "/tf")}
         assert counts == {"/scan": 178, "/imu_data": 356, "/position_gps": 356, "/tf": 711}
         scan = next(recording.messages("/scan")).message

@@ -1,4 +1,4 @@
-"""Many look-ups and insertions at once: each row as a single call, whatever the block, the order and the threads."""
+"""Batches of lookups and insertions: each row equals a single call, for every order and number of threads."""
 
 import threading
 
@@ -18,7 +18,7 @@ def random_poses(rng, count):
 
 
 def row_by_row(buffer, target, source, stamps):
-    """Poses (N, 7), NaN where there is no answer."""
+    """Return poses (N, 7), with NaN for rows without a transform."""
     rows = []
     for stamp in stamps.tolist():
         try:
@@ -30,7 +30,7 @@ def row_by_row(buffer, target, source, stamps):
 
 @pytest.fixture
 def tree():
-    """Five links, one of them static, one that changed its parent, one with equal stamps, one with a single sample."""
+    """Five edges: one is static, one changed its parent, one has equal stamps, one has a single sample."""
     rng = np.random.default_rng(7)
     buffer = coframe.Buffer(None)
     stamps = 10 * SECOND + np.sort(rng.integers(0, 5 * SECOND, 700))
@@ -48,7 +48,7 @@ def tree():
     ("target", "source"), [("map", "base"), ("mast", "map"), ("map", "camera"), ("lens", "map"), ("base", "base")]
 )
 @pytest.mark.parametrize("threads", [1, 3])
-def test_each_row_is_a_lookup(tree, target, source, threads):
+def test_each_row_equals_a_lookup(tree, target, source, threads):
     buffer, samples = tree
     rng = np.random.default_rng(1)
     stamps = np.concatenate(
@@ -65,7 +65,7 @@ def test_each_row_is_a_lookup(tree, target, source, threads):
     np.testing.assert_allclose(np.concatenate([found.translation, found.quaternion], 1), expected, rtol=0, atol=1e-12)
 
 
-def test_interpolation_is_scipys_slerp():
+def test_interpolation_equals_scipys_slerp():
     rng = np.random.default_rng(2)
     for angle in (1e-12, 1e-7, 1e-3, 0.3, 2.0, np.pi - 1e-9):
         axis = rng.normal(size=3)
@@ -93,7 +93,7 @@ def test_out_is_filled(tree):
         buffer.lookup_many("map", "odom", samples, out=np.empty((700, 6)))
 
 
-def test_clip_takes_the_nearest_time_with_data(tree):
+def test_clip_uses_the_nearest_time_with_data(tree):
     buffer, samples = tree
     found = buffer.lookup_many("map", "base", [SECOND, 12 * SECOND, 99 * SECOND], on_error="clip")
     assert found.stamps.tolist() == [samples[0] + 3, 12 * SECOND, samples[-1]]
@@ -118,8 +118,8 @@ def test_twists_are_the_rate_of_change(tree, target, source):
     )
 
 
-def test_rows_are_right_while_others_insert():
-    """The value tells the stamp: a row that mixed two states of the buffer would show."""
+def test_rows_are_consistent_during_insertions():
+    """Each value encodes its stamp, so a row that mixes two states of the buffer is detected."""
     buffer, stop = coframe.Buffer("2s"), threading.Event()
 
     def feed():
@@ -147,7 +147,7 @@ def test_rows_are_right_while_others_insert():
 
 class TestSetMany:
     @pytest.mark.parametrize("cache", [None, "3s", 0])
-    def test_it_is_set_one_after_another(self, cache):
+    def test_equals_single_insertions(self, cache):
         rng = np.random.default_rng(5)
         stamps = rng.permutation(np.concatenate([SECOND + rng.integers(0, 10 * SECOND, 900), np.full(30, 5 * SECOND)]))
         poses = random_poses(rng, len(stamps))
@@ -160,13 +160,13 @@ class TestSetMany:
         asked = rng.integers(SECOND, 11 * SECOND, 500)
         np.testing.assert_array_equal(row_by_row(many, "a", "b", asked), row_by_row(single, "a", "b", asked))
 
-    def test_a_batch_brings_its_stamps(self):
+    def test_a_batch_provides_its_stamps(self):
         buffer = coframe.Buffer()
         batch = coframe.Transform(np.eye(3), stamp=np.array([1, 2, 3]) * SECOND)
         assert buffer.set_many("a", "b", None, batch) == 3
         assert buffer.lookup("a", "b", 2 * SECOND).translation.tolist() == [0, 1, 0]
 
-    def test_old_ones_are_left_out(self):
+    def test_samples_older_than_the_cache_are_skipped(self):
         buffer = coframe.Buffer("1s")
         buffer.set("a", "b", coframe.Transform(), 10 * SECOND)
         assert buffer.set_many("a", "b", [SECOND, 10 * SECOND + 1], np.tile([0, 0, 0, 0, 0, 0, 1.0], (2, 1))) == 1
@@ -183,7 +183,7 @@ class TestSetMany:
         with pytest.raises(ValueError, match=r"stamps must have shape \(N,\) and poses \(N, 7\)"):
             coframe.Buffer().set_many("a", "b", [1, 2], np.zeros((3, 7)))
 
-    def test_it_wakes_who_waits(self):
+    def test_it_wakes_waiting_threads(self):
         buffer = coframe.Buffer()
         found = []
         thread = threading.Thread(target=lambda: found.append(buffer.wait("a", "b", 3 * SECOND, timeout="20s")))
@@ -193,14 +193,14 @@ class TestSetMany:
         assert found[0].stamp == 3 * SECOND
 
     @pytest.mark.parametrize(("parent", "child"), [("a", "a"), ("", "a"), ("a", "")])
-    def test_names_are_refused_as_by_set(self, parent, child):
+    def test_names_are_refused_like_in_set(self, parent, child):
         buffer = coframe.Buffer()
         with pytest.raises(coframe.InvalidArgumentException, match="row 0: TF_"):
             buffer.set_many(parent, child, [1, 2], [[0, 0, 0, 0, 0, 0, 1]] * 2)
 
 
 class TestTrajectory:
-    def test_at_the_samples_own_times(self, tree):
+    def test_poses_at_the_times_of_the_samples(self, tree):
         buffer, samples = tree
         path = buffer.trajectory("map", "base")
         inside = np.unique(np.concatenate([samples, samples + 3]))
@@ -208,7 +208,7 @@ class TestTrajectory:
         part = buffer.trajectory("map", "base", 11 * SECOND, 12 * SECOND)
         assert (part.stamps[0], part.stamps[-1]) == (11 * SECOND, 12 * SECOND)
 
-    def test_steps_keep_within_their_limits_and_are_few(self):
+    def test_steps_are_within_the_limits_and_few(self):
         buffer = coframe.Buffer(None)
         stamps = np.arange(1, 102) * SECOND // 10
         x = np.concatenate([np.zeros(50), np.linspace(0, 3, 26), np.full(25, 3.0)])
@@ -225,7 +225,7 @@ class TestTrajectory:
         assert path.stamps[0] == stamps[0]
         assert path.stamps[-1] == stamps[-1]
 
-    def test_static_links_give_one_pose(self):
+    def test_static_edges_give_one_pose(self):
         buffer = coframe.Buffer()
         buffer.set("a", "b", coframe.Transform([1, 2, 3]), static=True)
         assert buffer.trajectory("a", "b").translation.tolist() == [[1, 2, 3]]

@@ -1,4 +1,4 @@
-"""The buffer's answers, refusals and texts, as spec'd by tf2."""
+"""Results, errors and texts of the buffer equal those of tf2."""
 
 import random
 import threading
@@ -90,7 +90,7 @@ def test_latest_is_the_newest_common_time(buffer):
         ),
     ],
 )
-def test_failures_have_tf2s_texts(buffer, target, source, stamp, kind, text):
+def test_failures_have_the_texts_of_tf2(buffer, target, source, stamp, kind, text):
     with pytest.raises(coframe.TransformException) as caught:
         buffer.lookup(target, source, stamp)
     assert type(caught.value) is kind
@@ -99,7 +99,7 @@ def test_failures_have_tf2s_texts(buffer, target, source, stamp, kind, text):
     assert caught.value.hint
 
 
-def test_extrapolation_names_the_link_and_what_it_has(buffer):
+def test_extrapolation_errors_name_the_edge_and_its_stamps(buffer):
     with pytest.raises(coframe.ExtrapolationException) as caught:
         buffer.lookup("odom", "lidar", 13 * SECOND)
     error = caught.value
@@ -107,7 +107,7 @@ def test_extrapolation_names_the_link_and_what_it_has(buffer):
     assert (error.requested, error.earliest, error.latest) == (13 * SECOND, 10 * SECOND, 12 * SECOND)
 
 
-def test_single_sample_answers_only_its_own_time():
+def test_a_single_sample_is_valid_only_at_its_own_time():
     buffer = coframe.Buffer()
     buffer.set("a", "b", coframe.Transform(), 10 * SECOND)
     assert buffer.can_transform("a", "b", 10 * SECOND)
@@ -115,14 +115,14 @@ def test_single_sample_answers_only_its_own_time():
         buffer.lookup("a", "b", 9 * SECOND)
 
 
-def test_disconnected_trees_are_named_with_the_missing_link(buffer):
+def test_disconnected_trees_are_named_with_the_missing_edge(buffer):
     with pytest.raises(coframe.ConnectivityException) as caught:
         buffer.lookup("odom", "other")
     for words in ("'odom' with base, lidar", "'map2' with other", "a transform with the child 'map2'"):
         assert words in caught.value.hint
 
 
-def test_unknown_frame_hint_guesses_and_lists(buffer):
+def test_hint_for_an_unknown_frame_suggests_and_lists_names(buffer):
     with pytest.raises(coframe.LookupException) as caught:
         buffer.lookup("odom", "lidr")
     assert "Did you mean 'lidar'?" in caught.value.hint
@@ -142,7 +142,7 @@ def test_loop_is_reported_not_followed():
         buffer.lookup("x", "a")
 
 
-def test_a_thousand_links_are_walked_and_one_more_is_a_loop():
+def test_chains_of_a_thousand_edges_work_and_longer_ones_are_loops():
     buffer = coframe.Buffer()
     for i in range(1001):
         buffer.set(f"f{i}", f"f{i + 1}", coframe.Transform([1, 0, 0]), static=True)
@@ -166,7 +166,7 @@ def test_a_thousand_links_are_walked_and_one_more_is_a_loop():
         ("a", "b", (0, 0, 0, 0, 0, 0, 0), 'TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id "b"'),
     ],
 )
-def test_refused_transforms_leave_no_trace_but_tf2s_text(parent, child, values, text):
+def test_refused_transforms_change_nothing_and_give_the_text_of_tf2(parent, child, values, text):
     buffer = coframe.Buffer()
     refusals = buffer._set_values(parent, child, SECOND, *map(float, values), False, "me")
     lines = coframe._core.insert_texts(refusals, parent, child, SECOND, *map(float, values), "me")
@@ -194,7 +194,7 @@ def test_old_data_is_refused_and_counted():
     assert buffer.statistics["old"] == 1
 
 
-def test_prunes_before_it_inserts_as_tf2():
+def test_prunes_before_inserting_like_tf2():
     buffer = coframe.Buffer("10s")
     for second in range(1, 26):
         buffer.set("a", "b", coframe.Transform(), second * SECOND)
@@ -213,7 +213,7 @@ def test_long_histories_are_searched_exactly():
     np.testing.assert_allclose(answers, asked, rtol=0, atol=1e-5)
 
 
-def test_equal_stamps_keep_both_and_repetitions_are_taken_silently():
+def test_equal_stamps_keep_both_samples_and_repetitions_are_accepted():
     buffer = coframe.Buffer()
     for x in (1, 2, 2, 1):
         buffer.set("a", "b", coframe.Transform([x, 0, 0]), SECOND)
@@ -221,7 +221,7 @@ def test_equal_stamps_keep_both_and_repetitions_are_taken_silently():
     assert buffer.lookup("a", "b").translation[0] == 2  # the last inserted is the newest
 
 
-def test_a_new_parent_starts_where_its_samples_start():
+def test_a_new_parent_is_valid_from_its_first_sample():
     buffer = coframe.Buffer()
     buffer.set("left", "cup", coframe.Transform([1, 0, 0]), 1 * SECOND)
     buffer.set("right", "cup", coframe.Transform([2, 0, 0]), 3 * SECOND)
@@ -249,7 +249,7 @@ def test_clear_keeps_statics_and_names(buffer):
     )
 
 
-def test_can_transform_agrees_with_lookup_whatever_happened_before():
+def test_can_transform_agrees_with_lookup_after_random_changes():
     generator = random.Random(3)
     for _ in range(30):
         buffer = coframe.Buffer(cache=20 * SECOND)
@@ -261,7 +261,7 @@ def test_can_transform_agrees_with_lookup_whatever_happened_before():
 
 
 def change(buffer, generator):
-    """One of all things that may happen to a chain a <- b <- c; some of them seldom."""
+    """Return a random change of the chain a <- b <- c; some changes are rare."""
     child = generator.choice("bc")
     parent = "a" if child == "b" else generator.choice("bbbbba")
     stamp = generator.randrange(90) * SECOND
@@ -293,14 +293,14 @@ def test_time_travel(buffer):
     assert transform.stamp == 12 * SECOND
 
 
-def test_can_transform_says_why_not_in_its_own_words(buffer):
+def test_can_transform_has_its_own_error_texts(buffer):
     assert buffer._why_not("odom", "lidar") == ""
     assert buffer._why_not("nobody", "lidar") == (
         'Invalid frame ID "nobody" passed to canTransform argument target_frame - frame does not exist'
     )
 
 
-def test_any_frame_is_at_rest_in_itself(buffer):
+def test_a_frame_relative_to_itself_is_the_identity(buffer):
     assert buffer.lookup("nobody", "nobody", 5).values == (0, 0, 0, 0, 0, 0, 1)
 
 
@@ -313,7 +313,7 @@ def test_timeout_waits_for_another_thread_and_no_longer(buffer):
     thread.join()
 
 
-def test_wait_gives_up_with_the_reason(buffer):
+def test_wait_times_out_with_the_reason(buffer):
     with pytest.raises(
         coframe.TimeoutException, match=r"timed out after 20 ms waiting for .* does not exist"
     ) as caught:
@@ -326,7 +326,7 @@ def test_stamps_in_float_seconds_are_refused(buffer):
         buffer.lookup("odom", "base", 10.5)
 
 
-def test_frame_names_must_be_text(buffer):
+def test_frame_names_must_be_strings(buffer):
     for wrong in (7, None):
         with pytest.raises(TypeError, match=f"a frame name must be str, not {type(wrong).__name__}"):
             buffer.lookup("odom", wrong)
@@ -339,7 +339,7 @@ def test_stamps_beyond_64_bits_are_refused(buffer):
         buffer.lookup("odom", "base", 2**70)
 
 
-def test_set_checks_the_frames_a_transform_names():
+def test_set_checks_the_frames_of_the_transform():
     transform = coframe.Transform(target="a", source="b", stamp=1)
     buffer = coframe.Buffer()
     assert buffer.set("a", "b", transform)
@@ -352,8 +352,8 @@ def test_a_dynamic_transform_needs_a_stamp():
         coframe.Buffer().set("a", "b", coframe.Transform())
 
 
-def test_readers_and_a_writer_at_once():
-    """Each sample's seven numbers belong together whatever the threads do."""
+def test_concurrent_readers_and_a_writer():
+    """The seven numbers of a sample stay consistent while threads read and write."""
     buffer = coframe.Buffer(None)
     buffer._set_values("a", "b", 1, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, False, "me")
     stop = threading.Event()
@@ -396,12 +396,12 @@ def test_text_dumps():
 
 
 @pytest.mark.parametrize("value", [([0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]), np.eye(4), None])
-def test_set_says_what_it_takes(value):
+def test_set_names_the_types_that_it_accepts(value):
     with pytest.raises(TypeError, match=r"takes a coframe.Transform, not .*Transform.from_matrix"):
         coframe.Buffer().set("a", "b", value, stamp=1)
 
 
-def test_seconds_where_nanoseconds_are_wanted_are_noticed():
+def test_hint_for_stamps_in_seconds():
     buffer = coframe.Buffer()
     for stamp in (1_000_000_000, 3_000_000_000):
         buffer.set("a", "b", coframe.Transform(), stamp=stamp)
@@ -415,7 +415,7 @@ def test_seconds_where_nanoseconds_are_wanted_are_noticed():
 
 
 @pytest.mark.parametrize("wrong", [{"timeout": 0.5}, {"timeout": "soon"}, {"extrapolate": 0.1}, {"timeout": [1]}])
-def test_what_is_wrong_is_told_also_where_it_is_not_needed(buffer, wrong):
+def test_invalid_arguments_are_refused_even_if_they_are_not_used(buffer, wrong):
     with pytest.raises((TypeError, ValueError), match=r"is not a duration|a duration must be"):
         buffer.lookup("odom", "base", **wrong)
     if "timeout" in wrong:
@@ -423,12 +423,12 @@ def test_what_is_wrong_is_told_also_where_it_is_not_needed(buffer, wrong):
             buffer.can_transform("odom", "base", **wrong)
 
 
-def test_hold_may_be_anything_that_is_true(buffer):
+def test_hold_accepts_any_true_value(buffer):
     latest = buffer.lookup("odom", "base").stamp
     assert buffer.lookup("odom", "base", latest + 5, extrapolate=10, hold=1).extrapolated == 5
 
 
-def test_of_several_values_that_are_no_numbers_the_first_is_told():
+def test_the_error_names_the_first_of_several_nan_values():
     class Number:
         def __float__(self):
             return 1.0

@@ -1,4 +1,4 @@
-"""What coframe's buffer does beyond tf2's: bounded extrapolation, many look-ups at once, statistics, snapshots."""
+"""Features of the buffer beyond tf2: bounded extrapolation, batches of lookups, statistics, snapshots."""
 
 import asyncio
 import threading
@@ -29,23 +29,23 @@ def buffer():
 
 
 class TestExtrapolation:
-    def test_without_it_there_is_none(self, buffer):
+    def test_there_is_none_by_default(self, buffer):
         with pytest.raises(coframe.ExtrapolationException, match="into the future"):
             buffer.lookup("odom", "lidar", 11 * SECOND + 1)
 
-    def test_its_bound_holds_on_both_sides(self, buffer):
+    def test_the_limit_applies_before_and_after_the_data(self, buffer):
         for inside, outside in ((11_050_000_000, 11_050_000_001), (9_950_000_000, 9_949_999_999)):
             assert buffer.lookup("odom", "lidar", inside, extrapolate="50ms").extrapolated == 50_000_000
             with pytest.raises(coframe.ExtrapolationException):
                 buffer.lookup("odom", "lidar", outside, extrapolate="50ms")
 
-    def test_the_answer_says_how_far_it_went(self, buffer):
+    def test_the_result_contains_the_extrapolated_time(self, buffer):
         found = buffer.lookup("odom", "lidar", 11 * SECOND + 7, extrapolate="1s")
         assert (found.stamp, found.extrapolated) == (11 * SECOND + 7, 7)
         assert buffer.lookup("odom", "lidar", 11 * SECOND, extrapolate="1s").extrapolated == 0
 
     @pytest.mark.parametrize("seed", range(20))
-    def test_the_twist_goes_on(self, seed):
+    def test_the_twist_is_continued(self, seed):
         rng = np.random.default_rng(seed)
         first, second = (
             coframe.Transform(rng.normal(size=3), Rotation.from_rotvec(rng.normal(size=3)).as_quat()) for _ in range(2)
@@ -68,29 +68,29 @@ class TestExtrapolation:
         found = buffer.lookup("odom", "base", 11_500_000_000, extrapolate="1s")
         assert found.translation.tolist() == [1.5, 3.0, 4.5]
 
-    def test_held_it_stands_still(self, buffer):
+    def test_hold_keeps_the_last_pose(self, buffer):
         found = buffer.lookup("odom", "base", 11_500_000_000, extrapolate="1s", hold=True)
         assert found.is_close(buffer.lookup("odom", "base", 11 * SECOND))
         assert found.extrapolated == SECOND // 2
 
-    def test_one_sample_can_only_be_held(self):
+    def test_a_single_sample_can_only_be_held(self):
         buffer = coframe.Buffer()
         buffer.set("odom", "base", coframe.Transform([1, 2, 3]), 10 * SECOND)
         assert buffer.lookup("odom", "base", 10 * SECOND + 5, extrapolate=5).translation.tolist() == [1, 2, 3]
 
-    def test_a_new_parent_ends_the_motion(self, buffer):
+    def test_a_new_parent_resets_the_motion(self, buffer):
         buffer.set("map", "base", coframe.Transform([5, 0, 0]), 12 * SECOND)
         buffer.set("map", "other", coframe.Transform(), static=True)
         assert buffer.lookup("map", "base", 12_500_000_000, extrapolate="1s").translation.tolist() == [5, 0, 0]
 
-    def test_real_data_are_waited_for_first(self, buffer):
+    def test_the_timeout_comes_before_extrapolation(self, buffer):
         thread = threading.Timer(0.05, lambda: buffer.set("odom", "base", coframe.Transform([9, 0, 0]), 12 * SECOND))
         thread.start()
         found = buffer.lookup("odom", "base", 12 * SECOND, timeout="20s", extrapolate="5s")
         thread.join()
         assert (found.translation[0], found.extrapolated) == (9, 0)
 
-    def test_a_negative_bound_is_refused(self, buffer):
+    def test_a_negative_limit_is_refused(self, buffer):
         with pytest.raises(ValueError, match="negative"):
             buffer.lookup("odom", "base", 12 * SECOND, extrapolate=-1)
 
@@ -111,24 +111,24 @@ class TestLookupMany:
         assert buffer.lookup_many("odom", "base", times).translation[0, 0] == pytest.approx(0.5)
         assert buffer.lookup_many("odom", "base", [0]).stamps.tolist() == [11 * SECOND]
 
-    def test_raises_as_the_first_row_without_answer(self, buffer):
+    def test_raises_the_error_of_the_first_row_without_a_transform(self, buffer):
         with pytest.raises(coframe.ExtrapolationException, match=r"Requested time 9.000000"):
             buffer.lookup_many("odom", "base", [10 * SECOND, 9 * SECOND, 20 * SECOND])
 
-    def test_nan_where_there_is_no_answer(self, buffer):
+    def test_rows_without_a_transform_are_nan(self, buffer):
         many = buffer.lookup_many("odom", "base", [10 * SECOND, 9 * SECOND, 11 * SECOND], on_error="nan")
         assert np.isnan(many.translation[:, 0]).tolist() == [False, True, False]
         assert np.isnan((many.inverse() @ many).quaternion[:, 3]).tolist() == [False, True, False]
 
-    def test_nan_everywhere_is_an_error_with_its_reason(self, buffer):
+    def test_no_row_with_a_transform_is_an_error(self, buffer):
         with pytest.raises(coframe.LookupException, match="nobody"):
             buffer.lookup_many("odom", "nobody", [10 * SECOND], on_error="nan")
 
-    def test_extrapolated_rows_say_how_far(self, buffer):
+    def test_extrapolated_rows_contain_the_extrapolated_time(self, buffer):
         many = buffer.lookup_many("odom", "base", [10 * SECOND, 11 * SECOND + 3], extrapolate="1s")
         assert many.extrapolated.tolist() == [0, 3]
 
-    def test_no_stamps_no_rows(self, buffer):
+    def test_no_stamps_give_no_rows(self, buffer):
         assert buffer.lookup_many("odom", "base", np.zeros(0, dtype=np.int64)).shape == (0,)
 
     def test_float_seconds_are_refused(self, buffer):
@@ -137,7 +137,7 @@ class TestLookupMany:
 
 
 class TestRemoveFrame:
-    def test_frames_and_their_links_are_gone(self, buffer):
+    def test_frames_and_their_edges_are_removed(self, buffer):
         assert buffer.remove_frame("base")
         assert buffer.frame_names() == ["odom", "lidar"]
         with pytest.raises(coframe.LookupException, match=r'"base" passed to .* does not exist'):
@@ -146,12 +146,12 @@ class TestRemoveFrame:
             buffer.lookup("odom", "lidar")
         assert "base" not in buffer.all_frames_as_yaml()
 
-    def test_it_may_come_back(self, buffer):
+    def test_a_removed_frame_can_be_inserted_again(self, buffer):
         buffer.remove_frame("base")
         buffer.set("map", "base", coframe.Transform([1, 1, 1]), 20 * SECOND)
         assert buffer.lookup("map", "base").translation.tolist() == [1, 1, 1]
 
-    def test_unknown_frames_are_no_error(self, buffer):
+    def test_unknown_frames_are_not_an_error(self, buffer):
         assert not buffer.remove_frame("nobody")
 
 
@@ -188,7 +188,7 @@ class TestEdges:
 
 
 class TestSnapshot:
-    def test_it_stays_as_it_was(self, buffer):
+    def test_it_does_not_change(self, buffer):
         frozen = buffer.snapshot()
         before = frozen.all_frames_as_yaml()
         buffer.set("odom", "base", coframe.Transform([7, 0, 0]), 10_500_000_000)
@@ -201,7 +201,7 @@ class TestSnapshot:
         assert frozen.lookup("odom", "lidar", 10_500_000_000).translation.tolist() == [0.5, 0, 0.5]
         assert frozen.frame_names() == ["base", "odom", "lidar"]
 
-    def test_random_changes_do_not_show_through(self):
+    def test_random_changes_do_not_affect_it(self):
         rng = np.random.default_rng(3)
         buffer = coframe.Buffer("100s")
         snapshots = []
@@ -222,16 +222,16 @@ class TestSnapshot:
         for copy, questions, answers in snapshots:
             assert [copy._why_not("odom", f, s) or copy.lookup("odom", f, s).values for f, s in questions] == answers
 
-    def test_it_takes_nothing_in(self, buffer):
+    def test_it_is_read_only(self, buffer):
         with pytest.raises(coframe.InvalidArgumentException, match="frozen"):
             buffer.snapshot().set("odom", "base", coframe.Transform(), 12 * SECOND)
 
-    def test_it_outlives_its_buffer(self, buffer):
+    def test_it_outlives_the_buffer(self, buffer):
         frozen = buffer.snapshot()
         del buffer
         assert frozen.lookup("odom", "lidar").stamp == 11 * SECOND
 
-    def test_a_frozen_buffer_answers_and_forgets_nothing(self, buffer):
+    def test_a_frozen_buffer_keeps_everything(self, buffer):
         buffer.freeze()
         buffer.clear()
         assert not buffer.remove_frame("base")
@@ -242,11 +242,11 @@ class TestSnapshot:
 
 
 class TestChanges:
-    def test_the_edge_that_changes_is_told(self, buffer):
-        told, got = [], threading.Event()
+    def test_the_changed_edge_is_reported(self, buffer):
+        reported, got = [], threading.Event()
 
         def on_change(edge):
-            told.append((edge.parent, edge.child, edge.newest))
+            reported.append((edge.parent, edge.child, edge.newest))
             got.set()
 
         with buffer.on_change(on_change, child="base"):
@@ -254,14 +254,14 @@ class TestChanges:
             buffer.set("odom", "base", coframe.Transform(), 12 * SECOND)
             assert got.wait(10)
         buffer.set("odom", "base", coframe.Transform(), 13 * SECOND)
-        assert told == [("odom", "base", 12 * SECOND)]
+        assert reported == [("odom", "base", 12 * SECOND)]
 
-    def test_every_edge_and_edges_to_come(self, buffer):
-        told, done = set(), threading.Event()
+    def test_all_edges_and_future_edges_are_reported(self, buffer):
+        reported, done = set(), threading.Event()
 
         def on_change(edge):
-            told.add(edge.child)
-            if told == {"base", "new"}:
+            reported.add(edge.child)
+            if reported == {"base", "new"}:
                 done.set()
 
         buffer.on_change(on_change)
@@ -272,7 +272,7 @@ class TestChanges:
         assert done.wait(10)
         assert fresh.wait(10)
 
-    def test_callbacks_may_use_the_buffer_and_fail(self, buffer, caplog):
+    def test_callbacks_can_use_the_buffer_and_raise(self, buffer, caplog):
         done = threading.Event()
 
         def on_change(edge):
@@ -292,7 +292,7 @@ class TestChanges:
 
 
 class TestAsyncio:
-    def test_many_tasks_wait_at_once(self):
+    def test_many_tasks_wait_concurrently(self):
         buffer = coframe.Buffer()
 
         async def main():
@@ -310,11 +310,11 @@ class TestAsyncio:
 
         asyncio.run(main())
 
-    def test_a_timeout_says_what_was_missing(self, buffer):
+    def test_a_timeout_names_the_missing_data(self, buffer):
         with pytest.raises(coframe.TimeoutException, match=r"timed out after 20 ms waiting for .* into the future"):
             asyncio.run(buffer.wait_async("odom", "base", 20 * SECOND, timeout="20ms"))
 
-    def test_a_cancelled_task_waits_no_more(self, buffer):
+    def test_a_cancelled_task_stops_waiting(self, buffer):
         async def main():
             task = asyncio.ensure_future(buffer.wait_async("odom", "base", 20 * SECOND))
             await asyncio.sleep(0)

@@ -1,4 +1,4 @@
-"""Frames of one robot among those of others: one rule, wherever names are read or written."""
+"""Frame prefixes follow the same rules in Python, in relays and when bytes are ingested."""
 
 import pytest
 
@@ -32,7 +32,7 @@ def edges_of(message):
     ("prefix", "name", "becomes"),
     [
         ("robot1/", "base_link", "robot1/base_link"),
-        ("robot1", "base_link", "robot1base_link"),  # nobody invents a slash
+        ("robot1", "base_link", "robot1base_link"),  # No slash is added.
         ("robot1/", "/base_link", "robot1/base_link"),
         ("robot1/", "//base_link", "robot1//base_link"),
         ("robot1/", "map", "map"),
@@ -58,7 +58,7 @@ def test_an_empty_prefix_renames_nothing_and_a_leading_slash_is_refused():
 
 
 def relay(*prefixes, keep=(), split=False, static=False, period=0):
-    """A relay of one source for each prefix, and what it passes on as (parent, child, x)."""
+    """Return a relay with one source per prefix, and a function that returns its output as (parent, child, x)."""
     native = _core.Relay(static, period)
     for prefix in prefixes:
         native.add_source(_core.Renaming(prefix, list(keep)), split)
@@ -71,7 +71,7 @@ def relay(*prefixes, keep=(), split=False, static=False, period=0):
     return native, pass_on
 
 
-def test_a_relay_puts_prefixes_in_front_of_all_but_shared_frames():
+def test_a_relay_prefixes_all_frames_but_the_shared_ones():
     _, pass_on = relay("robot1/", "robot2/", keep=["map"])
     for _ in range(2):  # names that are new, and names that are remembered
         assert pass_on(0, stamped("map", "/odom"), stamped("odom", "base")) == [
@@ -81,7 +81,7 @@ def test_a_relay_puts_prefixes_in_front_of_all_but_shared_frames():
         assert pass_on(1, stamped("map", "odom", x=2.0)) == [("map", "robot2/odom", 2.0)]
 
 
-def test_splitting_is_the_way_back():
+def test_splitting_removes_the_prefix():
     _, pass_on = relay("robot1/", keep=["map"], split=True)
     message = [
         stamped("map", "robot1/odom"),
@@ -94,7 +94,7 @@ def test_splitting_is_the_way_back():
         assert pass_on(0, *message) == [("map", "odom", 0.0), ("odom", "base", 0.0), ("world", "map", 0.0)]
 
 
-def test_of_two_that_tell_of_a_frame_the_first_is_listened_to_until_it_falls_silent():
+def test_of_two_publishers_of_a_frame_the_first_is_used_until_it_stops():
     native, pass_on = relay("", "")
     assert pass_on(0, stamped("map", "odom", x=1.0), at=0)
     assert pass_on(1, stamped("map", "odom", x=2.0), at=10**9) == []
@@ -105,12 +105,12 @@ def test_of_two_that_tell_of_a_frame_the_first_is_listened_to_until_it_falls_sil
     assert pass_on(0, stamped("map", "odom", x=1.0), at=5 * 10**9) == []
 
 
-def test_static_transforms_are_all_written_as_soon_as_one_is_new():
+def test_all_static_transforms_are_written_when_one_is_new():
     native, pass_on = relay("robot1/", "robot2/", keep=["map", "world"], static=True)
     mount, placed = ("robot1/base", "robot1/lidar", 0.5), ("world", "map", 0.0)
     assert pass_on(0, stamped("base", "lidar", x=0.5), stamped("world", "map")) == [mount, placed]
     assert pass_on(0, stamped("base", "lidar", x=0.5)) == []  # nothing new
-    # The same word from another robot is no quarrel, another word is; and nobody falls silent.
+    # The same transform from another robot is not a conflict, a different one is; and no publisher stops.
     assert pass_on(1, stamped("world", "map"), stamped("base", "cam"), at=10**12) == [
         mount,
         placed,
@@ -119,12 +119,12 @@ def test_static_transforms_are_all_written_as_soon_as_one_is_new():
     assert [edge for edge in native.edges() if edge[4] is not None] == []
     assert pass_on(1, stamped("world", "map", x=9.0), at=10**12) == []
     assert [edge[1] for edge in native.edges() if edge[4] is not None] == ["map"]
-    # One that moves to another parent is told of once.
+    # A frame that moves to another parent is reported once.
     moved = pass_on(0, stamped("mast", "lidar", x=0.7))
     assert [edge for edge in moved if edge[1] == "robot1/lidar"] == [("robot1/mast", "robot1/lidar", 0.7)]
 
 
-def test_the_rate_is_kept_for_each_edge_on_average():
+def test_the_average_rate_of_each_edge_is_limited():
     native, pass_on = relay("", period=10**8)  # 10 Hz
     passed = 0
     for number in range(500):  # 50 Hz, for ten seconds, not quite regular
@@ -134,7 +134,7 @@ def test_the_rate_is_kept_for_each_edge_on_average():
     assert (edge[6], edge[6] + edge[7]) == (passed, 500)
 
 
-def test_a_relay_passes_nothing_on_that_a_buffer_would_refuse():
+def test_a_relay_drops_transforms_that_a_buffer_would_refuse():
     native, pass_on = relay("robot1/")
     nan = stamped("a", "b")
     nan.transform.translation.x = float("nan")
@@ -144,13 +144,13 @@ def test_a_relay_passes_nothing_on_that_a_buffer_would_refuse():
     native.add(0, 1, b"\0\1\0\0\xff\xff\xff\x7f")
     native.add(0, 1, b"")
     assert native.take() is None
-    [(heard, malformed, refused)] = native.writers(0)
-    assert (heard[1], malformed, refused) == (3, 2, 4)
+    [(writer, malformed, refused)] = native.writers(0)
+    assert (writer[1], malformed, refused) == (3, 2, 4)
     with pytest.raises(IndexError):
         native.add(7, 1, cdr())
 
 
-def test_a_writer_that_invents_names_without_end_is_bounded():
+def test_the_number_of_frames_of_a_writer_is_bounded():
     native = _core.Relay(False, 0)
     native.add_source(_core.Renaming("", []), False)
     for batch in range(70):
@@ -162,11 +162,11 @@ def test_naming_problems_are_reported_with_examples():
     native, pass_on = relay("robot1/", keep=["map"])
     pass_on(0, stamped("map", "odom"))
     [(writer, _, _)] = native.writers(0)
-    assert writer[4:] == ("", "", "odom")
+    assert writer[5:] == ("", "", "odom")
     pass_on(0, stamped("/map", "robot1/odom"))
     [(writer, _, _)] = native.writers(0)
-    assert writer[4:] == ("/map", "robot1/odom", "odom")
-    problems = frame_names.naming_problems("/robot1/tf", *writer[4:])
+    assert writer[5:] == ("/map", "robot1/odom", "odom")
+    problems = frame_names.naming_problems("/robot1/tf", *writer[5:])
     assert "'/map'; its leading slash is removed" in problems[0]
     assert "for only some of its frames: 'robot1/odom' and 'odom'" in problems[1]
 
@@ -181,8 +181,8 @@ def test_the_clock_offset_of_a_source_ignores_single_wild_stamps():
         now = time.time_ns() + 10**9 + wrong
         native.add(0, 1, cdr(stamped("a", "b", stamp=now)))
         if number < 14:
-            assert native.writers(0)[0][0][3] is None
-    assert native.writers(0)[0][0][3] == pytest.approx(-(10**9), abs=5 * 10**7)
+            assert native.writers(0)[0][0][4] is None
+    assert native.writers(0)[0][0][4] == pytest.approx(-(10**9), abs=5 * 10**7)
 
 
 def test_frames_are_renamed_when_bytes_are_ingested():

@@ -1,4 +1,4 @@
-"""Buffers as files: what comes back is what was saved, and no byte of a file does harm."""
+"""Buffers saved to files: loading returns the saved data, and damaged files are safe."""
 
 import concurrent.futures
 import multiprocessing
@@ -18,7 +18,7 @@ SPAN = (SECOND, 20 * SECOND)
 
 
 def filled():
-    """Moving and static frames, one that changed its parent, one that was only mentioned, one that was removed."""
+    """Moving and static frames: one changed its parent, one was only named, one was removed."""
     buffer = coframe.Buffer(None)
     for i in range(1, 1001):
         at = i * SECOND // 50
@@ -40,7 +40,7 @@ def path(tmp_path):
     return path
 
 
-def test_answers_are_those_of_the_buffer(path):
+def test_results_equal_those_of_the_buffer(path):
     buffer, loaded = filled(), coframe.load(path, verify=True)
     stamps = np.random.default_rng(3).integers(*SPAN, 2000)
     for pair in (("map", "lidar"), ("lidar", "map"), ("odom", "base")):
@@ -62,8 +62,8 @@ def test_answers_are_those_of_the_buffer(path):
         assert (str(found.value), found.value.hint) == (str(expected.value), expected.value.hint)
 
 
-def test_samples_of_a_cache_that_has_forgotten_and_of_late_ones(tmp_path):
-    """Their first chunk does not begin with the first sample."""
+def test_samples_of_a_pruned_cache_and_late_samples(tmp_path):
+    """The first chunk of these samples does not begin with the first sample."""
     buffer = coframe.Buffer("5s")
     for i in [*range(1, 900), *range(850, 800, -1)]:
         buffer.set("map", "base", coframe.Transform([i, 0, 0]), i * SECOND // 50 + i % 2)
@@ -77,7 +77,7 @@ def test_an_empty_buffer(tmp_path):
     assert coframe.load(tmp_path / "a.cfz", verify=True).frames() == []
 
 
-def test_it_only_answers(path):
+def test_a_loaded_buffer_is_read_only(path):
     loaded = coframe.load(path)
     with pytest.raises(coframe.InvalidArgumentException, match="frozen") as caught:
         loaded.set("map", "base", coframe.Transform(), SECOND)
@@ -87,8 +87,8 @@ def test_it_only_answers(path):
     assert loaded.lookup("map", "lidar")
 
 
-def test_what_comes_of_it_outlives_it(path):
-    """Snapshots share its memory, and errors tell of it later."""
+def test_snapshots_and_errors_outlive_the_loaded_buffer(path):
+    """Snapshots share its memory, and errors create their text later."""
     loaded = coframe.load(path)
     snapshot = loaded.snapshot()
     with pytest.raises(coframe.ExtrapolationException) as caught:
@@ -112,7 +112,7 @@ def test_worker_processes_open_the_file_themselves(path):
         assert pool.submit(ask, loaded, 7 * SECOND).result() == ask(loaded, 7 * SECOND)
 
 
-def test_a_file_appears_whole_or_not_at_all(path, monkeypatch):
+def test_a_file_is_complete_or_does_not_appear(path, monkeypatch):
     before = path.read_bytes()
     monkeypatch.setattr(frozen_file._core, "frozen_chunks", lambda *_: 1 / 0)
     with pytest.raises(ZeroDivisionError):
@@ -133,7 +133,7 @@ def test_a_file_appears_whole_or_not_at_all(path, monkeypatch):
         (lambda data: data[:-3] + b"\x07" + data[-2:], "the checksum of its table is wrong"),
     ],
 )
-def test_damaged_files_are_refused_in_one_sentence(path, change, says):
+def test_damaged_files_are_refused_with_the_reason(path, change, says):
     path.write_bytes(change(path.read_bytes()))
     with pytest.raises(coframe.FrozenFileError, match=says) as caught:
         coframe.load(path)
@@ -141,7 +141,7 @@ def test_damaged_files_are_refused_in_one_sentence(path, change, says):
     assert caught.value.hint
 
 
-def test_a_flipped_bit_among_the_samples_is_found_when_asked_for(path):
+def test_verify_finds_a_flipped_bit_in_the_samples(path):
     data = bytearray(path.read_bytes())
     data[4096 + 5000] ^= 1
     path.write_bytes(data)
@@ -151,7 +151,7 @@ def test_a_flipped_bit_among_the_samples_is_found_when_asked_for(path):
 
 
 @pytest.mark.parametrize("where", ["nowhere/run.cfz", "."])
-def test_a_place_that_cannot_be_written_or_read(tmp_path, where):
+def test_paths_that_cannot_be_written_or_read(tmp_path, where):
     with pytest.raises(coframe.FrozenFileError, match="cannot be written"):
         filled().save(tmp_path / where)
     with pytest.raises(coframe.FrozenFileError, match="cannot be opened"):
@@ -159,7 +159,7 @@ def test_a_place_that_cannot_be_written_or_read(tmp_path, where):
 
 
 def sealed(data):
-    """With checksums that fit whatever is in there."""
+    """Return the file with checksums that match its content."""
     header = frozen_file.Header(*frozen_file._HEADER.unpack_from(data))
     table = data[header.table : header.table + header.table_size]
     data[: frozen_file._HEADER.size] = frozen_file._HEADER.pack(*header._replace(table_crc=zlib.crc32(table)))
@@ -170,7 +170,7 @@ def sealed(data):
 
 
 def mutated(rng, whole):
-    """Changed in its numbers, in its table, among its samples; then sealed."""
+    """Return the file with random changes in header, table and samples, mostly with matching checksums."""
     data = bytearray(whole)
     header = frozen_file.Header(*frozen_file._HEADER.unpack_from(data))
     for _ in range(rng.choice([1, 2, 8])):
@@ -183,7 +183,7 @@ def mutated(rng, whole):
 
 
 def survives(path):
-    """Whether it was opened; then all is asked of it that reads samples."""
+    """Return whether the file could be opened; if so, call everything that reads samples."""
     try:
         loaded = coframe.load(path)
     except coframe.FrozenFileError:
@@ -217,11 +217,11 @@ def fuzz(path, cases, seed):
     assert 0 < opened < cases
 
 
-def test_mutated_files_are_survived(path):
+def test_mutated_files_are_safe(path):
     fuzz(path, 150, 5)
 
 
 @pytest.mark.slow
 @pytest.mark.timeout(1200)
-def test_ten_thousand_mutated_files_are_survived(path):
+def test_ten_thousand_mutated_files_are_safe(path):
     fuzz(path, 10_000, np.random.SeedSequence().entropy)

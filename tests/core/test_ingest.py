@@ -1,4 +1,4 @@
-"""TFMessage bytes straight into the buffer: real samples, and a hundred thousand that lie."""
+"""Ingesting TFMessage bytes into the buffer: recorded samples, and a hundred thousand damaged ones."""
 
 import random
 
@@ -11,14 +11,14 @@ SECOND = 1_000_000_000
 
 @pytest.fixture
 def message():
-    """Bytes of a TFMessage with five transforms."""
+    """Return the bytes of a TFMessage with five transforms."""
     source = coframe.Buffer()
     for i in range(5):
         source.set(f"frame_{i}", f"frame_{i + 1}", coframe.Transform([i, 0, 0]), (i + 1) * SECOND)
     return source.encode(static=False)
 
 
-def test_bytes_of_the_real_stack(shared):
+def test_bytes_of_a_real_ros_stack_are_ingested(shared):
     samples = shared / "wire_samples"
     buffer = coframe.Buffer()
     assert buffer.ingest(bytes.fromhex((samples / "humble_empty.hex").read_text())) == 0
@@ -31,7 +31,7 @@ def test_bytes_of_the_real_stack(shared):
     assert names.statistics["refused"] == 1  # a NaN, as tf2 refuses it
 
 
-def test_what_the_real_stack_wrote_is_written_alike(shared):
+def test_encoded_bytes_equal_those_of_a_real_ros_stack(shared):
     real = bytes.fromhex((shared / "wire_samples" / "humble_two_odom_base_laser.hex").read_text())
     buffer = coframe.Buffer()
     buffer.ingest(real)
@@ -41,7 +41,7 @@ def test_what_the_real_stack_wrote_is_written_alike(shared):
     assert len(buffer.encode(static=False)) == len(real)
 
 
-def test_what_is_encoded_comes_back(message):
+def test_encoded_transforms_round_trip(message):
     buffer = coframe.Buffer()
     assert buffer.ingest(message) == 5
     assert buffer.ingest(message) == 5  # names are known now
@@ -49,7 +49,7 @@ def test_what_is_encoded_comes_back(message):
     assert buffer.encode(static=False) == message
 
 
-def test_big_endian_is_read_too():
+def test_big_endian_is_supported():
     little = coframe.Buffer()
     little.set("a", "b", coframe.Transform([1, 2, 3]), 5 * SECOND + 7)
     words = little.encode(static=False)
@@ -79,7 +79,7 @@ def test_big_endian_is_read_too():
         (lambda m: m.replace(b"frame_0\x00", b"fr\x00me_0\x00", 1), "NUL inside"),
     ],
 )
-def test_bad_bytes_are_refused_whole_and_counted(message, mangle, reason):
+def test_damaged_messages_are_refused_and_counted(message, mangle, reason):
     buffer = coframe.Buffer()
     with pytest.raises(coframe.DecodeError, match=reason):
         buffer.ingest(mangle(message))
@@ -87,7 +87,7 @@ def test_bad_bytes_are_refused_whole_and_counted(message, mangle, reason):
     assert buffer.statistics["malformed"] == 1
 
 
-def test_names_that_are_no_utf8_are_refused():
+def test_names_that_are_not_utf8_are_refused():
     buffer = coframe.Buffer()
     source = coframe.Buffer()
     source.set("abc", "def", coframe.Transform(), 5)
@@ -127,15 +127,15 @@ def test_a_hundred_thousand_mutated_messages(message):
 
 
 def encoded(*links):
-    """Bytes of a TFMessage: (parent, child, seconds) each."""
+    """Return the bytes of a TFMessage with transforms (parent, child, seconds)."""
     source = coframe.Buffer()
     for parent, child, seconds in links:
         source.set(parent, child, coframe.Transform([seconds, 0, 0]), seconds * SECOND)
     return source.encode(static=False)
 
 
-def test_names_that_change_from_message_to_message_are_noticed():
-    """Names are remembered by their place in a source's messages; here they move, grow, shrink and pair anew."""
+def test_names_can_change_from_message_to_message():
+    """Names are cached by position in the messages of a source; here they move, grow, shrink and change pairs."""
     rng = random.Random(2)
     names = [*"abcdefg", "ab", "abc", "abcd", "abcde" * 3, "abcde" * 3 + "f", "é", "éa"]
     fast, slow = coframe.Buffer(), coframe.Buffer()
@@ -153,7 +153,7 @@ def test_names_that_change_from_message_to_message_are_noticed():
         assert fast.lookup(theirs.parent, child) == slow.lookup(theirs.parent, child)
 
 
-def test_a_name_that_is_cut_off_after_good_messages_is_malformed(message):
+def test_a_truncated_name_after_good_messages_is_malformed(message):
     buffer = coframe.Buffer()
     buffer.ingest(message)
     for end in range(len(message)):
@@ -163,7 +163,7 @@ def test_a_name_that_is_cut_off_after_good_messages_is_malformed(message):
     assert buffer.ingest(message) == 5
 
 
-def test_the_other_byte_order_is_noticed_after_good_messages():
+def test_the_byte_order_can_change_after_good_messages():
     little = encoded(("a", "b", 5))
     buffer = coframe.Buffer()
     assert buffer.ingest(little) == 1
@@ -171,7 +171,7 @@ def test_the_other_byte_order_is_noticed_after_good_messages():
         buffer.ingest(b"\x00\x00" + little[2:])
 
 
-def test_a_removed_frame_comes_back_with_the_next_message():
+def test_the_next_message_inserts_a_removed_frame_again():
     buffer = coframe.Buffer()
     buffer.ingest(encoded(("a", "b", 1), ("b", "c", 1)))
     buffer.remove_frame("b")

@@ -1,4 +1,4 @@
-"""A real recording through the buffer, against a composition in numpy and scipy that shares no code with it."""
+"""Lookups in a real recording, compared with an independent computation in NumPy and SciPy."""
 
 import bisect
 
@@ -13,7 +13,7 @@ import coframe
 
 @pytest.fixture(scope="module")
 def recording(shared):
-    """(is static, raw CDR, decoded message) of every TFMessage of a TurtleBot3 in Gazebo."""
+    """Return (is static, raw CDR, decoded message) of every TFMessage of a TurtleBot3 in Gazebo."""
     typestore = get_typestore(Stores.ROS2_HUMBLE)
     with AnyReader([shared / "recordings" / "tb3_gazebo_walker"], default_typestore=typestore) as reader:
         connections = [c for c in reader.connections if c.topic in {"/tf", "/tf_static"}]
@@ -24,7 +24,7 @@ def recording(shared):
 
 
 class Composition:
-    """Each link's samples as arrays; a look-up multiplies 4x4 matrices up to the root and down again."""
+    """The samples of each edge as arrays; a lookup multiplies 4x4 matrices up to the root and down again."""
 
     def __init__(self, recording):
         self.parents, self.static, self.samples = {}, {}, {}
@@ -70,7 +70,7 @@ class Composition:
         return np.linalg.inv(self.to_root(target, stamp)) @ self.to_root(source, stamp)
 
 
-def test_a_thousand_random_look_ups_in_a_real_recording(recording):
+def test_a_thousand_random_lookups_in_a_real_recording(recording):
     buffer = coframe.Buffer(None)
     for is_static, raw, _ in recording:
         buffer.ingest(raw, static=is_static)

@@ -1,4 +1,4 @@
-"""Threads that wait, and what happens to them at the end."""
+"""Waiting threads: timeouts, finalizers, forks, callbacks, and the exit of the interpreter."""
 
 import os
 import subprocess
@@ -16,14 +16,14 @@ SECOND = 1_000_000_000
 
 
 def run(code):
-    """Runs a program: its exit code and what it wrote to stderr."""
+    """Run a program and return its exit code and its stderr."""
     command = [sys.executable, "-c", "import coframe\n" + textwrap.dedent(code)]
     ended = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     return ended.returncode, ended.stderr
 
 
 @pytest.mark.parametrize("timeout", ["40ms", "80ms"])
-def test_a_wait_lasts_its_time_beside_a_busy_publisher(timeout):
+def test_a_wait_lasts_its_timeout_next_to_a_busy_publisher(timeout):
     buffer = coframe.Buffer()
     stop = threading.Event()
 
@@ -52,7 +52,7 @@ def test_a_wait_lasts_its_time_beside_a_busy_publisher(timeout):
         "_core.Event().wait(500_000)",
     ],
 )
-def test_a_program_ends_well_although_threads_wait(wait):
+def test_a_program_exits_cleanly_while_threads_wait(wait):
     code = f"""
         import threading
         from coframe import _core
@@ -69,7 +69,7 @@ def test_a_program_ends_well_although_threads_wait(wait):
     assert [run(code) for _ in range(3)] == [(0, "")] * 3
 
 
-def test_a_finalizer_may_ask_the_buffer_whose_failure_is_read():
+def test_a_finalizer_can_use_the_buffer_whose_failure_is_read():
     code = """
         import gc
         buffer = coframe.Buffer()
@@ -91,7 +91,7 @@ def test_a_finalizer_may_ask_the_buffer_whose_failure_is_read():
     assert run(code) == (0, "")
 
 
-def test_the_paths_between_all_pairs_of_frames_take_no_memory_for_ever():
+def test_the_memory_for_cached_paths_is_bounded():
     code = """
         import resource
         buffer = coframe.Buffer()
@@ -106,7 +106,7 @@ def test_the_paths_between_all_pairs_of_frames_take_no_memory_for_ever():
     assert run(code) == (0, "")
 
 
-def test_waits_for_frames_that_never_come_take_no_memory_for_ever():
+def test_the_memory_for_waits_on_unknown_frames_is_bounded():
     code = """
         import resource
         from coframe import _core
@@ -122,7 +122,7 @@ def test_waits_for_frames_that_never_come_take_no_memory_for_ever():
 
 
 @pytest.mark.parametrize("act", ["tell()", "wait()()", "buffer.on_change(print).close()"])
-def test_finalizers_may_use_the_buffer_that_is_being_waited_in(act):
+def test_finalizers_can_use_a_buffer_with_waits(act):
     code = f"""
         import gc
         from coframe import _core
@@ -169,8 +169,8 @@ def test_a_forked_process_can_wait_in_the_buffer():
     assert [run(code) for _ in range(5)] == [(0, "")] * 5
 
 
-def told(buffer, count):
-    """The stamps that a subscription tells of, up to `count`; each is set when the one before has been told."""
+def reported(buffer, count):
+    """Return the stamps that a callback reports, up to `count`; each is inserted after the report of the one before."""
     stamps, arrived = [], threading.Condition()
 
     def tell(edge):
@@ -187,12 +187,12 @@ def told(buffer, count):
     return stamps
 
 
-def test_a_callback_that_exits_ends_no_thread_that_others_need(caplog):
-    assert told(coframe.Buffer(), 3) == [1, 2, 3]
+def test_sys_exit_in_a_callback_does_not_end_the_callback_thread(caplog):
+    assert reported(coframe.Buffer(), 3) == [1, 2, 3]
     assert "tried to end the thread" in caplog.text
 
 
-def test_who_interrupts_a_callback_keeps_nobody_waiting():
+def test_an_interrupted_callback_does_not_delay_other_waits():
     buffer = coframe.Buffer()
     ended = threading.Semaphore(0)
 
@@ -208,7 +208,7 @@ def test_who_interrupts_a_callback_keeps_nobody_waiting():
     assert all(ended.acquire(timeout=5) for _ in range(3))
 
 
-def test_watches_are_called_in_the_thread_of_their_own_whoever_inserts():
+def test_callbacks_of_changes_run_in_their_own_thread():
     buffer = coframe.Buffer()
     threads = []
     called = threading.Event()
@@ -219,7 +219,7 @@ def test_watches_are_called_in_the_thread_of_their_own_whoever_inserts():
     assert threading.get_ident() not in threads
 
 
-def test_deadlines_of_waits_that_have_ended_do_not_pile_up():
+def test_deadlines_of_finished_waits_are_removed():
     buffer = coframe.Buffer()
     start = lambda mailbox, token: _core.wait(buffer, mailbox, token, "odom", "base", None)  # noqa: E731
     kept = buffer.on_change(print)

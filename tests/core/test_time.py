@@ -24,7 +24,7 @@ def test_durations(written, nanoseconds):
 
 
 @pytest.mark.parametrize("written", ["100", "ms", "1 fortnight", "", "-1s"])
-def test_text_that_is_no_duration(written):
+def test_text_that_is_not_a_duration(written):
     with pytest.raises(ValueError, match="is not a duration"):
         duration_ns(written)
 
@@ -44,12 +44,12 @@ def test_stamps():
 
 
 @pytest.mark.parametrize("read", [stamp_ns, duration_ns])
-def test_what_does_not_fit_64_bits(read):
+def test_values_that_do_not_fit_64_bits(read):
     assert read(2**63 - 1) == 2**63 - 1
     with pytest.raises(ValueError, match="does not fit 64 bits"):
         read(2**63)
 
 
-def test_a_text_that_does_not_fit_64_bits():
+def test_text_that_does_not_fit_64_bits():
     with pytest.raises(ValueError, match="does not fit 64 bits"):
         duration_ns("9999999h")

@@ -1,4 +1,4 @@
-"""Transform as a group and as numbers, over batch shapes, with scipy as the independent answer."""
+"""Transforms form a group and their values are right, for all batch shapes, compared with SciPy."""
 
 import copy
 import pickle
@@ -39,7 +39,7 @@ def test_matrix_and_back(rng, shape):
 
 
 @pytest.mark.parametrize("shape", SHAPES)
-def test_rotation_and_rpy_are_scipys(rng, shape):
+def test_rotation_and_rpy_equal_those_of_scipy(rng, shape):
     a = random_transform(rng, shape)
     theirs = Rotation.from_quat(a.quaternion.reshape(-1, 4))
     np.testing.assert_allclose(a.rotation.reshape(-1, 3, 3), theirs.as_matrix(), atol=1e-12)
@@ -47,7 +47,7 @@ def test_rotation_and_rpy_are_scipys(rng, shape):
     assert Transform.from_rpy(a.translation, a.rpy).is_close(a, translation=0, rotation=1e-9)
 
 
-def test_near_half_turns_survive_the_matrix(rng):
+def test_rotations_near_half_turns_round_trip_through_matrices(rng):
     axes = rng.normal(size=(100, 3))
     half_turns = Rotation.from_rotvec(axes / np.linalg.norm(axes, axis=1)[:, None] * (np.pi - 1e-9))
     a = Transform(quaternion=half_turns.as_quat())
@@ -75,7 +75,7 @@ def test_points(rng):
         _ = a @ np.zeros((3, 4))
 
 
-def test_names_are_checked_and_carried(rng):
+def test_frames_are_checked_and_propagated(rng):
     map_odom = random_transform(rng, target="map", source="odom", stamp=5)
     odom_base = random_transform(rng, target="odom", source="base", stamp=5)
     both = map_odom @ odom_base
@@ -85,7 +85,7 @@ def test_names_are_checked_and_carried(rng):
         _ = map_odom @ odom_base.inverse()
 
 
-def test_what_is_no_transform_is_refused():
+def test_invalid_values_are_refused():
     with pytest.raises(coframe.InvalidArgumentException, match="finite"):
         Transform([float("nan"), 0, 0])
     with pytest.raises(coframe.InvalidArgumentException, match="quaternion must not be zero"):
@@ -111,7 +111,7 @@ def test_batches_are_sequences(rng):
         len(batch[0])
 
 
-def test_values_survive_pickle_and_copy(rng):
+def test_values_are_kept_by_pickle_and_copy(rng):
     for a in (random_transform(rng, target="a", source="b", stamp=7), random_transform(rng, (3,))):
         assert pickle.loads(pickle.dumps(a)) == a
         assert copy.deepcopy(a) == a
@@ -130,21 +130,21 @@ def test_quaternions_of_any_length_are_normalised(size):
     np.testing.assert_allclose(half, [[np.sqrt(0.5), 0, 0, np.sqrt(0.5)], [0, 0, 0, 1]], atol=1e-3)
 
 
-def test_a_batch_does_not_change_with_the_array_it_was_made_of():
+def test_a_batch_is_independent_of_its_source_array():
     positions = np.zeros((4, 3))
     batch = Transform(positions)
     positions[:] = 7.0
     assert (batch.translation == 0.0).all()
 
 
-def test_a_transform_is_true_and_numpy_does_not_take_it_apart():
+def test_a_transform_is_true_and_not_an_array_for_numpy():
     assert Transform()
     assert not Transform(np.zeros((0, 3)))
     with pytest.raises(TypeError, match="unsupported operand"):
         np.zeros(3) @ Transform()
 
 
-def test_parts_of_a_transform_cannot_be_written_to(rng):
+def test_arrays_of_a_transform_are_read_only(rng):
     for a in (random_transform(rng), random_transform(rng, (3,))):
         with pytest.raises(ValueError, match="read-only"):
             a.translation[0] = 9

@@ -1,4 +1,4 @@
-"""Many threads that wait for transforms: each is woken by its own edge's insertion, at once, and costs others nothing.
+"""Many threads wait for transforms: each is woken at once by the insertion into its edge and does not slow down others.
 
 What a thread waits for after it is woken is the interpreter: beside a busy Python thread every hand-over of the GIL
 takes up to sys.getswitchinterval() (5 ms), and threads that are woken together queue for it. That part is measured by
@@ -31,7 +31,7 @@ def insert(buffer, child, stamp, x=0.0):
 
 
 def all_asleep(threads):
-    """Whether none of the threads is running or about to: nobody else may be busy meanwhile."""
+    """Return whether none of the threads is running or ready to run; no other thread may be busy meanwhile."""
     tasks = Path("/proc/self/task")
     return all(
         (tasks / str(thread.native_id) / "stat").read_text().rpartition(")")[2].split()[0] == "S" for thread in threads
@@ -46,9 +46,9 @@ def wait_until(condition):
 
 
 class Crowd:
-    """Ten threads on each of a hundred edges of a buffer, blocked in a look-up of what is not there yet.
+    """Ten threads for each of a hundred edges of a buffer, blocked in a lookup of a future transform.
 
-    Half of the edges have older samples; of the others the buffer has never heard.
+    Half of the edges have older samples; the others are not in the buffer.
     """
 
     def __init__(self, buffer):
@@ -75,7 +75,7 @@ class Crowd:
         self.gone.release()
 
     def release(self, edge):
-        """How late the edge's waiters return, each counted from just before the insertion, in ns."""
+        """Return the delays of the edge's waiters in nanoseconds, measured from just before the insertion."""
         start = time.perf_counter_ns()
         insert(self.buffer, f"edge{edge}", 2 * SECOND, x=float(edge))
         for _ in range(WAITERS):
@@ -89,7 +89,7 @@ class Crowd:
 
 
 class Control:
-    """As many threads as wait on an edge, woken by an event each, over and over."""
+    """As many threads as wait on an edge, each woken by an event, repeatedly."""
 
     def __init__(self):
         self.events = [_core.Event() for _ in range(WAITERS)]
@@ -106,7 +106,7 @@ class Control:
             self.back.release()
 
     def release(self):
-        """How late they return, in ns."""
+        """Return the delays in nanoseconds."""
         start = time.perf_counter_ns()
         for event in self.events:
             event.set()
@@ -126,7 +126,7 @@ class Control:
 
 @pytest.fixture
 def busy():
-    """A thread that computes in pure Python and never lets go of the interpreter by itself."""
+    """A thread that computes in pure Python and never releases the interpreter by itself."""
     stop = []
 
     def compute():
@@ -146,7 +146,7 @@ def milliseconds(late):
 
 
 def measure(start_busy):
-    """How late a thousand waiters return, and how late threads do that only wait for the interpreter."""
+    """Return the delays of a thousand waiters, and those of threads that only wait for the interpreter."""
     crowd, control = Crowd(coframe.Buffer()), Control()
     wait_until(lambda: all_asleep(control.threads))
     start_busy()
@@ -169,7 +169,7 @@ def test_a_thousand_waiters_return_once_each_and_none_late(busy):
     assert sorted(late)[-len(late) // 10] < max(only_woken) + LATE
 
 
-def test_waiters_on_other_edges_cost_an_insertion_nothing():
+def test_waiters_on_other_edges_do_not_slow_down_insertions():
     quiet, crowded = coframe.Buffer(), coframe.Buffer()
     insert(quiet, "anchor", SECOND)
     crowd = Crowd(crowded)

@@ -1,4 +1,4 @@
-"""Waits are answered by the insertion that makes their question answerable, whichever that is."""
+"""Every insertion that makes a waiting lookup possible ends the wait."""
 
 import random
 
@@ -153,7 +153,7 @@ def the_target_is_above_a_loop(buffer):
         the_target_is_above_a_loop,
     ],
 )
-def test_a_wait_is_answered_when(story):
+def test_a_wait_ends_when(story):
     buffer = coframe.Buffer(cache=50_000_000)
     telling = story(buffer)
     question = next(telling)
@@ -165,7 +165,7 @@ def test_a_wait_is_answered_when(story):
 
 
 def change(buffer, rng, names, ordered):
-    """Something that may happen to a buffer; `ordered` keeps most of the tree without loops."""
+    """Return a random change of a buffer; `ordered` keeps most of the tree without loops."""
     i = rng.randrange(1, len(names))
     child, parent = names[i], rng.choice(names[:i] if ordered and rng.random() < 0.9 else names)
     stamp, static, dice = rng.randrange(40), rng.random() < 0.08, rng.random()
@@ -180,14 +180,14 @@ def change(buffer, rng, names, ordered):
 
 
 def question(rng, names):
-    """A question at one time or between two; 0 is the latest."""
+    """Return a lookup at one time or between two; 0 is the latest."""
     target, source, fixed = (rng.choice(names) for _ in range(3))
     then, now = (rng.choice([0, rng.randrange(40)]) for _ in range(2))
     return (target, source, then) if rng.random() < 0.8 else (target, now, source, then, fixed)
 
 
 @pytest.mark.parametrize("seed", range(40))
-def test_no_wait_is_forgotten(seed):
+def test_no_wait_is_missed(seed):
     rng = random.Random(seed)
     buffer = coframe.Buffer(cache=rng.choice([3, 10, 30, None]))
     names = [f"frame{i}" for i in range(rng.choice([3, 5, 8, 12]))]

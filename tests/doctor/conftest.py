@@ -1,4 +1,4 @@
-"""What the doctor says of recordings, and of real processes."""
+"""Fixtures that run the doctor on recordings and on real processes."""
 
 import json
 import subprocess
@@ -12,7 +12,7 @@ from coframe.doctor import diagnose, observe_recording
 
 @pytest.fixture
 def examine(tmp_path):
-    """From a run, or the path of a recording, to a report."""
+    """Return the report on a run or on the recording at a path."""
 
     def examine(run, folder="", **options):
         (tmp_path / folder).mkdir(exist_ok=True)
@@ -25,7 +25,7 @@ def examine(tmp_path):
 
 @pytest.fixture
 def only(examine):
-    """The one finding there is, with what it explains; fails where there are more or none."""
+    """Return the only finding with its consequences; fail if there are several or none."""
 
     def only(run, code):
         report = examine(run)
@@ -36,7 +36,7 @@ def only(examine):
 
 
 class Inside:
-    """Runs Python in the test's own network, where no other test is heard."""
+    """Runs Python in a network namespace of its own, isolated from other tests."""
 
     def __init__(self, network):
         self._network = network
@@ -55,7 +55,7 @@ class Inside:
         return subprocess.run(command, capture_output=True, text=True, check=False, timeout=90)
 
     def doctor(self, *arguments):
-        """The verdict as data."""
+        """Return the report as data."""
         result = self.run("-m", "coframe.cli", "doctor", "--json", *arguments)
         assert "Traceback" not in result.stderr, result.stderr
         data = json.loads(result.stdout)
@@ -69,8 +69,8 @@ class Inside:
 
 
 @pytest.fixture
-def inside(network, domain_id):  # noqa: ARG001 - which it sets for the processes
-    pytest.importorskip("cyclonedds", reason="the processes speak DDS")
+def inside(network, domain_id):  # noqa: ARG001 - sets the domain for the processes
+    pytest.importorskip("cyclonedds", reason="the processes communicate over DDS")
     processes = Inside(network)
     yield processes
     processes.close()
@@ -78,5 +78,5 @@ def inside(network, domain_id):  # noqa: ARG001 - which it sets for the processe
 
 @pytest.fixture
 def start(inside):
-    """Starts a node with this name and body."""
+    """Return a function that starts a node with a name and a body."""
     return lambda name, body, **options: inside.start("-c", NODE.replace("{body}", body), name, **options)

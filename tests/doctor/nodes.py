@@ -1,6 +1,6 @@
-"""Nodes of real processes, in a few lines."""
+"""The source code of nodes that tests run as processes."""
 
-# A node in a few lines: NODE's body runs with `node` and `stamped(parent, child, x)`.
+# The body of NODE can use `node`, `every(period, call)` and `stamped(parent, child, x)`.
 NODE = """
 import sys, rclpy
 from geometry_msgs.msg import TransformStamped

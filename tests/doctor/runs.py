@@ -1,4 +1,4 @@
-"""Recordings of a healthy robot, to be made ill."""
+"""Recordings of a healthy robot, to which tests add faults."""
 
 import numpy as np
 from recordings import START, TF, humble, write_mcap
@@ -32,7 +32,7 @@ def rpy(roll, pitch, yaw):
 class Run:
     """Messages by topic, written as one MCAP file.
 
-    With ``healthy()``: a robot that drives round (odom -> base_link, 50 Hz), a lidar on it (static), and its scans.
+    ``healthy()`` returns a moving robot (odom -> base_link, 50 Hz) with a static lidar and its scans.
     """
 
     def __init__(self):
@@ -81,7 +81,7 @@ class Run:
 
 
 class Offered:
-    """A run as rosbag2 records it, with what the publishers of its static transforms offered."""
+    """A run as a rosbag2 recording with the QoS that the publishers of static transforms offered."""
 
     def __init__(self, run, plugin, *durabilities):
         self.run, self.plugin = run, plugin

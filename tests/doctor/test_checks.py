@@ -1,4 +1,4 @@
-"""Each check finds its fault, and nothing else is found."""
+"""Each check finds its fault and nothing else."""
 
 import json
 import re
@@ -464,7 +464,7 @@ def test_usual_angles_are_not_suspicious(examine, degrees):
     assert examine(run).findings == []
 
 
-# 22 to 24: the robot's model
+# 22 to 24: the robot model
 
 
 def test_model_that_agrees_with_tf(examine):
@@ -544,7 +544,7 @@ def test_recorder_that_was_blocked(only):
     assert "then 109 transforms at once" in only(run, "TF025").text
 
 
-# all of them
+# all checks
 
 
 def test_check_can_be_ignored(examine):
@@ -583,9 +583,9 @@ def observed(links):
     parent, child = np.array([[numbers.setdefault(name, len(numbers)) for name in link] for link in links]).T
     arrived = START + np.arange(len(links)) * (900 * MS // len(links))  # none is stale
     values = np.tile([0, 0, 0, 0, 0, 0, 1.0], (len(links), 1))
-    nobody = np.zeros(len(links), dtype=int)
+    unknown = np.zeros(len(links), dtype=int)
     moving = np.zeros(len(links), dtype=bool)
-    rows = Transforms(arrived, arrived, parent, child, nobody, moving, values, tuple(numbers), ("/node",))
+    rows = Transforms(arrived, arrived, parent, child, unknown, moving, values, tuple(numbers), ("/node",))
     return Observation(True, START, int(arrived[-1]), rows)
 
 
@@ -618,7 +618,7 @@ def test_missing_edge_is_searched_only_where_the_root_can_be_its_child():
 
     unlikely, likely = Frames(["track", "a", "odom"]), Frames(["base_link", "b"])
     assert missing_edge(unlikely, likely) == ("odom", "base_link", False)
-    assert (unlikely.read, likely.read) == (2, 0)  # for base_footprint -> base_link, too
+    assert (unlikely.read, likely.read) == (2, 0)  # also for base_footprint -> base_link
 
 
 def test_messages_beyond_the_limit_of_frame_names_are_counted(examine, monkeypatch):
@@ -630,7 +630,7 @@ def test_messages_beyond_the_limit_of_frame_names_are_counted(examine, monkeypat
     (counted,) = [finding for finding in found if finding.code == "TF004"]
     left_out, text = counted.text.split(" ", 1)
     assert text == "messages were ignored: there are too many frame names"
-    assert 100 < int(left_out) <= 200  # many messages are taken at a time
+    assert 100 < int(left_out) <= 200  # messages are processed in batches
 
 
 def test_loop_is_one_tree_and_is_listed_in_order():

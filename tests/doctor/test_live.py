@@ -1,4 +1,4 @@
-"""Faults made by real processes, found by the real command."""
+"""Faults of real processes, found by the command."""
 
 import json
 import os
@@ -17,7 +17,7 @@ import coframe
 from coframe.doctor.live import LiveObserver
 from coframe.messages import find
 
-# What a process asks the time, and everything in it.
+# Replaces the function by which a process reads the clock.
 CLOCK = """
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -38,7 +38,7 @@ int clock_gettime(clockid_t which, struct timespec *time) {
 
 @pytest.fixture
 def only(inside):
-    """The one finding there is, once the processes have come up."""
+    """Return the only finding, as soon as the processes have started."""
 
     def only(code):
         findings = []
@@ -51,7 +51,7 @@ def only(inside):
     return only
 
 
-def test_two_publishers_of_one_link_are_named(start, only):
+def test_two_publishers_of_one_edge_are_named(start, only):
     start("wheel_odometry", ROBOT)
     start(
         "filter",
@@ -64,27 +64,27 @@ def test_two_publishers_of_one_link_are_named(start, only):
     assert finding["severity"] == "error"
 
 
-def test_who_has_left_is_forgotten_with_what_it_sent(domain_id, eventually):
-    pytest.importorskip("cyclonedds", reason="transforms come over DDS")
+def test_departed_publisher_is_removed_with_its_transforms(domain_id, eventually):
+    pytest.importorskip("cyclonedds", reason="transforms are received over DDS")
     message = find("tf2_msgs/msg/TFMessage")
     with LiveObserver(domain_id, window=300_000_000) as listening:
 
-        def heard():
+        def observed():
             listening.poll()
             seen = listening.observe()
             return "/brief" in seen.travel, "/brief" in seen.transforms.publishers
 
         with coframe.connect("brief", domain=domain_id) as ros:
             publisher = ros.publisher("/tf", message)
-            link = find("geometry_msgs/msg/TransformStamped")(child_frame_id="base_link")
-            link.header.frame_id = "odom"
-            link.transform.rotation.w = 1.0
-            eventually(lambda: publisher.publish(message(transforms=[link])) or heard() == (True, True))
-        eventually(lambda: heard() == (False, False))
+            transform = find("geometry_msgs/msg/TransformStamped")(child_frame_id="base_link")
+            transform.header.frame_id = "odom"
+            transform.transform.rotation.w = 1.0
+            eventually(lambda: publisher.publish(message(transforms=[transform])) or observed() == (True, True))
+        eventually(lambda: observed() == (False, False))
 
 
 @pytest.mark.slow
-def test_a_misspelt_frame_is_answered_with_the_line_to_change(start, only):
+def test_misspelt_frame_gives_the_line_to_change(start, only):
     start("robot", ROBOT)
     start("mounts", 'StaticTransformBroadcaster(node).sendTransform(stamped("base_lnk", "camera_link"))')
     finding = only("TF001")
@@ -93,7 +93,7 @@ def test_a_misspelt_frame_is_answered_with_the_line_to_change(start, only):
 
 
 @pytest.mark.slow
-def test_a_look_up_at_now_without_waiting_is_answered_with_the_line_to_change(start, only):
+def test_lookup_at_now_without_waiting_gives_the_line_to_change(start, only):
     start("robot", ROBOT)
     body = """
 buffer = Buffer()
@@ -114,7 +114,7 @@ every(0.1, query)
 
 
 @pytest.mark.slow
-def test_volatile_statics_on_both_sides(start, inside):
+def test_durability_volatile_on_both_sides(start, inside):
     start("robot", ROBOT)
     start("own_publisher", 'p = node.create_publisher(TFMessage, "/tf_static", 10)')
     start("own_listener", 's = node.create_subscription(TFMessage, "/tf_static", lambda m: None, 10)')
@@ -127,7 +127,7 @@ def test_volatile_statics_on_both_sides(start, inside):
 
 
 @pytest.mark.slow
-def test_statics_that_one_process_overwrites(start, only):
+def test_static_transforms_that_one_process_overwrites(start, only):
     start("robot", ROBOT)
     body = """
 p = node.create_publisher(TFMessage, "/tf_static", QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL))
@@ -140,11 +140,11 @@ every(0.5, send)
 """
     start("mounts", body)
     finding = only("TF016")
-    assert "/mounts has sent" in finding["text"]
+    assert "/mounts has published" in finding["text"]
     assert "sendTransform([t1, t2, ...])" in finding["fix"]
 
 
-def test_nobody_there_is_not_healthy(inside):
+def test_empty_graph_is_not_healthy(inside):
     data = inside.doctor("--duration", "1s")
     assert data["findings"] == []
     assert not data["healthy"]
@@ -152,17 +152,17 @@ def test_nobody_there_is_not_healthy(inside):
 
 @pytest.fixture
 def clock_ahead(tmp_path):
-    """The environment of a process whose clock is 350 ms ahead, as on a machine of its own; DDS's clock is, too."""
+    """Return the environment of a process whose clock, also that of DDS, is 350 ms ahead, as on another machine."""
     compiler = shutil.which("cc")
     if not compiler or sys.platform != "linux":
-        pytest.skip("a process's clock is set wrong by a library, which needs Linux and a C compiler")
+        pytest.skip("the library that changes the clock needs Linux and a C compiler")
     library = tmp_path / "clock.so"
     subprocess.run([compiler, "-shared", "-fPIC", "-o", library, "-x", "c", "-"], input=CLOCK, text=True, check=True)
     return {**os.environ, "LD_PRELOAD": str(library)}
 
 
 @pytest.mark.slow
-def test_a_process_whose_clock_is_ahead(start, only, clock_ahead):
+def test_process_whose_clock_is_ahead(start, only, clock_ahead):
     start("wheels", ROBOT)
     arm = 'b = TransformBroadcaster(node)\nevery(0.02, lambda: b.sendTransform(stamped("base_link", "arm", at())))'
     start("arm_driver", f"import time\ndef at():\n    return time.monotonic() % 100\n{arm}", env=clock_ahead)
@@ -173,23 +173,23 @@ def test_a_process_whose_clock_is_ahead(start, only, clock_ahead):
     assert [effect["code"] for effect in finding["explains"]] == ["TF008"]
 
 
-def test_watch_tells_again_and_again_and_ends_by_a_signal(start, inside):
+def test_watch_prints_repeatedly_and_ends_by_a_signal(start, inside):
     start("robot", ROBOT)
     options = ("--watch", "--json", "--duration", "5s")
     with inside.start("-m", "coframe.cli", "doctor", *options, stdout=PIPE, stderr=PIPE, text=True) as process:
-        heard = [json.loads(process.stdout.readline())]
-        while not heard[-1]["healthy"]:
-            heard.append(json.loads(process.stdout.readline()))
+        reports = [json.loads(process.stdout.readline())]
+        while not reports[-1]["healthy"]:
+            reports.append(json.loads(process.stdout.readline()))
         process.send_signal(signal.SIGINT)
         assert process.wait(20) == 0
         assert "Traceback" not in process.stderr.read()
-    assert set(heard[-1]["frames"]) == {"odom", "base_link", "lidar_link"}
+    assert set(reports[-1]["frames"]) == {"odom", "base_link", "lidar_link"}
 
 
 @pytest.mark.slow
 @pytest.mark.timeout(200)
 @pytest.mark.parametrize("options", [*[""] * 5, "--urdf", "--robots 3", "--robots 3 --own-topics"])
-def test_a_healthy_demo_has_no_finding_at_all(inside, options, tmp_path):
+def test_demo_has_no_findings(inside, options, tmp_path):
     log = (tmp_path / "demo.log").open("wb")
     command = ("-m", "coframe.cli", "demo", "--no-browser", "--duration", "150", *options.split())
     demo = inside.start(*command, stdout=log, stderr=log)

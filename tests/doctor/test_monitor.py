@@ -1,4 +1,4 @@
-"""Figures of links, publishers and chains."""
+"""Figures of edges, publishers and chains."""
 
 import json
 import re
@@ -25,7 +25,7 @@ def seen(tmp_path):
     return observation
 
 
-def test_rate_jitter_and_delay_of_links(seen):
+def test_rate_jitter_and_delay_of_edges(seen):
     rows = {(row.parent, row.child): row for row in edge_figures(seen)}
     drive, arm, mount = rows["odom", "base_link"], rows["base_link", "arm"], rows["base_link", "lidar"]
     assert drive.rate == pytest.approx(50.0)
@@ -33,36 +33,36 @@ def test_rate_jitter_and_delay_of_links(seen):
     assert (drive.delay, drive.delay_p99, drive.delay_max) == (2 * MS, 2 * MS, 2 * MS)
     assert arm.delay == 30 * MS
     assert drive.jitter == pytest.approx(0.0, abs=1.0)
-    # The recording ends as the drive's last transform comes, 3.982 s after its start; the arm's newest stamp is 3.9 s.
+    # The recording ends with the last transform of base_link, 3.982 s after its start; arm ends at 3.9 s.
     assert (drive.age, arm.age) == (2 * MS, 82 * MS)
     assert mount.static
     assert mount[5:] == (*(None,) * 6, False), "a static edge has no rate, delay and age"
 
 
-def test_a_publisher_counts_messages_not_transforms(seen):
+def test_publisher_counts_messages_not_transforms(seen):
     (everyone,) = publisher_figures(seen)
     assert everyone.messages == 200 + 40 - 0
     assert everyone.delay == pytest.approx((200 * 2 * MS + 40 * 30 * MS) / 240)
 
 
-def test_a_chain_is_limited_by_its_slowest_link(seen):
+def test_chain_is_limited_by_its_slowest_edge(seen):
     chain = chain_figures(seen, "odom", "arm")
     assert chain.frames == ["odom", "base_link", "arm"]
     assert chain.limit == ("base_link", "arm")
-    # Stamps every 100 ms that come 30 ms later: 30 to 130 ms old, half of it on average.
+    # Stamps every 100 ms that arrive 30 ms later are 30 to 130 ms old, 80 ms on average.
     assert chain.delay == pytest.approx(80 * MS, rel=0.05)
     assert chain.delay_max == pytest.approx(130 * MS, rel=0.02)
     up_and_down = chain_figures(seen, "lidar", "arm")
     assert up_and_down.frames == ["lidar", "base_link", "arm"]
 
 
-def test_chains_that_do_not_move_or_are_none(seen):
+def test_static_and_missing_chains(seen):
     assert chain_figures(seen, "base_link", "lidar").limit is None
     assert chain_figures(seen, "base_link", "nowhere") is None
     assert chain_figures(seen, "arm", "arm").frames == ["arm"]
 
 
-def test_a_stopped_link_limits_the_chain(tmp_path):
+def test_stale_edge_limits_the_chain(tmp_path):
     run = Run.healthy(seconds=4, skip={"scan"})
     for i in range(20):
         run.tf("base_link", "arm", START + i * SECOND // 50, (0.1 * i, 0, 0))
@@ -74,7 +74,7 @@ def test_a_stopped_link_limits_the_chain(tmp_path):
 
 
 class Irregular:
-    """Two links whose messages come when they like, and what is to be said of them, from the very numbers."""
+    """Two edges with irregular messages, and the expected figures."""
 
     def __init__(self, folder):
         random = np.random.default_rng(7)
@@ -82,18 +82,18 @@ class Irregular:
             ("map", "odom"): np.sort(random.uniform(0, 10, 300)),
             ("odom", "base_link"): np.arange(0, 10, 0.02) + random.uniform(0, 0.005, 500),
         }
-        self.took = {link: random.gamma(2.0, 0.01, len(sent)) for link, sent in self.sent.items()}
+        self.took = {edge: random.gamma(2.0, 0.01, len(sent)) for edge, sent in self.sent.items()}
         run = Run()
-        for link, sent in self.sent.items():
-            for number, (stamp, took) in enumerate(zip(sent, self.took[link], strict=True)):
+        for edge, sent in self.sent.items():
+            for number, (stamp, took) in enumerate(zip(sent, self.took[edge], strict=True)):
                 at = START + round(stamp * SECOND)
-                run.tf(*link, at, (number, 0, 0), arrived=at + round(took * SECOND))
+                run.tf(*edge, at, (number, 0, 0), arrived=at + round(took * SECOND))
         (self.seen,) = observe_recording(run.write(folder)).values()
-        self.end = max((self.sent[link] + self.took[link]).max() for link in self.sent)
+        self.end = max((self.sent[edge] + self.took[edge]).max() for edge in self.sent)
 
-    def newest(self, link, now):
-        """The newest stamp that has come by then."""
-        return self.sent[link][self.sent[link] + self.took[link] <= now].max()
+    def newest(self, edge, now):
+        """Return the newest stamp that has arrived by a time."""
+        return self.sent[edge][self.sent[edge] + self.took[edge] <= now].max()
 
 
 @pytest.fixture
@@ -101,7 +101,7 @@ def irregular(tmp_path):
     return Irregular(tmp_path)
 
 
-def test_figures_of_links_are_those_of_the_numbers(irregular):
+def test_figures_of_edges_match_the_expected_ones(irregular):
     for row in edge_figures(irregular.seen):
         sent, took = irregular.sent[row.parent, row.child], irregular.took[row.parent, row.child]
         intervals = np.diff(np.sort(sent + took))
@@ -114,14 +114,14 @@ def test_figures_of_links_are_those_of_the_numbers(irregular):
         assert row.age == pytest.approx((irregular.end - sent.max()) * SECOND, abs=2)
 
 
-def test_figures_of_a_chain_are_those_of_asking_all_the_time(irregular):
+def test_figures_of_a_chain_match_frequent_lookups(irregular):
     chain = chain_figures(irregular.seen, "base_link", "map")
-    begun = max((irregular.sent[link] + irregular.took[link]).min() for link in irregular.sent)
+    begun = max((irregular.sent[edge] + irregular.took[edge]).min() for edge in irregular.sent)
     moments = np.linspace(begun + 1e-6, irregular.end, 4001)
-    newest = np.array([[irregular.newest(link, now) for now in moments] for link in irregular.sent])
+    newest = np.array([[irregular.newest(edge, now) for now in moments] for edge in irregular.sent])
     ages = moments - newest.min(axis=0)
     share = np.mean(newest[0] < newest[1])
-    assert share > 0.5, "the rarer link is to be the one that limits"
+    assert share > 0.5, "the edge with the lower rate limits the chain"
     assert chain.frames == ["base_link", "odom", "map"]
     assert chain.limit == ("map", "odom")
     assert chain.limit_share == pytest.approx(share, abs=0.02)
@@ -129,8 +129,8 @@ def test_figures_of_a_chain_are_those_of_asking_all_the_time(irregular):
     assert chain.delay_p99 == pytest.approx(np.percentile(ages, 99) * SECOND, rel=0.05)
 
 
-def test_the_classic_format_is_tf2_monitors(seen, capsys):
-    """As its source prints it: three line ends, one blank line before the frames, the second heading as an error."""
+def test_classic_format_is_that_of_tf2_monitor(seen, capsys):
+    """Like tf2_monitor: three line breaks, a blank line before the frames, and the second heading on stderr."""
     _print_classic(seen, ("odom", "lidar"))
     printed = capsys.readouterr()
     assert printed.err == "\nAll Broadcasters:\n"
@@ -158,13 +158,13 @@ def test_the_classic_format_is_tf2_monitors(seen, capsys):
         (["--duration", "0s"], "greater than 0"),
     ],
 )
-def test_wrong_usage_is_a_sentence(arguments, text):
+def test_wrong_usage_gives_a_message(arguments, text):
     result = CliRunner().invoke(app, ["monitor", *arguments])
     assert result.exit_code == 2
     assert text in result.output
 
 
-def test_the_command_names_publishers_live(inside):
+def test_live_command_names_publishers(inside):
     inside.start("-m", "coframe.lab.complete_tf_tree")
 
     def monitor(*options):

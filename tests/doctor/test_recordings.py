@@ -1,4 +1,4 @@
-"""What is odd about recordings of real robots, as their manifest tells by hand, is found, and nothing else."""
+"""The problems of recordings of real robots that their manifest lists are found, and nothing else."""
 
 import re
 

@@ -1,4 +1,4 @@
-"""coframe why: of recordings as real robots make them, and of the lab's common errors as students make them."""
+"""The command `coframe why` on recordings of real robots, and on the common errors of students in the lab."""
 
 import itertools
 import json
@@ -19,7 +19,7 @@ from coframe.messages import find, serialize
 
 
 def why(*arguments):
-    """(exit code, standard output)."""
+    """Return the exit code and standard output."""
     result = CliRunner().invoke(app, ["why", *map(str, arguments)])
     assert result.exception is None or isinstance(result.exception, SystemExit)
     return result.exit_code, result.stdout
@@ -32,11 +32,11 @@ def answer(*arguments):
     return data
 
 
-def test_a_healthy_way_of_a_recording(shared):
+def test_healthy_chain_of_a_recording(shared):
     bag = shared / "recordings" / "tb3_gazebo_walker"
     data = answer(bag, "odom", "wheel_left_link")
     assert data["frames"] == ["odom", "base_footprint", "base_link", "wheel_left_link"]
-    assert [(link["static"], link["publisher"]) for link in data["edges"]] == [
+    assert [(edge["static"], edge["publisher"]) for edge in data["edges"]] == [
         (False, "/tf"),
         (True, "/tf_static"),
         (False, "/tf"),
@@ -51,7 +51,7 @@ def test_a_healthy_way_of_a_recording(shared):
     assert "do:" not in out
 
 
-def test_statics_that_are_missing_from_a_recording(shared):
+def test_recording_without_static_transforms(shared):
     data = answer(shared / "recordings" / "tb3_tf_missing_static", "odom", "wheel_left_link")
     assert (data["code"], data["roots"]) == ("not_connected", ["odom", "base_link"])
     assert data["missing"] == ["base_footprint", "base_link"]
@@ -68,16 +68,16 @@ def test_statics_that_are_missing_from_a_recording(shared):
         ("0.000000001", "too_old", 1 - 280_002_000_000),
     ],
 )
-def test_before_and_after_what_a_recording_knows_to_the_nanosecond(shared, at, state, by):
+def test_times_outside_a_recording_to_the_nanosecond(shared, at, state, by):
     data = answer(shared / "recordings" / "tb3_tf_missing_static", "odom", "base_footprint", "--at", at)
-    (link,) = data["edges"]
-    assert (link["state"], link["by_ns"]) == (state, by)
+    (edge,) = data["edges"]
+    assert (edge["state"], edge["by_ns"]) == (state, by)
     assert data["span_ns"] == [280_002_000_000, 302_136_000_000]
     assert "from 280.002000000 to 302.136000000" in data["hint"]
-    assert data["findings"] == [], "the tree's other half has nothing to do with it"
+    assert data["findings"] == [], "findings about the other tree are not relevant"
 
 
-def test_what_the_doctor_finds_about_the_links_is_named(shared):
+def test_findings_about_the_edges_are_printed(shared):
     bag = shared / "recordings" / "epuck_webots"
     assert [finding["code"] for finding in answer(bag, "odom", "base_link")["findings"]] == ["TF011"]
     assert answer(bag, "base_link", "camera")["findings"] == []
@@ -87,7 +87,7 @@ def test_what_the_doctor_finds_about_the_links_is_named(shared):
     assert (code, "TF011 warning: robot/odom -> robot/base_link: 182 of 780" in out) == (0, True)
 
 
-def test_a_frame_of_another_namespace(tmp_path):
+def test_frame_in_another_namespace(tmp_path):
     rows, types = [], {}
     for number, topic in enumerate(("/a/tf", "/b/tf")):
         message = find(TF)(transforms=[find("geometry_msgs/msg/TransformStamped")()])
@@ -104,7 +104,7 @@ def test_a_frame_of_another_namespace(tmp_path):
     assert why(bag, "odom", "lidar", "--namespace", "/b")[0] == 0
 
 
-def test_the_doctor_takes_chosen_topics_for_one_robot(tmp_path):
+def test_chosen_topics_belong_to_one_robot(tmp_path):
     run = Run()
     for i in range(20):
         run.tf("odom", "base", START + i * SECOND // 50, topic="/a/tf")
@@ -114,7 +114,7 @@ def test_the_doctor_takes_chosen_topics_for_one_robot(tmp_path):
     assert [one["code"] for one in answer(bag, "odom", "base", "--tf-topic", "a/tf")["findings"]] == ["TF005"]
 
 
-def test_hostile_names_do_not_steer_the_terminal(tmp_path):
+def test_hostile_names_do_not_control_the_terminal(tmp_path):
     run = Run()
     run.tf("odom", "base\x1b[2J", START, static=True)
     code, out = why(run.write(tmp_path), "odom", "base\x1b[2J")
@@ -134,7 +134,7 @@ def test_hostile_names_do_not_steer_the_terminal(tmp_path):
     ],
 )
 @pytest.mark.usefixtures("domain_id")
-def test_wrong_usage_is_a_sentence(arguments, code, text):
+def test_wrong_usage_gives_a_message(arguments, code, text):
     result = CliRunner().invoke(app, ["why", *arguments])
     assert result.exit_code == code
     assert text in result.output
@@ -158,7 +158,7 @@ other = node.create_publisher(TFMessage, "/robot1/tf", 10)
 """
 
 
-def test_the_labs_three_errors_are_answered_with_the_line_to_change(start, inside):
+def test_three_common_errors_give_the_line_to_change(start, inside):
     start("robot", ROBOT)
     start("filter", SECOND_PUBLISHER)
     student = start("tf_listener", STUDENT, stdout=subprocess.PIPE, text=True)
@@ -183,10 +183,10 @@ def test_the_labs_three_errors_are_answered_with_the_line_to_change(start, insid
 
     (late, misspelt), codes = answers(("odom", "lidar_link", "--at", "now"), ("odom", "lidar_lnk"))
     assert codes == [1, 1]
-    (link,) = [link for link in late["edges"] if link["state"] != "ok"]
-    assert (link["parent"], link["child"], link["state"]) == ("odom", "base_link", "too_new")
-    assert 0 < link["by_ns"] < SECOND
-    assert link["publisher"] in {"/robot", "/filter"}
+    (edge,) = [edge for edge in late["edges"] if edge["state"] != "ok"]
+    assert (edge["parent"], edge["child"], edge["state"]) == ("odom", "base_link", "too_new")
+    assert 0 < edge["by_ns"] < SECOND
+    assert edge["publisher"] in {"/robot", "/filter"}
     assert at_now in late["hint"]
     (two,) = [finding for finding in late["findings"] if finding["code"] == "TF003"]
     assert sorted(two["publishers"]) == ["/filter", "/robot"]
@@ -196,7 +196,7 @@ def test_the_labs_three_errors_are_answered_with_the_line_to_change(start, insid
 
 
 @pytest.mark.slow
-def test_watch_tells_again_and_again_and_ends_by_a_signal(start, inside):
+def test_watch_prints_repeatedly_and_ends_by_a_signal(start, inside):
     start("robot", ROBOT)
     options = ("odom", "lidar_link", "--watch", "--json")
     with inside.start("-m", "coframe.cli", "why", *options, stdout=subprocess.PIPE, text=True) as process:
@@ -218,7 +218,7 @@ every(0.02, step)
 
 
 @pytest.mark.slow
-def test_watch_asks_by_the_clock_of_a_simulation(start, inside):
+def test_watch_uses_simulated_time(start, inside):
     start("simulator", SIMULATED)
     options = ("odom", "base_link", "--at", "-0.5s", "--watch", "--json")
     with inside.start("-m", "coframe.cli", "why", *options, stdout=subprocess.PIPE, text=True) as process:
@@ -227,7 +227,7 @@ def test_watch_asks_by_the_clock_of_a_simulation(start, inside):
         process.terminate()
 
 
-def test_work_that_was_interrupted_is_no_answer(domain_id, eventually):
+def test_interrupted_command_gives_no_answer(domain_id, eventually):
     command = [sys.executable, "-m", "coframe.cli", "why", "a", "b", "--duration", "60s"]
     with subprocess.Popen(command, stderr=subprocess.DEVNULL) as process:
         with coframe.connect("observer", domain=domain_id) as ros:

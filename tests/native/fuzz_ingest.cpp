@@ -1,5 +1,6 @@
-// TFMessages as bytes, most of them damaged, taken in by a buffer and by relays, for a sanitizer to watch. The same every
-// time.
+// SPDX-License-Identifier: Apache-2.0
+// TFMessages as bytes, most of them damaged, taken in by a buffer and by relays, for a sanitizer to watch. The same
+// every time.
 
 #include <algorithm>
 #include <array>
@@ -106,7 +107,8 @@ class Fuzzer {
   }
 
   std::string name() {
-    static const std::array<std::string, 8> name_problems{"", "/", "//", "/a", "größe", "NO_PARENT", "a b", std::string(300, 'x')};
+    static const std::array<std::string, 8> name_problems{"",      "/",         "//",  "/a",
+                                                          "größe", "NO_PARENT", "a b", std::string(300, 'x')};
     return rng_() % 8 == 0 ? one_of(name_problems) : "frame" + std::to_string(rng_() % 20);
   }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Readers and writers on one buffer, for a sanitizer to watch; and poses that say by themselves when they are torn.
 //
 // Every sample is a function of its parent, its child and its stamp: x is the time, y tells the parent and z the child,
@@ -149,8 +150,8 @@ struct World {
   const bool always_there;  // the chain's latest, once it has come: neither cleared nor dropped
   std::atomic<bool> begun{false};
   std::atomic<Stamp> now{kStart};
-  std::atomic<int> names{0};             // new ones so far
-  std::atomic<std::uint64_t> clears{0};  // odd while one is under way
+  std::atomic<int> names{0};                          // new ones so far
+  std::atomic<std::uint64_t> clears{0};               // odd while one is under way
   std::array<std::atomic<int>, kReaders> promised{};  // number of the sample that a reader waits for; 0: it is there
   std::atomic<bool> over{false};
 };
@@ -209,8 +210,8 @@ class Writer {
     const std::string bytes = encode_tf_message(views);
     std::size_t stored = 0;
     const auto start = Clock::now();
-    const DecodeFailure failure = world_.buffer.ingest(
-        stream_, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), stored);
+    const DecodeFailure failure =
+        world_.buffer.ingest(stream_, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), stored);
     took(start);
     expect(!failure.reason, "a good message was refused");
   }
@@ -373,8 +374,8 @@ class Reader {
     LookupQuery query;
     query.target = down ? below : above;
     query.source = down ? above : below;
-    const Batch batch{stamps.size(), stamps.data(), poses.data(), rng_() % 2 == 0 ? twists.data() : nullptr, nullptr,
-                      Batch::Missing::nan};
+    const Batch batch{stamps.size(), stamps.data(),      poses.data(), rng_() % 2 == 0 ? twists.data() : nullptr,
+                      nullptr,       Batch::Missing::nan};
     Failure failure;
     const bool ok = buffer_.lookup_many(query, nullptr, batch, 1, failure) == stamps.size();
     bool any = false;
@@ -399,7 +400,8 @@ class Reader {
     const Stamp source_stamp = when();
     Pose pose;
     Failure failure;
-    const bool ok = buffer_.lookup_full_by_id(target_id, target_stamp, source_id, source_stamp, fixed_id, pose, failure);
+    const bool ok =
+        buffer_.lookup_full_by_id(target_id, target_stamp, source_id, source_stamp, fixed_id, pose, failure);
     if (!count(ok, failure, Kind::full)) return;
     expect_pose(pose, inverse(along(0, target, target_stamp)) * along(0, source, source_stamp), "time travel");
   }

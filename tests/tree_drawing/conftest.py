@@ -1,4 +1,4 @@
-"""Trees of a robot that drives, with a second parent, a loop, and names that nobody should give."""
+"""Trees of a moving robot with a second parent, a loop, and hostile frame names."""
 
 import pytest
 from recordings import START
@@ -29,19 +29,19 @@ HOSTILE = (
 
 @pytest.fixture
 def hostile():
-    """Names that are in `forest`."""
+    """Return the hostile names that are in `forest`."""
     return HOSTILE
 
 
 @pytest.fixture
 def readable():
-    """Those of them that are shown as they are in any format."""
+    """Return the hostile names that every format shows unchanged."""
     return [name for name in HOSTILE if name.isascii() and name.isprintable() and len(name) < 60]
 
 
 @pytest.fixture
 def plant(tmp_path):
-    """From a run to its forest."""
+    """Return the forest of a run."""
 
     def plant(run, **names):
         (observation,) = observe_recording(run.write(tmp_path), **names).values()
@@ -52,7 +52,7 @@ def plant(tmp_path):
 
 @pytest.fixture
 def forest(plant):
-    """Three trees: of a robot, of a loop, and of a second parent that has nothing else below it."""
+    """Return three trees: a robot, a loop, and a second parent without other children."""
     run = Run.healthy(seconds=4, skip={"scan"}, latency=2 * MS)
     for name in HOSTILE:
         run.tf("base_link", name, START, static=True)

@@ -95,7 +95,7 @@ def test_becoming_stale_and_fresh_are_changes(plant):
 @pytest.mark.parametrize("frames", [500, pytest.param(5000, marks=pytest.mark.slow)])
 def test_four_times_the_frames_take_about_four_times_as_long(shape, frames):
     few = min(_drawing_takes(shape, frames) for _ in range(3))
-    assert min(_drawing_takes(shape, 4 * frames) for _ in range(2)) < 10 * few  # a square would be 16
+    assert min(_drawing_takes(shape, 4 * frames) for _ in range(2)) < 10 * few  # quadratic growth would be 16
 
 
 def _drawing_takes(shape, frames):
@@ -104,11 +104,13 @@ def _drawing_takes(shape, frames):
     zeros = np.zeros(frames - 1, dtype=np.int64)
     parents = number - 1 if shape == "deep" else number // 1000
     values = np.tile([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0], (frames - 1, 1))
-    told = Transforms(zeros, zeros, parents, number, zeros, zeros == 0, values, tuple(map(str, range(frames))), ("",))
-    begun = time.process_time()
-    forest = grow(Observation(live=False, start=0, end=SECOND, transforms=told))
-    picture = draw(forest, "many")
-    took = time.process_time() - begun
+    transforms = Transforms(
+        zeros, zeros, parents, number, zeros, zeros == 0, values, tuple(map(str, range(frames))), ("",)
+    )
+    begin = time.process_time()
+    forest = grow(Observation(live=False, start=0, end=SECOND, transforms=transforms))
+    drawing = draw(forest, "many")
+    took = time.process_time() - begin
     assert len(forest.frames) == frames
-    assert sum(isinstance(shape, Box) and bool(shape.title) for shape in picture.shapes) == frames
+    assert sum(isinstance(shape, Box) and bool(shape.title) for shape in drawing.shapes) == frames
     return took

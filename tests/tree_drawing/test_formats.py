@@ -1,4 +1,4 @@
-"""Each format, read by something that is not ours."""
+"""Each format, read by an independent program."""
 
 import io
 import json
@@ -16,10 +16,10 @@ from coframe.tree_drawing.svg import as_svg
 from coframe.tree_drawing.text import rows
 
 SVG = "{http://www.w3.org/2000/svg}"
-LINKS = 24 - 2  # frames less roots that are no loop's
+EDGES = 24 - 2  # frames minus the roots that are not in a loop
 
 
-def test_json_comes_back_with_whole_names(forest, hostile):
+def test_json_has_full_names(forest, hostile):
     data = json.loads(json.dumps(as_data(forest)))
     frames = {frame["name"]: frame for frame in data["frames"]}
     assert set(hostile) <= set(frames)
@@ -38,8 +38,8 @@ def test_json_comes_back_with_whole_names(forest, hostile):
 
 
 def test_svg(forest, readable):
-    picture = ElementTree.fromstring(as_svg(forest, "<run> & co"))
-    texts = [text.text for text in picture.iter(f"{SVG}text")]
+    drawing = ElementTree.fromstring(as_svg(forest, "<run> & co"))
+    texts = [text.text for text in drawing.iter(f"{SVG}text")]
     assert "<run> & co" in texts
     assert set(readable) <= set(texts)
     assert "two\\nlines" in texts
@@ -51,18 +51,18 @@ def test_svg(forest, readable):
         "Tree 2 of 3: l1",
         "Tree 3 of 3: elsewhere",
     ]
-    titles = [title.text for title in picture.iter(f"{SVG}title")]
-    assert "x" * 10_000 in titles, "the whole name is what a browser shows below the pointer"
+    titles = [title.text for title in drawing.iter(f"{SVG}title")]
+    assert "x" * 10_000 in titles, "browsers show the full name below the pointer"
     assert not re.search(r"href|url\(|<script", as_svg(forest, ""))
 
 
-def test_boxes_do_not_overlap_and_hold_their_words(forest):
-    picture = draw(forest, "run")
-    boxes = [shape for shape in picture.shapes if isinstance(shape, Box) and shape.title]
+def test_boxes_do_not_overlap(forest):
+    drawing = draw(forest, "run")
+    boxes = [shape for shape in drawing.shapes if isinstance(shape, Box) and shape.title]
     assert len(boxes) == len(forest.frames)
     for i, a in enumerate(boxes):
-        assert 0 <= a.x <= a.x + a.width <= picture.width
-        assert 0 <= a.y <= a.y + a.height <= picture.height
+        assert 0 <= a.x <= a.x + a.width <= drawing.width
+        assert 0 <= a.y <= a.y + a.height <= drawing.height
         for b in boxes[:i]:
             apart_x = a.x + a.width <= b.x or b.x + b.width <= a.x
             apart_y = a.y + a.height <= b.y or b.y + b.height <= a.y
@@ -76,19 +76,19 @@ def test_pdf(forest, readable):
     text = page.extract_text()
     assert document.metadata.title == "run (1)"
     assert "also below elsewhere" in text
-    assert "\\u30d5\\u30ec" in text, "letters that the fonts lack are told as escapes"
+    assert "\\u30d5\\u30ec" in text, "characters that the fonts lack are written as escapes"
     for name in readable:
         assert name in text
-    picture = draw(forest, "run (1)")
-    assert float(page.mediabox.height) == pytest.approx(picture.height * 0.75, abs=1)
+    drawing = draw(forest, "run (1)")
+    assert float(page.mediabox.height) == pytest.approx(drawing.height * 0.75, abs=1)
 
 
-@pytest.mark.filterwarnings("ignore::DeprecationWarning")  # pydot's, about pyparsing
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")  # of pydot about pyparsing
 def test_graphviz(forest):
     pydot = pytest.importorskip("pydot")
     (graph,) = pydot.graph_from_dot_data(as_graphviz(forest, 'a "run"'))
     edges = {(edge.get_source(), edge.get_destination()): edge.get_attributes() for edge in graph.get_edges()}
-    assert len(edges) == LINKS + 1
+    assert len(edges) == EDGES + 1
     assert "50.0 Hz" in edges['"odom"', '"base_link"']["label"]
     assert edges['"elsewhere"', '"base_link"']["color"] == "red"
     assert edges['"l3"', '"l1"']["color"] == "red"
@@ -103,22 +103,24 @@ def test_mermaid(forest):
     assert "19" in json.loads(title.removeprefix("title: "))
     nodes = [line for line in chart if re.fullmatch(r' {4}f\d+\["[^"`<>\\{}]*(<br/>[^"`<>\\{}]*)*"\]:::\w+', line)]
     arrows = [line for line in chart if re.fullmatch(r"  f\d+ (-->|-\.->) f\d+", line)]
-    assert (len(nodes), len(arrows)) == (24, LINKS + 1)
-    assert sum("-.->" in arrow for arrow in arrows) == 2, "the second parent's, and the one that closes the loop"
+    assert (len(nodes), len(arrows)) == (24, EDGES + 1)
+    assert sum("-.->" in arrow for arrow in arrows) == 2, (
+        "the one from the second parent, and the one that closes the loop"
+    )
     opened = sum(line.startswith("  subgraph ") for line in chart)
     assert opened == chart.count("  end") == 3
-    assert len(nodes) + len(arrows) + 2 * opened + 4 == len(chart), "there is nothing else but the four styles"
+    assert len(nodes) + len(arrows) + 2 * opened + 4 == len(chart), "the other lines are the four styles"
     assert any("#60;b#62;bold#60;/b#62;#38;amp#59;" in node for node in nodes)
 
 
-def test_markdown_holds_one_block(forest):
+def test_markdown_has_one_code_block(forest):
     text = as_markdown(forest, "run")
     assert text.startswith("```mermaid\n")
     assert text.endswith("\n```\n")
     assert text.count("```") == 2
 
 
-def test_rows_of_a_terminal(forest):
+def test_rows_for_a_terminal(forest):
     shown = {row.frame: row for row in rows(forest) if row.kind != "other"}
     assert shown["base_link"].branches + shown["base_link"].name == "└─ base_link"
     assert shown["base_link"].cells[1:4:2] == ("50.0", "2.0")

@@ -49,7 +49,7 @@ class FrameTrees:
 
         Args:
             parents: The parent of each frame; "" for a frame without one.
-            frames: The names of frames in the order of their numbers; frames that only `parents` names come behind
+            frames: The names of frames in the order of their numbers; frames that only `parents` contains follow
                 them.
 
         Example:

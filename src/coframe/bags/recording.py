@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe import time
-from coframe.bags import tree
 from coframe.bags.decoding import decoder
 from coframe.bags.file_discovery import open_files
 from coframe.bags.message_index import MessageIndex, largest_track, reread
+from coframe.bags.namespaces import TopicFilter, TransformCollector, main_span, report_mixed_clocks
 from coframe.bags.problems import Problems
 from coframe.bags.recorded_message import RecordedMessage, Topic
 from coframe.bags.table import edge_table
@@ -80,7 +80,7 @@ def open_bag(
     recording.options = {"namespace": namespace, "tf_topics": tf_topics, "prefix": prefix, "keep": keep}
     recording._renaming = renaming(prefix, keep)  # noqa: SLF001 - the second part of the constructor
     try:
-        wanted = tree.Wanted(namespace, tf_topics)
+        wanted = TopicFilter(namespace, tf_topics)
         recording._scan(wanted, progress or (lambda _done, _total: None), on_transforms)  # noqa: SLF001
         recording._check_tf_topics(tf_topics or [])  # noqa: SLF001
     except BaseException:
@@ -117,24 +117,24 @@ class Recording:
 
     def _scan(
         self,
-        wanted: tree.Wanted,
+        wanted: TopicFilter,
         progress: Callable[[int, int], object],
         on_transforms: Callable[[Channel, NDArray[np.int64], Slices], object] | None,
     ) -> None:
         storages = open_files(self.path, self._problems, self._closing)
         total = sum(storage.size for storage in storages)
         done = 0
-        collected = tree.Transforms(self._problems, wanted, self._renaming, on_transforms)
+        collected = TransformCollector(self._problems, wanted, self._renaming, on_transforms)
         for storage in storages:
             self._scan_file(storage, collected, lambda bytes_, before=done: progress(before + bytes_, total))  # type: ignore[misc]
             done += storage.size
         self.topics = {name: self._topic(name) for name in self._index.topics()}
         self.buffers = collected.buffers()
         with_transforms = [track for track in self._index.tracks() if _has_transforms(track.channel)]
-        self.buffer = collected.together(self.buffers, lambda: reread(with_transforms))
-        tree.report(self.buffer, self._problems)
+        self.buffer = collected.common_buffer(self.buffers, lambda: reread(with_transforms))
+        report_mixed_clocks(self.buffer, self._problems)
 
-    def _scan_file(self, storage: Storage, collected: tree.Transforms, progress: Callable[[int], object]) -> None:
+    def _scan_file(self, storage: Storage, collected: TransformCollector, progress: Callable[[int], object]) -> None:
         tracks: dict[Channel, tuple[Track, Callable[[NDArray[np.int64], Slices], None] | None]] = {}
         for batch in storage.batches(_has_transforms, progress):
             channel = batch.channel
@@ -196,7 +196,7 @@ class Recording:
         In a simulation this is not the clock of the times of receipt. Without dynamic transforms: :attr:`start` and
         :attr:`end`.
         """
-        return tree.span(self.buffer) or (self.start, self.end)
+        return main_span(self.buffer) or (self.start, self.end)
 
     def messages(
         self, topic: str, start: StampLike | None = None, stop: StampLike | None = None

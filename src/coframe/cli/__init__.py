@@ -14,7 +14,6 @@ _INTERRUPTED = 130  # exit code: 128 + SIGINT, as shells have it
 # The extra that installs each package which a command may need.
 _EXTRAS = {
     "cyclonedds": "dds",
-    "google": "protobuf",
     "lz4": "bags",
     "mcap": "bags",
     "pyarrow": "parquet",

@@ -32,7 +32,7 @@ class Collector:
     Attributes:
         empty: The number of messages without transforms.
         damaged: The number of messages that are not valid TFMessages.
-        left_out: The number of messages that were ignored because there were too many names before them.
+        ignored: The number of messages that were ignored because there were too many names before them.
         messages: The number of messages by topic.
     """
 
@@ -40,7 +40,7 @@ class Collector:
         self._renamed = renaming or str
         self.empty = 0
         self.damaged = 0
-        self.left_out = 0
+        self.ignored = 0
         self.messages: dict[str, int] = {}
         self._names: dict[str, int] = {}
         self._static: deque[Transforms] = deque()
@@ -69,7 +69,7 @@ class Collector:
         self.damaged += columns.damaged
         self.empty += len(arrived) - columns.damaged - len(np.unique(columns.message))
         if len(self._names) > _MOST_NAMES:
-            self.left_out += len(arrived)
+            self.ignored += len(arrived)
             return
         if not len(columns.stamp):
             return

@@ -179,7 +179,7 @@ class LiveObserver:
             transforms=self._with_node_names(self._collector.transforms()),
             empty_messages=self._collector.empty,
             damaged_messages=self._collector.damaged,
-            messages_left_out=self._collector.left_out,
+            messages_ignored=self._collector.ignored,
             topics=self._facts(),
             sensors=tuple(
                 s for topic in self._topics.values() for s in _sensors(topic, start, self._rename, self._node_of)

@@ -125,7 +125,7 @@ class Observation:
         transforms: The transforms as published.
         empty_messages: The number of messages without any transform.
         damaged_messages: The number of messages that are not valid TFMessages.
-        messages_left_out: The number of messages that were ignored because of too many frame names before them.
+        messages_ignored: The number of messages that were ignored because of too many frame names before them.
         topics: The topics by name.
         sensors: Messages with a header that names a frame.
         descriptions: The robot descriptions, in the order of arrival.
@@ -144,7 +144,7 @@ class Observation:
     transforms: Transforms
     empty_messages: int = 0
     damaged_messages: int = 0
-    messages_left_out: int = 0
+    messages_ignored: int = 0
     topics: dict[str, TopicFacts] = field(default_factory=dict)
     sensors: tuple[Sensor, ...] = ()
     descriptions: tuple[str, ...] = ()

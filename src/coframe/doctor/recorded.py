@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from coframe.bags import from_yaml, open_bag
+from coframe.bags.namespaces import namespace_of
 from coframe.bags.transforms import ingest_for, is_static
-from coframe.bags.tree import namespace_of
 from coframe.doctor.collector import Collector
 from coframe.doctor.joints import joint_states
 from coframe.doctor.observation import (
@@ -86,7 +86,7 @@ def observe_recording(
                 transforms=collector.transforms(),
                 empty_messages=collector.empty,
                 damaged_messages=collector.damaged,
-                messages_left_out=collector.left_out,
+                messages_ignored=collector.ignored,
                 topics=facts.topics,
                 sensors=tuple(s for s in facts.sensors if _belongs(s.topic, name, collectors)),
                 descriptions=tuple(text for topic, text in facts.descriptions if _belongs(topic, name, collectors)),

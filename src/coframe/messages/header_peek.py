@@ -37,6 +37,10 @@ __all__ = [
 HEADER_BYTES = 512  # enough of a message to contain its header: names of frames are short
 STAMP_BYTES = 24  # enough of a message to contain its first stamp
 
+# Representation identifiers, read as little-endian numbers.
+_CDR_LE, _CDR_BE = 0x0100, 0x0000
+# The halves of 8 bytes that contain a stamp.
+_LOW, _HALF = np.uint64(0xFFFFFFFF), np.uint64(32)
 _LONGEST_DEFINITION = 10_000  # bytes of a definition that are searched for the first field
 _HEADER_FIELD = re.compile(r"\s*(?:std_msgs/)?(?:msg/)?Header\s+\w+", re.ASCII)
 _TIME_FIELD = re.compile(r"\s*(?:builtin_interfaces/(?:msg/)?Time|time)\s+\w+", re.ASCII)
@@ -137,25 +141,36 @@ class StampReader:
         Returns:
             (N,) nanoseconds.
         """
-        data = np.frombuffer(messages.data, dtype=np.uint8)
         starts, ends = messages.starts.astype(np.int64), messages.ends.astype(np.int64)
-        readable = starts + self._offset + 8 <= ends
-        if self._is_cdr:
-            readable[readable] = (data[starts[readable]] == 0) & (data[starts[readable] + 1] <= 1)
-        if self._length_offset is not None:
-            lengths = data[starts[readable][:, None] + (self._length_offset + np.arange(4))]
-            readable[readable] = lengths.any(axis=1)
-        begin = starts[readable]
-        raw = data[begin[:, None] + (self._offset + np.arange(8))]
-        if self._is_cdr:
-            swapped = raw.reshape(-1, 2, 4)[:, :, ::-1].reshape(-1, 8)
-            raw = np.where((data[begin + 1] == 1)[:, None], raw, swapped)
-        seconds, nanoseconds = np.ascontiguousarray(raw).view("<u4").T.astype(np.int64)
-        if self._is_cdr:  # seconds are signed in ROS 2 and unsigned in ROS 1
-            seconds = seconds.astype(np.int32).astype(np.int64)
         stamps: NDArray[np.int64] = np.array(fallback)
-        stamps[readable] = seconds * time.SECOND + nanoseconds
+        rows = np.flatnonzero(starts + self._offset + 8 <= ends)
+        is_little: NDArray[np.bool_] | None = None
+        if self._is_cdr:
+            identifiers = _overlapping(messages.data, "<u2")[starts[rows]]
+            is_plain = (identifiers == _CDR_LE) | (identifiers == _CDR_BE)
+            rows, is_little = rows[is_plain], identifiers[is_plain] == _CDR_LE
+        if self._length_offset is not None:
+            has_elements = _overlapping(messages.data, "<u4")[starts[rows] + self._length_offset] != 0
+            rows, is_little = rows[has_elements], None if is_little is None else is_little[has_elements]
+        words = _overlapping(messages.data, "<u8")[starts[rows] + self._offset]
+        seconds, nanoseconds = words & _LOW, words >> _HALF
+        if is_little is not None and not is_little.all():
+            swapped = words.byteswap()
+            seconds = np.where(is_little, seconds, swapped >> _HALF)
+            nanoseconds = np.where(is_little, nanoseconds, swapped & _LOW)
+        # Seconds are signed in ROS 2 and unsigned in ROS 1.
+        whole = seconds.astype(np.uint32).view(np.int32) if self._is_cdr else seconds
+        stamps[rows] = whole.astype(np.int64) * time.SECOND + nanoseconds.astype(np.int64)
         return stamps
+
+
+def _overlapping(data: bytes, kind: str) -> NDArray[Any]:
+    """Return a view of bytes as numbers that begin at each byte."""
+    size = np.dtype(kind).itemsize
+    if len(data) < size:
+        return np.empty(0, kind)
+    view: NDArray[Any] = np.ndarray((len(data) - size + 1,), kind, data, strides=(1,))
+    return view
 
 
 def _message_class(ros_type: str) -> Any:

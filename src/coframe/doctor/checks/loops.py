@@ -33,11 +33,11 @@ def find(observation: Observation) -> Iterator[Finding]:
             fix="Find the program that publishes these bytes on the topic, or copy the recording again.",
             harm="Listeners discard such messages, and the transforms in them are lost.",
         )
-    if observation.messages_left_out:
+    if observation.messages_ignored:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"{observation.messages_left_out} messages were ignored: there are too many frame names",
+            text=f"{observation.messages_ignored} messages were ignored: there are too many frame names",
             fix="Find the publisher that creates new frame names all the time. This report covers the messages before "
             "them.",
             harm="Every buffer grows with each new frame name, for as long as its process runs.",

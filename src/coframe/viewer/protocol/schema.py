@@ -13,6 +13,7 @@ import typing
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, Protocol, Union, get_args, get_origin, get_type_hints
 
+from coframe.errors import CoframeError
 from coframe.viewer.protocol.limits import Clamp, Range
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ __all__ = [
 ]
 
 
-class InvalidFieldError(ValueError):
+class InvalidFieldError(CoframeError, ValueError):
     """A field whose value has the wrong type or is out of range.
 
     Attributes:

@@ -1,7 +1,7 @@
 """One connection to the server: an HTTP request that is answered, or a WebSocket.
 
-Only the protocol is the library's, not its input and output: received messages are passed on immediately, and sent
-messages are passed to the operating system immediately, as far as it accepts them, and the rest when it is ready.
+The library websockets implements the protocol; input and output are implemented here. Received messages are passed on
+immediately. Sent messages are passed to the operating system as far as it accepts them, and the rest when it is ready.
 """
 
 from __future__ import annotations

@@ -1,0 +1,201 @@
+"""The transforms of a recording by namespace: one buffer per robot, and a common one if the names are distinct."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coframe.analysis.clocks import group_by_clock
+from coframe.bags.transforms import ingest_for
+from coframe.buffer import Buffer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from coframe import _core
+    from coframe.bags.problems import Problems
+    from coframe.bags.storage import Channel
+    from coframe.buffer import EdgeInfo
+    from coframe.messages.slices import Slices
+
+__all__ = ["TopicFilter", "TransformCollector", "main_span", "namespace_of", "report_mixed_clocks"]
+
+
+class TopicFilter:
+    """Selects the topics whose transforms are read.
+
+    Args:
+        namespace: The namespace of the topics; None: all.
+        topics: The names of the topics; None: all.
+    """
+
+    def __init__(self, namespace: str | None = None, topics: Iterable[str] | None = None) -> None:
+        self._namespace = None if namespace is None else _bare(namespace)
+        self._topics = None if topics is None else {_bare(topic) for topic in topics}
+
+    def __call__(self, topic: str) -> bool:
+        """Return whether the transforms on a topic are read."""
+        in_namespace = self._namespace in {None, namespace_of(topic)}
+        return in_namespace and (self._topics is None or _bare(topic) in self._topics)
+
+
+class _NamespaceTransforms:
+    """The transforms of one namespace.
+
+    Static and dynamic transforms have separate buffers during the reading, because the history of a frame that changes
+    between static and dynamic would be cleared.
+    """
+
+    def __init__(self) -> None:
+        self.dynamic = Buffer(None)
+        self.static = Buffer(None)
+
+    def merge(self, problems: Problems) -> Buffer:
+        """Return one buffer with all transforms; dynamic ones have priority over static ones of the same frame."""
+        moving = {edge.child for edge in self.dynamic.edges() if edge.stored}
+        for edge in self.static.edges():
+            if edge.child in moving:
+                problems.add(
+                    f"{edge.parent} -> {edge.child} is published both on {edge.authority} and on a topic of dynamic "
+                    "transforms; the dynamic ones are kept"
+                )
+            elif edge.parent.startswith("/") or edge.child.startswith("/"):  # after one slash has been removed
+                problems.add(
+                    f"{edge.parent} -> {edge.child} cannot be looked up: frame names of tf2 do not begin with a slash"
+                )
+            elif edge.parent:
+                transform = self.static.lookup(edge.parent, edge.child)
+                self.dynamic.set(edge.parent, edge.child, transform, 0, static=True, authority=edge.authority)
+        return self.dynamic
+
+
+class TransformCollector:
+    """Ingests the transforms of a recording into one buffer per namespace.
+
+    Args:
+        problems: Receives the problems found.
+        wanted: Selects the topics.
+        renaming: Maps frame names to their names in the buffers; None: the names stay.
+        on_transforms: Called with all messages that contain transforms, in batches; None: not called.
+    """
+
+    def __init__(
+        self,
+        problems: Problems,
+        wanted: TopicFilter,
+        renaming: _core.Renaming | None = None,
+        on_transforms: Callable[[Channel, NDArray[np.int64], Slices], object] | None = None,
+    ) -> None:
+        self._renaming = renaming
+        self._problems = problems
+        self._on_transforms = on_transforms
+        self._wanted = wanted
+        self._namespaces: dict[str, _NamespaceTransforms] = {}
+
+    def ingest(self, channel: Channel) -> Callable[[NDArray[np.int64], Slices], None] | None:
+        """Return a function that ingests messages of a channel with times of receipt; None if they are not wanted."""
+        namespace = namespace_of(channel.topic)
+        take = ingest_for(channel, self._renaming)
+        if take is None or not self._wanted(channel.topic):
+            return None
+        transforms = self._namespaces.setdefault(namespace, _NamespaceTransforms())
+        buffer = transforms.static if take.static else transforms.dynamic
+
+        def ingest(received: NDArray[np.int64], messages: Slices) -> None:
+            if self._on_transforms is not None:
+                self._on_transforms(channel, received, messages)
+            if take.names_begin_with_slash(messages):
+                self._problems.add(f"{channel.topic}: frame names begin with '/'; the slash is removed, as in tf2", 0)
+            damaged, reason = take(buffer, messages)
+            if damaged:
+                self._problems.add(f"{channel.topic}: damaged messages; the first one: {reason}", damaged)
+
+        return ingest
+
+    def buffers(self) -> dict[str, Buffer]:
+        """Return the buffers by namespace."""
+        for transforms in self._namespaces.values():
+            rejected = transforms.dynamic.statistics["refused"] + transforms.static.statistics["refused"]
+            if rejected:
+                self._problems.add(
+                    "transforms that tf2 refuses: NaN, an invalid rotation, an empty name, or the same frame twice",
+                    rejected,
+                )
+        return {name: self._namespaces[name].merge(self._problems) for name in sorted(self._namespaces)}
+
+    def common_buffer(
+        self, buffers: dict[str, Buffer], messages: Callable[[], Iterable[tuple[Channel, Slices]]]
+    ) -> Buffer:
+        """Return one buffer for all namespaces; that of the first namespace if several contain the same frame.
+
+        Args:
+            buffers: The buffers by namespace.
+            messages: Returns all messages with transforms, to read them again.
+        """
+        if not buffers:
+            return Buffer(None)
+        first = next(iter(buffers))
+        if len(buffers) == 1:
+            return buffers[first]
+        seen: dict[str, str] = {}
+        for namespace, buffer in buffers.items():
+            for edge in buffer.edges():
+                other = seen.setdefault(edge.child, namespace)
+                if other != namespace and edge.parent:
+                    self._problems.add(
+                        f"{other}/tf and {namespace}/tf both contain the frame {edge.child!r}: `buffer` contains only "
+                        f"the transforms of {first or '/'}; use `buffers` or open_bag(namespace=...) for the others"
+                    )
+                    return buffers[first]
+        return self._merged(messages())
+
+    def _merged(self, messages: Iterable[tuple[Channel, Slices]]) -> Buffer:
+        transforms = _NamespaceTransforms()
+        for channel, slices in messages:
+            take = ingest_for(channel, self._renaming)
+            if take is not None and self._wanted(channel.topic):
+                take(transforms.static if take.static else transforms.dynamic, slices)
+        return transforms.merge(self._problems)
+
+
+def namespace_of(topic: str) -> str:
+    """Return the namespace of a topic: ``""`` for ``/tf``, ``/robot1`` for ``/robot1/tf``."""
+    return _bare(topic.rpartition("/")[0])
+
+
+def _bare(namespace: str) -> str:
+    stripped = namespace.strip("/")
+    return f"/{stripped}" if stripped else ""
+
+
+def _moving(buffer: Buffer) -> list[EdgeInfo]:
+    return [edge for edge in buffer.edges() if not edge.static and edge.samples]
+
+
+def _clocks(buffer: Buffer) -> list[list[EdgeInfo]]:
+    """Return the moving edges by the clock of their stamps, the clock with the most samples first."""
+    moving = _moving(buffer)
+    groups = group_by_clock([(edge.oldest, edge.newest) for edge in moving])
+    clocks = [[moving[position] for position in group] for group in groups]
+    return sorted(clocks, key=lambda clock: -sum(edge.samples for edge in clock))
+
+
+def main_span(buffer: Buffer) -> tuple[int, int] | None:
+    """Return the first and last stamp on the clock of most transforms; None without dynamic transforms."""
+    clocks = _clocks(buffer)
+    if not clocks:
+        return None
+    return min(edge.oldest for edge in clocks[0]), max(edge.newest for edge in clocks[0])
+
+
+def report_mixed_clocks(buffer: Buffer, problems: Problems) -> None:
+    """Add a problem for each clock that differs from the clock of most transforms."""
+    main, *others = _clocks(buffer) or [[]]
+    for clock in others:
+        names = ", ".join(f"{edge.parent} -> {edge.child}" for edge in clock[:5])
+        problems.add(
+            f"two clocks are mixed: the stamps of {names} are hours apart from those of "
+            f"{main[0].parent} -> {main[0].child}"
+        )
