@@ -268,5 +268,5 @@ def _address(process, output):
 def lab(demo, open_page):
     """Open the page of the demo, and wait for all frames of the lab."""
     page = open_page(demo.url)
-    page.until("n => window.coframe?.ticks && Object.keys(coframe.frames).length === n", LAB_FRAMES)
+    page.until("n => window.coframe?.updates && Object.keys(coframe.frames).length === n", LAB_FRAMES)
     return page

@@ -7,80 +7,38 @@ import type { OptionSpec, Options } from "./options";
 
 export const COVARIANCE_SPECS: readonly OptionSpec[] = [
   { key: "Covariance/Value", label: "Covariance", kind: "flag", value: false },
-  { key: "Covariance/Position/Value", label: "Position", needs: "Covariance/Value", kind: "flag", value: true },
-  {
-    key: "Covariance/Position/Scale",
-    label: "Position scale",
-    needs: "Covariance/Value",
-    kind: "number",
-    value: 1,
-    min: 0,
-    max: 1000,
-    step: 1,
-  },
-  {
-    key: "Covariance/Position/Color",
-    label: "Position color",
-    needs: "Covariance/Value",
-    kind: "colour",
-    value: "#cc33cc",
-  },
-  {
-    key: "Covariance/Position/Alpha",
-    label: "Position alpha",
-    needs: "Covariance/Value",
-    kind: "number",
-    value: 0.3,
-    min: 0,
-    max: 1,
-    step: 0.05,
-  },
-  {
-    key: "Covariance/Orientation/Value",
-    label: "Orientation",
-    needs: "Covariance/Value",
-    kind: "flag",
-    value: true,
-  },
-  {
-    key: "Covariance/Orientation/Scale",
-    label: "Orientation scale",
-    needs: "Covariance/Value",
-    kind: "number",
-    value: 1,
-    min: 0,
-    max: 1000,
-    step: 1,
-  },
-  {
-    key: "Covariance/Orientation/Offset",
-    label: "Orientation offset",
-    needs: "Covariance/Value",
-    kind: "number",
-    value: 1,
-    min: 0,
-    max: 100,
-    step: 0.1,
-    unit: "m",
-  },
-  {
-    key: "Covariance/Orientation/Color",
-    label: "Orientation color",
-    needs: "Covariance/Value",
-    kind: "colour",
-    value: "#ffff7f",
-  },
-  {
-    key: "Covariance/Orientation/Alpha",
-    label: "Orientation alpha",
-    needs: "Covariance/Value",
-    kind: "number",
-    value: 0.5,
-    min: 0,
-    max: 1,
-    step: 0.05,
-  },
+  flag("Position"),
+  number("Position", "Scale", { value: 1, max: 1000, step: 1 }),
+  colour("Position", "#cc33cc"),
+  number("Position", "Alpha", { value: 0.3, max: 1, step: 0.05 }),
+  flag("Orientation"),
+  number("Orientation", "Scale", { value: 1, max: 1000, step: 1 }),
+  number("Orientation", "Offset", { value: 1, max: 100, step: 0.1, unit: "m" }),
+  colour("Orientation", "#ffff7f"),
+  number("Orientation", "Alpha", { value: 0.5, max: 1, step: 0.05 }),
 ];
+
+type Part = "Position" | "Orientation";
+
+function flag(part: Part): OptionSpec {
+  return { key: `Covariance/${part}/Value`, label: part, needs: "Covariance/Value", kind: "flag", value: true };
+}
+
+function colour(part: Part, value: string): OptionSpec {
+  return { ...nested(part, "Color"), kind: "colour", value };
+}
+
+function number(
+  part: Part,
+  name: string,
+  rest: { value: number; max: number; step: number; unit?: string },
+): OptionSpec {
+  return { ...nested(part, name), kind: "number", min: 0, ...rest };
+}
+
+function nested(part: Part, name: string): { key: string; label: string; needs: string } {
+  return { key: `Covariance/${part}/${name}`, label: `${part} ${name}`, needs: "Covariance/Value" };
+}
 
 /** The largest half angle of the cone in radians; at π/2 it would be a disc. */
 const MAX_HALF_ANGLE = 1.5;
@@ -141,11 +99,11 @@ function orientationCone(at: Covariance, options: Options): THREE.Mesh[] {
   return [mesh];
 }
 
-function material(options: Options, what: "Position" | "Orientation"): THREE.Material {
+function material(options: Options, part: Part): THREE.Material {
   return new THREE.MeshLambertMaterial({
-    color: options.colour(`Covariance/${what}/Color`),
+    color: options.colour(`Covariance/${part}/Color`),
     transparent: true,
-    opacity: options.number(`Covariance/${what}/Alpha`),
+    opacity: options.number(`Covariance/${part}/Alpha`),
     side: THREE.DoubleSide,
     depthWrite: false,
   });
