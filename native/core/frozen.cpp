@@ -175,24 +175,24 @@ std::string frozen_chunks(const Tree& tree, std::uint64_t first, std::uint64_t c
 
 const char* restore(Tree& tree, std::span<const std::uint8_t> table, std::span<const std::uint8_t> chunks,
                     std::shared_ptr<const void> memory) {
-  if (reinterpret_cast<std::uintptr_t>(chunks.data()) % alignof(Chunk) != 0) return "its samples lie at an odd address";
-  if (chunks.size() % sizeof(Chunk) != 0) return "its samples are cut off";
+  if (reinterpret_cast<std::uintptr_t>(chunks.data()) % alignof(Chunk) != 0) return "its samples are not aligned";
+  if (chunks.size() % sizeof(Chunk) != 0) return "its samples are truncated";
   tree.keep(std::move(memory));
   ByteReader reader(table);
   ChunkRow row(chunks);
   std::uint32_t authority_count, frame_count;
-  if (!reader.number(authority_count)) return "its table is cut off";
+  if (!reader.number(authority_count)) return "its table is truncated";
   std::vector<AuthorityId> authorities;
   for (std::uint32_t i = 0; i < authority_count; ++i) {
     std::string_view name;
-    if (!read_name(reader, name)) return "its table is damaged: a name is none";
+    if (!read_name(reader, name)) return "its table is damaged: a name is invalid";
     authorities.push_back(i == 0 ? 0 : tree.authority(name));
   }
-  if (!reader.number(frame_count)) return "its table is cut off";
+  if (!reader.number(frame_count)) return "its table is truncated";
   for (std::uint32_t i = 0; i < frame_count; ++i) {
-    if (!read_frame(reader, tree, authorities, row)) return "its table is damaged: what it says of a frame cannot be";
+    if (!read_frame(reader, tree, authorities, row)) return "its table is damaged: the data of a frame is invalid";
   }
-  if (reader.left() != 0 || row.left() != 0) return "its table is damaged: it does not tell of all that is there";
+  if (reader.left() != 0 || row.left() != 0) return "its table is damaged: it does not describe all bytes of the file";
   return nullptr;
 }
 

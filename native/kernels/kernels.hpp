@@ -77,7 +77,7 @@ struct Link {
 // What a joint does with the link behind it.
 enum class JointKind : std::uint8_t { still, turning, sliding, planar, floating };
 
-// Where the link behind a joint is, told in the link before it: at position 0 at `origin`.
+// The motion of a joint's child link relative to its parent link; at position 0 it is at `origin`.
 struct JointMotion {
   JointKind kind = JointKind::still;
   Pose origin;

@@ -59,11 +59,10 @@ COFRAME_INLINE Lanes with_sign(const Lanes& numbers, const Lanes& sign) {
   return (Lanes)((LaneBits)numbers ^ (LaneBits)sign);
 }
 
-// The only place where a sample is read that another thread may be writing, and below the only one where it is written
-// so. For the language it is a race, as SharedSample is made of atomic numbers; but no compiler takes the access apart,
-// processors read and write aligned numbers of 8 bytes whole, and whoever asked for it throws the result away where the
-// revision tells that something was written meanwhile. ThreadSanitizer, which cannot know that, gets what the language
-// wants.
+// The only place that reads a sample while another thread may be writing it; the only place that writes one is below.
+// For the language this is a data race, because SharedSample consists of atomic numbers. In practice no compiler splits
+// these accesses, processors read and write aligned 8-byte numbers as a whole, and the caller discards the result if
+// the revision has changed. ThreadSanitizer cannot detect that, so it gets atomic accesses.
 COFRAME_INLINE Pair load_pair(const double* numbers) {
   Pair pair;
 #if defined(COFRAME_CHECKS_THREADS)

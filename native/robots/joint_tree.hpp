@@ -37,10 +37,10 @@ class JointTree {
   std::size_t size() const { return nodes_.size(); }
   JointKind kind(std::size_t joint) const { return nodes_[joint].motion.kind; }
 
-  // Where the link behind each joint is, told in the root link or else in the link before it: x, y, z, qx, qy, qz, qw
-  // of joint j in configuration i at out + 7 * (j * n + i). Joints that are not given follow their leaders, or are at
-  // 0. The first joint with a position that is no position, because it is not finite or a zero quaternion; size() if
-  // there is none. So many threads share the work.
+  // Computes the pose of each joint's child link relative to the root link or to its parent link: x, y, z, qx, qy, qz,
+  // qw of joint j in configuration i at out + 7 * (j * n + i). Joints that are not given follow the joint they mimic,
+  // or are at 0. Returns the first joint with an invalid position (not finite, or a zero quaternion); size() if there
+  // is none. `threads` share the work.
   std::size_t poses(const std::vector<JointPositions>& given, std::size_t n, bool in_root, unsigned threads,
                     double* out) const;
 

@@ -425,7 +425,7 @@ def register_buffer_class(cls: type[Buffer]) -> None:
     """
 
 def register_transform_class(cls: type[Transform]) -> None:
-    """Look-ups return instances of `cls`, a subclass of Transform."""
+    """Register the class of lookup results, a subclass of Transform."""
 
 def register_messages(
     transform_stamped: type,
