@@ -61,6 +61,7 @@ lint: $(STAMP) ## check style, words, import directions and generated files
 	$(BIN)/ruff format --check .
 	git ls-files '*.cpp' '*.hpp' '*.inc' | xargs $(BIN)/clang-format --dry-run --Werror
 	$(BIN)/python scripts/check_words.py
+	$(BIN)/python scripts/check_spdx.py
 	$(BIN)/lint-imports --no-cache
 	$(BIN)/python scripts/generate_messages.py --check
 	$(BIN)/python scripts/generate_protocol.py --check
