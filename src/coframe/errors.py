@@ -6,7 +6,7 @@
         │   ├── LookupException                 a frame does not exist, or the tree contains a loop
         │   ├── ConnectivityException           the frames are in different trees
         │   ├── ExtrapolationException          no sample at the requested time
-        │   ├── InvalidArgumentException        a name or value that tf2 refuses
+        │   ├── InvalidArgumentException        a name or value that tf2 rejects
         │   │   └── FrameMismatchException      composing a<-b with c<-d where b is not c
         │   └── TimeoutException                the transform did not become available in time
         ├── WireError(RuntimeError)             the ROS graph could not be joined or used
@@ -219,7 +219,7 @@ class ExtrapolationException(TransformException):
 
 
 class InvalidArgumentException(TransformException):
-    """A frame name or a transform that tf2 refuses."""
+    """A frame name or a transform that tf2 rejects."""
 
 
 class FrameMismatchException(InvalidArgumentException):

@@ -293,7 +293,7 @@ def test_old_data(only):
     run = Run.healthy(seconds=20)
     for i in range(5):
         run.drive(later(2 + i / 50), arrived=later(19 + i / 50))
-    assert "5 of 1005 transforms are older than a buffer of 10 s keeps" in only(run, "TF011").text
+    assert "5 of 1005 transforms are older than the cache length of 10 s" in only(run, "TF011").text
 
 
 def test_time_jumps_back(only):
