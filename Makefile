@@ -59,6 +59,7 @@ conformance: $(STAMP) ## check tf2's semantics case by case
 lint: $(STAMP) ## check style, words, import directions and generated files
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	git ls-files '*.cpp' '*.hpp' '*.inc' | xargs $(BIN)/clang-format --dry-run --Werror
 	$(BIN)/python scripts/check_words.py
 	$(BIN)/lint-imports --no-cache
 	$(BIN)/python scripts/generate_messages.py --check
@@ -73,6 +74,7 @@ typecheck: $(STAMP) ## run mypy --strict, and compare the stub with the native m
 format: $(STAMP) ## format the sources
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+	git ls-files '*.cpp' '*.hpp' '*.inc' | xargs $(BIN)/clang-format -i
 
 $(VENV)/.bench: pyproject.toml | $(STAMP)
 	@$(BIN)/python -m pip install --quiet "pip>=25.1" && $(BIN)/python -m pip install --quiet --group bench && touch $@ || \

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bags/mcap_records.hpp"
 
 #include <bit>
@@ -10,7 +11,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "MCAP is little endian, and is read as it is");
 
 constexpr std::uint8_t kSchema = 0x03, kChannel = 0x04, kMessage = 0x05;
-constexpr std::uint8_t kPrivate = 0x80;  // from here on records are somebody's own, to be skipped
+constexpr std::uint8_t kPrivate = 0x80;   // records from here on are private extensions and are skipped
 constexpr std::size_t kHead = 9;          // opcode, length
 constexpr std::size_t kMessageHead = 22;  // channel, sequence, log time, publish time
 

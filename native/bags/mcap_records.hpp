@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the messages lie among the records of an MCAP file or chunk. https://mcap.dev/spec
 #pragma once
 

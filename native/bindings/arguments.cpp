@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bindings/arguments.hpp"
 
 #include <array>
@@ -10,9 +11,9 @@ namespace coframe::bindings {
 
 namespace {
 
-nb::handle time_module;  // coframe.time: what is neither int nor None is converted there
+nb::handle time_module;  // coframe.time converts what is neither int nor None
 
-// Durations are mostly written as the same few literals.
+// Most programs use the same few literals as durations.
 struct KnownDuration {
   PyObject* text = nullptr;
   std::int64_t nanoseconds = 0;
@@ -23,6 +24,9 @@ std::int64_t converted(const char* function, nb::handle given) {
   const CallingPython call;
   return to_int64(time_module.attr(function)(given));
 }
+
+// Whether coframe.time.duration_ns refuses the int: 2 is two nanoseconds, but its caller means two seconds.
+bool is_meant_as_seconds(std::int64_t nanoseconds) { return nanoseconds > 0 && nanoseconds < 1000; }
 
 std::int64_t text_duration(PyObject* text) {
   KnownDuration& known = known_durations[(reinterpret_cast<std::uintptr_t>(text) >> 4) % known_durations.size()];
@@ -74,7 +78,7 @@ Stamp to_stamp(nb::handle stamp) {
 std::int64_t to_duration(nb::handle duration) {
   if (duration.is_none()) return 0;
   std::int64_t nanoseconds;
-  if (quick_int64(duration.ptr(), nanoseconds)) return nanoseconds;
+  if (quick_int64(duration.ptr(), nanoseconds) && !is_meant_as_seconds(nanoseconds)) return nanoseconds;
   if (PyUnicode_CheckExact(duration.ptr())) return text_duration(duration.ptr());
   return converted("duration_ns", duration);
 }
@@ -100,7 +104,7 @@ LookupQuery full_query_of(BufferObject& buffer, nb::handle target, nb::handle ta
 }
 
 std::uint32_t IdentityCache::remember(Entry& entry, PyObject* name, std::uint32_t number) {
-  // Letting go of an instance of a subclass could run any code.
+  // Releasing an instance of a subclass could run any code.
   if (number != 0 && PyUnicode_CheckExact(name)) {
     Py_INCREF(name);
     Py_XDECREF(std::exchange(entry.name, name));
@@ -112,7 +116,7 @@ std::uint32_t IdentityCache::remember(Entry& entry, PyObject* name, std::uint32_
 void define_arguments(nb::module_& module) {
   module.def(
       "register_time", [](nb::object time) { time_module = time.release(); }, nb::arg("time"),
-      "Stamps and durations that are not int are converted by this module.");
+      "Register the module that converts stamps and durations other than int.");
 }
 
 }  // namespace coframe::bindings

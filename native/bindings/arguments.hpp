@@ -1,4 +1,5 @@
-// What Python callers give: names, stamps, durations, questions.
+// SPDX-License-Identifier: Apache-2.0
+// Conversion of Python arguments: names, stamps, durations, queries.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -17,11 +18,11 @@ namespace coframe::bindings {
 
 namespace nb = nanobind;
 
-// Of a Python object that is one; type_error where __init__ was not called.
+// Returns the C++ object; raises a type_error for other objects and if __init__ was not called.
 BufferObject& buffer_of(nb::handle object);
 
-// The value of an exact int that fits; false for all else, without an exception. A stamp has three of CPython's digits,
-// and its own conversion takes as long over them as the look-up that they are for.
+// Reads an exact int that fits. Returns false for everything else, without an exception. A stamp has three digits of
+// CPython's int, and CPython's own conversion would take as long as the lookup itself.
 inline bool quick_int64(PyObject* number, std::int64_t& value) {
   if (!PyLong_CheckExact(number)) return false;
 #if PyLong_SHIFT == 30 && PY_VERSION_HEX < 0x030E0000
@@ -49,23 +50,23 @@ inline bool quick_int64(PyObject* number, std::int64_t& value) {
   return overflow == 0;
 }
 
-// Nanoseconds, by coframe.time for what is no int; None is 0.
+// Converts to nanoseconds: int directly, None as 0, everything else with coframe.time.
 std::int64_t to_int64(nb::handle number);
 Stamp to_stamp(nb::handle stamp);
 std::int64_t to_duration(nb::handle duration);
 
-// The names stay valid as long as their objects.
+// The names in the query are valid as long as their objects.
 LookupQuery query_of(BufferObject& buffer, nb::handle target, nb::handle source, nb::handle stamp);
 LookupQuery full_query_of(BufferObject& buffer, nb::handle target, nb::handle target_stamp, nb::handle source,
                           nb::handle source_stamp, nb::handle fixed);
 
-// The numbers of an array as bytes.
+// Returns the numbers of an array as bytes.
 template <class Number>
 nb::bytes array_bytes(const std::vector<Number>& numbers) {
   return nb::bytes(numbers.data(), numbers.size() * sizeof(Number));
 }
 
-// An object with the buffer protocol, held while its memory is used.
+// An object with the buffer protocol, locked while its memory is used.
 class Memory {
  public:
   Memory(nb::handle object, int flags) {

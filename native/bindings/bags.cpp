@@ -1,4 +1,5 @@
-// Recordings: many messages in one call.
+// SPDX-License-Identifier: Apache-2.0
+// Recordings: functions that process many messages in one call.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string_view.h>
@@ -36,7 +37,7 @@ TransformStream::Encoding encoding_of(std::string_view name) {
   throw nb::value_error("encoding must be \"cdr\" or \"ros1\"");
 }
 
-// How many of the slices were damaged, and what is wrong with the first of these.
+// Returns how many of the slices were malformed, and what is wrong with the first.
 nb::tuple ingest_slices(nb::handle buffer, nb::handle data, nb::handle starts, nb::handle ends, bool is_static,
                         nb::handle authority, std::string_view encoding, const std::optional<Renaming>& renaming) {
   BufferObject& self = buffer_of(buffer);
@@ -57,7 +58,7 @@ nb::tuple ingest_slices(nb::handle buffer, nb::handle data, nb::handle starts, n
   return nb::make_tuple(damaged, reason);
 }
 
-// The transforms of many messages, a row each, as columns; names become numbers in the order in which they come up.
+// The transforms of many messages as columns, one row each. Names are numbered in order of appearance.
 class TransformColumns {
  public:
   explicit TransformColumns(bool is_ros1) : is_ros1_(is_ros1) {}
@@ -128,13 +129,14 @@ nb::tuple transform_columns(nb::handle data, nb::handle starts, nb::handle ends,
 void define_bags(nb::module_& module) {
   using nb::arg;
   module.def("mcap_records", &mcap_records, arg("data"),
-             "Where the messages lie among records of MCAP: channels (uint16), times, records, starts and ends (uint64) "
+             "Return the positions of the messages in MCAP records: channels (uint16), times, records, starts and ends "
+             "(uint64) "
              "as bytes, definitions as (opcode, start, end), and how many bytes are whole records.");
   module.def("ingest_slices", &ingest_slices, arg("buffer"), arg("data"), arg("starts"), arg("ends"), arg("static"),
              arg("authority"), arg("encoding") = "cdr", arg("renaming") = nb::none(),
-             "Buffer.ingest() of many parts of `data`, which uint64 arrays tell: how many are damaged, and why the first.");
+             "Ingest many slices of `data`; return how many are malformed, and why the first is.");
   module.def("transform_columns", &transform_columns, arg("data"), arg("starts"), arg("ends"), arg("encoding") = "cdr",
-             "The transforms of many TFMessages as they were sent, as columns.");
+             "Return the transforms of many TFMessages as columns.");
 }
 
 }  // namespace coframe::bindings

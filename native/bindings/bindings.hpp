@@ -1,4 +1,5 @@
-// What the binding files share: one `define_*` a topic, and waiting that leaves room for Ctrl-C.
+// SPDX-License-Identifier: Apache-2.0
+// Shared by all binding files: one `define_*` function per topic, and waiting that reacts to Ctrl-C.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -28,11 +29,11 @@ void define_sensors(nb::module_& module);
 void define_bags(nb::module_& module);
 void define_wire(nb::module_& module);
 
-// Python's signal handlers run only in between: a long wait of the main thread is cut into slices of this length.
+// Python runs signal handlers only between waits, so the main thread splits long waits into slices of this length.
 inline constexpr std::int64_t kSignalSliceNs = 50'000'000;
 
-// Calls `wait(slice_ns)` without the GIL until it returns true or `timeout_ns` (negative: for ever) is over.
-// Raises what a signal handler raised, KeyboardInterrupt above all. The GIL must be held by the caller.
+// Calls `wait(slice_ns)` without the GIL until it returns true or `timeout_ns` (negative: no limit) has passed. Raises
+// the exception of a signal handler, KeyboardInterrupt above all. The caller must hold the GIL.
 template <class Wait>
 bool wait_with_signals(std::int64_t timeout_ns, Wait&& wait) {
   using clock = std::chrono::steady_clock;
@@ -43,7 +44,7 @@ bool wait_with_signals(std::int64_t timeout_ns, Wait&& wait) {
     const auto elapsed = std::chrono::duration_cast<std::chrono::nanoseconds>(clock::now() - start).count();
     return std::clamp<std::int64_t>(timeout_ns - elapsed, 0, kLong);
   };
-  // Python's signal handlers run in the main thread only: the others need not come back for the GIL in between.
+  // Only the main thread runs signal handlers; other threads need not take the GIL in between.
   const std::int64_t longest = is_main_thread() ? kSignalSliceNs : kLong;
   for (;;) {
     bool done;
@@ -52,7 +53,7 @@ bool wait_with_signals(std::int64_t timeout_ns, Wait&& wait) {
       done = wait(std::min(longest, left()));
     }
     if (PyErr_CheckSignals() != 0) throw nb::python_error();
-    // `wait` may also end early in vain: only the clock says when the time is over.
+    // `wait` may also return early without success: only the clock decides when the time is over.
     if (done || left() == 0) return done;
   }
 }

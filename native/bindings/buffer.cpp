@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bindings/buffer.hpp"
 
 #include <nanobind/stl/optional.h>
@@ -19,8 +20,9 @@ namespace coframe::bindings {
 
 namespace {
 
-// Tries now, and then waits without the GIL for the insertion that brings the answer.
-bool lookup_by_name_waiting(BufferObject& self, LookupQuery& query, std::int64_t timeout_ns, LookupResult& result, Failure& failure) {
+// Tries at once, then waits without the GIL for an insertion that makes the lookup succeed.
+bool lookup_by_name_waiting(BufferObject& self, LookupQuery& query, std::int64_t timeout_ns, LookupResult& result,
+                            Failure& failure) {
   if (self.core->lookup_by_name(query, result, failure)) return true;
   if (timeout_ns <= 0) return false;
   const auto wait = std::make_shared<Wait>(query);
@@ -29,17 +31,17 @@ bool lookup_by_name_waiting(BufferObject& self, LookupQuery& query, std::int64_t
     result = wait->result();
     return true;
   }
-  return self.core->lookup_by_name(query, result, failure);  // also what is missing by now
+  return self.core->lookup_by_name(query, result, failure);  // also updates what is missing
 }
 
-// Beyond so many the other Python threads may run meanwhile; below, letting them costs more than it gives.
-constexpr std::size_t kManyLookups = 20'000;
+// Larger batches release the GIL; for smaller ones releasing it costs more than it gains.
+constexpr std::size_t kLargeBatch = 20'000;
 
 nb::object raise_for(BufferObject& self, Failure&& failure, nb::handle target, nb::handle source) {
   return raise_failure({std::move(failure), self.core, nb::borrow(target), nb::borrow(source)});
 }
 
-// Nothing where there is to be none.
+// Returns nothing if extrapolation is not requested.
 std::optional<Extrapolation> extrapolation_of(nb::handle limit, bool hold) {
   if (limit.is_none()) return std::nullopt;
   Extrapolation extrapolation;
@@ -63,12 +65,12 @@ nb::object lookup_waiting(BufferObject& self, nb::handle target, nb::handle sour
   return raise_for(self, std::move(failure), target, source);
 }
 
-// What is mostly asked: two frames, and a stamp that is an int or none.
+// The most frequent kind of query: two frames and a stamp that is an int or None.
 struct PlainQuery {
   FrameId target = 0, source = 0;
   Stamp stamp = 0;
 
-  // False for all that is not plain.
+  // Returns false for every other query.
   bool read(FrameId target_frame, FrameId source_frame, PyObject* when) {
     target = target_frame;
     source = source_frame;
@@ -83,7 +85,8 @@ PyObject* lookup_cached_path(BufferObject& self, PlainQuery& query, PyObject* ta
   return make_transform(pose, query.stamp, target, source).release().ptr();
 }
 
-// The whole answer, or its exception; nullptr without one where a frame is not known any more.
+// Returns the transform or sets the exception of the failed lookup. Returns nullptr without an exception if a frame
+// does not exist any more.
 PyObject* lookup_by_walking(BufferObject& self, PlainQuery& query, PyObject* target, PyObject* source) {
   if (!self.core->knows(query.target) || !self.core->knows(query.source)) return nullptr;
   Pose pose;
@@ -98,20 +101,21 @@ bool check_cached_path(BufferObject& self, const PlainQuery& query) {
   return self.core->check_cached_path(self.paths, query.target, query.source, query.stamp);
 }
 
-// The shortest way to ask: the arguments are (target, source[, stamp]), and the names were asked for before. nullptr
-// without an exception for all else, and where `ask` has no answer.
-template <class Ask>
-PyObject* call_with_cached_ids(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords, Ask&& ask) {
+// The fastest path: the arguments are (target, source[, stamp]) and the ids of the names are cached. Returns nullptr
+// without an exception for all other arguments, and if `lookup` has no result.
+template <class Lookup>
+PyObject* call_with_cached_ids(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords,
+                               Lookup&& lookup) {
   if (keywords || count < 2 || count > 3 || !nb::inst_ready(object)) return nullptr;
   return guarded([&]() -> PyObject* {
     BufferObject& self = *nb::inst_ptr<BufferObject>(object);
     PlainQuery query;
     const FrameId target = self.frames.known(arguments[0]), source = self.frames.known(arguments[1]);
-    return query.read(target, source, count == 3 ? arguments[2] : nullptr) ? ask(self, query) : nullptr;
+    return query.read(target, source, count == 3 ? arguments[2] : nullptr) ? lookup(self, query) : nullptr;
   });
 }
 
-nb::handle given(PyObject* object) { return object ? nb::handle(object) : nb::handle(Py_None); }
+nb::handle handle_or_none(PyObject* object) { return object ? nb::handle(object) : nb::handle(Py_None); }
 
 bool is_true(PyObject* object) {
   const int truth = object ? PyObject_IsTrue(object) : 0;
@@ -125,24 +129,26 @@ PyObject* lookup_general(PyObject* object, PyObject* const* arguments, Py_ssize_
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&] {
     BufferObject& self = buffer_of(object);
-    // What is wrong with these is told also where they are not needed.
-    const std::int64_t timeout = to_duration(given(values[3]));
-    std::optional<Extrapolation> extrapolation = extrapolation_of(given(values[4]), is_true(values[5]));
-    // What can be answered now needs neither patience nor a guess.
+    // Invalid values are rejected even if the arguments are not needed.
+    const std::int64_t timeout = to_duration(handle_or_none(values[3]));
+    std::optional<Extrapolation> extrapolation = extrapolation_of(handle_or_none(values[4]), is_true(values[5]));
+    // A lookup that succeeds at once needs neither waiting nor extrapolation.
     PlainQuery query;
     if (query.read(self.frame(values[0]), self.frame(values[1]), values[2])) {
       if (PyObject* found = lookup_cached_path(self, query, values[0], values[1])) return found;
     }
-    return lookup_waiting(self, values[0], values[1], given(values[2]), timeout, extrapolation).release().ptr();
+    return lookup_waiting(self, values[0], values[1], handle_or_none(values[2]), timeout, extrapolation)
+        .release()
+        .ptr();
   });
 }
 
 PyObject* py_lookup(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  const auto ask = [&](BufferObject& self, PlainQuery& query) {
+  const auto lookup = [&](BufferObject& self, PlainQuery& query) {
     PyObject* found = lookup_cached_path(self, query, arguments[0], arguments[1]);
     return found ? found : lookup_by_walking(self, query, arguments[0], arguments[1]);
   };
-  PyObject* found = call_with_cached_ids(object, arguments, count, keywords, ask);
+  PyObject* found = call_with_cached_ids(object, arguments, count, keywords, lookup);
   return found || PyErr_Occurred() ? found : lookup_general(object, arguments, count, keywords);
 }
 
@@ -163,12 +169,12 @@ PyObject* can_transform_general(PyObject* object, PyObject* const* arguments, Py
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&] {
     BufferObject& self = buffer_of(object);
-    const std::int64_t timeout = to_duration(given(values[3]));
+    const std::int64_t timeout = to_duration(handle_or_none(values[3]));
     PlainQuery plain;
     if (plain.read(self.frame(values[0]), self.frame(values[1]), values[2]) && check_cached_path(self, plain)) {
       return Py_NewRef(Py_True);
     }
-    LookupQuery query = query_of(self, values[0], values[1], given(values[2]));
+    LookupQuery query = query_of(self, values[0], values[1], handle_or_none(values[2]));
     LookupResult result;
     Failure failure;
     return PyBool_FromLong(lookup_by_name_waiting(self, query, timeout, result, failure));
@@ -176,10 +182,10 @@ PyObject* can_transform_general(PyObject* object, PyObject* const* arguments, Py
 }
 
 PyObject* py_can_transform(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
-  const auto ask = [&](BufferObject& self, PlainQuery& query) {
+  const auto lookup = [&](BufferObject& self, PlainQuery& query) {
     return check_cached_path(self, query) ? Py_NewRef(Py_True) : nullptr;
   };
-  PyObject* found = call_with_cached_ids(object, arguments, count, keywords, ask);
+  PyObject* found = call_with_cached_ids(object, arguments, count, keywords, lookup);
   return found || PyErr_Occurred() ? found : can_transform_general(object, arguments, count, keywords);
 }
 
@@ -220,8 +226,8 @@ Batch::Missing missing_of(std::string_view on_error) {
   throw nb::value_error("on_error must be \"raise\", \"nan\" or \"clip\"");
 }
 
-// Arrays of as many rows: stamps (in and out), poses (N, 7), and if they are not None twists (N, 6) and how far beyond
-// the data (N,). Returns the first row that has no answer, and raises for it unless it is filled with NaN.
+// Arrays with the same number of rows: stamps (in and out), poses (N, 7), and optionally twists (N, 6) and the
+// extrapolation (N,). Returns the first row without a transform, and raises for it unless it is filled with NaN.
 std::size_t lookup_rows(BufferObject& self, nb::handle target, nb::handle source, nb::handle stamps, nb::handle poses,
                         nb::handle twists, nb::handle beyond, std::string_view on_error, unsigned threads,
                         nb::handle extrapolate, bool hold) {
@@ -239,7 +245,7 @@ std::size_t lookup_rows(BufferObject& self, nb::handle target, nb::handle source
   const auto run = [&] {
     missing = self.core->lookup_many(query, extrapolation ? &*extrapolation : nullptr, batch, threads, failure);
   };
-  if (count > kManyLookups || threads > 1) {
+  if (count > kLargeBatch || threads > 1) {
     const WithoutGil release;
     run();
   } else {
@@ -263,7 +269,7 @@ nb::bytes stamps_between(BufferObject& self, nb::handle target, nb::handle sourc
   return nb::bytes(stamps.data(), stamps.size() * sizeof(Stamp));
 }
 
-// (refusals, rows stored, first refused row).
+// Returns (refusals, stored rows, first rejected row).
 nb::tuple set_rows(BufferObject& self, std::string_view parent, std::string_view child, nb::handle stamps,
                    nb::handle poses, bool is_static, nb::handle authority) {
   const Memory times(stamps, PyBUF_C_CONTIGUOUS), places(poses, PyBUF_C_CONTIGUOUS);
@@ -273,7 +279,7 @@ nb::tuple set_rows(BufferObject& self, std::string_view parent, std::string_view
   std::size_t stored, bad_row;
   unsigned refusals;
   const auto run = [&] { refusals = self.core->insert_many(track, is_static, who, stored, bad_row); };
-  if (count > kManyLookups) {
+  if (count > kLargeBatch) {
     const WithoutGil release;
     run();
   } else {
@@ -294,7 +300,7 @@ nb::object py_latest_common_time(BufferObject& self, nb::handle target, nb::hand
 }
 
 nb::object py_chain(BufferObject& self, nb::handle target, nb::handle target_stamp, nb::handle source,
-                                  nb::handle source_stamp, nb::handle fixed) {
+                    nb::handle source_stamp, nb::handle fixed) {
   const Stamp target_time = to_stamp(target_stamp), source_time = to_stamp(source_stamp);
   const Buffer& buffer = *self.core;
   const FrameId target_id = buffer.find(text(target)), source_id = buffer.find(text(source)),
@@ -336,7 +342,7 @@ nb::list edge_tuples(const BufferObject& self, const std::optional<std::vector<s
     for (const EdgeSummary& edge : self.core->edges()) edges.append(edge_tuple(edge));
     return edges;
   }
-  std::set<FrameId> frames;  // in the order of all
+  std::set<FrameId> frames;  // in the order of all frames
   for (const std::string& child : *children) frames.insert(self.core->find(child));
   frames.erase(0);
   for (const FrameId frame : frames) {
@@ -347,7 +353,8 @@ nb::list edge_tuples(const BufferObject& self, const std::optional<std::vector<s
 
 PyObject* py_set_values(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<12> signature(
-      "_set_values", {"parent", "child", "stamp", "x", "y", "z", "qx", "qy", "qz", "qw", "static", "authority"}, 12, 12);
+      "_set_values", {"parent", "child", "stamp", "x", "y", "z", "qx", "qy", "qz", "qw", "static", "authority"}, 12,
+      12);
   PyObject* values[12];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&]() -> PyObject* {
@@ -369,7 +376,8 @@ PyObject* py_set_values(PyObject* object, PyObject* const* arguments, Py_ssize_t
   });
 }
 
-// As coframe.Buffer.set() has it: between known frames, the transform's own if it names any, at a time.
+// The usual case of coframe.Buffer.set(): two known frames, which equal the transform's own frames if it has any, and a
+// stamp.
 PyObject* py_set_plain(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<5> signature("_set_plain", {"parent", "child", "transform", "stamp", "static"}, 5, 5);
   PyObject* values[5];
@@ -393,8 +401,7 @@ PyObject* py_set_plain(PyObject* object, PyObject* const* arguments, Py_ssize_t 
 nb::list py_insert_texts(unsigned refusals, std::string_view parent, std::string_view child, Stamp stamp, double x,
                          double y, double z, double qx, double qy, double qz, double qw, std::string_view authority) {
   nb::list lines;
-  for (const LogLine& line :
-       refusal_texts(refusals, parent, child, stamp, {{x, y, z}, {qx, qy, qz, qw}}, authority)) {
+  for (const LogLine& line : refusal_texts(refusals, parent, child, stamp, {{x, y, z}, {qx, qy, qz, qw}}, authority)) {
     lines.append(nb::make_tuple(line.is_error ? "error" : "warning", line.text));
   }
   return lines;
@@ -432,16 +439,16 @@ const char* found_name(Found found) {
   return "";
 }
 
-// What a frame's history has for a time: (what the search comes to, the parent told then or else last, the stamps
-// around it). None for a frame without one.
+// Returns the state of an edge at a time: (result of the search, the parent then or else the last one, the stamps
+// before and after). None for a frame without a history.
 nb::object edge_at(const BufferObject& self, std::string_view child, Stamp stamp) {
-  struct Told {
+  struct EdgeState {
     bool exists;
     Found found;
     std::string parent;
     Stamp before, after;
   };
-  const Told told = self.core->read([&](const Tree& tree) {
+  const EdgeState state = self.core->read([&](const Tree& tree) {
     const History::View history = tree.history(tree.find(child));
     Pose pose;
     FrameId parent = history.parent();
@@ -452,10 +459,10 @@ nb::object edge_at(const BufferObject& self, std::string_view child, Stamp stamp
       before = history.time(next == 0 ? 0 : next - 1);
       after = before == stamp ? before : history.time(std::min(next, history.size() - 1));
     }
-    return Told{history.exists(), found, parent == 0 ? std::string() : tree.name(parent), before, after};
+    return EdgeState{history.exists(), found, parent == 0 ? std::string() : tree.name(parent), before, after};
   });
-  if (!told.exists) return nb::none();
-  return nb::make_tuple(found_name(told.found), told.parent, told.before, told.after);
+  if (!state.exists) return nb::none();
+  return nb::make_tuple(found_name(state.found), state.parent, state.before, state.after);
 }
 
 nb::dict statistics(const BufferObject& self) {
@@ -500,6 +507,7 @@ Raises:
     ExtrapolationException: An edge has no sample at that time.
     InvalidArgumentException: A name is empty or has a leading slash.
     TypeError: A stamp or duration has a wrong type, such as a float of seconds.
+    ValueError: A duration is an int below one microsecond, such as 2, or is text without a unit.
 
 Example:
     >>> import coframe
@@ -545,14 +553,15 @@ void define_buffer(nb::module_& module) {
   using nb::arg;
   // None is accepted here, because the functions themselves report what a frame name or a stamp must be.
   const auto any = [](const char* name) { return nb::arg(name).none(); };
-  nb::class_<BufferObject> cls(module, "Buffer", "The native buffer; coframe.Buffer is the public class on top of it.",
+  nb::class_<BufferObject> cls(module, "Buffer",
+                               "The native buffer; coframe.Buffer is the public class derived from it.",
                                nb::is_weak_referenceable());
-  cls
-      .def(nb::init<Stamp>(), arg("cache_ns"))
-      .def_prop_ro("cache_ns", [](const BufferObject& self) { return self.core->cache_length(); },
-                   R"doc(Length of the cache for dynamic transforms in nanoseconds; negative if the buffer keeps everything.)doc")
-      .def("_lookup_full", &py_lookup_full, any("target"), any("target_stamp"), any("source"),
-           any("source_stamp"), any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
+  cls.def(nb::init<Stamp>(), arg("cache_ns"))
+      .def_prop_ro(
+          "cache_ns", [](const BufferObject& self) { return self.core->cache_length(); },
+          R"doc(Length of the cache for dynamic transforms in nanoseconds; negative if the buffer keeps everything.)doc")
+      .def("_lookup_full", &py_lookup_full, any("target"), any("target_stamp"), any("source"), any("source_stamp"),
+           any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
       .def("_lookup_rows", &lookup_rows, any("target"), any("source"), arg("stamps"), arg("poses"), any("twists"),
            any("beyond"), arg("on_error"), arg("threads"), arg("extrapolate") = nb::none(), arg("hold") = false)
       .def("_stamps_between", &stamps_between, any("target"), any("source"), arg("first"), arg("last"))
@@ -561,9 +570,10 @@ void define_buffer(nb::module_& module) {
       .def("_can_transform_full", &py_can_transform_full, any("target"), any("target_stamp"), any("source"),
            any("source_stamp"), any("fixed"), nb::kw_only(), arg("timeout") = nb::none())
       .def("_why_not", &why_not, any("target"), any("source"), arg("stamp") = nb::none())
-      .def("_why_not_full", &why_not_full, any("target"), any("target_stamp"), any("source"),
-           any("source_stamp"), any("fixed"))
-      .def("latest_common_time", &py_latest_common_time, any("target"), any("source"), R"doc(Return the newest time at which every edge between two frames has data.
+      .def("_why_not_full", &why_not_full, any("target"), any("target_stamp"), any("source"), any("source_stamp"),
+           any("fixed"))
+      .def("latest_common_time", &py_latest_common_time, any("target"), any("source"),
+           R"doc(Return the newest time at which every edge between two frames has data.
 
 Returns:
     Nanoseconds; 0 if all edges are static.
@@ -571,8 +581,8 @@ Returns:
 Raises:
     LookupException: A frame does not exist.
     TransformException: The frames are in different trees, or the tree contains a loop (tf2 chooses the class).)doc")
-      .def("chain", &py_chain, any("target"), any("target_stamp"), any("source"), any("source_stamp"),
-           any("fixed"), R"doc(Return the frames on the path from `source` through `fixed` to `target`.
+      .def("chain", &py_chain, any("target"), any("target_stamp"), any("source"), any("source_stamp"), any("fixed"),
+           R"doc(Return the frames on the path from `source` through `fixed` to `target`.
 
 Args:
     target: The target frame.
@@ -583,34 +593,45 @@ Args:
 
 Raises:
     TransformException: As :meth:`lookup`.)doc")
-      .def("encode", &encode, nb::kw_only(), arg("static"),
-           R"doc(Return the newest sample of every static, or of every dynamic, frame as the CDR bytes of one TFMessage.)doc")
-      .def("clear", [](BufferObject& self) { self.core->clear(); },
-           R"doc(Remove all dynamic samples; frames stay known, and static transforms stay, as in tf2.)doc")
-      .def("remove_frame", [](BufferObject& self, std::string_view name) { return self.core->remove_frame(name); },
-           arg("name"), R"doc(Remove a frame with the edges to its parent and to its children, also static ones.
+      .def(
+          "encode", &encode, nb::kw_only(), arg("static"),
+          R"doc(Return the newest sample of every static, or of every dynamic, frame as the CDR bytes of one TFMessage.)doc")
+      .def(
+          "clear", [](BufferObject& self) { self.core->clear(); },
+          R"doc(Remove all dynamic samples; frames stay known, and static transforms stay, as in tf2.)doc")
+      .def(
+          "remove_frame", [](BufferObject& self, std::string_view name) { return self.core->remove_frame(name); },
+          arg("name"), R"doc(Remove a frame with the edges to its parent and to its children, also static ones.
 
 Returns:
     Whether the frame existed.)doc")
-      .def("freeze", [](BufferObject& self) { self.core->freeze(); },
-           R"doc(Make the buffer read-only: from now on it stores nothing and removes nothing.)doc")
-      .def_prop_ro("frozen", [](const BufferObject& self) { return self.core->frozen(); }, R"doc(Whether the buffer is read-only.)doc")
-      .def("_become_snapshot", [](BufferObject& self, const BufferObject& other) { self.core = other.core->snapshot(); },
-           arg("other"))
+      .def(
+          "freeze", [](BufferObject& self) { self.core->freeze(); },
+          R"doc(Make the buffer read-only: from now on it stores nothing and removes nothing.)doc")
+      .def_prop_ro(
+          "frozen", [](const BufferObject& self) { return self.core->frozen(); },
+          R"doc(Whether the buffer is read-only.)doc")
+      .def(
+          "_become_snapshot", [](BufferObject& self, const BufferObject& other) { self.core = other.core->snapshot(); },
+          arg("other"))
       .def("_frame_tuples", &frame_tuples)
       .def("_edge_at", &edge_at, arg("child"), arg("stamp"))
       .def("_edge_tuples", &edge_tuples, arg("children") = nb::none())
-      .def("frame_names", [](const BufferObject& self) { return self.core->frame_names(); },
-           R"doc(Return the names of all frames in the order in which the buffer received them, a child before its parent.)doc")
-      .def("frame_exists",
-           [](const BufferObject& self, std::string_view name) {
-             return name == "NO_PARENT" || self.core->find(name) != 0;
-           },
-           arg("name"), R"doc(Return whether the buffer has received a transform that names the frame.)doc")
-      .def("all_frames_as_string", [](const BufferObject& self) { return self.core->read(frames_as_string); },
-           R"doc(Return tf2's text of the tree, with one line per frame.)doc")
-      .def("all_frames_as_yaml", [](const BufferObject& self) { return self.core->read(frames_as_yaml); },
-           R"doc(Return tf2's YAML of the tree; unlike in tf2, it is valid YAML for every frame name.)doc")
+      .def(
+          "frame_names", [](const BufferObject& self) { return self.core->frame_names(); },
+          R"doc(Return the names of all frames in the order in which the buffer received them, a child before its parent.)doc")
+      .def(
+          "frame_exists",
+          [](const BufferObject& self, std::string_view name) {
+            return name == "NO_PARENT" || self.core->find(name) != 0;
+          },
+          arg("name"), R"doc(Return whether the buffer has received a transform that names the frame.)doc")
+      .def(
+          "all_frames_as_string", [](const BufferObject& self) { return self.core->read(frames_as_string); },
+          R"doc(Return tf2's text of the tree, with one line per frame.)doc")
+      .def(
+          "all_frames_as_yaml", [](const BufferObject& self) { return self.core->read(frames_as_yaml); },
+          R"doc(Return tf2's YAML of the tree; unlike in tf2, it is valid YAML for every frame name.)doc")
       .def(
           "all_frames_as_dot",
           [](const BufferObject& self, Stamp now) {
@@ -620,16 +641,18 @@ Returns:
 
 Args:
     now: Current time in nanoseconds, for ages and a legend; 0 omits them.)doc")
-      .def_prop_ro("statistics", &statistics,
-                   R"doc(Counters: ``messages``, ``malformed`` (ingested as bytes); ``stored``, ``refused``, ``old`` (transforms).)doc")
+      .def_prop_ro(
+          "statistics", &statistics,
+          R"doc(Counters: ``messages``, ``malformed`` (ingested as bytes); ``stored``, ``refused``, ``old`` (transforms).)doc")
       .def_prop_ro("_changes", [](const BufferObject& self) { return self.core->changes(); });
   add_frequent_methods(cls);
-  module.def("register_buffer_class", [](nb::type_object_t<BufferObject> cls) { add_frequent_methods(cls); }, arg("cls"),
-             "Add the most frequent methods to a subclass of Buffer as its own, because CPython calls methods of the "
-             "object's own class faster.");
+  module.def(
+      "register_buffer_class", [](nb::type_object_t<BufferObject> cls) { add_frequent_methods(cls); }, arg("cls"),
+      "Add the most frequent methods to a subclass of Buffer as its own, because CPython calls methods of the "
+      "object's own class faster.");
   module.def("insert_texts", &py_insert_texts, arg("refusals"), arg("parent"), arg("child"), arg("stamp"), arg("x"),
              arg("y"), arg("z"), arg("qx"), arg("qy"), arg("qz"), arg("qw"), arg("authority"),
-             "tf2's log lines for a transform that _set_values refused: (level, text).");
+             "Return tf2's log lines for a transform that _set_values rejected: (level, text).");
 }
 
 }  // namespace coframe::bindings

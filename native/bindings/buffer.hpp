@@ -1,4 +1,5 @@
-// The Python object around a Buffer.
+// SPDX-License-Identifier: Apache-2.0
+// The Python object that contains a Buffer.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -16,11 +17,11 @@ namespace coframe::bindings {
 
 namespace nb = nanobind;
 
-// The UTF-8 of a frame's name, valid as long as the object; TypeError for what is no str.
+// Returns the UTF-8 of a frame's name, valid as long as the object. Raises TypeError if it is not a str.
 std::string_view text(nb::handle name);
 
-// Numbers by the identity of the `str` object that names them: programs ask with the same literals again and again, and
-// this spares the hash. Guarded by the GIL; a number never changes.
+// A cache of ids by the identity of the `str` object of the name: programs use the same literals again and again, and
+// this avoids hashing. Guarded by the GIL; ids never change.
 class IdentityCache {
  public:
   IdentityCache() = default;
@@ -30,12 +31,12 @@ class IdentityCache {
     for (Entry& entry : entries_) Py_XDECREF(entry.name);
   }
 
-  // 0 where it is not remembered.
+  // Returns 0 if it is not cached.
   std::uint32_t known(PyObject* name) const {
     const Entry& entry = entries_[place(name)];
     return entry.name == name ? entry.number : 0;
   }
-  // `find` tells the number of a name; 0, there is none yet, is not remembered.
+  // `find` returns the id of a name. 0 (no such name yet) is not cached.
   template <class Find>
   std::uint32_t find(PyObject* name, Find&& find) {
     Entry& entry = entries_[place(name)];
@@ -57,8 +58,8 @@ class IdentityCache {
 struct BufferObject {
   explicit BufferObject(Stamp cache_length) : core(std::make_shared<Buffer>(cache_length)) {}
 
-  std::shared_ptr<Buffer> core;  // shared with the wire's readers and with failures
-  // 0 also for a name with a slash in front: look-ups refuse it, insertions take the slash off.
+  std::shared_ptr<Buffer> core;  // shared with DDS readers and failures
+  // Returns 0 also for names with a leading slash: lookups reject them, insertions remove the slash.
   FrameId frame(PyObject* name) {
     return frames.find(name, [this](std::string_view text) { return text.starts_with('/') ? 0 : core->find(text); });
   }
@@ -67,7 +68,7 @@ struct BufferObject {
   }
 
   using StreamKey = std::tuple<bool, TransformStream::Encoding, AuthorityId>;
-  // The source of messages by this authority; its frames are renamed as they are when it is first asked for.
+  // Returns the message stream of this authority. Its renaming is set when the stream is first used.
   TransformStream& stream(bool is_static, AuthorityId authority,
                           TransformStream::Encoding encoding = TransformStream::Encoding::cdr,
                           const std::optional<Renaming>& renaming = {}) {
@@ -83,7 +84,7 @@ struct BufferObject {
   }
 
   IdentityCache frames, authorities;
-  PathCache paths;  // guarded by the GIL, unlike the core's own
+  PathCache paths;  // guarded by the GIL, unlike the core's cache
   std::map<StreamKey, TransformStream> streams;
 };
 

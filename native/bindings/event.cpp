@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "wire/event.hpp"
 
 #include <nanobind/stl/optional.h>
@@ -10,17 +11,18 @@
 namespace coframe::bindings {
 
 void define_event(nb::module_& module) {
-  nb::class_<Event>(module, "Event", "A flag that DDS threads and Python set, and one thread waits for without the GIL.")
+  nb::class_<Event>(module, "Event",
+                    "A flag that DDS threads and Python set and that one thread waits for without the GIL.")
       .def(nb::init<>())
-      .def("set", &Event::set, "Sets the flag and wakes the waiting thread.")
-      .def("clear", &Event::clear, "Takes the flag back.")
+      .def("set", &Event::set, "Set the flag and wake the waiting thread.")
+      .def("clear", &Event::clear, "Clear the flag.")
       .def(
           "wait",
           [](Event& event, std::optional<std::int64_t> timeout_ns) {
             return wait_with_signals(timeout_ns.value_or(-1), [&](std::int64_t slice) { return event.wait(slice); });
           },
           nb::arg("timeout_ns") = nb::none(),
-          "Waits until set (True, and cleared) or for timeout_ns nanoseconds (False); None waits for ever.");
+          "Wait until the flag is set and clear it (True), or until timeout_ns has passed (False); None: no limit.");
 }
 
 }  // namespace coframe::bindings

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bindings/failure.hpp"
 
 #include <array>
@@ -10,14 +11,14 @@ namespace coframe::bindings {
 
 namespace {
 
-// A class of CPython's own making, as Transform is one: most failed look-ups are caught and forgotten.
+// A plain CPython type, like Transform: most failed lookups are caught and discarded.
 struct Object {
   PyObject_HEAD
   FailureObject failure;
 };
 
 PyTypeObject* failure_class = nullptr;  // both for as long as the process lives
-std::array<PyObject*, 6> exceptions{};  // as Raised has them
+std::array<PyObject*, 6> exceptions{};  // in the order of Raised
 
 enum Raised { kTransform, kLookup, kConnectivity, kExtrapolation, kInvalidArgument, kDecode };
 
@@ -38,7 +39,7 @@ const char* code_name(ErrorCode code) {
 }
 
 Raised exception_of(const FailureObject& object) {
-  // tf2's Python binding has only the base class for what the latest common time meets in the tree.
+  // tf2's Python binding raises only the base class for errors in the tree during get_latest_common_time.
   const bool is_time = object.function == Tf2Function::latest_common_time;
   switch (object.failure.code) {
     case ErrorCode::empty_name:
@@ -58,7 +59,7 @@ bool has_edge(ErrorCode code) { return has_window(code) || code == ErrorCode::no
 
 nb::object stamp_or_none(bool applies, Stamp stamp) { return applies ? nb::object(nb::int_(stamp)) : nb::none(); }
 
-// A frame of the failed leg, which in a look-up over a fixed frame need not be one of those asked for.
+// A frame of the failed leg; with a fixed frame, it need not be one of the requested frames.
 nb::object frame_name(const FailureObject& object, FrameId frame, const nb::object& asked) {
   if (frame == 0) return asked;
   const std::string name = object.buffer->name(frame);
@@ -99,7 +100,7 @@ nb::object roots(const FailureObject& object) {
 
 nb::object name(const FailureObject& object) { return name_of(object.failure.name); }
 
-// Of all frames, as of now; "" for those that have none.
+// The current parents of all frames; "" for frames without one.
 nb::object parents(const FailureObject& object) {
   nb::dict all;
   for (const FrameSummary& frame : object.buffer->frames()) all[name_of(frame.name)] = name_of(frame.parent);
@@ -125,25 +126,26 @@ void deallocate_failure(PyObject* object) {
 }
 
 PyGetSetDef failure_properties[] = {{"code", &get<&code>, nullptr, nullptr, nullptr},
-                            {"target", &get<&target>, nullptr, nullptr, nullptr},
-                            {"source", &get<&source>, nullptr, nullptr, nullptr},
-                            {"requested", &get<&requested>, nullptr, nullptr, nullptr},
-                            {"earliest", &get<&earliest>, nullptr, nullptr, nullptr},
-                            {"latest", &get<&latest>, nullptr, nullptr, nullptr},
-                            {"edge", &get<&edge>, nullptr, nullptr, nullptr},
-                            {"roots", &get<&roots>, nullptr, nullptr, nullptr},
-                            {"name", &get<&name>, nullptr, nullptr, nullptr},
-                            {"parents", &get<&parents>, nullptr, nullptr, nullptr},
-                            {nullptr, nullptr, nullptr, nullptr, nullptr}};
+                                    {"target", &get<&target>, nullptr, nullptr, nullptr},
+                                    {"source", &get<&source>, nullptr, nullptr, nullptr},
+                                    {"requested", &get<&requested>, nullptr, nullptr, nullptr},
+                                    {"earliest", &get<&earliest>, nullptr, nullptr, nullptr},
+                                    {"latest", &get<&latest>, nullptr, nullptr, nullptr},
+                                    {"edge", &get<&edge>, nullptr, nullptr, nullptr},
+                                    {"roots", &get<&roots>, nullptr, nullptr, nullptr},
+                                    {"name", &get<&name>, nullptr, nullptr, nullptr},
+                                    {"parents", &get<&parents>, nullptr, nullptr, nullptr},
+                                    {nullptr, nullptr, nullptr, nullptr, nullptr}};
 
-PyType_Slot failure_slots[] = {{Py_tp_doc, const_cast<char*>("The facts of a failed look-up; str() gives tf2's text.")},
-                       {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate_failure)},
-                       {Py_tp_str, reinterpret_cast<void*>(&describe)},
-                       {Py_tp_getset, failure_properties},
-                       {0, nullptr}};
+PyType_Slot failure_slots[] = {
+    {Py_tp_doc, const_cast<char*>("The facts of a failed lookup; str() returns tf2's text.")},
+    {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate_failure)},
+    {Py_tp_str, reinterpret_cast<void*>(&describe)},
+    {Py_tp_getset, failure_properties},
+    {0, nullptr}};
 
 PyType_Spec failure_spec = {"coframe._core.Failure", sizeof(Object), 0,
-                    Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, failure_slots};
+                            Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, failure_slots};
 
 nb::object make_failure(FailureObject&& failure) {
   nb::object object = nb::steal(failure_class->tp_alloc(failure_class, 0));
@@ -153,7 +155,7 @@ nb::object make_failure(FailureObject&& failure) {
 }
 
 void register_errors(const nb::module_& errors) {
-  constexpr std::array kNames{"TransformException", "LookupException", "ConnectivityException",
+  constexpr std::array kNames{"TransformException",     "LookupException",          "ConnectivityException",
                               "ExtrapolationException", "InvalidArgumentException", "DecodeError"};
   for (std::size_t i = 0; i < kNames.size(); ++i) exceptions[i] = nb::object(errors.attr(kNames[i])).release().ptr();
 }
@@ -178,8 +180,7 @@ nb::object raise_failure(FailureObject&& failure) {
 }
 
 void raise_decode_error(const DecodeFailure& failure) {
-  const std::string text =
-      "tf2_msgs/msg/TFMessage at byte " + std::to_string(failure.offset) + ": " + failure.reason;
+  const std::string text = "tf2_msgs/msg/TFMessage at byte " + std::to_string(failure.offset) + ": " + failure.reason;
   PyErr_SetString(exceptions[kDecode], text.c_str());
   throw nb::python_error();
 }
@@ -189,8 +190,8 @@ void define_failure(nb::module_& module) {
   if (!type.is_valid()) throw nb::python_error();
   module.attr("Failure") = type;
   failure_class = reinterpret_cast<PyTypeObject*>(type.inc_ref().ptr());
-  module.def(
-      "register_errors", &register_errors, nb::arg("errors"), "Failures are raised as the exceptions of this module.");
+  module.def("register_errors", &register_errors, nb::arg("errors"),
+             "Register the module whose exceptions are raised for failures.");
 }
 
 }  // namespace coframe::bindings

@@ -1,4 +1,5 @@
-// A failed look-up as Python sees it: facts, and tf2's text when somebody asks for it.
+// SPDX-License-Identifier: Apache-2.0
+// A failed lookup as Python sees it: facts, and tf2's text when it is read.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -12,20 +13,20 @@ namespace coframe::bindings {
 
 namespace nb = nanobind;
 
-// Whose words the text uses.
+// The tf2 function whose text is used.
 enum class Tf2Function { lookup, can_transform, latest_common_time };
 
 struct FailureObject {
   Failure failure;
   std::shared_ptr<Buffer> buffer;
-  nb::object target, source;  // the names as they were asked for
+  nb::object target, source;  // the requested names
   Tf2Function function = Tf2Function::lookup;
 };
 
 std::string text_of(const FailureObject& failure);
 
-// Sets the registered exception that belongs to the failure's code, for the caller to return at once: a C++ throw
-// would cost more than the look-up.
+// Sets the registered exception of the failure's code, for the caller to return at once: a C++ throw would cost more
+// than the lookup.
 nb::object raise_failure(FailureObject&& failure);
 [[noreturn]] void raise_decode_error(const DecodeFailure& failure);
 

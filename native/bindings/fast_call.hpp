@@ -1,5 +1,6 @@
-// Functions that Python calls without a layer in between: for the few that are called millions of times. CPython's own
-// calling convention (METH_FASTCALL | METH_KEYWORDS) with named and optional arguments.
+// SPDX-License-Identifier: Apache-2.0
+// Functions that Python calls directly, for the few that are called millions of times: CPython's calling convention
+// (METH_FASTCALL | METH_KEYWORDS) with named and optional arguments.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -12,7 +13,7 @@ namespace coframe::bindings {
 
 namespace nb = nanobind;
 
-// The names of a function's arguments. The first `required` must be given, those behind `positional` only by name.
+// The names of a function's arguments. The first `required` are required; those after `positional` are keyword-only.
 template <std::size_t N>
 class Signature {
  public:
@@ -21,7 +22,7 @@ class Signature {
     for (std::size_t i = 0; i < N; ++i) names_[i] = PyUnicode_InternFromString(names[i]);
   }
 
-  // Borrowed references in `values`, nullptr where nothing was given. False: an exception is set.
+  // Writes borrowed references to `values`, nullptr for omitted arguments. Returns false with an exception set.
   bool parse(PyObject* const* arguments, Py_ssize_t count, PyObject* keywords, PyObject** values) const {
     const auto given = static_cast<std::size_t>(count);
     if (given > positional_) {
@@ -69,7 +70,7 @@ class Signature {
   std::size_t required_, positional_;
 };
 
-// Runs C++ code that may throw, where Python called: nullptr with the exception set.
+// Runs C++ code that may throw, called from Python; returns nullptr with the Python exception set.
 template <class Body>
 PyObject* guarded(Body&& body) {
   try {
@@ -86,7 +87,8 @@ PyObject* guarded(Body&& body) {
 
 using FastFunction = PyObject* (*)(PyObject*, PyObject* const*, Py_ssize_t, PyObject*);
 
-// Adds a method to a class. `text` is "name($self, ...)\n--\n\n" and the documentation, and lives as long as the class.
+// Adds a method to a class. `text` is "name($self, ...)\n--\n\n" followed by the documentation; it must live as long as
+// the class.
 inline void add_method(nb::handle cls, const char* name, FastFunction function, const char* text) {
   auto* definition = new PyMethodDef{name, reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(function)),
                                      METH_FASTCALL | METH_KEYWORDS, text};

@@ -1,4 +1,5 @@
-// Buffers as files, and the samples of a buffer as arrays.
+// SPDX-License-Identifier: Apache-2.0
+// Frozen buffers as files, and the samples of a buffer as arrays.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/string_view.h>
@@ -21,7 +22,7 @@ const Buffer& frozen_core(nb::handle buffer) {
   return core;
 }
 
-// (table, number of chunks).
+// Returns (table, number of chunks).
 nb::tuple frozen_parts(nb::handle buffer) {
   return frozen_core(buffer).read([](const Tree& tree) {
     const std::string table = frozen_table(tree);
@@ -35,17 +36,17 @@ nb::bytes chunks(nb::handle buffer, std::uint64_t first, std::uint64_t count) {
   return nb::bytes(bytes.data(), bytes.size());
 }
 
-// Python's memory, held for as long as a core needs it; any thread may be the last to let go.
+// Memory of a Python object, kept as long as a core uses it; it may be released in any thread.
 std::shared_ptr<const Memory> held(nb::handle object) {
   return {new Memory(object, PyBUF_SIMPLE), [](const Memory* memory) {
-            if (!Py_IsInitialized()) return;  // the process ends, and its memory with it
+            if (!Py_IsInitialized()) return;  // the process ends and releases its memory
             const CallingPython calling;
             const nb::gil_scoped_acquire acquire;
             delete memory;
           }};
 }
 
-// What is wrong with the bytes; nothing, and the buffer is what they tell, if they are good.
+// Returns what is wrong with the bytes; empty if the buffer was restored from them.
 std::string become_frozen(nb::handle object, nb::handle file, std::uint64_t table, std::uint64_t table_size,
                           std::uint64_t samples, std::uint64_t samples_size) {
   BufferObject& self = buffer_of(object);
@@ -63,7 +64,7 @@ std::string become_frozen(nb::handle object, nb::handle file, std::uint64_t tabl
   return "";
 }
 
-// (stamps, poses, which of the names the parent is, names).
+// Returns (stamps, poses, index of the parent's name, names).
 nb::tuple samples_of(nb::handle buffer, std::string_view child) {
   const Buffer& core = frozen_core(buffer);
   return core.read([&](const Tree& tree) {
@@ -92,13 +93,15 @@ nb::tuple samples_of(nb::handle buffer, std::string_view child) {
 void define_frozen(nb::module_& module) {
   using nb::arg;
   module.def("frozen_parts", &frozen_parts, arg("buffer"),
-             "Of a frozen buffer the table that a file of it begins with, and how many chunks of samples it has.");
-  module.def("frozen_chunks", &chunks, arg("buffer"), arg("first"), arg("count"), "Some of these chunks.");
+             "Return the table of a frozen buffer for a file, and its number of sample chunks.");
+  module.def("frozen_chunks", &chunks, arg("buffer"), arg("first"), arg("count"),
+             "Return the bytes of some of these chunks.");
   module.def("become_frozen", &become_frozen, arg("buffer"), arg("file"), arg("table"), arg("table_size"),
              arg("samples"), arg("samples_size"),
-             "Makes a new buffer one that uses a file's bytes where they lie; what is wrong with them, or nothing.");
+             "Restore a new buffer from a file's bytes, used in place; return what is wrong with them, or "
+             ".");
   module.def("samples_of", &samples_of, arg("buffer"), arg("child"),
-             "Of a frozen buffer the samples of one frame: stamps, poses, which name the parent has, these names.");
+             "Return the samples of one frame of a frozen buffer: stamps, poses, indices of parent names, names.");
 }
 
 }  // namespace coframe::bindings

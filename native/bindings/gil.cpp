@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bindings/gil.hpp"
 
 #include <nanobind/nanobind.h>
@@ -19,11 +20,12 @@ namespace nb = nanobind;
 constexpr auto kPatience = std::chrono::seconds(1);
 
 std::atomic<bool> ending = false;
-std::atomic<int> crossing = 0;  // threads on their way into Python, or called from C++ inside it
-std::thread::id last_thread;    // runs the rest of the exit; set before `ending`
+std::atomic<int> crossing = 0;  // threads that are entering Python, or called from C++ inside it
+std::thread::id last_thread;    // the thread that runs the exit handlers; set before `ending`
 std::atomic<unsigned long> main_thread = 0;
 
-// The counter goes up before `ending` is read, `ending` is set before the counter is read: one side sees the other.
+// The counter is incremented before `ending` is read, and `ending` is set before the counter is read: one side always
+// sees the other.
 bool may_cross() {
   crossing.fetch_add(1);
   if (!ending.load() || std::this_thread::get_id() == last_thread) return true;
@@ -35,7 +37,7 @@ bool may_cross() {
   for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
-// Nobody crosses from now on; waits for those who are about to.
+// From now on no thread enters; waits for those that are entering.
 void end() {
   last_thread = std::this_thread::get_id();
   ending.store(true);
@@ -67,11 +69,11 @@ bool is_main_thread() { return PyThread_get_thread_ident() == main_thread.load(s
 
 void guard_exit() {
   main_thread.store(nb::cast<unsigned long>(nb::module_::import_("threading").attr("main_thread")().attr("ident")));
-  // Exit handlers run last in, first out: those of who imports this module still find all threads at work.
+  // Exit handlers run in reverse order: those of modules that import this one still find all threads running.
   nb::module_::import_("atexit").attr("register")(nb::cpp_function(&end));
 #ifndef _WIN32
   pthread_atfork(nullptr, nullptr, [] {
-    crossing.store(0);  // a child has none of the other threads
+    crossing.store(0);  // a forked child has none of the other threads
     main_thread.store(PyThread_get_thread_ident());
   });
 #endif

@@ -1,13 +1,14 @@
-// Leaving and entering Python such that the interpreter may end meanwhile. CPython ends the other threads as they take
-// the GIL, by unwinding their stack; unwound through C++ frames, the process aborts. So a thread that comes back too
-// late waits in native code for the end of the process.
+// SPDX-License-Identifier: Apache-2.0
+// Scopes that leave and enter Python and are safe when the interpreter ends meanwhile. CPython ends other threads as
+// they take the GIL by unwinding their stacks, and unwinding through C++ frames aborts the process. A thread that
+// returns too late therefore waits in native code for the end of the process.
 #pragma once
 
 #include <Python.h>
 
 namespace coframe::bindings {
 
-// Within its scope other Python threads run, and nothing touches Python.
+// A scope without the GIL: other Python threads run, and nothing in it may use Python.
 class WithoutGil {
  public:
   WithoutGil() : thread_(PyEval_SaveThread()) {}
@@ -19,7 +20,7 @@ class WithoutGil {
   PyThreadState* thread_;
 };
 
-// For work that is long only sometimes.
+// The same on condition, for work that only sometimes takes long.
 template <class Work>
 void without_gil_if(bool release, Work&& work) {
   if (release) {
@@ -30,7 +31,7 @@ void without_gil_if(bool release, Work&& work) {
   }
 }
 
-// A scope in which C++ calls Python code, where the GIL may change hands at any time.
+// A scope in which C++ calls Python code and the GIL may be released at any time.
 class CallingPython {
  public:
   CallingPython();
@@ -39,10 +40,10 @@ class CallingPython {
   ~CallingPython();
 };
 
-// Whether this is the thread in which Python runs signal handlers.
+// Returns whether this is the thread in which Python runs signal handlers.
 bool is_main_thread();
 
-// Registers with `atexit` what makes the scopes above safe; to be called once, while the module is imported.
+// Registers the `atexit` handler that makes the scopes above safe. Called once, during the import of the module.
 void guard_exit();
 
 }  // namespace coframe::bindings

@@ -1,5 +1,6 @@
-// The drop-in's messages, read and made slot by slot: geometry_msgs' classes are Python's, with __slots__, and going
-// through their attributes costs more than the look-up. What is not exactly of these classes Python deals with.
+// SPDX-License-Identifier: Apache-2.0
+// Reads and creates the messages of the drop-in packages slot by slot: the classes of geometry_msgs are Python classes
+// with __slots__, and access by attribute costs more than the lookup. Other classes are left to Python code.
 #include <nanobind/nanobind.h>
 #include <structmember.h>  // PyMemberDef, before Python 3.12
 
@@ -15,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
-// A class and where its slots lie in an instance, as `names` has them.
+// A class and the offsets of its slots in an instance, in the order of `names`.
 template <std::size_t N>
 class SlottedClass {
  public:
@@ -28,11 +29,11 @@ class SlottedClass {
     }
   }
   bool is(PyObject* object) const { return object && Py_TYPE(object) == type_; }
-  // Borrowed; nullptr if it was deleted.
+  // Returns a borrowed reference; nullptr if the attribute was deleted.
   PyObject* get(PyObject* object, std::size_t i) const { return slot(object, i); }
   // Steals `value`.
   void put(PyObject* object, std::size_t i, PyObject* value) const { slot(object, i) = value; }
-  // Without __init__: every slot is to be put.
+  // Creates an instance without __init__: the caller must set every slot.
   PyObject* make() const {
     PyObject* object = type_->tp_alloc(type_, 0);
     if (!object) throw nb::python_error();
@@ -83,22 +84,22 @@ bool read_numbers(const SlottedClass<N>& cls, PyObject* object, double* out) {
   return true;
 }
 
-struct Told {
+struct MessageValues {
   PyObject *parent, *child;
   Stamp stamp;
   TransformValues values;
 };
 
-bool read_message(PyObject* message, Told& told) {
+bool read_message(PyObject* message, MessageValues& content) {
   if (!transform_stamped.is(message)) return false;
   PyObject* head = transform_stamped.get(message, 0);
   PyObject* pose = transform_stamped.get(message, 2);
   if (!header.is(head) || !transform.is(pose)) return false;
-  told.parent = header.get(head, 1);
-  told.child = transform_stamped.get(message, 1);
-  return is_text(told.parent) && is_text(told.child) && read_time(header.get(head, 0), told.stamp) &&
-         read_numbers(vector3, transform.get(pose, 0), told.values.translation) &&
-         read_numbers(quaternion, transform.get(pose, 1), told.values.rotation);
+  content.parent = header.get(head, 1);
+  content.child = transform_stamped.get(message, 1);
+  return is_text(content.parent) && is_text(content.child) && read_time(header.get(head, 0), content.stamp) &&
+         read_numbers(vector3, transform.get(pose, 0), content.values.translation) &&
+         read_numbers(quaternion, transform.get(pose, 1), content.values.rotation);
 }
 
 template <std::size_t N>
@@ -130,18 +131,18 @@ nb::object make_message(PyObject* target, PyObject* source, Stamp stamp, const P
   return message;
 }
 
-// None where Python has to deal with it.
+// Returns None if Python code has to handle the message.
 PyObject* set_message(PyObject* object, PyObject* const* arguments, Py_ssize_t count, PyObject* keywords) {
   static const Signature<3> signature("_set_message", {"message", "static", "authority"}, 3, 3);
   PyObject* values[3];
   if (!signature.parse(arguments, count, keywords, values)) return nullptr;
   return guarded([&]() -> PyObject* {
     BufferObject& self = buffer_of(object);
-    Told told;
-    if (!PyUnicode_CheckExact(values[2]) || !read_message(values[0], told)) return Py_NewRef(Py_None);
-    const FrameId parent = self.frame(told.parent), child = self.frame(told.child);
+    MessageValues content;
+    if (!PyUnicode_CheckExact(values[2]) || !read_message(values[0], content)) return Py_NewRef(Py_None);
+    const FrameId parent = self.frame(content.parent), child = self.frame(content.child);
     if (parent == 0 || child == 0 || parent == child) return Py_NewRef(Py_None);
-    return PyLong_FromUnsignedLong(self.core->insert(parent, child, told.stamp, told.values,
+    return PyLong_FromUnsignedLong(self.core->insert(parent, child, content.stamp, content.values,
                                                      PyObject_IsTrue(values[1]) == 1, self.authority(values[2])));
   });
 }
@@ -168,10 +169,10 @@ void define_messages(nb::module_& module) {
   const nb::object buffer = module.attr("Buffer");
   add_method(buffer, "_set_message", &set_message,
              "_set_message($self, /, message, static, authority)\n--\n\n"
-             "_set_values() of a TransformStamped between known frames; None where it is not just that.");
+             "Insert a TransformStamped between known frames; return None for all other arguments.");
   add_method(buffer, "_lookup_message", &lookup_message,
              "_lookup_message($self, /, target, source, time)\n--\n\n"
-             "lookup() as a TransformStamped, for a Time; None where lookup() has to decide.");
+             "Look up a TransformStamped at a Time; return None if lookup() has to decide.");
   module.def(
       "register_messages",
       [](nb::type_object stamped, nb::type_object head, nb::type_object stamp, nb::type_object rclpy_stamp,
@@ -185,7 +186,8 @@ void define_messages(nb::module_& module) {
         quaternion.set(rotation, {"_x", "_y", "_z", "_w"});
       },
       nb::arg("transform_stamped"), nb::arg("header"), nb::arg("time"), nb::arg("rclpy_time"), nb::arg("transform"),
-      nb::arg("vector3"), nb::arg("quaternion"), "The classes that _set_message() reads and _lookup_message() makes.");
+      nb::arg("vector3"), nb::arg("quaternion"),
+      "Register the classes that _set_message() reads and _lookup_message() creates.");
 }
 
 }  // namespace coframe::bindings

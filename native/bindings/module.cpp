@@ -1,9 +1,10 @@
-// The private module coframe._core; the public face is the Python package around it.
+// SPDX-License-Identifier: Apache-2.0
+// The private module coframe._core. The public API is the Python package around it.
 #include "bindings/bindings.hpp"
 
 NB_MODULE(_core, module) {
   using namespace coframe::bindings;
-  nb::set_leak_warnings(false);  // threads that are alive at the exit keep what they hold
+  nb::set_leak_warnings(false);  // threads that are alive at exit keep their objects
   guard_exit();
   module.doc() = "The native core of coframe. Private: use `import coframe`.";
   define_transform(module);

@@ -1,4 +1,5 @@
-// Many frames at one time, seen from one of them: what a viewer draws, 30 times a second.
+// SPDX-License-Identifier: Apache-2.0
+// Many frames at one time, relative to one of them: what a viewer draws 30 times per second.
 #include <nanobind/nanobind.h>
 
 #include <algorithm>
@@ -13,15 +14,15 @@ namespace coframe::bindings {
 
 namespace {
 
-// How an answer was come by.
+// How the pose of a frame was found.
 enum class State : std::uint8_t {
   exactly,
-  held,         // a link has no sample at that time, and was taken to stand still beyond its samples
+  held,         // an edge has no sample at that time; its nearest sample was used
   not_at_all,   // NaN
-  in_own_tree,  // not connected with the fixed frame: seen from the root of the frame's own tree
+  in_own_tree,  // not connected to the fixed frame: relative to the root of its own tree
 };
 
-// Frames that are looked up together again and again, so that their names are found once.
+// Frames that are looked up together repeatedly, so that their names are resolved once.
 class PoseTable {
  public:
   PoseTable(nb::handle_t<BufferObject> buffer, nb::str fixed, nb::list frames, nb::list roots)
@@ -59,7 +60,7 @@ class PoseTable {
  private:
   struct Frame {
     nb::str name;
-    FrameId number;  // 0: not known yet
+    FrameId number;  // 0: does not exist yet
   };
   struct Row {
     Frame target, source;
@@ -96,8 +97,8 @@ class PoseTable {
 
 std::size_t poses_near(nb::handle poses, nb::handle states, nb::handle origin, Py_ssize_t fixed, double limit,
                        nb::handle near) {
-  const Memory rows(poses, PyBUF_C_CONTIGUOUS), states_memory(states, PyBUF_C_CONTIGUOUS), local(origin, PyBUF_C_CONTIGUOUS),
-      out(near, PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS);
+  const Memory rows(poses, PyBUF_C_CONTIGUOUS), states_memory(states, PyBUF_C_CONTIGUOUS),
+      local(origin, PyBUF_C_CONTIGUOUS), out(near, PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS);
   const std::size_t count = states_memory.size();
   if (rows.size() != count * 7 * sizeof(double) || out.size() != count * 7 * sizeof(float) ||
       local.size() != 3 * sizeof(double)) {
@@ -123,13 +124,13 @@ std::size_t poses_near(nb::handle poses, nb::handle states, nb::handle origin, P
 
 void define_poses(nb::module_& module) {
   using nb::arg;
-  nb::class_<PoseTable>(module, "PoseTable", "Many frames, looked up together again and again.")
+  nb::class_<PoseTable>(module, "PoseTable", "Many frames that are looked up together repeatedly.")
       .def(nb::init<nb::handle_t<BufferObject>, nb::str, nb::list, nb::list>(), arg("buffer"), arg("fixed"),
            arg("frames"), arg("roots"))
       .def("look_up", nb::overload_cast<Stamp, Stamp, nb::handle, nb::handle>(&PoseTable::look_up), arg("stamp"),
-           arg("hold"), arg("poses"), arg("states"), "Where all of them are at one time.");
+           arg("hold"), arg("poses"), arg("states"), "Compute the poses of all frames at one time.");
   module.def("poses_near", &poses_near, arg("poses"), arg("states"), arg("origin"), arg("fixed"), arg("limit"),
-             arg("near"), "Poses as float32, relative to an origin; how many are far from it.");
+             arg("near"), "Write poses as float32 relative to an origin; return how many are far from it.");
 }
 
 }  // namespace coframe::bindings

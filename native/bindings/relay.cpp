@@ -1,4 +1,5 @@
-// Frames under other names, and relays of their messages.
+// SPDX-License-Identifier: Apache-2.0
+// Renaming of frames, and relays of their messages.
 #include "core/relay.hpp"
 
 #include <nanobind/stl/string.h>
@@ -19,14 +20,14 @@ std::int64_t now() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now().time_since_epoch()).count();
 }
 
-// What Relay passes on is UTF-8, but examples of names may be cut anywhere.
+// Names that Relay writes are UTF-8, but examples of names may be cut anywhere.
 nb::str to_str(const std::string& name) {
   return nb::steal<nb::str>(
       PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace"));
 }
 
 void add(Relay& self, Relay::SourceId source, Relay::WriterId writer, nb::bytes message, std::int64_t at) {
-  if (source >= self.sources()) throw nb::index_error("there is no such source");
+  if (source >= self.sources()) throw nb::index_error("no source with this number");
   const std::int64_t steady = at < 0 ? now<std::chrono::steady_clock>() : at;
   self.add(source, writer, reinterpret_cast<const std::uint8_t*>(message.c_str()), message.size(), steady,
            now<std::chrono::system_clock>());
@@ -44,18 +45,19 @@ nb::list edges(const Relay& self) {
     if (edge.passed == 0 && claim.rival == Relay::kNobody) continue;
     const bool contested = claim.rival != Relay::kNobody;
     list.append(nb::make_tuple(to_str(edge.parent), to_str(claim.child), claim.source, edge.writer,
-                               contested ? nb::int_(claim.rival) : nb::object(nb::none()), claim.contested,
-                               edge.passed, edge.thinned, edge.newest, edge.received_at));
+                               contested ? nb::int_(claim.rival) : nb::object(nb::none()), claim.contested, edge.passed,
+                               edge.thinned, edge.newest, edge.received_at));
   }
   return list;
 }
 
 nb::list relay_writers(const Relay& self, Relay::SourceId source) {
-  if (source >= self.sources()) throw nb::index_error("there is no such source");
+  if (source >= self.sources()) throw nb::index_error("no source with this number");
   nb::list list;
   for (const auto& [handle, writer] : self.writers(source)) {
-    list.append(nb::make_tuple(writer_tuple(handle, writer.messages, writer.received_at, writer.period, writer.delay, writer.name_problems),
-                               writer.malformed, writer.refused));
+    list.append(nb::make_tuple(
+        writer_tuple(handle, writer.messages, writer.received_at, writer.period, writer.delay, writer.name_problems),
+        writer.malformed, writer.refused));
   }
   return list;
 }
@@ -63,35 +65,34 @@ nb::list relay_writers(const Relay& self, Relay::SourceId source) {
 }  // namespace
 
 nb::tuple writer_tuple(std::uint64_t writer, std::uint64_t messages, std::int64_t received_at,
-                       const ArrivalPeriod& period, const StampDelay& delay,
-                      const NameProblems& name_problems) {
+                       const ArrivalPeriod& period, const StampDelay& delay, const NameProblems& name_problems) {
   const nb::object behind = delay.known() ? nb::object(nb::int_(delay.typical())) : nb::object(nb::none());
-  return nb::make_tuple(writer, messages, received_at, period.median(), behind, to_str(name_problems.slashed), to_str(name_problems.prefixed),
-                        to_str(name_problems.plain));
+  return nb::make_tuple(writer, messages, received_at, period.median(), behind, to_str(name_problems.slashed),
+                        to_str(name_problems.prefixed), to_str(name_problems.plain));
 }
 
 void define_relay(nb::module_& module) {
-  nb::class_<Renaming>(module, "Renaming", "Puts a prefix in front of the names of frames, except of those to keep.")
+  nb::class_<Renaming>(module, "Renaming", "Add a prefix to the names of frames, except those to keep.")
       .def(nb::init<std::string, std::vector<std::string>>(), nb::arg("prefix"), nb::arg("keep"))
       .def("__call__", [](const Renaming& self, const std::string& name) { return self(name); }, nb::arg("name"));
 
-  nb::class_<Relay>(module, "Relay", "TFMessages of several sources into those of one tree. Not for several threads at once.")
+  nb::class_<Relay>(module, "Relay", "Merge the TFMessages of several sources into one tree. Not thread-safe.")
       .def(
-          "__init__",
-          [](Relay* self, bool is_static, std::int64_t period) { new (self) Relay(is_static, period); },
+          "__init__", [](Relay* self, bool is_static, std::int64_t period) { new (self) Relay(is_static, period); },
           nb::arg("static"), nb::arg("period"))
       .def(
           "add_source",
           [](Relay& self, const Renaming& renaming, bool split) {
             return self.add_source(renaming, split ? Relay::Direction::split : Relay::Direction::merge);
           },
-          nb::arg("renaming"), nb::arg("split"), "The number of another source.")
+          nb::arg("renaming"), nb::arg("split"), "Add a source; return its number.")
       .def("add", &add, nb::arg("source"), nb::arg("writer"), nb::arg("message"), nb::arg("at") = -1,
-           "Takes a message in that came from a writer of a source.")
-      .def("take", &take_relayed, "One message of what was taken in since the last one, or None.")
-      .def("forget_writer", &Relay::forget_writer, nb::arg("source"), nb::arg("writer"), "The writer has left.")
-      .def("edges", &edges, "What is known of each edge.")
-      .def("writers", &relay_writers, nb::arg("source"), "What each writer of a source has sent.");
+           "Add a message from a writer of a source.")
+      .def("take", &take_relayed, "Return one message with everything added since the last call, or None.")
+      .def("forget_writer", &Relay::forget_writer, nb::arg("source"), nb::arg("writer"),
+           "Forget a writer that has disappeared.")
+      .def("edges", &edges, "Return the statistics of each edge.")
+      .def("writers", &relay_writers, nb::arg("source"), "Return the statistics of each writer of a source.");
 }
 
 }  // namespace coframe::bindings

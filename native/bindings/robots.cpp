@@ -1,4 +1,5 @@
-// Trees of joints with their names: forward kinematics from Python's positions to transforms.
+// SPDX-License-Identifier: Apache-2.0
+// Joint trees with names: forward kinematics from Python's joint positions to transforms.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string_view.h>
 
@@ -17,7 +18,7 @@ namespace coframe::bindings {
 
 namespace {
 
-// Up to about 5 ms of work it is not worth letting other Python threads run.
+// Work below about 5 ms does not justify releasing the GIL.
 constexpr std::size_t kManyPoses = 500'000;
 
 JointKind kind_of(std::string_view type) {
@@ -26,13 +27,13 @@ JointKind kind_of(std::string_view type) {
   if (type == "prismatic") return JointKind::sliding;
   if (type == "planar") return JointKind::planar;
   if (type == "floating") return JointKind::floating;
-  throw nb::value_error("there is no such type of joint");
+  throw nb::value_error("unknown joint type");
 }
 
 template <std::size_t kCount>
 std::array<double, kCount> numbers(nb::handle sequence) {
   std::array<double, kCount> values;
-  if (nb::len(sequence) != kCount) throw nb::value_error("these are not as many numbers as there should be");
+  if (nb::len(sequence) != kCount) throw nb::value_error("wrong number of values");
   for (std::size_t i = 0; i < kCount; ++i) values[i] = nb::cast<double>(nb::object(sequence[i]));
   return values;
 }
@@ -41,7 +42,7 @@ Pose pose_at(const double* row) { return {{row[3], row[4], row[5], row[6]}, {row
 
 class JointTreeObject {
  public:
-  // Joints as (name, type, parent link, child link, origin as 7 numbers, axis, mimic as (joint, multiplier, offset) or
+  // Joints are (name, type, parent link, child link, origin as 7 numbers, axis, mimic as (joint, multiplier, offset) or
   // None), parents before children.
   JointTreeObject(nb::str root, nb::list joints) : root_(root) {
     for (nb::handle joint : joints) {
@@ -56,8 +57,8 @@ class JointTreeObject {
     tree_ = JointTree(descriptions);
   }
 
-  // Transforms of one configuration: by link in the root link, or by joint in the link before it. None where a position
-  // is not finite, not of the joint's size, or of no joint that moves.
+  // Returns the transforms of one configuration: of each link relative to the root link, or of each joint relative to
+  // the previous link. None if a position is not finite, has the wrong size, or belongs to no movable joint.
   nb::object transforms(nb::dict positions, bool in_root) const {
     std::vector<JointPositions> given(tree_.size());
     std::vector<double> values(7 * tree_.size());
@@ -83,10 +84,10 @@ class JointTreeObject {
     return found;
   }
 
-  // Poses of many configurations to `out`, joint after joint. Positions as (joint, float64 array of one axis, or of two
-  // for a joint of several numbers). The name of the first joint with a position that is none, or None.
-  nb::object poses_into(nb::list positions, std::size_t count, bool in_root, nb::handle out,
-                        unsigned threads) const {
+  // Writes the poses of many configurations to `out`, joint by joint. Positions are (joint, float64 array with one
+  // axis, or two for a joint with several numbers). Returns the name of the first joint with an invalid position, or
+  // None.
+  nb::object poses_into(nb::list positions, std::size_t count, bool in_root, nb::handle out, unsigned threads) const {
     const Memory rows(out, PyBUF_WRITABLE | PyBUF_C_CONTIGUOUS);
     if (rows.size() / sizeof(double) / 7 != tree_.size() * count || rows.size() % (7 * sizeof(double)) != 0) {
       throw nb::value_error("out must have 7 float64 for each joint in each configuration");
@@ -104,7 +105,7 @@ class JointTreeObject {
   }
 
  private:
-  // An array of any strides, held while it is used.
+  // An array with any strides, locked while it is used.
   class StridedDoubles {
    public:
     explicit StridedDoubles(nb::handle array) {
@@ -147,7 +148,7 @@ class JointTreeObject {
   static bool read_number(PyObject* object, double& value) {
     if (!PyFloat_Check(object) && !PyLong_Check(object)) return false;
     value = PyFloat_AsDouble(object);
-    if (value == -1.0 && PyErr_Occurred()) {  // an int beyond all floats
+    if (value == -1.0 && PyErr_Occurred()) {  // an int that is too large for a float
       PyErr_Clear();
       return false;
     }
@@ -176,12 +177,12 @@ class JointTreeObject {
 
 void define_robots(nb::module_& module) {
   using nb::arg;
-  nb::class_<JointTreeObject>(module, "JointTree", "A tree of joints, and where all its links are.")
+  nb::class_<JointTreeObject>(module, "JointTree", "A joint tree and the forward kinematics of its links.")
       .def(nb::init<nb::str, nb::list>(), arg("root"), arg("joints"))
       .def("transforms", &JointTreeObject::transforms, arg("positions"), arg("in_root"),
-           "Of one configuration; None where a position is none.")
+           "Return the transforms of one configuration; None if a position is invalid.")
       .def("poses_into", &JointTreeObject::poses_into, arg("positions"), arg("count"), arg("in_root"), arg("out"),
-           arg("threads"),           "Of many configurations; the first joint with a position that is none.");
+           arg("threads"), "Compute many configurations; return the first joint with an invalid position.");
 }
 
 }  // namespace coframe::bindings

@@ -1,4 +1,5 @@
-// Points in arrays of numpy, which come as their fields: x, y and z each as an array of one or two axes, of any strides.
+// SPDX-License-Identifier: Apache-2.0
+// Points in NumPy arrays, given as fields: x, y and z each as an array with one or two axes and any strides.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/vector.h>
 
@@ -16,7 +17,7 @@ namespace coframe::bindings {
 
 namespace {
 
-// Up to about 5 ms of work it is not worth letting other Python threads run.
+// Work below about 5 ms does not justify releasing the GIL.
 constexpr std::size_t kManyPoints = 2'000'000, kManyTimes = 500'000;
 
 Number number_of(std::string_view format) {
@@ -27,7 +28,7 @@ Number number_of(std::string_view format) {
   throw nb::value_error("coordinates must be float32 or float64");
 }
 
-// The memory of an array, held while it is used.
+// The memory of an array, locked while it is used.
 class StridedMemory {
  public:
   explicit StridedMemory(nb::handle array) {
@@ -47,14 +48,14 @@ class StridedMemory {
 
 class Fields {
  public:
-  // A sequence of triples; the first is the points' position, the others are directions.
+  // A sequence of triples: the first is the position of the points, the others are directions.
   explicit Fields(nb::sequence triples) {
     for (nb::handle triple : triples) {
-      if (nb::len(triple) != 3) throw nb::value_error("coordinates come in threes");
+      if (nb::len(triple) != 3) throw nb::value_error("each field must have three coordinates");
       const Field x = field(triple[0]), y = field(triple[1]), z = field(triple[2]);
       coordinates_.push_back({x, y, z, !coordinates_.empty()});
     }
-    if (memory_.empty()) throw nb::value_error("there are no coordinates");
+    if (memory_.empty()) throw nb::value_error("at least one field is required");
     flatten();
   }
 
@@ -74,7 +75,7 @@ class Fields {
             number_of(view.format ? view.format : "B")};
   }
 
-  // Rows without gaps between them, and rows of one point, are one long row.
+  // Contiguous rows, and rows of one point, are treated as one long row.
   void flatten() {
     const bool columns = grid_.width == 1;
     const auto seamless = [&](const Field& f) {
@@ -115,8 +116,12 @@ nb::tuple py_deskew(BufferObject& buffer, nb::handle target, nb::handle source, 
   const Memory stamps(times, PyBUF_C_CONTIGUOUS);
   const std::size_t count = fields.grid().count();
   if (stamps.size() != count * sizeof(Stamp)) throw nb::value_error("there must be as many times as points");
-  const Deskewing how{buffer.frame(target.ptr()), buffer.frame(source.ptr()), pose_of(onward),
-                      stamps.data<const Stamp>(), nan_for_none, threads};
+  const Deskewing how{buffer.frame(target.ptr()),
+                      buffer.frame(source.ptr()),
+                      pose_of(onward),
+                      stamps.data<const Stamp>(),
+                      nan_for_none,
+                      threads};
   const std::shared_ptr<Buffer> core = buffer.core;
   Missing missing;
   without_gil_if(threads > 1 || count > kManyTimes,
@@ -137,10 +142,10 @@ void define_sensors(nb::module_& module) {
   module.attr("CPU_LEVEL") = kernels().level;
   module.attr("CPU_LEVELS") = level_names();
   module.def("transform_fields", &py_transform, arg("pose"), arg("fields"), arg("threads"),
-             "Moves points by a pose, in place.");
+             "Transform points by a pose, in place.");
   module.def("deskew_fields", &py_deskew, arg("buffer"), arg("target"), arg("source"), arg("times"), arg("onward"),
              arg("fields"), arg("nan_for_none"), arg("threads"),
-             "Moves points to where they were, each at its own time, in place: (points without a transform, the first).");
+             "Transform points, each at its own time, in place; return how many have no transform, and the first.");
 }
 
 }  // namespace coframe::bindings

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "bindings/transform.hpp"
 
 #include <new>
@@ -12,20 +13,20 @@ struct TransformObject {
   PyObject_HEAD
   Pose pose;
   Stamp stamp;
-  Stamp beyond;  // nanoseconds beyond the data that it was extrapolated
+  Stamp beyond;  // nanoseconds of extrapolation beyond the data
   bool has_stamp;
   PyObject* target;  // str or None
   PyObject* source;
   PyObject* batch;  // None, or a tuple of arrays
 };
 
-PyTypeObject* transform_class = nullptr;  // the registered one, for as long as the process lives
+PyTypeObject* transform_class = nullptr;  // the registered class, never released
 
 TransformObject* self_of(PyObject* object) { return reinterpret_cast<TransformObject*>(object); }
 
 PyObject* or_none(PyObject* object) { return Py_NewRef(object ? object : Py_None); }
 
-// Arguments: 7 numbers, target, source, stamp, batch, and maybe how far it was extrapolated.
+// Arguments: 7 numbers, target, source, stamp, batch, and optionally the extrapolation.
 int initialise(PyObject* object, PyObject* arguments, PyObject* keywords) {
   if (keywords && PyDict_GET_SIZE(keywords) != 0) {
     PyErr_SetString(PyExc_TypeError, "the values of a transform are given by position");
@@ -79,21 +80,22 @@ PyObject* get_batch(PyObject* object, void*) { return or_none(self_of(object)->b
 PyGetSetDef transform_properties[] = {
     {"values", get_values, nullptr, "(x, y, z, qx, qy, qz, qw) as floats; of a batch: the identity.", nullptr},
     {"stamp", get_stamp, nullptr, "Nanoseconds, or None.", nullptr},
-    {"target", get_target, nullptr, "The frame that the values are told in, or None.", nullptr},
-    {"source", get_source, nullptr, "The frame that the values are of, or None.", nullptr},
-    {"_beyond", get_beyond, nullptr, "How many nanoseconds beyond the data of a link it was extrapolated.", nullptr},
+    {"target", get_target, nullptr, "The frame that the values are expressed in, or None.", nullptr},
+    {"source", get_source, nullptr, "The frame whose pose the values are, or None.", nullptr},
+    {"_beyond", get_beyond, nullptr, "Nanoseconds of extrapolation beyond the data of an edge.", nullptr},
     {"_batch", get_batch, nullptr, "None, or (translations, quaternions, stamps, extrapolated) as arrays.", nullptr},
     {nullptr, nullptr, nullptr, nullptr, nullptr}};
 
-PyType_Slot transform_slots[] = {{Py_tp_doc, const_cast<char*>("One pose with its frames and stamp, or a batch of them.")},
-                       {Py_tp_init, reinterpret_cast<void*>(&initialise)},
-                       {Py_tp_new, reinterpret_cast<void*>(&PyType_GenericNew)},
-                       {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate_transform)},
-                       {Py_tp_getset, transform_properties},
-                       {0, nullptr}};
+PyType_Slot transform_slots[] = {
+    {Py_tp_doc, const_cast<char*>("One pose with its frames and stamp, or a batch of them.")},
+    {Py_tp_init, reinterpret_cast<void*>(&initialise)},
+    {Py_tp_new, reinterpret_cast<void*>(&PyType_GenericNew)},
+    {Py_tp_dealloc, reinterpret_cast<void*>(&deallocate_transform)},
+    {Py_tp_getset, transform_properties},
+    {0, nullptr}};
 
-PyType_Spec transform_spec = {"coframe._core.Transform", sizeof(TransformObject), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE,
-                    transform_slots};
+PyType_Spec transform_spec = {"coframe._core.Transform", sizeof(TransformObject), 0,
+                              Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE, transform_slots};
 
 }  // namespace
 
@@ -128,9 +130,9 @@ bool read_transform(PyObject* object, GivenTransform& given) {
 
 namespace {
 
-// CPython gives every class of Python's the garbage collector's bookkeeping, and a destructor that looks for what such a
-// class may add. This one adds nothing (__slots__ = ()), and a transform holds nothing that could hold it: both are
-// taken back, before there is an instance, for half of what a look-up costs.
+// CPython adds garbage collection to every class defined in Python, and a destructor for what such a class may add.
+// This one adds nothing (__slots__ = ()) and cannot be part of a reference cycle: both are removed before the first
+// instance exists, which halves the time of a lookup.
 void make_light(PyTypeObject* type) {
   type->tp_flags &= ~Py_TPFLAGS_HAVE_GC;
   type->tp_traverse = nullptr;
@@ -157,7 +159,7 @@ void define_transform(nb::module_& module) {
         make_light(given);
         transform_class = reinterpret_cast<PyTypeObject*>(cls.release().ptr());
       },
-      nb::arg("cls"), "Look-ups return instances of `cls`, a subclass of Transform with __slots__ = ().");
+      nb::arg("cls"), "Register the class of lookup results, a subclass of Transform with __slots__ = ().");
 }
 
 }  // namespace coframe::bindings

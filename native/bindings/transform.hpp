@@ -1,5 +1,6 @@
-// The light object that a look-up returns; coframe.Transform is a Python class on top of it. A class of CPython's own
-// making, without the garbage collector's bookkeeping: making one is most of what a look-up costs.
+// SPDX-License-Identifier: Apache-2.0
+// The light object that a lookup returns; coframe.Transform is a Python class derived from it. It is a plain CPython
+// type without garbage collection, because creating it takes most of the time of a lookup.
 #pragma once
 
 #include <nanobind/nanobind.h>
@@ -11,13 +12,13 @@ namespace coframe::bindings {
 
 namespace nb = nanobind;
 
-// An instance of the registered Python class. `beyond`: nanoseconds that it was extrapolated.
+// Creates an instance of the registered Python class. `beyond` is the extrapolation in nanoseconds.
 nb::object make_transform(const Pose& pose, Stamp stamp, nb::handle target, nb::handle source, Stamp beyond = 0);
 
-// One without a stamp.
+// Creates one without a stamp.
 nb::object make_transform(const Pose& pose, nb::handle target, nb::handle source);
 
-// What a transform that was given holds; the frames are borrowed, None where it names none.
+// The values of a Transform argument. The frames are borrowed references, None if it has none.
 struct GivenTransform {
   Pose pose;
   Stamp stamp = 0;
@@ -25,7 +26,7 @@ struct GivenTransform {
   PyObject *target = nullptr, *source = nullptr;
 };
 
-// False for what is no single transform of the registered class.
+// Returns false if the object is not a single transform of the registered class.
 bool read_transform(PyObject* object, GivenTransform& given);
 
 }  // namespace coframe::bindings

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/wait_queue.hpp"
 
 #include <nanobind/stl/shared_ptr.h>
@@ -14,7 +15,7 @@ namespace coframe::bindings {
 
 namespace {
 
-// In the waiting room as long as Python keeps it.
+// In the wait queue as long as the Python object exists.
 class WaitObject {
  public:
   WaitObject(BufferObject& buffer, const LookupQuery& query, std::shared_ptr<Mailbox> mailbox, Token token,
@@ -72,49 +73,50 @@ class WatchObject {
 void define_waiting(nb::module_& module) {
   using nb::arg;
   const auto any = [](const char* name) { return nb::arg(name).none(); };
-  nb::class_<Mailbox>(module, "Mailbox", "Where waits and watches leave their token when something has happened.")
+  nb::class_<Mailbox>(module, "Mailbox", "A queue of tokens that waits and watches put when something has happened.")
       .def(nb::init<>())
-      .def("put", &Mailbox::put, arg("token"), "Leaves a token from Python.")
+      .def("put", &Mailbox::put, arg("token"), "Put a token from Python.")
       .def_prop_ro("empty", &Mailbox::empty)
-      .def("take", &Mailbox::take, "The tokens that have come.")
+      .def("take", &Mailbox::take, "Return and remove the tokens.")
       .def(
           "wait",
           [](Mailbox& self, std::int64_t timeout_ns) {
             return wait_with_signals(timeout_ns, [&](std::int64_t slice) { return self.wait_for(slice); });
           },
-          arg("timeout_ns"), "Waits, without the GIL, until there are some (True) or the time (negative: for ever) is over.");
-  nb::class_<WaitObject>(module, "Wait", "A look-up that waits for its answer.")
-      .def("transform", &WaitObject::transform, "The transform, or None while there is none.")
-      .def("cancel", &WaitObject::cancel, "Waits no more.");
-  nb::class_<WatchObject>(module, "Watch", "Notes which edges change.")
-      .def("take", &WatchObject::take, "The child frames of the edges that have changed since the last call.")
-      .def("cancel", &WatchObject::cancel, "Notes no more.");
+          arg("timeout_ns"),
+          "Wait without the GIL until there is a token (True) or the time is over (negative: no limit).");
+  nb::class_<WaitObject>(module, "Wait", "A lookup that waits until it succeeds.")
+      .def("transform", &WaitObject::transform, "Return the transform, or None while there is none.")
+      .def("cancel", &WaitObject::cancel, "Stop waiting.");
+  nb::class_<WatchObject>(module, "Watch", "Records which edges change.")
+      .def("take", &WatchObject::take, "Return the child frames of the edges that have changed since the last call.")
+      .def("cancel", &WatchObject::cancel, "Stop watching.");
   module.def(
       "wait",
       [](BufferObject& buffer, std::shared_ptr<Mailbox> mailbox, Token token, nb::handle target, nb::handle source,
          nb::handle stamp) {
-        return std::make_unique<WaitObject>(buffer, query_of(buffer, target, source, stamp), std::move(mailbox),
-                                            token, target, source);
+        return std::make_unique<WaitObject>(buffer, query_of(buffer, target, source, stamp), std::move(mailbox), token,
+                                            target, source);
       },
       arg("buffer"), arg("mailbox"), arg("token"), any("target"), any("source"), any("stamp"),
-      "A look-up whose token is put into the mailbox once it has its answer.");
+      "Start a lookup whose token is put into the mailbox once it succeeds.");
   module.def(
       "wait_full",
       [](BufferObject& buffer, std::shared_ptr<Mailbox> mailbox, Token token, nb::handle target,
          nb::handle target_stamp, nb::handle source, nb::handle source_stamp, nb::handle fixed) {
-        return std::make_unique<WaitObject>(
-            buffer, full_query_of(buffer, target, target_stamp, source, source_stamp, fixed), std::move(mailbox),
-            token, target, source);
+        return std::make_unique<WaitObject>(buffer,
+                                            full_query_of(buffer, target, target_stamp, source, source_stamp, fixed),
+                                            std::move(mailbox), token, target, source);
       },
       arg("buffer"), arg("mailbox"), arg("token"), any("target"), any("target_stamp"), any("source"),
-      any("source_stamp"), any("fixed"), "The same for _lookup_full.");
+      any("source_stamp"), any("fixed"), "Start a _lookup_full whose token is put into the mailbox once it succeeds.");
   module.def(
       "watch",
       [](BufferObject& buffer, std::shared_ptr<Mailbox> mailbox, Token token, std::string_view child) {
         return std::make_unique<WatchObject>(buffer, child, std::move(mailbox), token);
       },
       arg("buffer"), arg("mailbox"), arg("token"), arg("child"),
-      "Puts the token into the mailbox when the edge from `child` to its parent changes; \"\": any edge.");
+      "Put the token into the mailbox when the edge from `child` to its parent changes; \"\": any edge.");
 }
 
 }  // namespace coframe::bindings

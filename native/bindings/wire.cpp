@@ -1,4 +1,5 @@
-// DDS without the GIL: what coframe.wire stands on.
+// SPDX-License-Identifier: Apache-2.0
+// DDS without the GIL: the base of coframe.wire.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
@@ -24,7 +25,7 @@ namespace {
 
 using ReleaseGil = nb::call_guard<WithoutGil>;
 
-// Closing waits for DDS threads, and DDS frees Python types on its way: never with the GIL held.
+// Closing waits for DDS threads, and DDS frees Python types meanwhile: the GIL must not be held.
 template <class Native>
 class Closing : public Native {
  public:
@@ -51,7 +52,7 @@ nb::list matched_handles(const Endpoint& endpoint) {
   return list;
 }
 
-// Calls `write`, a method of Writer, with the message and without the GIL.
+// Calls `write`, a method of Writer, without the GIL.
 template <void (Writer::*write)(const void*, std::size_t) const>
 void write_bytes(const PyWriter& writer, nb::bytes message) {
   const char* data = message.c_str();
@@ -64,7 +65,7 @@ nb::tuple to_tuple(const QosProfile& qos) {
   return nb::make_tuple(qos.depth, qos.reliable, qos.transient_local, qos.keep_all);
 }
 
-// Other threads go on while much is copied: a cloud of a million points takes milliseconds.
+// Large messages are copied without the GIL: a cloud of a million points takes milliseconds.
 nb::bytes to_bytes(const dds::Sample& sample) {
   constexpr std::size_t kMuch = 1 << 16;
   const auto bytes = sample.bytes();
@@ -85,8 +86,7 @@ nb::list take_messages(PyReader& reader, std::uint32_t limit) {
   }
   nb::list messages;
   for (const dds::Sample& sample : samples) {
-    messages.append(
-        nb::make_tuple(to_bytes(sample), sample.info().source_timestamp, sample.info().publication_handle));
+    messages.append(nb::make_tuple(to_bytes(sample), sample.info().source_timestamp, sample.info().publication_handle));
   }
   return messages;
 }
@@ -109,7 +109,7 @@ nb::list take_endpoints(PyEndpointReader& reader) {
   }
   nb::list list;
   for (const EndpointChange& change : changes) {
-    // Names come from the network: not every byte of them need be UTF-8.
+    // Names come from the network and need not be valid UTF-8.
     const auto text = [](const std::string& name) {
       return nb::steal<nb::str>(
           PyUnicode_DecodeUTF8(name.data(), static_cast<Py_ssize_t>(name.size()), "backslashreplace"));
@@ -140,26 +140,26 @@ void define_participant(nb::module_& wire) {
            nb::arg("user_data"), ReleaseGil())
       .def_prop_ro("entity", &PyParticipant::entity, "DDS's number for the participant; 0 after close.")
       .def_prop_ro("guid", [](const PyParticipant& self) { return to_bytes(self.guid()); })
-      .def("close", &PyParticipant::close, ReleaseGil(), "Ends the participant and DDS's threads.");
+      .def("close", &PyParticipant::close, ReleaseGil(), "End the participant and DDS's threads.");
 }
 
 void define_writer(nb::module_& wire) {
   nb::class_<PyWriter>(wire, "Writer", "A DDS writer of serialised messages.")
       .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, bool>(), nb::arg("participant"),
            nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("unchecked") = false, ReleaseGil())
-      .def("write", &write_bytes<&Writer::write>, nb::arg("message"), "Sends one serialised message, without the GIL.")
+      .def("write", &write_bytes<&Writer::write>, nb::arg("message"), "Send one serialised message without the GIL.")
       .def("forward", &write_bytes<&Writer::forward>, nb::arg("message"),
-           "The same on an unchecked topic, whose bytes nobody here understands.")
+           "Send a message of any type on an unchecked topic, without a check of its bytes.")
       .def_prop_ro("guid", [](const PyWriter& self) { return to_bytes(self.guid()); })
       .def_prop_ro("matched", &PyWriter::matched, "How many readers the writer has found.", ReleaseGil())
       .def("matched_handles", &matched_handles<PyWriter>, "The handles of those readers.")
       .def_prop_ro(
           "refused_policy", [](const PyWriter& self) { return self.incompatible().last_policy_id; },
-          "DDS's number of the policy by which the last reader was refused; 0: none was.")
+          "DDS's number of the QoS policy that rejected the last reader; 0: none.")
       .def("close", &PyWriter::close, ReleaseGil());
 }
 
-// The properties that every reader with a `reader()` has.
+// The properties of every reader with a `reader()`.
 template <class Reader, class Class>
 void define_reader_properties(Class& cls) {
   cls.def_prop_ro("guid", [](const Reader& self) { return to_bytes(self.reader().guid()); })
@@ -171,8 +171,8 @@ void define_reader_properties(Class& cls) {
           "The handles of those writers.")
       .def_prop_ro(
           "refused_policy", [](const Reader& self) { return self.reader().incompatible().last_policy_id; },
-          "DDS's number of the policy by which the last writer was refused; 0: none was.")
-      .def("close", &Reader::close, ReleaseGil(), "Ends the reader; no callback runs afterwards.");
+          "DDS's number of the QoS policy that rejected the last writer; 0: none.")
+      .def("close", &Reader::close, ReleaseGil(), "End the reader; no callback runs afterwards.");
 }
 
 void define_readers(nb::module_& wire) {
@@ -181,17 +181,20 @@ void define_readers(nb::module_& wire) {
       .def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, std::shared_ptr<Event>>(),
            nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("on_data").none(),
            ReleaseGil())
-      .def("take", &take_messages, nb::arg("limit"), "Up to `limit` tuples (bytes, source timestamp in ns, writer's handle).")
+      .def("take", &take_messages, nb::arg("limit"),
+           "Return up to `limit` tuples (bytes, source timestamp in ns, writer's handle).")
       .def_prop_ro("pending", &PyReader::pending, "Whether messages may be waiting.");
   define_reader_properties<PyReader>(reader);
 
-  auto tap = nb::class_<PyTap>(wire, "Tap", "Notes when messages come, on DDS's thread.");
+  auto tap = nb::class_<PyTap>(wire, "Tap", "Records messages with their arrival times on DDS's thread.");
   tap.def(nb::init<dds::Entity, dds::Entity, const QosProfile&, const std::string&, std::size_t, std::size_t>(),
           nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("head"),
           nb::arg("capacity"), ReleaseGil())
-      .def("take", &take_tapped, "The messages since the last call: their bytes, and as bytes where each ends (uint64), arrived, sent (int64) "
+      .def("take", &take_tapped,
+           "Return the messages since the last call: their bytes, and as bytes their ends (uint64), arrived, sent "
+           "(int64) "
            "and writer's handle (uint64).")
-      .def_prop_ro("missed", &PyTap::missed, "How many messages came while it was full.");
+      .def_prop_ro("missed", &PyTap::missed, "How many messages arrived while it was full.");
   define_reader_properties<PyTap>(tap);
 
   auto tf_reader = nb::class_<PyTfReader>(wire, "TfReader", "Stores the transforms of a topic in a buffer.");
@@ -207,19 +210,19 @@ void define_readers(nb::module_& wire) {
           nb::arg("participant"), nb::arg("topic"), nb::arg("qos"), nb::arg("user_data"), nb::arg("buffer"),
           nb::arg("is_static"), nb::arg("authority"), nb::arg("renaming") = nb::none(), ReleaseGil())
       .def("name_writer", &PyTfReader::name_writer, nb::arg("writer"), nb::arg("authority"), ReleaseGil(),
-           "The buffer notes `authority` for what the writer with this handle has sent and will send.")
+           "Store `authority` as the source of this writer's past and future transforms.")
       .def("forget_writer", &PyTfReader::forget_writer, nb::arg("writer"), ReleaseGil(),
-           "The writer with this handle has left.")
-      .def("writers", &writers_of, "What each writer has sent.")
+           "Forget the writer with this handle.")
+      .def("writers", &writers_of, "Return the statistics of each writer.")
       .def_prop_ro("stored_at", &PyTfReader::stored_at,
-                   "When the newest message's transforms were in the buffer, in nanoseconds of the steady clock; 0: never.");
+                   "When the newest message's transforms were stored, in nanoseconds of the steady clock; 0: never.");
   define_reader_properties<PyTfReader>(tf_reader);
 
-  nb::class_<PyEndpointReader>(wire, "EndpointReader", "What DDS discovery tells about writers or readers.")
+  nb::class_<PyEndpointReader>(wire, "EndpointReader", "The writers or readers found by DDS discovery.")
       .def(nb::init<dds::Entity, dds::Entity, std::shared_ptr<Event>>(), nb::arg("participant"), nb::arg("topic"),
            nb::arg("on_change"), ReleaseGil())
       .def("take", &take_endpoints,
-           "The changes: tuples (handle, alive, guid, participant's guid, topic, type, "
+           "Return the changes: tuples (handle, alive, guid, participant's guid, topic, type, "
            "(depth, reliable, transient_local, keep_all), user data).")
       .def("close", &PyEndpointReader::close, ReleaseGil());
   wire.attr("PUBLICATIONS") = dds::kPublicationTopic;
@@ -230,10 +233,10 @@ void define_readers(nb::module_& wire) {
 
 void define_wire(nb::module_& wire) {
   nb::exception<dds::Error>(wire, "DdsError", PyExc_RuntimeError);
-  wire.def("load_dds", &dds::load, nb::arg("path"), "Loads the DDS library; RuntimeError where it does not fit.");
+  wire.def("load_dds", &dds::load, nb::arg("path"), "Load the DDS library; raise RuntimeError if it is not usable.");
   wire.def("create_unchecked_topic", &dds::create_unchecked_topic, nb::arg("participant"), nb::arg("name"),
            nb::arg("type_name"), ReleaseGil(),
-           "A topic for who checks the bytes himself: its number.");
+           "Create a topic whose readers check the bytes themselves; return its handle.");
   nb::class_<QosProfile>(wire, "QosProfile", "The four policies ROS programs set.")
       .def(
           "__init__",

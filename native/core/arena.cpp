@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/arena.hpp"
 
 #include <array>
@@ -13,8 +14,8 @@ namespace coframe {
 
 namespace {
 
-// Large arenas that were freed last, for the next who want one: the system takes longer to clear them than we to fill
-// them.
+// The large arenas that were freed last, kept for reuse: the system takes longer to clear a large page than the caller
+// takes to fill it.
 struct Spare {
   std::mutex mutex;
   std::array<std::byte*, 4> arenas;
@@ -22,7 +23,7 @@ struct Spare {
 };
 
 Spare& spare() {
-  static Spare& spare = *new Spare;  // for buffers that outlive everything else, too
+  static Spare& spare = *new Spare;  // never destroyed: buffers may outlive static objects
   return spare;
 }
 
@@ -30,8 +31,8 @@ std::byte* allocate(std::size_t size, std::size_t alignment) {
   return static_cast<std::byte*>(::operator new(size, std::align_val_t{alignment}));
 }
 
-// Straight from the system where it can be asked: what the heap cuts off before and behind aligned pieces would stay in
-// memory, and that can be half as much again.
+// Mapped directly where the system allows it: the heap would keep what it cuts off before and after an aligned block,
+// up to half as much memory again.
 #if __has_include(<sys/mman.h>)
 std::byte* map_large() {
   void* mapped = mmap(nullptr, 2 * Arena::kLarge, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -41,7 +42,7 @@ std::byte* map_large() {
   if (before > 0) munmap(start, before);
   munmap(start + before + Arena::kLarge, Arena::kLarge - before);
 #if defined(MADV_HUGEPAGE)
-  madvise(start + before, Arena::kLarge, MADV_HUGEPAGE);  // where that fails, it is only slower
+  madvise(start + before, Arena::kLarge, MADV_HUGEPAGE);  // a failure only costs speed
 #endif
   return start + before;
 }

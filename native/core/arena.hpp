@@ -1,4 +1,5 @@
-// A piece of memory for many things of one kind, freed as a whole.
+// SPDX-License-Identifier: Apache-2.0
+// A block of memory for many objects of one kind that is freed as a whole.
 #pragma once
 
 #include <cstddef>
@@ -7,11 +8,11 @@ namespace coframe {
 
 class Arena {
  public:
-  static constexpr std::size_t kAlignment = 64;               // a cache line
+  static constexpr std::size_t kAlignment = 64;                // a cache line
   static constexpr std::size_t kLarge = std::size_t{2} << 20;  // a large page
 
-  // Not initialised. For kLarge the system is asked to use a large page: filling that is many times faster than page by
-  // page.
+  // The memory is not initialised. A block of kLarge bytes is requested as one large page, which is filled many times
+  // faster than small pages.
   explicit Arena(std::size_t size);
   Arena(const Arena&) = delete;
   Arena& operator=(const Arena&) = delete;

@@ -1,4 +1,5 @@
-// The usual period of a source of messages: the median interval between the arrivals of the last ones.
+// SPDX-License-Identifier: Apache-2.0
+// The usual period of a publisher: the median interval between the arrivals of its last messages.
 #pragma once
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/batch.hpp"
 
 #include <algorithm>
@@ -17,8 +18,8 @@ void add_step(const PathCache::Step& link, const Pose& step, Pose& pose) {
   }
 }
 
-// Where rows lie between the samples of one history of at least two. With kBoth a row has two samples also where one of
-// them holds alone, and it is told how far they are apart.
+// Finds the samples around the rows' stamps in a history of at least two samples. With kBoth, a row gets two different
+// samples and their distance even if one sample alone gives the pose.
 template <bool kBoth>
 class Finder {
  public:
@@ -38,11 +39,11 @@ class Finder {
  private:
   using Interval = History::Interval;
 
-  // Each row mostly lies where the one before did, or behind it.
+  // Rows usually lie in the interval of the previous row or after it.
   void find_in_order(const Stamp* stamps, std::size_t count, std::uint64_t first) {
     Interval found{};
     double per_nanosecond = 0.0;
-    std::uint64_t next = first, inner = 0;  // so many stamps are within, without those of the samples
+    std::uint64_t next = first, inner = 0;  // number of stamps strictly inside the interval
     for (std::size_t row = 0; row < count; ++row) {
       const Stamp stamp = stamps[row];
       const std::uint64_t past = static_cast<std::uint64_t>(stamp) - static_cast<std::uint64_t>(found.start);
@@ -60,7 +61,7 @@ class Finder {
     if (next > first) history_.prefetch_from(next + 1, std::min<std::uint64_t>(next - first, count));  // the next block
   }
 
-  // Stamps and samples are asked from memory in advance.
+  // Prefetches stamps and samples.
   void find_anywhere(const Stamp* stamps, std::size_t count) {
     std::array<std::uint64_t, kRowBlock> next;
     for (std::size_t row = 0; row < count; ++row) {
@@ -80,7 +81,7 @@ class Finder {
     }
   }
 
-  // None where they are too many for a signed number.
+  // 0 if the number does not fit.
   static std::uint64_t inner_stamps(const Interval& found) {
     const std::uint64_t length = distance(found.start, found.end);
     return length == 0 || length >> 63 ? 0 : length - 1;
@@ -93,11 +94,11 @@ class Finder {
     if constexpr (kBoth) rows_.per_second[row] = 1e9 * per_nanosecond;
   }
 
-  // At the stamp of a sample that one alone: the other may be infinite.
+  // At the stamp of a sample only that sample is used: the other one may be infinite.
   double put_found(const Interval& found, Stamp stamp, std::size_t row) {
     const std::uint64_t length = distance(found.start, found.end), past = distance(found.start, stamp);
     const double per_nanosecond = length == 0 ? 0.0 : 1.0 / static_cast<double>(length);
-    if (kBoth && length == 0) ok_[row] = false;  // how fast it moves, others must tell
+    if (kBoth && length == 0) ok_[row] = false;  // the velocity must be computed by another function
     if (search_.is_newest(stamp)) {
       put(found, 1.0, per_nanosecond, row);
       if (!kBoth) rows_.older[row] = rows_.newer[row];
@@ -119,7 +120,7 @@ class Finder {
   bool* const ok_;
 };
 
-// The last group of rows is worked on whole.
+// Kernels process whole groups, so the last one is padded.
 void fill_up(std::size_t count, Between& rows) {
   for (std::size_t row = count; row % kMostLanes != 0; ++row) {
     rows.share[row] = rows.per_second[row] = 0.0;
@@ -128,11 +129,11 @@ void fill_up(std::size_t count, Between& rows) {
   }
 }
 
-// One link of the path for all rows, the first or one that goes on from `rows`.
+// Applies one edge of the path to all rows; `first` starts a new path.
 void follow_edge(const PathCache::Step& link, bool first, RowBlock& rows) {
   const Kernels& kernels = coframe::kernels();
   const History::View history = link.history->view();
-  // All samples in sight are told in that parent: a writer says what is not so before he shows the first other one.
+  // All visible samples have that parent: a writer clears the flag before it stores a sample with another one.
   const bool known = !history.empty() && link.history->one_parent() && history.parent() == link.parent;
   if (!known) std::fill_n(rows.ok, rows.count, false);
   if (history.is_static() || history.size() < 2) {
@@ -167,7 +168,7 @@ void cross(const double* a, const double* b, double* out) {
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-// The rate of change between two samples: straight for the translation, about one axis for the rotation, told in the
+// The velocity between two samples: straight for the translation, about one axis for the rotation, expressed in the
 // parent's axes.
 Twist rate_between(const Sample& a, const Sample& b, double seconds) {
   Twist rate;
@@ -192,7 +193,7 @@ Twist rate_at(const History::View& history, Stamp stamp) {
   return seconds > 0.0 && a.parent == b.parent ? rate_between(a, b, seconds) : Twist{};
 }
 
-// From the step's child to its parent: the parent sees the step move as well.
+// From the child to the parent of the step, which also observes the motion of the step.
 void add_rate(const Pose& step, const Twist& rate, const Pose& pose, Twist& twist) {
   Twist result;
   double arm[3], swing[3];
@@ -207,7 +208,7 @@ void add_rate(const Pose& step, const Twist& rate, const Pose& pose, Twist& twis
   twist = result;
 }
 
-// From the step's parent to its child, which does not see itself move.
+// From the parent to the child of the step, which does not observe its own motion.
 void subtract_rate(const Pose& step, const Twist& rate, const Pose& pose, Twist& twist) {
   const double conjugate[4] = {-step.q[0], -step.q[1], -step.q[2], step.q[3]};
   double arm[3], swing[3], linear[3], angular[3];
@@ -232,8 +233,8 @@ void follow_block(const PathCache::Path& path, RowBlock& rows) {
   }
 }
 
-// By counting, twice: first by the lower and then by the upper half of where a stamp lies between the first and the last
-// one. That is near enough, and much cheaper than comparing.
+// A radix sort in two passes, by the lower and the upper half of a stamp's position between the first and the last
+// stamp. The order is approximate, which suffices, and much cheaper to compute than by comparisons.
 std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count) {
   constexpr unsigned kBits = 11;
   constexpr std::uint32_t kBuckets = 1u << kBits;
@@ -247,7 +248,8 @@ std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count)
   const auto half = std::make_unique_for_overwrite<Place[]>(count);
   std::array<std::uint32_t, kBuckets + 1> lower{}, upper{};
   for (std::size_t row = 0; row < count; ++row) {
-    const auto place = static_cast<std::uint32_t>(static_cast<std::int64_t>(static_cast<double>(distance(start, stamps[row])) * scale));
+    const auto place = static_cast<std::uint32_t>(
+        static_cast<std::int64_t>(static_cast<double>(distance(start, stamps[row])) * scale));
     places[row] = place;
     ++lower[place % kBuckets + 1];
     ++upper[place / kBuckets + 1];

@@ -1,5 +1,6 @@
-// One query at many times: path and samples are found block by block, so that memory is fetched while numbers are
-// worked on.
+// SPDX-License-Identifier: Apache-2.0
+// One lookup at many times. The path and the samples are found block by block, so that memory is prefetched while the
+// previous numbers are processed.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +12,10 @@
 
 namespace coframe {
 
-// Some rows at work.
+// The rows that are processed together.
 struct RowBlock {
   std::size_t count = 0;  // at most kRowBlock
-  bool in_order = false;  // by their stamps, nearly
+  bool in_order = false;  // almost sorted by stamp
   bool with_twists = false;
   Stamp stamps[kRowBlock];
   bool ok[kRowBlock];
@@ -22,25 +23,26 @@ struct RowBlock {
   TwistRows twists;
 };
 
-// The poses along a path, and how fast they change; not `ok` where the row has to be looked up alone: without a sample,
-// with one of another parent, for the latest, or with twists where samples have the same stamp.
+// Computes the poses along a path and, if wanted, their velocities. Clears `ok` for rows that must be looked up one by
+// one: no sample, a sample with another parent, the latest time, or velocities where samples share a stamp.
 void follow_block(const PathCache::Path& path, RowBlock& rows);
 
-// Puts rows that ask for about the same time beside each other, so that their samples are found in the first caches.
+// Returns the rows in order of time, so that neighbouring rows find their samples in the processor's cache.
 std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count);
 
-// How fast a frame moves, in metres and radians per second along the axes of the frame that sees it.
+// The velocity of a frame in m/s and rad/s, expressed along the axes of the observing frame.
 struct Twist {
   double linear[3] = {0.0, 0.0, 0.0};
   double angular[3] = {0.0, 0.0, 0.0};
 };
 
-// The pose at one time and its rate of change by the interpolation between the samples there; at a sample, that of the
-// interval after it, at the newest that of the one before. False as for follow_block.
+// Computes the pose at one time and its rate of change by interpolation between the samples around it: at a sample the
+// interval after it counts, at the newest sample the interval before it. Returns false for the same reasons as
+// follow_block().
 bool follow_moving(const PathCache::Path& path, Stamp stamp, Pose& pose, Twist& twist);
 
-// The time for which all links of the path have samples: from the latest beginning to the earliest end; 0, 0 where all
-// are static. False where a link has none, or they have no common time.
+// Computes the time span in which all edges of the path have samples; 0, 0 if all of them are static. Returns false if
+// an edge has no samples, or if the edges have no common time.
 bool common_span(const PathCache::Path& path, Stamp& first, Stamp& last);
 
 }  // namespace coframe

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/buffer.hpp"
 
 #include <algorithm>
@@ -30,7 +31,9 @@ void measure_intervals(const History::View& samples, EdgeSummary& edge) {
   edge.mean_interval = edge.interval_deviation = edge.longest_interval = 0.0;
   if (samples.is_static() || samples.size() < 2) return;
   const double count = static_cast<double>(samples.size() - 1);
-  const auto interval = [&](std::size_t i) { return static_cast<double>(elapsed(samples.time(i - 1), samples.time(i))); };
+  const auto interval = [&](std::size_t i) {
+    return static_cast<double>(elapsed(samples.time(i - 1), samples.time(i)));
+  };
   edge.mean_interval = static_cast<double>(elapsed(samples.oldest(), samples.newest())) / count;
   double squares = 0.0;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -42,14 +45,12 @@ void measure_intervals(const History::View& samples, EdgeSummary& edge) {
 }
 
 constexpr std::size_t kInsertBlock = 1024;
-// Fewer look-ups are not brought into order.
+// Smaller batches are not sorted.
 constexpr std::size_t kWorthSorting = 4 * kRowBlock;
 
-TransformValues values_of(const double* row) {
-  return {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}};
-}
+TransformValues values_of(const double* row) { return {{row[0], row[1], row[2]}, {row[3], row[4], row[5], row[6]}}; }
 
-// Why the first row that is refused is; 0, and `row` is behind the last one, where none is.
+// Returns why the first invalid row is rejected; 0, with `row` past the last one, if all are valid.
 unsigned track_refusals(const Track& track, unsigned refused_names, std::size_t& row) {
   for (row = 0; row < track.count; ++row) {
     if (refused_names == 0) row += kernels().plain_rows(track.poses + 7 * row, track.count - row);
@@ -76,9 +77,14 @@ FrameSummary summary_of(const Tree& tree, FrameId id) {
   const Frame& frame = tree.frame(id);
   const History::View history = tree.history(id);
   if (history.empty()) return {frame.name, "", "", false, 0, 0, 0, 0.0};
-  return {frame.name,       tree.name(history.parent()), tree.authority_name(frame.authority),
-          history.is_static(), history.size(),              history.oldest(),
-          history.newest(), history.is_static() ? 0.0 : average_rate(history)};
+  return {frame.name,
+          tree.name(history.parent()),
+          tree.authority_name(frame.authority),
+          history.is_static(),
+          history.size(),
+          history.oldest(),
+          history.newest(),
+          history.is_static() ? 0.0 : average_rate(history)};
 }
 
 }  // namespace
@@ -102,16 +108,14 @@ unsigned Buffer::insert_and_announce(Insert&& insert) {
 
 unsigned Buffer::insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
                         bool is_static, AuthorityId authority) {
-  return insert_and_announce([&](Inserted& inserted) {
-    inserted = tree_.insert(parent, child, stamp, values, is_static, authority);
-  });
+  return insert_and_announce(
+      [&](Inserted& inserted) { inserted = tree_.insert(parent, child, stamp, values, is_static, authority); });
 }
 
 unsigned Buffer::insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
                         AuthorityId authority) {
-  return insert_and_announce([&](Inserted& inserted) {
-    tree_.insert(parent, child, stamp, values, is_static, authority, inserted);
-  });
+  return insert_and_announce(
+      [&](Inserted& inserted) { tree_.insert(parent, child, stamp, values, is_static, authority, inserted); });
 }
 
 unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId authority, std::size_t& stored,
@@ -122,7 +126,7 @@ unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId aut
   const std::vector<std::size_t> order = is_sorted ? std::vector<std::size_t>{} : order_of(track);
   std::vector<Stamp> stamps(is_sorted ? 0 : kInsertBlock);
   std::vector<double> poses(is_sorted ? 0 : 7 * kInsertBlock);
-  // In blocks, so that others have their turn.
+  // In blocks, so that other threads get the lock in between.
   for (std::size_t first = 0; first < track.count; first += kInsertBlock) {
     const std::size_t count = std::min(kInsertBlock, track.count - first);
     for (std::size_t i = 0; !is_sorted && i < count; ++i) {
@@ -145,7 +149,7 @@ unsigned Buffer::insert_many(const Track& track, bool is_static, AuthorityId aut
   return 0;
 }
 
-// Runs that go on behind what is there take the short way.
+// Runs of rows that are newer than the stored samples take the fast path.
 std::size_t Buffer::insert_block(const Track& block, bool is_static, AuthorityId authority,
                                  std::vector<Inserted>& inserted) {
   std::size_t stored = 0;
@@ -158,8 +162,8 @@ std::size_t Buffer::insert_block(const Track& block, bool is_static, AuthorityId
     i += run;
     if (run > 0) inserted.push_back({0, tree_.find(without_slash(block.child)), false, false});
     if (i == block.count) break;
-    inserted.push_back(tree_.insert(block.parent, block.child, block.stamps[i], values_of(block.poses + 7 * i),
-                                    is_static, authority));
+    inserted.push_back(
+        tree_.insert(block.parent, block.child, block.stamps[i], values_of(block.poses + 7 * i), is_static, authority));
     stored += count(inserted.back().refusals);
     ++i;
   }
@@ -188,15 +192,14 @@ void Buffer::rename(TransformStream& stream, std::string_view authority) {
   for (const ExpectedNames& names : stream.expected) tree_.change_authority(names.child, before, stream.authority);
 }
 
-DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size,
-                             std::size_t& stored) {
+DecodeFailure Buffer::ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored) {
   const DecodeFailure failure = ingest_without_notify(stream, data, size, stored);
   notify_ingested(stream);
   return failure;
 }
 
 DecodeFailure Buffer::ingest_without_notify(TransformStream& stream, const std::uint8_t* data, std::size_t size,
-                              std::size_t& stored) {
+                                            std::size_t& stored) {
   stored = 0;
   const auto decode = stream.encoding == TransformStream::Encoding::cdr ? decode_tf_message : decode_ros1_tf_message;
   const DecodeFailure failure = decode(data, size, stream.decoded, stream.expected);
@@ -209,7 +212,7 @@ DecodeFailure Buffer::ingest_without_notify(TransformStream& stream, const std::
     ++counts_.messages;
     if (failure.reason) ++counts_.malformed;
     for (std::size_t i = 0; i < transforms; ++i) {
-      // Also what is refused as too old changes something: it makes frames known, and older ones may be forgotten.
+      // Rejected old samples also change the tree: they create frames, and older samples may be pruned.
       store(stream, i, stream.decoded[i], stream.inserted[i]);
       if (count(stream.inserted[i].refusals)) ++stored;
     }
@@ -258,7 +261,7 @@ Inserted Buffer::store_named(TransformStream& stream, std::size_t index, const T
   return inserted;
 }
 
-// True for a stored transform.
+// Returns true for a stored transform.
 bool Buffer::count(unsigned refusals) {
   ++(refusals == 0 ? counts_.stored : refusals & kOldData ? counts_.old : counts_.refused);
   return refusals == 0;
@@ -271,7 +274,7 @@ void Buffer::clear() {
     tree_.clear();
   }
   Inserted cleared;
-  cleared.rewired = true;  // what comes next may be another tree
+  cleared.rewired = true;  // the next insertions may build another tree
   announce(&cleared, 1);
 }
 
@@ -304,8 +307,8 @@ std::shared_ptr<Buffer> Buffer::restored(Stamp cache_length, std::span<const std
   return reason ? nullptr : buffer;
 }
 
-// A sample at the latest common time may be dropped between the choice of that time and the look at the sample; a
-// failure that stays the same is none of these.
+// A sample at the latest common time may be pruned after that time was chosen and before the sample is read. A failure
+// that repeats unchanged has another cause.
 template <class Lookup>
 bool Buffer::retry_until_stable(bool for_latest, const Failure& failure, Lookup&& lookup) const {
   std::pair<Stamp, Stamp> before{};
@@ -328,7 +331,8 @@ bool Buffer::lookup_by_walking(FrameId target, FrameId source, Stamp& stamp, Pos
   return lookup_by_id(nullptr, target, source, stamp, pose, failure);
 }
 
-bool Buffer::lookup_by_id(PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const {
+bool Buffer::lookup_by_id(PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
+                          Failure& failure) const {
   const Stamp asked = stamp;
   return retry_until_stable(asked == 0, failure, [&] {
     stamp = asked;
@@ -339,13 +343,14 @@ bool Buffer::lookup_by_id(PathCache* paths, FrameId target, FrameId source, Stam
 bool Buffer::lookup_cached_path(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const {
   const std::uint64_t revision = tree_.revision().start_reading();
   Stamp when = stamp;
-  if (!lookup_path_in_tree(tree_, paths, target, source, when, pose) || !tree_.revision().unchanged(revision)) return false;
+  if (!lookup_path_in_tree(tree_, paths, target, source, when, pose) || !tree_.revision().unchanged(revision))
+    return false;
   stamp = when;
   return true;
 }
 
 bool Buffer::lookup_full_by_id(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed,
-                         Pose& pose, Failure& failure) const {
+                               Pose& pose, Failure& failure) const {
   const Stamp target_asked = target_stamp;
   const PathLease paths(paths_);
   return retry_until_stable(target_asked == 0 || source_stamp == 0, failure, [&] {
@@ -361,7 +366,7 @@ bool Buffer::lookup_full_by_id(FrameId target, Stamp& target_stamp, FrameId sour
 }
 
 bool Buffer::extrapolate_by_id(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
-                         Failure& failure) const {
+                               Failure& failure) const {
   const Stamp asked = stamp;
   return consistent([&] {
     stamp = asked;
@@ -369,7 +374,7 @@ bool Buffer::extrapolate_by_id(Extrapolation& extrapolation, FrameId target, Fra
   });
 }
 
-// A frame's number, or a failure that says what is wrong with its name.
+// Finds the id of a frame, or fails with what is wrong with its name.
 bool Buffer::resolve(std::string_view name, Argument argument, FrameId& frame, Failure& failure) const {
   if (name.empty()) return fail_name(ErrorCode::empty_name, argument, name, failure);
   if (name.front() == '/') return fail_name(ErrorCode::leading_slash, argument, name, failure);
@@ -382,9 +387,10 @@ bool Buffer::resolve_both(LookupQuery& query, Failure& failure) const {
          resolve(query.source, Argument::source_frame, query.source_id, failure);
 }
 
-bool Buffer::lookup_by_name(LookupQuery& query, LookupResult& result, Failure& failure, Extrapolation* extrapolation) const {
+bool Buffer::lookup_by_name(LookupQuery& query, LookupResult& result, Failure& failure,
+                            Extrapolation* extrapolation) const {
   result.stamp = query.stamp;
-  if (!query.time_travel && query.target == query.source) {  // also for a frame that nobody knows
+  if (!query.time_travel && query.target == query.source) {  // also for a frame that does not exist
     result.pose = Pose{};
     const FrameId frame = find(query.target);
     return frame == 0 || lookup_by_id(frame, frame, result.stamp, result.pose, failure);
@@ -410,7 +416,7 @@ std::size_t Buffer::lookup_many(const LookupQuery& query, const Extrapolation* e
   for (unsigned i = 1; i < threads; ++i) {
     try {
       others.emplace_back(part, i);
-    } catch (const std::system_error&) {  // no more threads to be had
+    } catch (const std::system_error&) {  // the system has no more threads
       part(i);
     }
   }
@@ -433,8 +439,8 @@ std::size_t Buffer::lookup_rows(LookupQuery query, const Extrapolation* extrapol
   const bool by_path = has_path && !extrapolation;
   const bool is_sorted = std::is_sorted(batch.stamps + first, batch.stamps + last);
   const std::size_t rows_count = last - first;
-  const bool reorder = by_path && !is_sorted && rows_count >= kWorthSorting &&
-                       rows_count <= std::numeric_limits<std::uint32_t>::max();
+  const bool reorder =
+      by_path && !is_sorted && rows_count >= kWorthSorting && rows_count <= std::numeric_limits<std::uint32_t>::max();
   const std::vector<std::uint32_t> order =
       reorder ? order_by_time(batch.stamps + first, rows_count) : std::vector<std::uint32_t>{};
   std::array<std::size_t, kRowBlock> at;
@@ -554,8 +560,7 @@ bool Buffer::latest_common_time(LookupQuery& query, Stamp& stamp, Failure& failu
          });
 }
 
-bool Buffer::chain(FrameId target, FrameId source, Stamp stamp, std::vector<FrameId>& frames,
-                   Failure& failure) const {
+bool Buffer::chain(FrameId target, FrameId source, Stamp stamp, std::vector<FrameId>& frames, Failure& failure) const {
   return consistent([&] { return coframe::chain(tree_, target, source, stamp, frames, failure); });
 }
 
@@ -580,7 +585,7 @@ std::vector<EdgeSummary> Buffer::edges() const {
 std::optional<EdgeSummary> Buffer::edge(FrameId child) const {
   EdgeSummary edge = consistent([&] {
     const Frame::Counts& counts = tree_.frame(child).counts;
-    EdgeSummary one{summary_of(tree_, child), 0.0,          0.0,         0.0,        counts.stored, counts.late,
+    EdgeSummary one{summary_of(tree_, child), 0.0,        0.0,         0.0,        counts.stored,    counts.late,
                     counts.repeated,          counts.old, counts.self, counts.nan, counts.quaternion};
     measure_intervals(tree_.history(child), one);
     return one;
@@ -606,7 +611,9 @@ std::string Buffer::encode(bool is_static) const {
       if (history.empty() || history.is_static() != is_static) continue;
       const Sample sample = history.sample(history.size() - 1);
       const Pose& pose = sample.pose;
-      views.push_back({tree_.name(sample.parent), tree_.name(id), history.newest(),
+      views.push_back({tree_.name(sample.parent),
+                       tree_.name(id),
+                       history.newest(),
                        {{pose.p[0], pose.p[1], pose.p[2]}, {pose.q[0], pose.q[1], pose.q[2], pose.q[3]}}});
     }
     return encode_tf_message(views);
@@ -626,8 +633,8 @@ void Buffer::announce(const Inserted* inserted, std::size_t count) {
   notify(inserted, count);
 }
 
-// Unlocking was a full barrier between the data and the look for those who wait; they have one between their name and
-// their look at the data.
+// Unlocking was a full barrier between storing the data and checking for waiters; a waiter has one between registering
+// and reading the data.
 void Buffer::notify(const Inserted* inserted, std::size_t count) {
   if (wait_queue_.empty()) return;
   for (std::size_t i = 0; i < count; ++i) wait_queue_.notify(inserted[i]);

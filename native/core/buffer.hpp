@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The transform tree for many threads: one thread writes at a time, readers take no lock.
 //
 // The layers of a lookup, outermost first. Each layer answers by calling one of the layers below it.
@@ -20,8 +21,8 @@
 //     check_path_in_tree         ids                          cached, no pose        no     no
 //
 // "ids" are the numbers of two existing frames. "Cached" is a path of a PathCache, which may belong to the caller; it
-// answers only if every edge on it has had one parent so far. "Walked" follows the parents sample by sample, as tf2 does.
-// lookup_full_by_id and lookup_many are built on lookup_by_id and lookup_by_name.
+// answers only if every edge on it has had one parent so far. "Walked" follows the parents sample by sample, as tf2
+// does. lookup_full_by_id and lookup_many are built on lookup_by_id and lookup_by_name.
 #pragma once
 
 #include <atomic>
@@ -42,26 +43,27 @@
 namespace coframe {
 
 struct Counts {
-  std::uint64_t messages = 0;   // TFMessages taken in as bytes
+  std::uint64_t messages = 0;   // TFMessages received as bytes
   std::uint64_t malformed = 0;  // of those, not decodable
   std::uint64_t stored = 0;     // transforms
-  std::uint64_t refused = 0;    // transforms with bad names or values, or for a frozen buffer
+  std::uint64_t refused = 0;    // transforms with invalid names or values, or for a frozen buffer
   std::uint64_t old = 0;        // transforms older than the cache
 };
 
-// One source of messages: the same publisher sends the same names in the same order, so the last ones are tried
+// The messages of one publisher. A publisher sends the same names in the same order, so the previous names are compared
 // first. Used by one thread at a time.
 struct TransformStream {
   enum class Encoding : std::uint8_t { cdr, ros1 };
-  // More of one message's transforms are not remembered: there may be many sources, and any of them may send much.
+  // The names of further transforms of a message are not stored: there may be many publishers, and each may send large
+  // messages.
   static constexpr std::size_t kMaxRemembered = 1024;
   bool is_static = false;
   Encoding encoding = Encoding::cdr;
   AuthorityId authority = 0;
-  std::shared_ptr<const Renaming> renaming;  // may be null: names are taken as they are
+  std::shared_ptr<const Renaming> renaming;  // may be null: names are not changed
   NameProblems name_problems;
-  Stamp newest = 0;  // of the last message; 0: it had none
-  std::vector<ExpectedNames> expected;  // by the names as they come, with the numbers of the frames that they became
+  Stamp newest = 0;                     // newest stamp of the last message; 0: none
+  std::vector<ExpectedNames> expected;  // by the received names, with the ids of the resulting frames
   std::vector<TransformView> decoded;
   std::vector<Inserted> inserted;
 };
@@ -74,10 +76,10 @@ struct FrameSummary {
   double rate;
 };
 
-// What is known of the link between a frame and its parent. Spans of time are nanoseconds.
+// Statistics of the edge between a frame and its parent. Durations are in nanoseconds.
 struct EdgeSummary {
   FrameSummary frame;
-  double mean_interval, interval_deviation, longest_interval;  // between neighbouring samples; 0 where there are none
+  double mean_interval, interval_deviation, longest_interval;  // between neighbouring samples; 0 if there are none
   std::uint64_t stored, late, repeated, old, self, nan, quaternion;
 };
 
@@ -89,93 +91,97 @@ class Buffer {
 
   Stamp cache_length() const { return tree_.cache_length(); }
 
-  // 0, or why it was refused (Refusal bits).
+  // Inserts a transform; returns 0, or why it was rejected (Refusal bits).
   unsigned insert(std::string_view parent, std::string_view child, Stamp stamp, const TransformValues& values,
                   bool is_static, AuthorityId authority);
-  // For who knows the numbers of two different frames.
+  // For callers that know the ids of two different frames.
   unsigned insert(FrameId parent, FrameId child, Stamp stamp, const TransformValues& values, bool is_static,
                   AuthorityId authority);
-  // As one insert() after the other, in the order of the stamps. Where a row's values are refused nothing is stored, and
-  // `bad_row` is the first of them; what is older than the cache is left out.
+  // Equivalent to one insert() per row in the order of the stamps. If the values of a row are invalid, nothing is
+  // stored and `bad_row` is the first such row. Rows older than the cache are skipped.
   unsigned insert_many(const Track& track, bool is_static, AuthorityId authority, std::size_t& stored,
                        std::size_t& bad_row);
   AuthorityId authority(std::string_view name);
   TransformStream open_stream(bool is_static, std::string_view authority,
                               std::shared_ptr<const Renaming> renaming = nullptr);
-  // The source has another name: notes it for the frames that its last messages told of, and for all to come.
+  // The publisher has another name: changes it for the frames of its last message and for all further messages.
   void rename(TransformStream& stream, std::string_view authority);
   DecodeFailure ingest(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
-  // The same in two steps: first the transforms are there, then those who wait for them are woken.
-  DecodeFailure ingest_without_notify(TransformStream& stream, const std::uint8_t* data, std::size_t size, std::size_t& stored);
+  // The same in two steps: store the transforms, then notify the waiters.
+  DecodeFailure ingest_without_notify(TransformStream& stream, const std::uint8_t* data, std::size_t size,
+                                      std::size_t& stored);
   void notify_ingested(TransformStream& stream);
   void clear();
-  // Forgets a frame with its link to its parent and those of its children to it; false if nobody knows it.
+  // Removes a frame with the edge to its parent and the edges of its children to it; returns false if there is no such
+  // frame.
   bool remove_frame(std::string_view name);
 
-  // What is in here now, as a frozen buffer of its own; the samples are shared, not copied.
+  // Returns a frozen copy of the current state. The samples are shared, not copied.
   std::shared_ptr<Buffer> snapshot() const;
-  // What was frozen into a file, used where it lies; nullptr, and `reason` says why, where the bytes are not that.
+  // Opens the bytes of a frozen file in place. Returns nullptr if they are invalid; `reason` says why.
   static std::shared_ptr<Buffer> restored(Stamp cache_length, std::span<const std::uint8_t> table,
                                           std::span<const std::uint8_t> chunks, std::shared_ptr<const void> memory,
                                           const char*& reason);
-  // From now on nothing is taken in, nor forgotten.
+  // From now on, nothing is inserted or removed.
   void freeze() { frozen_.store(true); }
   bool frozen() const { return frozen_.load(); }
 
   FrameId find(std::string_view name) const { return tree_.find(name); }
-  // Whether a number that find() once gave still stands for a frame.
+  // Returns whether an id that find() returned earlier still is a frame.
   bool knows(FrameId frame) const { return tree_.frame(frame).known; }
   const std::string& name(FrameId frame) const { return tree_.name(frame); }
 
   bool lookup_by_id(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
-  // The two legs are answered together: `stamp` is the target leg's, in and out.
-  bool lookup_full_by_id(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed, Pose& pose,
-                   Failure& failure) const;
-  // The same for two frames that a lookup_cached_path() has not helped.
+  // Both legs are read from one state of the tree. `target_stamp` is in and out.
+  bool lookup_full_by_id(FrameId target, Stamp& target_stamp, FrameId source, Stamp source_stamp, FrameId fixed,
+                         Pose& pose, Failure& failure) const;
+  // Like lookup_by_id(), without the path cache: for callers that have tried lookup_cached_path() before.
   bool lookup_by_walking(FrameId target, FrameId source, Stamp& stamp, Pose& pose, Failure& failure) const;
-  // The same without a word of what is missing, for two different frames and with paths that only the caller uses;
-  // false may also mean that lookup() has to decide.
+  // Like lookup_by_id(), for two different frames, with the caller's own cache and without failure facts. False may
+  // also mean that lookup_by_id() has to decide.
   bool lookup_cached_path(PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose) const;
-  // Whether lookup() would answer; false may also mean that it has to decide.
+  // Returns whether lookup_by_id() would succeed. False may also mean that it has to decide.
   bool check_cached_path(PathCache& paths, FrameId target, FrameId source, Stamp stamp) const {
     const std::uint64_t revision = tree_.revision().start_reading();
     return check_path_in_tree(tree_, paths, target, source, stamp) && tree_.revision().unchanged(revision);
   }
-  // By name; notes the numbers of the frames in the query. With `extrapolation` also beyond the data, as far as it
-  // allows; it learns how far that was.
-  bool lookup_by_name(LookupQuery& query, LookupResult& result, Failure& failure, Extrapolation* extrapolation = nullptr) const;
-  // Returns the first row that has no answer, and `failure` says why; batch.count if there is none.
+  // Looks up by name and stores the ids of the frames in the query. With `extrapolation`, also beyond the data as far
+  // as it allows; `extrapolation->furthest` is set.
+  bool lookup_by_name(LookupQuery& query, LookupResult& result, Failure& failure,
+                      Extrapolation* extrapolation = nullptr) const;
+  // Returns the first row without a transform, for which `failure` says why; batch.count if there is none.
   std::size_t lookup_many(const LookupQuery& query, const Extrapolation* extrapolation, const Batch& batch,
                           unsigned threads, Failure& failure) const;
-  // The stamps of all samples between two times on the links between two frames, in order, each once.
+  // The stamps of all samples between two times on the edges between two frames, sorted and unique.
   bool stamps_between(LookupQuery& query, Stamp first, Stamp last, std::vector<Stamp>& stamps, Failure& failure) const;
-  // Whether answer() would: where it travels in time, the target's leg is asked for first here, as in tf2.
+  // Returns whether lookup_by_name() would succeed. For time travel the target's leg is checked first, as in tf2's
+  // canTransform.
   bool can_lookup(LookupQuery& query, Failure& failure) const;
   bool latest_common_time(LookupQuery& query, Stamp& stamp, Failure& failure) const;
   bool chain(FrameId target, FrameId source, Stamp stamp, std::vector<FrameId>& frames, Failure& failure) const;
 
   std::vector<FrameSummary> frames() const;
   std::vector<EdgeSummary> edges() const;
-  // Of the link between a frame and its parent; nothing where nobody has told of it.
+  // Statistics of the edge between a frame and its parent; nothing if no transform was published for it.
   std::optional<EdgeSummary> edge(FrameId child) const;
   std::vector<std::string> frame_names() const;
-  // The newest sample of every static or every dynamic frame, as a TFMessage's CDR.
+  // Returns the newest sample of every static or every dynamic frame as the CDR of a TFMessage.
   std::string encode(bool is_static) const;
   Counts counts() const;
-  // Runs `read` on the tree such that it sees one state of it; it may be run several times.
+  // Calls `read` with one consistent state of the tree. It may be called several times.
   template <class Read>
   auto read(Read&& read) const {
     return consistent([&] { return read(tree_); });
   }
 
   WaitQueue& wait_queue() { return wait_queue_; }
-  // Counts what changed the tree.
+  // The number of changes of the tree so far.
   std::uint64_t changes() const { return changes_.load(); }
 
  private:
   explicit Buffer(const Tree& tree) : tree_(tree), frozen_(true) {}
 
-  // Readers try again while writers change what they read. After so many times in vain they lock the writers out.
+  // Readers retry while writers change what they read. After this many attempts they lock the writers out.
   static constexpr int kAttempts = 200;
   template <class Read>
   auto consistent(Read&& read) const {
@@ -192,16 +198,15 @@ class Buffer {
   template <class Lookup>
   bool retry_until_stable(bool for_latest, const Failure& failure, Lookup&& lookup) const;
   bool extrapolate_by_id(Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
-                   Failure& failure) const;
-  std::size_t lookup_rows(LookupQuery query, const Extrapolation* extrapolation, const Batch& batch,
-                          std::size_t first, std::size_t last, Failure& failure) const;
+                         Failure& failure) const;
+  std::size_t lookup_rows(LookupQuery query, const Extrapolation* extrapolation, const Batch& batch, std::size_t first,
+                          std::size_t last, Failure& failure) const;
   void clip(const PathCache::Path& path, std::size_t count, Stamp* stamps) const;
   bool lookup_row(LookupQuery& query, const Extrapolation* extrapolation, const Batch& batch, std::size_t row,
                   Failure& failure) const;
   bool resolve_both(LookupQuery& query, Failure& failure) const;
   bool resolve(std::string_view name, Argument argument, FrameId& frame, Failure& failure) const;
-  std::size_t insert_block(const Track& block, bool is_static, AuthorityId authority,
-                           std::vector<Inserted>& inserted);
+  std::size_t insert_block(const Track& block, bool is_static, AuthorityId authority, std::vector<Inserted>& inserted);
   template <class Insert>
   unsigned insert_and_announce(Insert&& insert);
   void store(TransformStream& stream, std::size_t index, const TransformView& view, Inserted& inserted);
@@ -219,8 +224,8 @@ class Buffer {
   Counts counts_;  // guarded by writing_
   std::atomic<bool> frozen_{false};
   WaitQueue wait_queue_{tree_, [this](LookupQuery& query, LookupResult& result, Failure& failure) {
-                              return this->lookup_by_name(query, result, failure);
-                            }};
+                          return this->lookup_by_name(query, result, failure);
+                        }};
   std::atomic<std::uint64_t> changes_{0};  // written under writing_
 };
 

@@ -1,4 +1,5 @@
-// Numbers and texts in a row, little endian and without padding, read within bounds.
+// SPDX-License-Identifier: Apache-2.0
+// Numbers and strings in sequence: little endian, without padding, read within bounds.
 #pragma once
 
 #include <bit>
@@ -16,7 +17,7 @@ class ByteReader {
  public:
   explicit ByteReader(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
-  // False, and nothing is read, where there are not as many bytes.
+  // Returns false, without reading, if fewer bytes are left.
   template <class T>
   bool number(T& value) {
     if (left() < sizeof value) return false;
@@ -24,7 +25,7 @@ class ByteReader {
     position_ += sizeof value;
     return true;
   }
-  // Behind its length, as 32 bits.
+  // A string is preceded by its length in 32 bits.
   bool text(std::string_view& value) {
     std::uint32_t length;
     if (!number(length) || left() < length) return false;
@@ -32,7 +33,7 @@ class ByteReader {
     position_ += length;
     return true;
   }
-  void skip(std::size_t count) { position_ += count; }  // of those that are left
+  void skip(std::size_t count) { position_ += count; }  // of the remaining bytes
 
   const std::uint8_t* next() const { return bytes_.data() + position_; }
   std::size_t position() const { return position_; }

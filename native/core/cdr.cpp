@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/cdr.hpp"
 
 #include <algorithm>
@@ -11,11 +12,11 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the fast path copies little-endian bytes as they are");
 
-constexpr std::size_t kHeader = 4;          // encapsulation: 00, 01 (little endian) or 00 (big), options
-constexpr std::size_t kLargestPadding = 3;  // some writers fill the last 4 bytes
+constexpr std::size_t kHeader = 4;          // encapsulation header: 00, 01 (little endian) or 00 (big endian), options
+constexpr std::size_t kLargestPadding = 3;  // some writers pad the last 4 bytes
 constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
-// Reads primitives; positions are relative to the end of the header, as CDR aligns them.
+// Reads primitives. Positions are relative to the end of the header, because CDR aligns relative to it.
 class CdrReader {
  public:
   CdrReader(const std::uint8_t* body, std::size_t size, bool swap) : body_(body), size_(size), swap_(swap) {}
@@ -55,7 +56,7 @@ class CdrReader {
     return value.find('\0') == std::string_view::npos || fail("a string has a NUL inside");
   }
 
-  // A whole transform with these names; false, and nothing is read, where another comes next.
+  // Reads a whole transform with the expected names. Returns false, without reading, if other names follow.
   bool transform(const ExpectedNames& expected, TransformView& view) {
     const std::size_t names = expected.bytes.size();
     if (swap_ || names == 0 || left() < kStamp + names + sizeof view.values) return false;
@@ -68,7 +69,7 @@ class CdrReader {
     return true;
   }
 
-  // What was read since `first`, and the padding in front of a number; empty where the bytes are in another order.
+  // Returns the bytes since `first` with the padding before the next number; empty for the other byte order.
   std::string_view bytes_since(std::size_t first) const {
     if (swap_) return {};
     const std::size_t end = (position_ + sizeof(double) - 1) & ~(sizeof(double) - 1);
@@ -117,7 +118,7 @@ bool read_transform(CdrReader& reader, TransformView& view) {
   return reader.numbers(view.values.translation, 3) && reader.numbers(view.values.rotation, 4);
 }
 
-// `read` reads a transform by its number, or tells that it cannot.
+// `read` reads a transform by its index, or returns that it cannot.
 template <class Read>
 DecodeFailure read_message(const std::uint8_t* data, std::size_t size, std::uint32_t& count, Read&& read) {
   if (size < kHeader) return {size, "the message is shorter than its 4-byte header"};
@@ -163,7 +164,7 @@ DecodeFailure decode_tf_message(const std::uint8_t* data, std::size_t size, std:
                                 std::span<const ExpectedNames> expected) {
   std::uint32_t count = 0;
   const DecodeFailure failure = read_message(data, size, count, [&](CdrReader& reader, std::uint32_t i) {
-    if (i == out.size()) out.emplace_back();  // else that of an earlier message is written over
+    if (i == out.size()) out.emplace_back();  // otherwise overwrites the one of an earlier message
     return (i < expected.size() && reader.transform(expected[i], out[i])) || read_transform(reader, out[i]);
   });
   out.resize(failure.reason ? 0 : count);
@@ -173,7 +174,8 @@ DecodeFailure decode_tf_message(const std::uint8_t* data, std::size_t size, std:
 DecodeFailure check_tf_message(const std::uint8_t* data, std::size_t size) {
   std::uint32_t count;
   TransformView view;
-  return read_message(data, size, count, [&](CdrReader& reader, std::uint32_t) { return read_transform(reader, view); });
+  return read_message(data, size, count,
+                      [&](CdrReader& reader, std::uint32_t) { return read_transform(reader, view); });
 }
 
 std::string encode_tf_message(const std::vector<TransformView>& transforms) {

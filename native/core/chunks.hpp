@@ -1,5 +1,6 @@
-// Where samples lie: blocks of a fixed size, never given back to the system while their pool lives, so that a reader
-// who comes too late reads old or wrong numbers, which its revision tells it, and never foreign memory.
+// SPDX-License-Identifier: Apache-2.0
+// The storage of samples: chunks of a fixed size that are not returned to the system while their pool exists. A reader
+// that is too late reads old or wrong numbers, which it detects by the revision, but never foreign memory.
 #pragma once
 
 #include <algorithm>
@@ -13,41 +14,42 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/arena.hpp"
 #include "core/pose.hpp"
 #include "core/relaxed_atomic.hpp"
-#include "core/arena.hpp"
 
 namespace coframe {
 
 using FrameId = std::uint32_t;  // 0 is tf2's NO_PARENT
-using Stamp = std::int64_t;     // nanoseconds; 0 asks for the latest
+using Stamp = std::int64_t;     // nanoseconds; 0 requests the latest
 
-// How far apart two stamps are, whatever they are.
+// Returns the distance of any two stamps.
 inline std::uint64_t distance(Stamp a, Stamp b) {
   const auto first = static_cast<std::uint64_t>(a), second = static_cast<std::uint64_t>(b);
   return a < b ? second - first : first - second;
 }
 
-// From one to the other; wraps around where it is too far for a number.
+// Returns the signed difference; wraps around on overflow.
 inline std::int64_t elapsed(Stamp from, Stamp to) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(to) - static_cast<std::uint64_t>(from));
 }
 
-// A pose and the frame it is told in.
+// A pose and the parent frame that it is relative to.
 struct Sample {
   Pose pose;
   FrameId parent = 0;
 };
 
-// A sample that readers may read while it is written: a cache line.
+// A sample that may be read while it is written. It fills a cache line.
 class alignas(64) SharedSample {
  public:
-  // Straight to where it is needed: a copy on the way costs more than the rest.
+  // Loads directly into the destination: a temporary copy would cost more than the load.
   void load(Pose& pose) const {
     for (int i = 0; i < 4; ++i) pose.q[i] = numbers_[i];
     for (int i = 0; i < 3; ++i) pose.p[i] = numbers_[4 + i];
   }
-  // For kernels, which take it whole: see kernels/lanes.hpp for why they may. q, p, and the parent.
+  // The quaternion, the translation and the parent, for kernels that load all of them at once; kernels/lanes.hpp
+  // explains why they may.
   const double* numbers() const { return reinterpret_cast<const double*>(this); }
   double* numbers() { return reinterpret_cast<double*>(this); }
   Sample load() const {
@@ -61,7 +63,7 @@ class alignas(64) SharedSample {
     for (int i = 0; i < 3; ++i) numbers_[4 + i] = sample.pose.p[i];
     parent_.store(sample.parent, std::memory_order_release);
   }
-  // Who reads a frame's number finds the frame.
+  // A reader that sees the id of a frame also sees the frame.
   FrameId parent() const { return parent_.load(std::memory_order_acquire); }
 
  private:
@@ -70,9 +72,9 @@ class alignas(64) SharedSample {
 };
 static_assert(sizeof(SharedSample) == 64);
 
-// As it lies in memory it also lies in a frozen file.
+// The layout in memory is also the layout in a frozen file.
 struct Chunk {
-  // Large enough that inserting seldom needs a new one, small enough for a tree of a thousand frames.
+  // Large enough that insertions rarely allocate, small enough for a tree of a thousand frames.
   static constexpr std::size_t kSize = 256;
 
   std::array<RelaxedAtomic<Stamp>, kSize> stamps;
@@ -81,12 +83,13 @@ struct Chunk {
 static_assert(sizeof(Chunk) == Chunk::kSize * (sizeof(Stamp) + sizeof(SharedSample)));
 
 struct PooledChunk : Chunk {
-  std::atomic<std::uint32_t> holders{0};  // histories it is part of: one, and its snapshots
+  std::atomic<std::uint32_t> holders{0};  // the history that contains the chunk and its snapshots
 };
 
 class ChunkPool {
  public:
-  // Held once. The caller must tell readers (Revision::Change): they may still be reading it as part of another history.
+  // Returns a chunk with one holder. The caller must announce the change to readers (Revision::Change), which may still
+  // be reading the chunk as part of another history.
   PooledChunk* take() {
     const std::lock_guard lock(mutex_);
     PooledChunk* chunk = free_.empty() ? fresh() : free_.back();
@@ -102,7 +105,7 @@ class ChunkPool {
   }
 
  private:
-  // A few samples take little memory, many are in large pages.
+  // Small buffers take little memory; large ones use large pages.
   static constexpr std::size_t kFew = 16, kMany = Arena::kLarge / sizeof(PooledChunk);
 
   PooledChunk* fresh() {
@@ -116,10 +119,10 @@ class ChunkPool {
     return new (arenas_.back()->data() + used_++ * sizeof(PooledChunk)) PooledChunk;
   }
 
-  std::mutex mutex_;  // a snapshot may end in any thread
+  std::mutex mutex_;  // snapshots may be destroyed in any thread
   std::vector<std::unique_ptr<Arena>> arenas_;
-  std::size_t count_ = 0;                 // of all chunks
-  std::size_t used_ = 0, last_size_ = 0;  // of the last slab
+  std::size_t count_ = 0;                 // number of chunks
+  std::size_t used_ = 0, last_size_ = 0;  // of the last arena
   std::vector<PooledChunk*> free_;
 };
 static_assert(std::is_trivially_destructible_v<PooledChunk>);

@@ -1,4 +1,5 @@
-// The tree as text, in the forms that tf2's users and tools read.
+// SPDX-License-Identifier: Apache-2.0
+// The tree as text, in the formats of tf2's tools.
 #pragma once
 
 #include <string>
@@ -9,7 +10,7 @@ namespace coframe {
 
 std::string frames_as_string(const Tree& tree);
 std::string frames_as_yaml(const Tree& tree);
-// `now` 0: without ages and legend.
+// With `now` 0, ages and the legend are omitted.
 std::string frames_as_dot(const Tree& tree, Stamp now);
 
 // Samples per second as tf2 computes it: n over the span, which is at least 100 microseconds.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/error.hpp"
 
 #include <cstdio>
@@ -50,11 +51,10 @@ std::string extrapolation_head(const Failure& failure) {
   }
 }
 
-// What all functions say alike, once the names are valid.
+// The texts that all functions have in common, once the names are valid.
 std::string tree_text(const Failure& failure, const Tree& tree) {
   if (failure.code == ErrorCode::not_connected) {
-    return "Could not find a connection between '" + tree.name(failure.target) + "' and '" +
-           tree.name(failure.source) +
+    return "Could not find a connection between '" + tree.name(failure.target) + "' and '" + tree.name(failure.source) +
            "' because they are not part of the same tree.Tf has two or more unconnected trees.";
   }
   if (failure.code == ErrorCode::loop) {
@@ -65,7 +65,8 @@ std::string tree_text(const Failure& failure, const Tree& tree) {
 }
 
 std::string invalid_name_text(const Failure& failure, const std::string& where) {
-  if (failure.code == ErrorCode::unknown_frame) return "\"" + failure.name + "\" passed to " + where + " does not exist. ";
+  if (failure.code == ErrorCode::unknown_frame)
+    return "\"" + failure.name + "\" passed to " + where + " does not exist. ";
   return "Invalid argument \"" + failure.name + "\" passed to " + where + " - " + invalid_name_reason(failure.code);
 }
 

@@ -1,4 +1,5 @@
-// Why a look-up failed: a code and its facts. The text, tf2's to the letter, is made only when somebody reads it.
+// SPDX-License-Identifier: Apache-2.0
+// Why a lookup failed: an error code and its facts. tf2's text is composed only when it is read.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +18,10 @@ enum class ErrorCode : std::uint8_t {
   unknown_frame,  // LookupException
   loop,           // LookupException
   not_connected,  // ConnectivityException
-  only_other,     // ExtrapolationException: one sample, at another time
+  only_other,     // ExtrapolationException: the only sample has another time
   too_new,        // ExtrapolationException: requested lies after the newest sample
   too_old,        // ExtrapolationException: requested lies before the oldest sample
-  no_data,        // ExtrapolationException: the link's samples were cleared
+  no_data,        // ExtrapolationException: the edge's samples were cleared
 };
 
 // Which argument holds an invalid or unknown name.
@@ -29,15 +30,16 @@ enum class Argument : std::uint8_t { target_frame, source_frame, fixed_frame };
 struct Failure {
   ErrorCode code = ErrorCode::none;
   Argument argument = Argument::target_frame;
-  FrameId target = 0, source = 0;          // of the leg that failed
-  // Where the walks up from both ended, at a root or for want of a sample; 0 where one was not begun or did not end.
+  FrameId target = 0, source = 0;  // of the leg that failed
+  // The frames at which the walks towards the root ended, at a root or at a missing sample; 0 if a walk was not started
+  // or did not end.
   FrameId target_end = 0, source_end = 0;
-  FrameId edge = 0;                        // the child frame of the link without a sample at `requested`
+  FrameId edge = 0;  // the child frame of the edge that has no sample at `requested`
   Stamp requested = 0;
-  Stamp earliest = 0, latest = 0;  // what that link has
+  Stamp earliest = 0, latest = 0;  // the range of that edge's samples
   std::string name;                // the invalid or unknown name
 
-  // Begins anew, for a leg at a time.
+  // Resets the failure for the next leg of a lookup.
   void reset(ErrorCode reason, FrameId leg_target, FrameId leg_source, Stamp stamp) {
     code = reason;
     argument = Argument::target_frame;
@@ -60,7 +62,7 @@ std::string can_transform_text(const Failure& failure, const Tree& tree);
 // The text of the exception that get_latest_common_time raises.
 std::string latest_common_time_text(const Failure& failure, const Tree& tree);
 
-// Why a transform was refused, as bits: tf2 runs all checks and logs each.
+// Why a transform was rejected, as bits: tf2 runs all checks and logs each failure.
 enum Refusal : unsigned {
   kSelfTransform = 1u << 0,
   kNoChildFrame = 1u << 1,
@@ -68,7 +70,7 @@ enum Refusal : unsigned {
   kNan = 1u << 3,
   kDenormalisedQuaternion = 1u << 4,
   kOldData = 1u << 5,
-  kFrozen = 1u << 6,  // not tf2's: the buffer takes nothing any more
+  kFrozen = 1u << 6,  // not a check of tf2: the buffer is frozen
 };
 
 }  // namespace coframe

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/extrapolation.hpp"
 
 #include <algorithm>
@@ -19,8 +20,8 @@ Vector sum(double a, const Vector& u, double b, const Vector& v) {
   return {a * u.x + b * v.x, a * u.y + b * v.y, a * u.z + b * v.z};
 }
 
-// The neighbour of the sample at one end that is the nearest with another stamp and the same parent; the end itself
-// if there is none.
+// Returns the nearest neighbour of the first or last sample that has another stamp and the same parent; that sample
+// itself if there is none.
 std::size_t neighbour(const History::View& samples, std::size_t end, bool forward) {
   const Stamp stamp = samples.time(end);
   for (std::size_t i = end; forward ? i > 0 : i + 1 < samples.size();) {
@@ -33,12 +34,12 @@ std::size_t neighbour(const History::View& samples, std::size_t end, bool forwar
 
 }  // namespace
 
-// A screw (Chasles): the rotation and the way along the axis grow in proportion, and across the axis the frame goes
-// round the screw's centre.
+// A screw motion (Chasles' theorem): rotation and translation along the axis grow in proportion, and across the axis
+// the frame rotates about the screw's centre.
 Pose part_of_motion(const Pose& motion, double share) {
   Pose part;
   const double* q = motion.q;
-  const double sign = q[3] < 0.0 ? -1.0 : 1.0;  // the short way round
+  const double sign = q[3] < 0.0 ? -1.0 : 1.0;  // the shorter rotation
   const double sine = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]);
   if (sine < 1e-100) {  // no rotation
     for (int i = 0; i < 3; ++i) part.p[i] = share * motion.p[i];
@@ -46,14 +47,14 @@ Pose part_of_motion(const Pose& motion, double share) {
   }
   const Vector p{motion.p[0], motion.p[1], motion.p[2]};
   const Vector n{sign * q[0] / sine, sign * q[1] / sine, sign * q[2] / sine};
-  const double half = std::atan2(sine, sign * q[3]);  // of the angle, in (0, pi/2]
+  const double half = std::atan2(sine, sign * q[3]);  // half of the angle, in (0, pi/2]
   const double along = n.x * p.x + n.y * p.y + n.z * p.z;
   const Vector across = sum(1.0, p, -along, n);
-  // Across the axis both motions are rotations about one point, so that the part is (R(share) - I) (R - I)^-1 across,
+  // Across the axis both motions are rotations about one point, so the fraction is (R(share) - I) (R - I)^-1 across,
   // with (R - I)^-1 = -1/2 (I + cot(half) [n]).
   const Vector root = sum(-0.5, across, -0.5 / std::tan(half), cross(n, across));
   const double sine_part = std::sin(half * share);
-  const double versine = 2.0 * sine_part * sine_part;  // 1 - cos, of the part's angle
+  const double versine = 2.0 * sine_part * sine_part;  // 1 - cos of the fraction's angle
   const Vector plane = sum(-versine, root, std::sin(2.0 * half * share), cross(n, root));
   part.p[0] = share * along * n.x + plane.x;
   part.p[1] = share * along * n.y + plane.y;
@@ -78,7 +79,7 @@ Found Extrapolation::at(const History::View& samples, Stamp stamp, Pose& pose, F
   parent = last.parent;
   const std::size_t before = method == Method::twist ? neighbour(samples, end, forward) : end;
   if (before == end) return Found::ok;
-  Pose motion = last.pose;  // from the neighbour to the end, told in the neighbour
+  Pose motion = last.pose;  // the end sample relative to its neighbour
   compose_inverse(samples.sample(before).pose, motion);
   const double step = static_cast<double>(distance(samples.time(end), samples.time(before)));
   pose = part_of_motion(motion, static_cast<double>(beyond) / step);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/frozen.hpp"
 
 #include <algorithm>
@@ -12,15 +13,13 @@ namespace coframe {
 
 namespace {
 
-constexpr std::array kCounts = {&Frame::Counts::stored, &Frame::Counts::late, &Frame::Counts::repeated,
-                                &Frame::Counts::old,    &Frame::Counts::self, &Frame::Counts::nan,
+constexpr std::array kCounts = {&Frame::Counts::stored,    &Frame::Counts::late, &Frame::Counts::repeated,
+                                &Frame::Counts::old,       &Frame::Counts::self, &Frame::Counts::nan,
                                 &Frame::Counts::quaternion};
 
 std::uint64_t chunks_for(std::uint64_t samples) { return samples / Chunk::kSize + (samples % Chunk::kSize != 0); }
 
-std::uint64_t chunks_of(const History::View& samples) {
-  return samples.is_static() ? 0 : chunks_for(samples.size());
-}
+std::uint64_t chunks_of(const History::View& samples) { return samples.is_static() ? 0 : chunks_for(samples.size()); }
 
 class TableWriter {
  public:
@@ -38,7 +37,7 @@ class TableWriter {
   std::string bytes_;
 };
 
-// Python shows names as text.
+// Names must be valid text, because Python shows them.
 bool read_name(ByteReader& reader, std::string_view& name) { return reader.text(name) && is_utf8(name); }
 
 void write_sample(TableWriter& writer, const Sample& sample) {
@@ -54,7 +53,7 @@ bool read_sample(ByteReader& reader, Sample& sample) {
   return whole && reader.number(sample.parent);
 }
 
-// In the table as well, so that opening a file need not look at its samples.
+// Stored in the table as well, so that opening a file does not read its samples.
 void write_span(TableWriter& writer, const History::Span& span) {
   writer.number(span.first);
   writer.number(span.last);
@@ -67,7 +66,7 @@ bool read_span(ByteReader& reader, History::Span& span) {
 
 void write_frame(TableWriter& writer, const Frame& frame) {
   const History::View samples = frame.history.view();
-  const HistoryKind kind = !samples.exists()      ? HistoryKind::none
+  const HistoryKind kind = !samples.exists()     ? HistoryKind::none
                            : samples.is_static() ? HistoryKind::fixed
                                                  : HistoryKind::dynamic;
   writer.text(frame.name);
@@ -81,13 +80,13 @@ void write_frame(TableWriter& writer, const Frame& frame) {
   if (kind == HistoryKind::dynamic) write_span(writer, frame.history.span());
 }
 
-// Takes chunks of a file, one frame after the other.
+// Reads the chunks of a file, one frame after the other.
 class ChunkRow {
  public:
   explicit ChunkRow(std::span<const std::uint8_t> bytes)
       : next_(reinterpret_cast<const Chunk*>(bytes.data())), left_(bytes.size() / sizeof(Chunk)) {}
 
-  // Those of so many samples; nullptr where there are not as many.
+  // Returns the chunks of that many samples; nullptr if there are not as many.
   const Chunk* take(std::uint64_t samples) {
     const std::uint64_t count = chunks_for(samples);
     if (count > left_) return nullptr;
@@ -161,7 +160,7 @@ std::uint64_t frozen_chunk_count(const Tree& tree) {
 std::string frozen_chunks(const Tree& tree, std::uint64_t first, std::uint64_t count) {
   const std::uint64_t end = std::min(first + count, frozen_chunk_count(tree));
   std::string bytes((end - std::min(first, end)) * sizeof(Chunk), '\0');
-  std::uint64_t number = 0;  // of the next frame's first chunk
+  std::uint64_t number = 0;  // where the first chunk of the next frame begins
   for (FrameId id = 1; id < tree.frame_count(); ++id) {
     const History::View samples = tree.history(id);
     const std::uint64_t start = number;
@@ -176,24 +175,24 @@ std::string frozen_chunks(const Tree& tree, std::uint64_t first, std::uint64_t c
 
 const char* restore(Tree& tree, std::span<const std::uint8_t> table, std::span<const std::uint8_t> chunks,
                     std::shared_ptr<const void> memory) {
-  if (reinterpret_cast<std::uintptr_t>(chunks.data()) % alignof(Chunk) != 0) return "its samples lie at an odd address";
-  if (chunks.size() % sizeof(Chunk) != 0) return "its samples are cut off";
+  if (reinterpret_cast<std::uintptr_t>(chunks.data()) % alignof(Chunk) != 0) return "its samples are not aligned";
+  if (chunks.size() % sizeof(Chunk) != 0) return "its samples are truncated";
   tree.keep(std::move(memory));
   ByteReader reader(table);
   ChunkRow row(chunks);
   std::uint32_t authority_count, frame_count;
-  if (!reader.number(authority_count)) return "its table is cut off";
+  if (!reader.number(authority_count)) return "its table is truncated";
   std::vector<AuthorityId> authorities;
   for (std::uint32_t i = 0; i < authority_count; ++i) {
     std::string_view name;
-    if (!read_name(reader, name)) return "its table is damaged: a name is none";
+    if (!read_name(reader, name)) return "its table is damaged: a name is invalid";
     authorities.push_back(i == 0 ? 0 : tree.authority(name));
   }
-  if (!reader.number(frame_count)) return "its table is cut off";
+  if (!reader.number(frame_count)) return "its table is truncated";
   for (std::uint32_t i = 0; i < frame_count; ++i) {
-    if (!read_frame(reader, tree, authorities, row)) return "its table is damaged: what it says of a frame cannot be";
+    if (!read_frame(reader, tree, authorities, row)) return "its table is damaged: the data of a frame is invalid";
   }
-  if (reader.left() != 0 || row.left() != 0) return "its table is damaged: it does not tell of all that is there";
+  if (reader.left() != 0 || row.left() != 0) return "its table is damaged: it does not describe all bytes of the file";
   return nullptr;
 }
 

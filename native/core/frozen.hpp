@@ -1,5 +1,6 @@
-// A tree as the parts of a file: a table of what is in it, read when it is opened, and the samples, which are used where
-// they lie. The file around them is coframe/frozen.py's.
+// SPDX-License-Identifier: Apache-2.0
+// A tree as the parts of a file: a table of its contents, which is read when the file is opened, and the samples, which
+// are used in place. coframe/frozen.py writes the file around them.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +13,16 @@
 
 namespace coframe {
 
-// Of a tree that does not change meanwhile: names, authorities, counts, and how many samples each frame has.
+// Returns the table: names, authorities, counts, and the number of samples of each frame. The tree must not change
+// meanwhile.
 std::string frozen_table(const Tree& tree);
-// How many chunks all its moving frames have, one frame after the other, each from a chunk of its own on.
+// Returns the number of chunks of all dynamic frames. Each frame starts with a chunk of its own.
 std::uint64_t frozen_chunk_count(const Tree& tree);
-// Some of them as they go to the file; what is beyond the last is left out.
+// Returns the bytes of some of these chunks; fewer at the end.
 std::string frozen_chunks(const Tree& tree, std::uint64_t first, std::uint64_t count);
 
-// Fills a new tree; `memory` holds the chunks and must be aligned to a cache line. Whatever the bytes are, the tree never
-// reads beyond them. Returns what is wrong with them, or nullptr; then the tree is not to be used.
+// Fills a new tree. `memory` owns the chunks, which must be aligned to a cache line. The tree never reads out of
+// bounds, whatever the bytes contain. Returns nullptr, or what is wrong with the bytes; the tree must not be used then.
 const char* restore(Tree& tree, std::span<const std::uint8_t> table, std::span<const std::uint8_t> chunks,
                     std::shared_ptr<const void> memory);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/history.hpp"
 
 #include <algorithm>
@@ -10,19 +11,19 @@ namespace coframe {
 
 namespace {
 
-// By value, as 0.0 and -0.0 are one number.
+// Compared by value: 0.0 equals -0.0.
 bool same(const Sample& a, const Sample& b) {
   return a.parent == b.parent && std::equal(a.pose.q, a.pose.q + 4, b.pose.q) &&
          std::equal(a.pose.p, a.pose.p + 3, b.pose.p);
 }
 
-// Fills what no chunk was ever put into.
+// Fills entries without a chunk.
 Chunk* no_chunk() {
   static Chunk chunk;
   return &chunk;
 }
 
-// True when one of the samples at `stamp`, which end before index `end`, is exactly `sample`.
+// Returns whether one of the samples at `stamp`, which end before index `end`, equals `sample`.
 bool repeats(const History::View& samples, std::size_t end, Stamp stamp, const Sample& sample) {
   for (std::size_t i = end; i > 0 && samples.time(i - 1) == stamp; --i) {
     if (same(samples.sample(i - 1), sample)) return true;
@@ -44,7 +45,7 @@ Found History::View::find(Stamp stamp, Pair& found, std::uint64_t& next) const {
   if (stamp == last || stamp == 0) return alone(sample_of(next));
   if (next == begin_) return Found::only_other;
   if (stamp > last) return Found::too_new;
-  // Most look-ups are near the newest.
+  // Most lookups are near the newest sample.
   if (stamp_of(next - 1) >= stamp) {
     const Stamp first = stamp_of(begin_);
     if (stamp == first) return alone(sample_of(begin_));
@@ -217,7 +218,7 @@ void History::share(const History& other) {
 void History::map(const Chunk* chunks, std::uint64_t samples, bool one_parent, const Span& span) {
   const std::uint64_t count = (samples + Chunk::kSize - 1) / Chunk::kSize;
   auto directory = std::make_unique<Directory>(std::bit_ceil(std::max<std::uint64_t>(count, 1)));
-  // No writer comes near them: what holds mapped chunks takes nothing in.
+  // Mapped chunks are never written: their tree is frozen.
   auto* first = const_cast<Chunk*>(chunks);
   for (std::uint64_t n = 0; n < count; ++n) directory->chunks[n].store(first + n, std::memory_order_relaxed);
   directories_.push_back(std::move(directory));
@@ -260,7 +261,7 @@ std::size_t History::append_run(const HistoryContext& context, const Stamp* stam
       before = newest;
       newest = stamps[stored + run++];
     } while (run < most && stamps[stored + run] > newest);
-    std::atomic_thread_fence(std::memory_order_release);  // who reads the parent's number finds the frame
+    std::atomic_thread_fence(std::memory_order_release);  // a reader of the parent's id finds the frame
     kernels().store_samples(rows + 7 * stored, run, parent, chunk.samples[first].numbers());
     stored += run;
     end_.store(start + run, std::memory_order_release);
@@ -270,7 +271,7 @@ std::size_t History::append_run(const HistoryContext& context, const Stamp* stam
   return stored;
 }
 
-// Everything from the position on moves by one: seldom, and mostly by few.
+// All samples from the position on move by one; this is rare and usually affects few.
 void History::put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample) {
   const std::uint64_t first = begin_ + position;
   std::uint64_t last = end_;
@@ -295,7 +296,7 @@ void History::add_chunk(const HistoryContext& context) {
   directory.chunks[number & directory.mask].store(context.pool.take(), std::memory_order_release);
 }
 
-// Chunks that a snapshot also has are copied before they change.
+// Copies chunks that are shared with a snapshot before they change.
 void History::own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end) {
   for (std::uint64_t n = first / Chunk::kSize; n <= (end - 1) / Chunk::kSize; ++n) {
     PooledChunk* shared = pooled_chunk_at(n * Chunk::kSize);
@@ -323,7 +324,7 @@ void History::drop_older_than(ChunkPool& pool, Stamp stamp) {
   }
 }
 
-// What comes next starts a chunk of its own.
+// The next sample starts a new chunk.
 void History::drop_all(ChunkPool& pool) {
   const std::uint64_t end = end_;
   if (kind_ == HistoryKind::dynamic && end > begin_ && !mapped_) {

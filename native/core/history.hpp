@@ -1,5 +1,7 @@
-// The samples of one frame in time order, searched and not walked. tf2's TimeCache and StaticCache. One thread writes,
-// any number read without a lock: what they get is good if the tree's revision did not change meanwhile.
+// SPDX-License-Identifier: Apache-2.0
+// The samples of one frame in time order (tf2's TimeCache and StaticCache), searched instead of walked. One thread
+// writes, any number of threads read without a lock; what they read is consistent if the tree's revision did not change
+// meanwhile.
 #pragma once
 
 #include <algorithm>
@@ -18,16 +20,16 @@
 
 namespace coframe {
 
-inline constexpr Stamp kKeepAll = -1;  // a cache length without end
+inline constexpr Stamp kKeepAll = -1;  // an unlimited cache length
 inline constexpr Stamp kFirstStamp = std::numeric_limits<Stamp>::min(), kLastStamp = std::numeric_limits<Stamp>::max();
 
-// What a sample's search came to.
+// The result of the search for a sample.
 enum class Found { ok, empty, only_other, too_new, too_old };
 
-// What became of a sample that was to be stored.
+// The result of an insertion.
 enum class Insertion { appended, put_before_newer, repeated, refused_as_old };
 
-// A frame without history is the root of a tree: nobody has told where it is.
+// A frame without a history is the root of a tree: no transform was published for it.
 enum class HistoryKind : std::uint8_t { none, dynamic, fixed };
 
 // What all histories of a tree share.
@@ -37,7 +39,7 @@ struct HistoryContext {
   Revision& revision;
 };
 
-// Asks for memory that is needed soon.
+// Prefetches memory that is needed soon.
 inline void prefetch(const void* address) {
 #if defined(__GNUC__)
   __builtin_prefetch(address);
@@ -47,7 +49,7 @@ inline void prefetch(const void* address) {
 }
 
 class History {
-  // Chunk n of the history's life lies at n modulo the size.
+  // Chunk n since the start of the history is stored at index n modulo the size.
   struct Directory {
     explicit Directory(std::uint64_t size);
     std::uint64_t mask;
@@ -57,19 +59,19 @@ class History {
  public:
   class Search;
 
-  // Two samples, and which part of the way from one to the other is meant: part / whole.
+  // Two samples and the fraction of the way between them: part / whole.
   struct Pair {
     const SharedSample *older, *newer;
     double part, whole;
   };
 
-  // Two samples that follow each other, and their stamps.
+  // Two consecutive samples and their stamps.
   struct Interval {
     const SharedSample *older, *newer;
     Stamp start, end;
   };
 
-  // What a reader sees: the samples that were there when it began. Appended ones do not show.
+  // What a reader sees: the samples at the time of its creation. Samples appended later are not visible.
   class View {
    public:
     bool exists() const { return kind_ != HistoryKind::none; }
@@ -80,18 +82,18 @@ class History {
     Stamp time(std::size_t i) const { return stamp_of(begin_ + i); }
     Sample sample(std::size_t i) const { return sample_of(begin_ + i).load(); }
     FrameId parent_at(std::size_t i) const { return sample_of(begin_ + i).parent(); }
-    // Stamps of both ends; 0 for a static or empty history, as tf2 has it.
+    // Stamps of the oldest and newest sample; 0 for a static or empty history, as in tf2.
     Stamp oldest() const { return is_static() || empty() ? 0 : time(0); }
     Stamp newest() const { return is_static() || empty() ? 0 : time(size() - 1); }
-    // The frame the newest sample is told in; 0 when empty.
+    // The parent in the newest sample; 0 if there is none.
     FrameId parent() const { return empty() ? 0 : parent_at(size() - 1); }
 
-    // The pose at `stamp` and the frame it is told in. No extrapolation, ever.
+    // Computes the pose at `stamp` and its parent frame, without extrapolation.
     Found at(Stamp stamp, Pose& pose, FrameId& parent) const;
-    // The samples that at() makes its pose of; `next` is the number of the newer one.
+    // Finds the samples that at() interpolates between; `next` is the number of the newer one.
     Found find(Stamp stamp, Pair& pair, std::uint64_t& next) const;
-    // Whether the sample `next` and the one before are those, in the case of most look-ups: between the two of them, in
-    // one chunk. False also for what is no number of a sample.
+    // Returns whether `stamp` lies strictly between the sample `next` and the one before, both in one chunk: the case
+    // of most lookups. False also if `next` is not the number of a sample.
     bool surrounded(Stamp stamp, std::uint64_t next, Pair& pair) const {
       const std::size_t i = next % Chunk::kSize;
       if (i == 0 || next <= begin_ || next >= end_) return false;
@@ -102,29 +104,28 @@ class History {
       pair = {&chunk.samples[i - 1], &chunk.samples[i], static_cast<double>(stamp - start), static_cast<double>(whole)};
       return true;
     }
-    // A chunk's worth of stamps and samples from that index on, without what is beyond the last one; not for a static
-    // history.
+    // Copies the stamps and samples of one chunk from that index on, without those beyond the last one. Not for a
+    // static history.
     void copy(std::size_t first, char* stamps, char* samples) const;
-    // Index of the first sample newer than `stamp`; size() if there is none.
+    // Returns the index of the first sample newer than `stamp`; size() if there is none.
     std::size_t first_after(Stamp stamp) const;
 
-    // For many look-ups at once; samples by their number in the history's life, as Search tells them.
+    // For batch lookups. Samples are numbered since the start of the history, as in Search.
     void prefetch_stamp(std::uint64_t number) const { prefetch(&chunk_of(number).stamps[number % Chunk::kSize]); }
     void prefetch_samples(std::uint64_t next) const {
       prefetch(&chunk_of(next - 1).samples[(next - 1) % Chunk::kSize]);
       prefetch(&chunk_of(next).samples[next % Chunk::kSize]);
     }
-    // So many from that one on.
+    // Prefetches `count` samples.
     void prefetch_from(std::uint64_t number, std::uint64_t count) const {
       for (const std::uint64_t end = std::min(number + count, end_); number < end; ++number) {
         prefetch(&chunk_of(number).samples[number % Chunk::kSize]);
       }
     }
-    // The two samples between which the pose at `stamp` lies, one of them where it holds alone; `stamp` lies between the
-    // sample `next` and the one before.
-    // At the stamp of a sample there is nothing between: the newest holds, or else the last one of that stamp, and at
-    // the oldest stamp the first one. A change of the parent is not interpolated over: the older sample holds (tf2's
-    // findClosest).
+    // Finds the two samples that the pose at `stamp` lies between, or the same sample twice. `stamp` lies between the
+    // sample `next` and the one before. At the stamp of a sample there is no interpolation: the newest sample counts,
+    // or else the last one with that stamp, and at the oldest stamp the first one. A change of the parent is not
+    // interpolated: the older sample counts (tf2's findClosest).
     Pair pair(std::uint64_t next, Stamp stamp) const {
       const std::size_t i = next % Chunk::kSize;
       const Chunk& chunk = chunk_of(next);
@@ -140,7 +141,7 @@ class History {
    private:
     friend class History;
     friend class Search;
-    // By their number in the history's life.
+    // By number since the start of the history.
     const Chunk& chunk_of(std::uint64_t number) const {
       return *directory_->chunks[number / Chunk::kSize & directory_->mask].load(std::memory_order_acquire);
     }
@@ -154,45 +155,44 @@ class History {
     HistoryKind kind_;
   };
 
-  // Where in a dynamic history of at least two samples a stamp lies.
+  // Finds stamps in a dynamic history of at least two samples.
   class Search {
    public:
     explicit Search(const View& samples);
 
     bool covers(Stamp stamp) const { return stamp >= first_ && stamp <= last_; }
-    // Rates are nearly constant, so a straight line through both ends lands close. For any stamp: a sample.
+    // Guesses a sample for any stamp by linear interpolation between both ends: rates are nearly constant.
     std::uint64_t guess(Stamp stamp) const {
       if (stamp <= first_) return low_;
-      // Numbers that are being changed may be in no order: whatever comes out must be a sample.
+      // Numbers that change meanwhile may be in any order; the result must be a valid sample.
       const double offset = static_cast<double>(distance(first_, stamp)) * per_nanosecond_;
       const auto most = static_cast<double>(high_ - low_);
       return low_ + static_cast<std::uint64_t>(offset < most ? offset : most);
     }
-    // The first sample newer than a stamp that covers() allows and that is not the newest: doubling steps from the guess
-    // find it.
+    // Finds the first sample newer than a stamp that is covered and not the newest, in doubling steps from the guess.
     std::uint64_t first_after(Stamp stamp, std::uint64_t guess) const;
-    // The newer one of the two samples that View::between() wants for a stamp that covers() allows.
+    // Returns the newer of the two samples that View::between() needs, for a covered stamp.
     std::uint64_t next(Stamp stamp, std::uint64_t guess) const {
       if (stamp == last_) return high_;
       if (stamp == first_) return low_ + 1;
-      // Mostly it lies right behind the guess.
+      // Usually it directly follows the guess.
       const bool is_next = samples_.stamp_of(guess) <= stamp && stamp < samples_.stamp_of(std::min(guess + 1, high_));
       return is_next ? guess + 1 : first_after(stamp, guess);
     }
-    // The sample before that one, and that one.
+    // Returns the interval between the previous sample and this one.
     Interval interval(std::uint64_t next) const {
       const Chunk &before = samples_.chunk_of(next - 1), &chunk = samples_.chunk_of(next);
       const std::size_t i = (next - 1) % Chunk::kSize, j = next % Chunk::kSize;
       return {&before.samples[i], &chunk.samples[j], before.stamps[i], chunk.stamps[j]};
     }
     bool is_newest(Stamp stamp) const { return stamp == last_; }
-    // For a stamp that it does not allow.
+    // A placeholder for stamps that are not covered.
     std::uint64_t any() const { return low_ + 1; }
 
    private:
     const View& samples_;
     Stamp first_, last_;
-    std::uint64_t low_, high_;  // the oldest and the newest
+    std::uint64_t low_, high_;  // the oldest and the newest sample
     double per_nanosecond_;     // samples
   };
 
@@ -201,7 +201,7 @@ class History {
   History& operator=(const History&) = delete;
   ~History();
 
-  // The beginning before the end: samples that are dropped in between still stand where they were.
+  // Reads the beginning before the end: samples that are pruned in between are still in place.
   View view() const {
     View view;
     view.kind_ = kind_;
@@ -211,14 +211,13 @@ class History {
     view.directory_ = directory_.load(std::memory_order_acquire);
     return view;
   }
-  // From which stamp to which there are samples, and the frame that the newest is told in: without a look at the samples
-  // themselves. A static history reaches from the first of all stamps to the last, an empty one from the last to the
-  // first.
+  // The range of stamps with samples and the parent in the newest one, without access to the samples. The range of a
+  // static history is from the first possible stamp to the last, that of an empty one the reverse.
   struct Span {
     Stamp first, last;
     FrameId parent;
   };
-  // The last stamp before the parent: who sees a newer sample sees the frame that it is told in.
+  // Reads the last stamp before the parent: a reader that sees a newer sample also sees its parent.
   Span span() const {
     Span span;
     span.last = last_.load(std::memory_order_acquire);
@@ -226,12 +225,13 @@ class History {
     span.parent = parent_;
     return span;
   }
-  // True while every sample has the same parent: paths through this history may then be remembered.
+  // True while every sample has the same parent: paths through this history may then be cached.
   bool one_parent() const { return one_parent_; }
 
-  // Where on its way the pose at `stamp` lies, if it is told in `parent`; false where View::at() has to say why not.
-  // `hint` is of the caller's last query: the next one is mostly about a time close by.
-  bool place(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const {
+  // Finds the samples and the fraction for the pose at `stamp` if both are relative to `parent`. Returns false if
+  // View::at() has to find out why not. `hint` stores the position of the caller's last lookup, because the next one is
+  // usually close in time.
+  bool locate(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const {
     const View samples = view();
     Pair pair;
     if (!samples.surrounded(stamp, hint, pair) && !find_elsewhere(samples, stamp, hint, pair)) return false;
@@ -241,19 +241,19 @@ class History {
     link.share = pair.part / pair.whole;
     return true;
   }
-  // Whether a sample is told in that frame.
+  // Returns whether a sample is relative to that frame.
   bool mentions(FrameId parent) const;
 
-  // The rest is for the one writer.
+  // The methods below are for the only writer.
 
-  // Stores a sample as tf2 does: prunes by the newest stamp before this one, refuses what is older than the cache
-  // length, takes an exact repetition silently, puts equal stamps behind each other. Not for HistoryKind::none.
+  // Stores a sample like tf2: prunes by the newest stamp before this insertion, rejects samples older than the cache
+  // length, ignores exact repetitions, and stores equal stamps one after the other. Not for HistoryKind::none.
   Insertion insert(const HistoryContext& context, Stamp stamp, const Sample& sample);
-  // insert() of a sample that is newer than all and told in the same frame as they, where nothing has to grow: the usual
-  // case. False: nothing was done.
+  // insert() for the usual case: a sample newer than all others, with the same parent, and without an allocation.
+  // Returns false if nothing was done.
   bool append_newer(const HistoryContext& context, Stamp stamp, const Sample& sample) {
     const std::uint64_t end = end_.load(std::memory_order_relaxed);
-    const std::size_t i = end % Chunk::kSize;  // 0 also where there are no samples yet
+    const std::size_t i = end % Chunk::kSize;  // 0 also if there are no samples yet
     if (kind_ != HistoryKind::dynamic || !one_parent_ || i == 0) return false;
     const Stamp newest = last_.load(std::memory_order_relaxed);
     if (stamp <= newest || parent_ != sample.parent) return false;
@@ -265,17 +265,17 @@ class History {
     last_.store(stamp, std::memory_order_release);
     return true;
   }
-  // Stores rows of 7, x, y, z, qx, qy, qz, qw, that can be normalised, as long as each is newer than the one before and
-  // the newest; returns how many.
+  // Stores the leading rows of 7, x, y, z, qx, qy, qz, qw, that can be normalised and are each newer than all before;
+  // returns how many.
   std::size_t append_run(const HistoryContext& context, const Stamp* stamps, const double* rows, std::size_t count,
                          FrameId parent);
-  // Starts anew as another kind.
+  // Resets to another kind.
   void reset(const HistoryContext& context, HistoryKind kind);
-  // Forgets all samples of a dynamic history; a static one stays.
+  // Removes all samples of a dynamic history. A static one does not change.
   void clear(const HistoryContext& context);
-  // Becomes what `other` is at this moment; the chunks are shared.
+  // Copies the current state of `other`. The samples are shared.
   void share(const History& other);
-  // Becomes one whose samples somebody else holds and nobody changes: chunks in a row, all full but for the last.
+  // Uses samples that are owned elsewhere and never change: contiguous chunks, all full except the last.
   void map(const Chunk* chunks, std::uint64_t samples, bool one_parent, const Span& span);
   void release(ChunkPool& pool);
 
@@ -287,17 +287,15 @@ class History {
   void put_at(const HistoryContext& context, std::size_t position, Stamp stamp, const Sample& sample);
   void add_chunk(const HistoryContext& context);
   void own_chunks(ChunkPool& pool, std::uint64_t first, std::uint64_t end);
-  // By the newest stamp there was before the last insertion; returns the earliest stamp that is kept.
+  // Prunes by the newest stamp before the last insertion; returns the earliest stamp that is kept.
   Stamp prune(const HistoryContext& context, Stamp newest) {
     if (context.cache_length == kKeepAll) return kFirstStamp;
     const Stamp start = minus(newest, context.cache_length);
     if (first_.load(std::memory_order_relaxed) < start) drop_older_than(context.pool, start);
     return start;
   }
-  // Saturating: stamps may come from anywhere.
-  static Stamp minus(Stamp stamp, Stamp length) {
-    return stamp < kFirstStamp + length ? kFirstStamp : stamp - length;
-  }
+  // Saturates: stamps may have any value.
+  static Stamp minus(Stamp stamp, Stamp length) { return stamp < kFirstStamp + length ? kFirstStamp : stamp - length; }
   void drop_older_than(ChunkPool& pool, Stamp stamp);
   void drop_all(ChunkPool& pool);
   PooledChunk* pooled_chunk_at(std::uint64_t index) const { return static_cast<PooledChunk*>(chunk_at(index)); }
@@ -309,16 +307,16 @@ class History {
   void grow();
 
   std::atomic<const Directory*> directory_{nullptr};
-  std::atomic<std::uint64_t> begin_{0};  // samples are numbered through the history's life
+  std::atomic<std::uint64_t> begin_{0};  // samples are numbered since the start of the history
   std::atomic<std::uint64_t> end_{0};
-  // What reach() tells: of the samples from begin_ to end_, or of fewer while they change.
+  // The values of span(): of the samples from begin_ to end_, or of fewer during a change.
   std::atomic<Stamp> first_{kLastStamp}, last_{kFirstStamp};
   RelaxedAtomic<FrameId> parent_{0};
   RelaxedAtomic<HistoryKind> kind_{HistoryKind::none};
   RelaxedAtomic<bool> one_parent_{true};
-  bool mapped_ = false;  // the chunks are of no pool
-  SharedSample fixed_;  // the one sample of a static history
-  std::vector<std::unique_ptr<Directory>> directories_;  // the last is in use; readers may still be in the others
+  bool mapped_ = false;                                  // the chunks do not belong to a pool
+  SharedSample fixed_;                                   // the one sample of a static history
+  std::vector<std::unique_ptr<Directory>> directories_;  // the last one is in use; readers may still use the others
 };
 
 }  // namespace coframe

@@ -1,5 +1,6 @@
-// A mutex for short scopes that are entered millions of times: one atomic step to lock it and one to unlock, where
-// nobody else wants it. Who must wait sleeps.
+// SPDX-License-Identifier: Apache-2.0
+// A mutex for short critical sections that are entered millions of times: one atomic operation to lock and one to
+// unlock while there is no contention. Threads that must wait sleep.
 #pragma once
 
 #include <atomic>
@@ -18,13 +19,14 @@ class LightMutex {
     if (!state_.compare_exchange_strong(free, kHeld, std::memory_order_acquire)) wait();
   }
 
-  // Also a full barrier: what is loaded behind it (memory_order_seq_cst) is loaded after the scope's data are visible.
+  // Also a full barrier: loads after it (memory_order_seq_cst) happen after the data of the critical section are
+  // visible.
   void unlock() {
     if (state_.exchange(kFree, std::memory_order_seq_cst) == kWanted) state_.notify_one();
   }
 
  private:
-  static constexpr std::uint32_t kFree = 0, kHeld = 1, kWanted = 2;  // wanted: held, and somebody may sleep
+  static constexpr std::uint32_t kFree = 0, kHeld = 1, kWanted = 2;  // kWanted: held, and a thread may be sleeping
 
   void wait() {
     while (state_.exchange(kWanted, std::memory_order_acquire) != kFree) {

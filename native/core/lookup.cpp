@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/lookup.hpp"
 
 #include <algorithm>
@@ -10,14 +11,14 @@ namespace {
 
 constexpr Stamp kNoTime = kLastStamp;
 
-// `source_end` is 0 where it is the walk up from the source that does not end.
+// `source_end` is 0 if the walk up from the source does not end.
 bool fail_loop(FrameId target, FrameId source, Stamp stamp, FrameId source_end, Failure& failure) {
   failure.reset(ErrorCode::loop, target, source, stamp);
   failure.source_end = source_end;
   return false;
 }
 
-// The walks up from both frames ended apart.
+// The walks up from both frames ended at different frames.
 bool fail_apart(FrameId target_end, FrameId source_end, Failure& failure) {
   failure.target_end = target_end;
   failure.source_end = source_end;
@@ -33,38 +34,38 @@ ErrorCode code_of(Found found) {
   }
 }
 
-void fail_missing_sample(const History::View& history, Found found, FrameId edge, FrameId target, FrameId source, Stamp stamp,
-                 Failure& failure) {
+void fail_missing_sample(const History::View& history, Found found, FrameId edge, FrameId target, FrameId source,
+                         Stamp stamp, Failure& failure) {
   failure.reset(code_of(found), target, source, stamp);
   failure.edge = edge;
   failure.earliest = history.oldest();
   failure.latest = history.newest();
 }
 
-// What a walk through the tree meets, in both directions, is written here.
+// What a walk through the tree collects in both directions.
 struct Walk {
-  Pose source_pose;  // of the source frame, seen from where the walk stands
+  Pose source_pose;  // of the source frame, relative to the current frame of the walk
   Pose target_pose;
-  std::vector<FrameId>* up = nullptr;    // frames from the source, if wanted
-  std::vector<FrameId>* down = nullptr;  // frames from the target, if wanted
+  std::vector<FrameId>* up = nullptr;    // optional: the frames from the source
+  std::vector<FrameId>* down = nullptr;  // optional: the frames from the target
 };
 
-// The samples as they are.
+// Samples without extrapolation.
 struct Exact {
   Found at(const History::View& samples, Stamp stamp, Pose& pose, FrameId& parent) const {
     return samples.at(stamp, pose, parent);
   }
 };
 
-// tf2's walkToTopParent: first from the source as far as data reach, then from the target to that frame. Which of
-// several possible errors is told depends on this order.
+// tf2's walkToTopParent: first from the source as far as there is data, then from the target to that frame. Which of
+// several possible errors is reported depends on this order.
 template <class Method>
 bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source, Stamp stamp, Walk& walk,
                Failure& failure) {
   Pose step;
   FrameId parent = 0;
   FrameId top = source;
-  bool is_cut = false;  // the source's walk stopped at a link without a sample, of which `failure` tells
+  bool is_cut = false;  // the source's walk stopped at a missing sample, described by `failure`
   int depth = 0;
   for (FrameId frame = source;; frame = parent) {
     top = frame;
@@ -95,7 +96,7 @@ bool walk_tree(const Tree& tree, Method& method, FrameId target, FrameId source,
       fail_missing_sample(history, found, frame, target, source, stamp, failure);
       return fail_apart(frame, top, failure);
     }
-    if (frame == source) {  // the source lies on the target's way up: only this side counts
+    if (frame == source) {  // the source is an ancestor of the target: only this side counts
       walk.source_pose = Pose{};
       if (walk.up) walk.up->clear();
       return true;
@@ -116,8 +117,8 @@ bool walk_pose(const Tree& tree, Method& method, FrameId target, FrameId source,
   return true;
 }
 
-// Along a remembered path between two frames, from the target to the source; false where a link has no sample, or one of another parent,
-// and the slow walk has to say what that means.
+// Computes the pose along a cached path from the target to the source. Returns false if an edge has no sample or a
+// sample with another parent; the slow walk then finds out why.
 bool path_pose(std::vector<PathCache::Step>& steps, Stamp stamp, Pose& pose) {
   constexpr std::size_t kLinks = 32;
   std::array<Link, kLinks> links;
@@ -127,7 +128,7 @@ bool path_pose(std::vector<PathCache::Step>& steps, Stamp stamp, Pose& pose) {
     for (std::size_t i = 0; i < count; ++i) {
       PathCache::Step& step = steps[--left];
       links[i].down = step.down;
-      if (!step.history->place(stamp, step.parent, step.hint, links[i])) return false;
+      if (!step.history->locate(stamp, step.parent, step.hint, links[i])) return false;
     }
     Pose end;
     kernels().chain(links.data(), count, &end);
@@ -137,7 +138,7 @@ bool path_pose(std::vector<PathCache::Step>& steps, Stamp stamp, Pose& pose) {
   return true;
 }
 
-// Links that are static, or whose newest stamp is zero, do not hold the common time back.
+// Static edges, and edges whose newest stamp is zero, do not limit the common time.
 void keep_earlier(Stamp stamp, Stamp& common) {
   if (stamp != 0) common = std::min(common, stamp);
 }
@@ -148,7 +149,7 @@ Stamp path_common_time(const std::vector<PathCache::Step>& steps) {
   return common == kNoTime ? 0 : common;
 }
 
-// A frame seen from itself, at its newest stamp if at none.
+// The transform of a frame to itself, at its newest stamp if none is requested.
 bool identity(const Tree& tree, FrameId frame, Stamp& stamp, Pose& pose) {
   if (stamp == 0) stamp = tree.history(frame).newest();
   pose = Pose{};
@@ -168,7 +169,7 @@ bool lookup_path_in_tree(const Tree& tree, PathCache& paths, FrameId target, Fra
 }
 
 bool lookup_in_tree(const Tree& tree, PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
-            Failure& failure) {
+                    Failure& failure) {
   if (target == source) return identity(tree, target, stamp, pose);
   if (paths && lookup_path_in_tree(tree, *paths, target, source, stamp, pose)) return true;
   if (stamp == 0 && !latest_common_time(tree, target, source, stamp, failure)) return false;
@@ -178,8 +179,8 @@ bool lookup_in_tree(const Tree& tree, PathCache* paths, FrameId target, FrameId 
   return true;
 }
 
-bool extrapolate_in_tree(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
-            Failure& failure) {
+bool extrapolate_in_tree(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp,
+                         Pose& pose, Failure& failure) {
   extrapolation.furthest = 0;
   if (target == source) return identity(tree, target, stamp, pose);
   if (stamp == 0 && !latest_common_time(tree, target, source, stamp, failure)) return false;
@@ -237,8 +238,8 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
 
 namespace {
 
-// Both walks end in the same frames: those above the last common one go. Where of the source's side only the source
-// itself is left, tf2 leaves its walk as it is.
+// Both walks end with the same frames, and those above the last common one are removed. If only the source itself is
+// left on its side, tf2 does not change that side.
 void join_walks(std::vector<FrameId>& up, std::vector<FrameId>& down) {
   down.push_back(up.back());
   std::size_t m = down.size(), n = up.size();

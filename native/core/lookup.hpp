@@ -1,4 +1,5 @@
-// From frame to frame through the tree at one time: tf2's lookupTransform over a Tree.
+// SPDX-License-Identifier: Apache-2.0
+// Lookups in one consistent state of a Tree: tf2's lookupTransform.
 #pragma once
 
 #include <algorithm>
@@ -13,14 +14,14 @@
 
 namespace coframe {
 
-// `stamp` 0 asks for the latest common time and becomes it. False: `failure` says why; frames must exist (not 0).
-// `paths` nullptr: every link is walked.
+// Looks up a transform. `stamp` 0 requests the latest common time and is replaced by it. Returns false with the reason
+// in `failure`. The frames must exist (not be 0). Without `paths` every edge is walked.
 bool lookup_in_tree(const Tree& tree, PathCache* paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
-            Failure& failure);
+                    Failure& failure);
 
-// The same along a remembered path, for two different frames; false where lookup() has to decide.
+// The same along a cached path, for two different frames. Returns false if lookup_in_tree() has to decide.
 bool lookup_path_in_tree(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp& stamp, Pose& pose);
-// Whether lookup_path_in_tree() would answer: all links have samples at a time that lies in what all of them reach.
+// Returns whether lookup_path_in_tree() would succeed: all edges have data, and the time lies in their common range.
 inline bool check_path_in_tree(const Tree& tree, PathCache& paths, FrameId target, FrameId source, Stamp stamp) {
   const PathCache::Path* path = paths.find(tree, target, source);
   if (!path) return false;
@@ -32,17 +33,17 @@ inline bool check_path_in_tree(const Tree& tree, PathCache& paths, FrameId targe
     end = std::min(end, span.last);
   }
   if (stamp != 0) return begin <= stamp && stamp <= end;
-  return begin <= end && end != 0;  // a newest stamp of zero does not hold the common time back
+  return begin <= end && end != 0;  // a newest stamp of zero does not limit the common time
 }
 
-// The same beyond the data of a link, as far as `extrapolation` allows, which then knows how far it went.
-bool extrapolate_in_tree(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp, Pose& pose,
-            Failure& failure);
+// The same, beyond the data of an edge as far as `extrapolation` allows; `furthest` is set.
+bool extrapolate_in_tree(const Tree& tree, Extrapolation& extrapolation, FrameId target, FrameId source, Stamp& stamp,
+                         Pose& pose, Failure& failure);
 
-// The newest time at which every link between both frames has data; 0 where all of them are static.
+// Computes the newest time at which every edge between both frames has data; 0 if all of them are static.
 bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp& stamp, Failure& failure);
 
-// The frames that lookup() would walk through from source to target, both included.
+// Computes the frames on the chain from source to target, both included.
 bool chain(const Tree& tree, FrameId target, FrameId source, Stamp stamp, std::vector<FrameId>& frames,
            Failure& failure);
 

@@ -1,4 +1,6 @@
-// Numbers by name: one thread adds, any number look up, without a lock. The names themselves are kept elsewhere.
+// SPDX-License-Identifier: Apache-2.0
+// A hash table from names to numbers. One thread adds, any number of threads look up without a lock. The names
+// themselves are stored elsewhere.
 #pragma once
 
 #include <atomic>
@@ -18,7 +20,7 @@ class NameTable {
   NameTable(const NameTable&) = delete;
   NameTable& operator=(const NameTable&) = delete;
 
-  // `name_of` tells the name of a number.
+  // `name_of` returns the name of a number.
   template <class NameOf>
   std::uint32_t find(std::string_view name, NameOf&& name_of) const {
     const std::uint32_t hash = hash_of(name);
@@ -30,7 +32,7 @@ class NameTable {
     }
   }
 
-  // For a name that is not there yet; name_of(number) must tell it by now.
+  // Adds a name that is not in the table yet. name_of(number) must already return it.
   void add(std::string_view name, std::uint32_t number) {
     const Slots* slots = current_.load(std::memory_order_relaxed);
     if (++count_ * 2 > slots->mask) slots = grow((slots->mask + 1) * 2);
@@ -66,7 +68,7 @@ class NameTable {
         if (entry != kFree) put(*larger, entry);
       }
     }
-    slots_.push_back(std::move(larger));  // readers may still be in the smaller ones, which are kept
+    slots_.push_back(std::move(larger));  // readers may still use the smaller tables, which are kept
     current_.store(slots_.back().get(), std::memory_order_release);
     return slots_.back().get();
   }

@@ -1,4 +1,5 @@
-// Work that several threads share.
+// SPDX-License-Identifier: Apache-2.0
+// Splits work between threads.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +10,8 @@
 
 namespace coframe {
 
-// Calls body(first, last) for parts of [0, count), each in a thread of its own; they begin at multiples of `block`, so that
-// there may be fewer than asked for.
+// Calls body(first, last) for parts of [0, count), each in its own thread. Parts begin at multiples of `block`, so
+// there may be fewer parts than threads.
 template <class Body>
 void in_parts(std::size_t count, std::size_t block, unsigned threads, Body&& body) {
   const std::size_t blocks = (count + block - 1) / block;
@@ -20,7 +21,7 @@ void in_parts(std::size_t count, std::size_t block, unsigned threads, Body&& bod
   for (std::size_t part = 1; part < parts; ++part) {
     try {
       others.emplace_back([&, part] { body(border(part), border(part + 1)); });
-    } catch (const std::system_error&) {  // no more threads to be had
+    } catch (const std::system_error&) {  // the system has no more threads
       body(border(part), border(part + 1));
     }
   }

@@ -1,4 +1,5 @@
-// Paths through the tree that were walked once.
+// SPDX-License-Identifier: Apache-2.0
+// A cache of paths through the tree.
 #pragma once
 
 #include <atomic>
@@ -9,38 +10,38 @@
 
 namespace coframe {
 
-// Valid for one version of the tree. Used by one thread at a time; see PathLease.
+// Entries are valid for one version of the tree. Used by one thread at a time; see PathLease.
 class PathCache {
  public:
   struct Step {
     const History* history;
-    FrameId parent;  // that all its samples had
-    bool down;       // from parent to child: the pose is to be inverted
-    std::uint64_t hint = 0;  // for History::place()
+    FrameId parent;          // the parent in all samples of the edge
+    bool down;               // from parent to child: the pose must be inverted
+    std::uint64_t hint = 0;  // for History::locate()
   };
   struct Path {
     std::uint64_t frames = 0;   // target and source
-    std::uint64_t version = 0;  // 0: nothing here yet
+    std::uint64_t version = 0;  // 0: empty
     bool usable = false;        // false: not connected, too deep, or a frame on it changed its parent
     std::vector<Step> steps;
   };
 
-  // The steps from `source` to `target` as of the newest data, or nullptr where the slow walk must decide.
+  // Returns the steps from `source` to `target` according to the newest data, or nullptr if the slow walk must decide.
   Path* find(const Tree& tree, FrameId target, FrameId source) {
-    Path& path = place(target, source);
+    Path& path = slot(target, source);
     if (path.version != tree.version() || path.frames != key_of(target, source)) update(tree, target, source, path);
     return path.usable ? &path : nullptr;
   }
 
-  // Finds a path again if the tree has changed since, for who keeps one of his own.
+  // Recomputes a path that the caller keeps, if the tree has changed since.
   static void update(const Tree& tree, FrameId target, FrameId source, Path& path);
-  // As of one time; for a look at that time only.
+  // Computes the path at one time, valid for that time only.
   static void walk_at(const Tree& tree, FrameId target, FrameId source, Stamp stamp, Path& path);
 
  private:
   friend class PathLease;
   void make_room();
-  // A new path takes the place of another: a program may ask for every pair of a thousand frames.
+  // A new path replaces another one: a program may look up every pair of a thousand frames.
   static constexpr std::size_t kEntries = 2048;
 
   struct Link {
@@ -52,7 +53,7 @@ class PathCache {
   static std::uint64_t key_of(FrameId target, FrameId source) {
     return (static_cast<std::uint64_t>(target) << 32) | source;
   }
-  Path& place(FrameId target, FrameId source) {
+  Path& slot(FrameId target, FrameId source) {
     if (paths_.empty()) make_room();
     return paths_[(key_of(target, source) * 0x9e3779b97f4a7c15u) >> 53];
   }
@@ -61,7 +62,7 @@ class PathCache {
   std::atomic<bool> in_use_{false};
 };
 
-// The cache for this scope, or nothing where another thread has it: who does not wait walks.
+// The cache for one scope, or nullptr if another thread is using it: such a lookup walks the tree instead of waiting.
 class PathLease {
  public:
   explicit PathLease(PathCache& cache)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A rigid pose and its algebra: unit quaternions (x, y, z, w) and translations in metres.
 #pragma once
 
@@ -15,9 +16,9 @@ struct Pose {
 
 inline double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 
-// Normalises `q` and picks the sign that tf2 gives by its way through a rotation matrix: w positive where the
-// matrix has a positive trace (w^2 > 1/4), else the largest of x, y, z positive. A zero, infinite or NaN
-// quaternion, or one whose squared length underflows or overflows, becomes NaN.
+// Normalises `q` and picks the same sign as tf2, which converts to a rotation matrix and back: w positive where the
+// matrix has a positive trace (w^2 > 1/4), else the largest of x, y, z positive. A zero, infinite or NaN quaternion, or
+// one whose squared length underflows or overflows, becomes NaN.
 inline void canonicalise(double* q) {
   const double length2 = dot(q, q);
   constexpr double kLeast = 2.0 / std::numeric_limits<double>::max();  // tf2 divides 2 by the squared length
@@ -70,8 +71,8 @@ inline void compose_inverse(const Pose& step, Pose& pose) {
   pose = result;
 }
 
-// sin(t theta) / sin(theta) as a series in y = cos(theta) - 1, K terms (after D. Eberly, "A Fast and Accurate
-// Algorithm for Computing SLERP"). No libm call: this is where most of a look-up's time went.
+// sin(t theta) / sin(theta) as a series in y = cos(theta) - 1 with K terms (after D. Eberly, "A Fast and Accurate
+// Algorithm for Computing SLERP"). It avoids libm calls, which took most of the time of a lookup.
 template <int K>
 inline double slerp_weight_series(double t, double y) {
   const double t2 = t * t;

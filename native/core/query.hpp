@@ -1,4 +1,5 @@
-// One query to a buffer: where is a frame, seen from another, and when.
+// SPDX-License-Identifier: Apache-2.0
+// One lookup: the pose of a frame relative to another at a time.
 #pragma once
 
 #include <cstddef>
@@ -10,12 +11,12 @@ namespace coframe {
 
 struct LookupQuery {
   std::string_view target, source;
-  Stamp stamp = 0;  // of the target where the query travels in time
-  // Time travel: the source at its own stamp, over a frame that stands still meanwhile.
+  Stamp stamp = 0;  // the target's, for time travel
+  // Time travel: the source is looked up at its own stamp, through a frame that does not move in between.
   bool time_travel = false;
   std::string_view fixed;
   Stamp source_stamp = 0;
-  // Numbers of the frames, where they are known already.
+  // The ids of the frames, if they are known already.
   FrameId target_id = 0, source_id = 0, fixed_id = 0;
 };
 
@@ -24,22 +25,22 @@ struct LookupResult {
   Stamp stamp = 0;
 };
 
-// The same query at many times; arrays of the caller.
+// One lookup at many times. The arrays belong to the caller.
 struct Batch {
   enum class Missing {
-    stop,  // at the first row without answer
-    nan,   // fill it with NaN and go on
-    clip,  // take the nearest time for which all links have data
+    stop,  // stop at the first row without a transform
+    nan,   // fill the row with NaN and continue
+    clip,  // use the nearest time at which all edges have data
   };
   std::size_t count;
-  Stamp* stamps;           // in: when, 0 is the latest; out: when that was
-  double* poses;           // out: x, y, z, qx, qy, qz, qw a row
-  double* twists;          // out, if wanted: vx, vy, vz, wx, wy, wz a row, m/s and rad/s along the target's axes
-  Stamp* beyond;           // out, if extrapolated: nanoseconds beyond the data
+  Stamp* stamps;   // in: requested, 0 for the latest; out: of the results
+  double* poses;   // out: x, y, z, qx, qy, qz, qw a row
+  double* twists;  // out, if wanted: vx, vy, vz, wx, wy, wz a row, m/s and rad/s along the target's axes
+  Stamp* beyond;   // out, optional: nanoseconds of extrapolation
   Missing missing = Missing::stop;
 };
 
-// One edge at many times; arrays of the caller.
+// Many samples of one edge. The arrays belong to the caller.
 struct Track {
   std::string_view parent, child;
   std::size_t count;

@@ -1,5 +1,6 @@
-// A value that one thread writes while others read it: each read gets one of the values written, in no order that the
-// code around it does not give.
+// SPDX-License-Identifier: Apache-2.0
+// An atomic value with relaxed memory order: one thread writes it while others read it, and each read returns one of
+// the values written, with no ordering relative to the surrounding code.
 #pragma once
 
 #include <atomic>
@@ -19,7 +20,7 @@ class RelaxedAtomic {
     set(value);
     return *this;
   }
-  // Not an atomic step: for the one thread that writes.
+  // Not a single atomic operation: for the only writer.
   void add(T value) { set(get() + value); }
 
  private:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/relay.hpp"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 namespace coframe {
 namespace {
 
-// The names of an edge as its relay writes them; false where this source's robot has no part in it.
+// Computes the names of an edge in the output; false if the edge does not belong to this source's robot.
 bool renamed(const Renaming& renaming, Relay::Direction direction, const TransformView& view, std::string& parent,
              std::string& child) {
   if (direction == Relay::Direction::merge) {
@@ -17,7 +18,7 @@ bool renamed(const Renaming& renaming, Relay::Direction direction, const Transfo
   }
   child = without_slash(view.child);
   parent = without_slash(view.parent);
-  renaming.strip(view.parent, parent);  // it may also be shared
+  renaming.strip(view.parent, parent);  // it may be a shared frame
   return renaming.strip(view.child, child) || renaming.keeps(child);
 }
 
@@ -44,8 +45,7 @@ void Relay::add(SourceId source, WriterId writer, const std::uint8_t* data, std:
   for (std::size_t i = 0; i < decoded_.size(); ++i) {
     const TransformView& view = decoded_[i];
     newest = std::max(newest, view.stamp);
-    const std::uint32_t place =
-        view.as_expected ? from.expected[i].child : place_of(sources_[source], from, i, view);
+    const std::uint32_t place = view.as_expected ? from.expected[i].child : place_of(sources_[source], from, i, view);
     if (place == 0) continue;
     if (check_values(view.values) != 0) {
       ++from.refused;
@@ -87,7 +87,7 @@ Relay::Writer& Relay::writer_of(Source& source, WriterId writer) {
   return source.writers[writer];
 }
 
-// 1 + the place of the edge; 0: it is not passed on.
+// Returns 1 + the index of the edge; 0: not relayed.
 std::uint32_t Relay::place_of(const Source& source, Writer& writer, std::size_t index, const TransformView& view) {
   std::string parent, child;
   std::uint32_t place = 0;
@@ -123,8 +123,8 @@ std::uint32_t Relay::find_or_add(const std::string& parent, const std::string& c
   return place + 1;
 }
 
-// A source keeps the frames that it told of first, unless it falls silent: two at once would make them flicker, and what
-// comes back by way of another program would go round for ever.
+// A source keeps the frames that it published first until it stops publishing: two sources at once would make a frame
+// jump, and a loop through another program would never end.
 bool Relay::is_listened_to(std::uint32_t place, SourceId source, const TransformView& view, std::int64_t now) {
   Claim& claim = claims_[edges_[place].claim];
   const bool is_free = claim.source == kNobody || (!is_static_ && now - claim.received_at > kPatience);
@@ -142,7 +142,7 @@ bool Relay::is_listened_to(std::uint32_t place, SourceId source, const Transform
   return true;
 }
 
-// Counted from when one was due, not from when one came: the rate is kept on average.
+// Relative to when the last one was due, not to when it arrived: this keeps the average rate.
 bool Relay::is_due(Edge& edge, std::int64_t now) const {
   if (period_ > 0) {
     if (now < edge.due) return false;
@@ -152,10 +152,8 @@ bool Relay::is_due(Edge& edge, std::int64_t now) const {
 }
 
 void Relay::write(const Edge& edge) {
-  written_.push_back({.parent = edge.parent,
-                      .child = claims_[edge.claim].child,
-                      .stamp = edge.newest,
-                      .values = edge.values});
+  written_.push_back(
+      {.parent = edge.parent, .child = claims_[edge.claim].child, .stamp = edge.newest, .values = edge.values});
 }
 
 }  // namespace coframe

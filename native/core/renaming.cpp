@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/renaming.hpp"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace coframe {
 namespace {
 
-// Names come from the network: so many bytes of one are kept for a sentence about it.
+// Names come from the network, so their length in a message is limited.
 constexpr std::size_t kExample = 200;
 
 void keep_first(std::string& example, std::string_view name) {

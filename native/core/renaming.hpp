@@ -1,4 +1,5 @@
-// The frames of one robot among those of others: a prefix in front of all names but those that are shared.
+// SPDX-License-Identifier: Apache-2.0
+// Renames the frames of one robot among several: a prefix is added to all names except shared ones.
 #pragma once
 
 #include <string>
@@ -7,15 +8,15 @@
 
 namespace coframe {
 
-// The prefix is put there as it is, as robot_state_publisher's frame_prefix: "robot1/" makes "robot1/base_link" of
-// "base_link", and "robot1" makes "robot1base_link". A leading slash of a name goes, as in tf2. Names that are shared,
-// that are empty, or that already begin with a prefix that ends with a slash stay as they are.
+// The prefix is added verbatim, like robot_state_publisher's frame_prefix: "robot1/" turns "base_link" into
+// "robot1/base_link", and "robot1" turns it into "robot1base_link". A leading slash is removed, as in tf2. Shared
+// names, empty names, and names that already begin with a prefix that ends in a slash do not change.
 class Renaming {
  public:
   explicit Renaming(std::string prefix = {}, std::vector<std::string> keep = {});
 
   std::string operator()(std::string_view name) const;
-  // The name without the prefix; false, and nothing is done, for others.
+  // Writes the name without the prefix to `out`. Returns false, without writing, for other names.
   bool strip(std::string_view name, std::string& out) const;
 
   bool keeps(std::string_view name) const;
@@ -27,11 +28,11 @@ class Renaming {
   std::vector<std::string> keep_;
 };
 
-// What is odd about the names of one source: an example of each, "" where there is none.
+// Naming problems of one publisher: an example of each kind, "" if there is none.
 struct NameProblems {
   std::string slashed;   // begins with a slash
-  std::string prefixed;  // already has the prefix,
-  std::string plain;     // and this one has not
+  std::string prefixed;  // already has the prefix
+  std::string plain;     // and one that does not have it
 
   void note(const Renaming& renaming, std::string_view name);
 };

@@ -1,5 +1,6 @@
-// How readers learn that what they read was being changed meanwhile (a sequence lock): they take no lock, so that no
-// reader ever holds a writer up.
+// SPDX-License-Identifier: Apache-2.0
+// A sequence lock: readers detect that what they read changed meanwhile. They take no lock, so no reader ever blocks a
+// writer.
 #pragma once
 
 #include <atomic>
@@ -11,7 +12,7 @@ namespace coframe {
 
 class Revision {
  public:
-  // Waits while a change is under way; what is read from now on is good if unchanged() says so afterwards.
+  // Waits while a change is in progress. What is read from now on is consistent if unchanged() returns true afterwards.
   std::uint64_t start_reading() const {
     const std::uint64_t now = number_.load(std::memory_order_acquire);
     return now % 2 == 0 ? now : wait_for_writer();
@@ -21,7 +22,7 @@ class Revision {
     return number_.load(std::memory_order_relaxed) == since;
   }
 
-  // The scope in which the one writer changes what readers may be reading. Not to be nested.
+  // The scope in which the only writer changes what readers may be reading. Must not be nested.
   class Change {
    public:
     explicit Change(Revision& revision) : revision_(revision) {
@@ -47,14 +48,14 @@ class Revision {
     }
   }
 
-  // A writer that was put to sleep in the middle needs the processor to go on.
+  // A writer that was descheduled in the middle needs the processor to continue.
   static void step_back(int turn) {
     if (turn < 50) return;
     if (turn < 500) return std::this_thread::yield();
     std::this_thread::sleep_for(std::chrono::microseconds(50));
   }
 
-  std::atomic<std::uint64_t> number_{0};  // odd while a change is under way
+  std::atomic<std::uint64_t> number_{0};  // an odd number while a change is in progress
 };
 
 }  // namespace coframe

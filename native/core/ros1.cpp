@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/ros1.hpp"
 
 #include <cstring>
@@ -50,7 +51,7 @@ DecodeFailure decode_ros1_tf_message(const std::uint8_t* data, std::size_t size,
   std::uint32_t count;
   if (!reader.number(count)) return fail("the message is shorter than its count");
   for (std::uint32_t i = 0; i < count; ++i) {
-    if (i == out.size()) out.emplace_back();  // else that of an earlier message is written over
+    if (i == out.size()) out.emplace_back();  // otherwise overwrites the one of an earlier message
     TransformView& view = out[i];
     if (!read_head(reader, view)) return fail("the message ends inside a header");
     if (!read_names(reader, i < expected.size() ? &expected[i] : nullptr, view)) {

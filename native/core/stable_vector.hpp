@@ -1,4 +1,6 @@
-// A vector that only grows and whose elements never move: one thread appends, any number read, without a lock.
+// SPDX-License-Identifier: Apache-2.0
+// A vector that only grows and whose elements never move. One thread appends, any number of threads read without a
+// lock.
 #pragma once
 
 #include <array>
@@ -20,11 +22,11 @@ class StableVector {
 
   std::size_t size() const { return size_.load(std::memory_order_acquire); }
 
-  // For an index below a size() that was read before.
+  // For an index below a size() that was read earlier.
   T& operator[](std::size_t index) { return at(index); }
   const T& operator[](std::size_t index) const { return at(index); }
 
-  // For an index from anywhere: nullptr where nothing was ever appended.
+  // For any index: nullptr if nothing was ever appended there.
   T* find(std::size_t index) const {
     const std::size_t number = segment_of(index);
     if (number >= kSegments) return nullptr;
@@ -32,7 +34,7 @@ class StableVector {
     return segment ? segment + (index - first_of(number)) : nullptr;
   }
 
-  // A new last element; `prepare` fills it before anybody sees it.
+  // Appends an element; `prepare` fills it before readers see it.
   template <class Prepare>
   std::size_t append(Prepare&& prepare) {
     const std::size_t index = size_.load(std::memory_order_relaxed);
@@ -46,7 +48,7 @@ class StableVector {
   }
 
  private:
-  static constexpr std::size_t kFirst = 32;  // elements of the first segment; each next one has twice as many
+  static constexpr std::size_t kFirst = 32;  // elements of the first segment; each further segment is twice as large
   static constexpr std::size_t kSegments = 27;
 
   T& at(std::size_t index) const {

@@ -1,5 +1,6 @@
-// How far a source's stamps are behind the clock of whoever receives them: the lower quartile of the last messages. The
-// way only ever adds to it, which the least would show best, were it not for single stamps that are wild.
+// SPDX-License-Identifier: Apache-2.0
+// How far a publisher's stamps are behind the receiver's clock: the lower quartile of its last messages. Transport only
+// ever adds delay, so the minimum would be the best estimate, but single stamps may be wildly wrong.
 #pragma once
 
 #include <algorithm>
@@ -17,9 +18,9 @@ class StampDelay {
     last_[count_ % kSamples] = nanoseconds;
     ++count_;
   }
-  // Whether there are enough to tell.
+  // Returns whether there are enough messages for an estimate.
   bool known() const { return count_ >= kSamples; }
-  // Negative: the stamps are ahead. Of those that are there, one at least.
+  // Returns the typical delay in nanoseconds; negative if the stamps are ahead. Requires at least one message.
   std::int64_t typical() const {
     auto sorted = last_;
     const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(count_, kSamples));

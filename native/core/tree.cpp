@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/tree.hpp"
 
 #include <cmath>
@@ -25,10 +26,11 @@ inline Pose canonical_pose(const TransformValues& values) {
   return pose;
 }
 
-// tf2 checks the quaternion after normalising it: only what cannot be normalised is refused, and by both rules.
+// tf2 checks the quaternion after normalising it, so only a quaternion that cannot be normalised is rejected, by both
+// checks.
 unsigned check_values(const Pose& pose) {
   const double sum = pose.q[0] + pose.p[0] + pose.p[1] + pose.p[2];
-  if (sum == sum) return 0;  // else one of them is NaN, or they are infinite
+  if (sum == sum) return 0;  // otherwise one of them is NaN, or they are infinite
   unsigned refusals = 0;
   if (std::isnan(pose.q[0])) refusals |= kNan | kDenormalisedQuaternion;
   for (double value : pose.p) {
@@ -158,7 +160,7 @@ void Tree::insert(FrameId parent, FrameId child, Stamp stamp, const TransformVal
     inserted.refusals = refusals;
     return;
   }
-  // A history with samples tells of frames that are known.
+  // The frames of a history with samples must be known.
   if (!is_static && frame.history.append_newer(context(), stamp, sample)) {
     frame.counts.add(Insertion::appended);
     frame.authority = authority;
@@ -170,7 +172,7 @@ void Tree::insert(FrameId parent, FrameId child, Stamp stamp, const TransformVal
   store(frame, child, stamp, sample, is_static, authority, inserted);
 }
 
-// A frame may have been removed since its number was found.
+// The frame may have been removed since its id was found.
 void Tree::know_again(FrameId id, Frame& frame, Inserted& inserted) {
   if (id == 0 || frame.known) return;
   frame.known = true;
@@ -196,7 +198,7 @@ std::size_t Tree::append_run(std::string_view parent, std::string_view child, co
   Frame& frame = frames_[child_id];
   const History::View before = frame.history.view();
   if (before.empty() || before.is_static() || before.parent() != parent_id) return 0;
-  if (!frame.history.one_parent()) return 0;  // what is dropped may matter to those who wait
+  if (!frame.history.one_parent()) return 0;  // dropped samples may matter to waiters
   const std::size_t stored = frame.history.append_run(context(), stamps, rows, count, parent_id);
   if (stored == 0) return 0;
   frame.counts.stored.add(stored);
@@ -226,7 +228,7 @@ void Tree::store(Frame& frame, FrameId child, Stamp stamp, const Sample& sample,
   inserted.child = child;
 }
 
-// A frame that changes between static and dynamic starts anew, as in tf2.
+// A frame that changes between static and dynamic loses its samples, as in tf2.
 void Tree::prepare(History& history, bool is_static, Inserted& inserted) {
   const History::View before = history.view();
   if (before.exists() && before.is_static() == is_static) return;

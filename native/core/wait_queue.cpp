@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "core/wait_queue.hpp"
 
 #include <algorithm>
@@ -133,7 +134,7 @@ void WaitQueue::remove(const std::shared_ptr<Watch>& watch) {
   }
 }
 
-// From the name to the frame, if there is one by now.
+// Moves the watch from the name to the frame, if the frame exists by now.
 void WaitQueue::attach_to_frame(const std::shared_ptr<Watch>& watch) {
   const FrameId frame = tree_.find(watch->child_);
   if (frame == 0) return;
@@ -188,8 +189,8 @@ void WaitQueue::retry(const Waits& waits) {
   for (const auto& wait : waits) complete_or_enqueue(wait, true);
 }
 
-// A wait sits down before it asks for the last time, and a writer looks for guests after the data are visible: one of
-// the two always sees the other. Who asks again keeps the seat until another one is better.
+// A wait is registered before its last attempt, and a writer checks for waiters after its data are visible, so one of
+// the two always sees the other. A repeated attempt keeps its condition unless the condition changes.
 void WaitQueue::complete_or_enqueue(const std::shared_ptr<Wait>& wait, bool queued) {
   for (;;) {
     LookupResult result;
@@ -208,7 +209,7 @@ void WaitQueue::complete_or_enqueue(const std::shared_ptr<Wait>& wait, bool queu
   }
 }
 
-// Either walk may get on to where the other one ended, so both ends are to be watched, whichever the failure tells of.
+// Either walk may continue from where it ended, so both ends are watched, whichever of them the failure reports.
 WaitCondition WaitQueue::condition_for(const LookupQuery& query, const Failure& failure) const {
   WaitCondition condition;
   if (failure.code == ErrorCode::unknown_frame) condition.name = failure.name;
@@ -225,7 +226,7 @@ WaitCondition WaitQueue::condition_for(const LookupQuery& query, const Failure& 
   return condition;
 }
 
-// The latest common time is that of the links that are furthest behind: it moves with them.
+// The latest common time is determined by the edges that are furthest behind, and changes with them.
 void WaitQueue::add_behind(FrameId frame, Stamp common, std::vector<FrameId>& frames) const {
   for (int depth = 0; depth <= kMaxDepth; ++depth) {
     const History::View history = tree_.history(frame);
@@ -257,9 +258,9 @@ void WaitQueue::dequeue(const std::shared_ptr<Wait>& wait) {
   wait->condition_ = WaitCondition{};
 }
 
-// Names that never become frames must not pile up.
+// Names that never become frames must not accumulate.
 template <class Waiter>
-void WaitQueue::remove_from_name(const std::string& name, std::vector<std::shared_ptr<Waiter>> Waiters::*waiters,
+void WaitQueue::remove_from_name(const std::string& name, std::vector<std::shared_ptr<Waiter>> Waiters::* waiters,
                                  const std::shared_ptr<Waiter>& waiter) {
   const auto found = by_name_.find(name);
   if (found == by_name_.end()) return;

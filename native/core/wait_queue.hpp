@@ -1,5 +1,6 @@
-// Who waits for an insertion, found by the frame it concerns: an insertion on another edge costs nothing, and nobody is
-// woken in vain.
+// SPDX-License-Identifier: Apache-2.0
+// Waiters for insertions, indexed by the frame they depend on: an insertion on another edge costs nothing and wakes no
+// thread.
 #pragma once
 
 #include <atomic>
@@ -21,13 +22,13 @@ namespace coframe {
 
 using Token = std::uint64_t;
 
-// Where waits and watches that nobody sits at drop a note when something has happened. Any threads put in and take out.
+// A queue of tokens from waits and watches that no thread blocks on. Any thread may put and take.
 class Mailbox {
  public:
   void put(Token token);
-  // What has come.
+  // Returns and removes the tokens.
   std::vector<Token> take();
-  // Waits until something has come; false when `timeout_ns` passed without.
+  // Waits until there is a token. Returns false when `timeout_ns` has passed without one.
   bool wait_for(std::int64_t timeout_ns);
   bool empty() const { return count_.load() == 0; }
 
@@ -38,15 +39,15 @@ class Mailbox {
   std::vector<Token> tokens_;
 };
 
-// Where a wait sits: which insertion may help it.
+// Which insertion may make a waiting lookup succeed.
 struct WaitCondition {
-  std::vector<FrameId> frames;  // one on the edge to the parent of one of these,
-  std::string name;             // or one that makes this frame known,
-  Stamp needed = 0;             // if the edge's newest stamp is then at least this
+  std::vector<FrameId> frames;  // an insertion on the edge to the parent of one of these frames
+  std::string name;             // or one that creates this frame
+  Stamp needed = 0;             // if the edge's newest stamp is at least this
   bool operator==(const WaitCondition&) const = default;
 };
 
-// A query that waits for its answer. It owns its names.
+// A lookup that waits until it succeeds. It owns its names.
 class Wait {
  public:
   explicit Wait(const LookupQuery& query, std::shared_ptr<Mailbox> mailbox = nullptr, Token token = 0);
@@ -54,10 +55,10 @@ class Wait {
   Wait& operator=(const Wait&) = delete;
 
   const LookupQuery& query() const { return query_; }
-  // Waits for the answer; false when `timeout_ns` passed without.
+  // Waits for the result. Returns false when `timeout_ns` has passed without one.
   bool wait_for(std::int64_t timeout_ns);
   bool done() const { return done_.load(std::memory_order_acquire); }
-  const LookupResult& result() const { return result_; }  // once answered
+  const LookupResult& result() const { return result_; }  // valid once done()
 
  private:
   friend class WaitQueue;
@@ -71,17 +72,17 @@ class Wait {
   std::atomic<bool> done_{false};
   std::mutex mutex_;
   std::condition_variable ready_;
-  WaitCondition condition_;  // guarded by the room
+  WaitCondition condition_;  // guarded by the queue's mutex
 };
 
-// Somebody wants to hear of changes of an edge, or of all. Several changes before the note is read are one.
+// Notifies of changes of one edge or all edges. Changes before the token is handled are combined.
 class Watch {
  public:
-  // `child` empty: all edges.
+  // An empty `child` watches all edges.
   Watch(std::string_view child, std::shared_ptr<Mailbox> mailbox, Token token)
       : child_(child), mailbox_(std::move(mailbox)), token_(token) {}
 
-  // The frames whose edge to their parent has changed since the last call.
+  // Returns the frames whose edge to their parent has changed since the last call.
   std::vector<FrameId> take();
 
  private:
@@ -89,7 +90,7 @@ class Watch {
   void note(FrameId child);
 
   std::string child_;
-  FrameId frame_ = 0;  // of that name, once it is known
+  FrameId frame_ = 0;  // the frame of that name, once it exists
   std::shared_ptr<Mailbox> mailbox_;
   Token token_;
   std::mutex mutex_;
@@ -98,20 +99,20 @@ class Watch {
 
 class WaitQueue {
  public:
-  // Tries to answer; false: the failure says what is missing.
+  // Tries the lookup; on false, the failure says what is missing.
   using Ask = std::function<bool(LookupQuery&, LookupResult&, Failure&)>;
 
   WaitQueue(Tree& tree, Ask ask) : tree_(tree), ask_(std::move(ask)) {}
 
-  // From now on the answer is brought as soon as there is one; that may be at once.
+  // The wait is completed as soon as its lookup succeeds, which may be immediately.
   void add(const std::shared_ptr<Wait>& wait);
   void remove(const std::shared_ptr<Wait>& wait);
   void add(const std::shared_ptr<Watch>& watch);
   void remove(const std::shared_ptr<Watch>& watch);
 
-  // Whether nobody waits or watches.
+  // Returns whether there are no waits and no watches.
   bool empty() const { return entries_.load() == 0; }
-  // What the writer tells, after the data are visible and with no lock held. Needless in an empty room.
+  // Called by the writer after the data are visible and without locks. Not needed while the queue is empty.
   void notify(const Inserted& inserted);
 
  private:
@@ -126,8 +127,8 @@ class WaitQueue {
   WaitCondition condition_for(const LookupQuery& query, const Failure& failure) const;
   void add_behind(FrameId frame, Stamp common, std::vector<FrameId>& frames) const;
   template <class Waiter>
-  void remove_from_name(const std::string& name, std::vector<std::shared_ptr<Waiter>> Waiters::*waiters,
-                      const std::shared_ptr<Waiter>& waiter);
+  void remove_from_name(const std::string& name, std::vector<std::shared_ptr<Waiter>> Waiters::* waiters,
+                        const std::shared_ptr<Waiter>& waiter);
   void enqueue(const std::shared_ptr<Wait>& wait, WaitCondition condition);
   void dequeue(const std::shared_ptr<Wait>& wait);
   void forget(const std::shared_ptr<Wait>& wait);
@@ -140,14 +141,14 @@ class WaitQueue {
   Ask ask_;
   std::mutex mutex_;
   std::unordered_map<FrameId, Waiters> by_frame_;
-  std::unordered_map<std::string, Waiters> by_name_;  // of frames that are not there yet
+  std::unordered_map<std::string, Waiters> by_name_;  // for frames that do not exist yet
   std::unordered_map<const Wait*, std::shared_ptr<Wait>> waits_;
   std::vector<std::shared_ptr<Watch>> watches_of_all_;
-  // What the writer looks at before it takes the mutex.
+  // What the writer checks before it takes the mutex.
   std::atomic<std::size_t> entries_{0}, waiting_{0}, names_{0}, watching_all_{0};
 };
 
-// Sits in the room for a scope.
+// Adds a wait to the queue for a scope.
 class ScopedWait {
  public:
   ScopedWait(WaitQueue& room, std::shared_ptr<Wait> wait) : room_(room), wait_(std::move(wait)) { room_.add(wait_); }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The way from one rotation to another, and what is between.
 #pragma once
 
@@ -8,8 +9,8 @@ namespace coframe::COFRAME_LEVEL {
 
 namespace {
 
-// sin(t theta) / sin(theta) as a series of K terms in y = cos(theta) - 1, as in core/pose.hpp. T is a double or several;
-// there may be one angle for several shares.
+// sin(t theta) / sin(theta) as a series in y = cos(theta) - 1 with K terms (after D. Eberly, "A Fast and Accurate
+// Algorithm for Computing SLERP"). It avoids libm calls, which took most of the time of a lookup.
 template <int K, int J = 1, class T, class Angle>
 COFRAME_INLINE T weight_series(const T& t2, const Angle& y) {
   constexpr double u = 1.0 / (J * (2.0 * J + 1.0)), v = J / (2.0 * J + 1.0);

@@ -1,4 +1,5 @@
-// The links of one look-up, end to end: quaternions and translations, each worked on as a whole.
+// SPDX-License-Identifier: Apache-2.0
+// The edges of one lookup, composed: quaternions and translations, each processed as one vector.
 #include "kernels/arc.hpp"
 #include "kernels/four.hpp"
 #include "kernels/level.hpp"

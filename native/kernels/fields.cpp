@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers as they lie in clouds.
 #include <cstring>
 
@@ -69,7 +70,8 @@ std::size_t load_packed([[maybe_unused]] const Columns& from, [[maybe_unused]] s
 #if COFRAME_LANES > 1
   if (!are_packed(from)) return 0;
   for (; i + 4 < n; i += 4) {
-    const Vector<FourDoubles> points = load_four(from.x.data + static_cast<std::ptrdiff_t>(i) * from.x.step, from.x.step);
+    const Vector<FourDoubles> points =
+        load_four(from.x.data + static_cast<std::ptrdiff_t>(i) * from.x.step, from.x.step);
     __builtin_memcpy(out.x + i, &points.x, sizeof(FourDoubles));
     __builtin_memcpy(out.y + i, &points.y, sizeof(FourDoubles));
     __builtin_memcpy(out.z + i, &points.z, sizeof(FourDoubles));

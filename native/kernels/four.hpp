@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Four numbers that are worked on together: a quaternion, or a vector and a number beside it. A register where the
 // processor has such (AVX2); what a compiler makes of shorter ones is slower than plain numbers.
 #pragma once

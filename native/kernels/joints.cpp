@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forward kinematics, joint by joint: many configurations in the registers' lanes.
 #include "kernels/lanes.hpp"
 #include "kernels/level.hpp"
@@ -39,8 +40,7 @@ COFRAME_INLINE PoseLanes step_at(const JointMotion& joint, Positions positions, 
     step.p = slid(slid(step.p, joint.slide[0], position(0)), joint.slide[1], position(1));
     step.q = turned(joint, position(2));
   } else if constexpr (kKind == JointKind::floating) {
-    const PoseLanes pose{{position(3), position(4), position(5), position(6)},
-                         {position(0), position(1), position(2)}};
+    const PoseLanes pose{{position(3), position(4), position(5), position(6)}, {position(0), position(1), position(2)}};
     step = seen<false>(step, pose);
   }
   return step;
@@ -76,16 +76,11 @@ bool follow(const JointMotion& joint, Positions positions, std::size_t n, const 
 bool follow_joint(const JointMotion& joint, Positions positions, std::size_t n, const PoseRows* parents,
                   PoseRows* poses, double* out) {
   switch (joint.kind) {
-    case JointKind::turning:
-      return follow<JointKind::turning>(joint, positions, n, parents, poses, out);
-    case JointKind::sliding:
-      return follow<JointKind::sliding>(joint, positions, n, parents, poses, out);
-    case JointKind::planar:
-      return follow<JointKind::planar>(joint, positions, n, parents, poses, out);
-    case JointKind::floating:
-      return follow<JointKind::floating>(joint, positions, n, parents, poses, out);
-    case JointKind::still:
-      break;
+    case JointKind::turning: return follow<JointKind::turning>(joint, positions, n, parents, poses, out);
+    case JointKind::sliding: return follow<JointKind::sliding>(joint, positions, n, parents, poses, out);
+    case JointKind::planar: return follow<JointKind::planar>(joint, positions, n, parents, poses, out);
+    case JointKind::floating: return follow<JointKind::floating>(joint, positions, n, parents, poses, out);
+    case JointKind::still: break;
   }
   return follow<JointKind::still>(joint, positions, n, parents, poses, out);
 }

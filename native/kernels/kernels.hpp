@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Inner loops over many poses and points, compiled once for every level of the processor; the best one that this
 // processor has is chosen when it is first asked for. All levels give the same results within 1e-15 of what goes in.
 #pragma once
@@ -65,8 +66,8 @@ struct alignas(64) Between {
 };
 
 // A link of a chain. Its pose lies between two records of eight numbers: x, y, z, w of the quaternion, x, y, z of the
-// translation, and one that says nothing. `share` of the way from one to the other; there is only one where both are the
-// same.
+// translation, and one that says nothing. `share` of the way from one to the other; there is only one where both are
+// the same.
 struct Link {
   const double *older, *newer;
   double share;
@@ -76,7 +77,7 @@ struct Link {
 // What a joint does with the link behind it.
 enum class JointKind : std::uint8_t { still, turning, sliding, planar, floating };
 
-// Where the link behind a joint is, told in the link before it: at position 0 at `origin`.
+// The motion of a joint's child link relative to its parent link; at position 0 it is at `origin`.
 struct JointMotion {
   JointKind kind = JointKind::still;
   Pose origin;

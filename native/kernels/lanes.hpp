@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Several doubles at a time: as many as the level's registers hold. Samples and rows have their numbers one behind the
 // other; on the way to lanes and back they are turned over.
 #pragma once
@@ -58,11 +59,10 @@ COFRAME_INLINE Lanes with_sign(const Lanes& numbers, const Lanes& sign) {
   return (Lanes)((LaneBits)numbers ^ (LaneBits)sign);
 }
 
-// The only place where a sample is read that another thread may be writing, and below the only one where it is written
-// so. For the language it is a race, as SharedSample is made of atomic numbers; but no compiler takes the access apart,
-// processors read and write aligned numbers of 8 bytes whole, and whoever asked for it throws the result away where the
-// revision tells that something was written meanwhile. ThreadSanitizer, which cannot know that, gets what the language
-// wants.
+// The only place that reads a sample while another thread may be writing it; the only place that writes one is below.
+// For the language this is a data race, because SharedSample consists of atomic numbers. In practice no compiler splits
+// these accesses, processors read and write aligned 8-byte numbers as a whole, and the caller discards the result if
+// the revision has changed. ThreadSanitizer cannot detect that, so it gets atomic accesses.
 COFRAME_INLINE Pair load_pair(const double* numbers) {
   Pair pair;
 #if defined(COFRAME_CHECKS_THREADS)
@@ -158,8 +158,10 @@ COFRAME_INLINE void store_shared_columns(Lanes first, Lanes second, double* cons
 COFRAME_INLINE void store_fours(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d, double* row,
                                 std::size_t step) {
 #if COFRAME_LANES == 4
-  const __m256d low_ab = _mm256_unpacklo_pd((__m256d)a, (__m256d)b), high_ab = _mm256_unpackhi_pd((__m256d)a, (__m256d)b);
-  const __m256d low_cd = _mm256_unpacklo_pd((__m256d)c, (__m256d)d), high_cd = _mm256_unpackhi_pd((__m256d)c, (__m256d)d);
+  const __m256d low_ab = _mm256_unpacklo_pd((__m256d)a, (__m256d)b),
+                high_ab = _mm256_unpackhi_pd((__m256d)a, (__m256d)b);
+  const __m256d low_cd = _mm256_unpacklo_pd((__m256d)c, (__m256d)d),
+                high_cd = _mm256_unpackhi_pd((__m256d)c, (__m256d)d);
   _mm256_storeu_pd(row, _mm256_permute2f128_pd(low_ab, low_cd, 0x20));
   _mm256_storeu_pd(row + step, _mm256_permute2f128_pd(high_ab, high_cd, 0x20));
   _mm256_storeu_pd(row + 2 * step, _mm256_permute2f128_pd(low_ab, low_cd, 0x31));

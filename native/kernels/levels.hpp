@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The processor levels that the kernels are compiled for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points with float32 x, y and z side by side, as most clouds have them, four at a time.
 #pragma once
 

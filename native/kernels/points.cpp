@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include <cstring>
 
 #include "kernels/arc.hpp"
@@ -52,13 +53,12 @@ void transform_moving_by(const Motion& motion, const Arc& between, const double*
   std::memcpy(bp, motion.newer.p, sizeof(bp));
   for (int k = 0; k < 4; ++k) bq[k] = between.sign * motion.newer.q[k];
   const typename Way::WeightAt weight(between.cosine);
-  double *__restrict xs = points.x, *__restrict ys = points.y, *__restrict zs = points.z;
+  double* __restrict xs = points.x, * __restrict ys = points.y, * __restrict zs = points.z;
   for (std::size_t i = 0; i < n; ++i) {
     const double t = shares[i], rest = 1.0 - t;
     const double a = weight(rest), b = weight(t);
-    const Point point =
-        seen<kInverse>(a * aq[0] + b * bq[0], a * aq[1] + b * bq[1], a * aq[2] + b * bq[2], a * aq[3] + b * bq[3],
-                       MovingOffset{rest, t, ap, bp}, {xs[i], ys[i], zs[i]});
+    const Point point = seen<kInverse>(a * aq[0] + b * bq[0], a * aq[1] + b * bq[1], a * aq[2] + b * bq[2],
+                                       a * aq[3] + b * bq[3], MovingOffset{rest, t, ap, bp}, {xs[i], ys[i], zs[i]});
     xs[i] = point.x;
     ys[i] = point.y;
     zs[i] = point.z;
@@ -67,7 +67,7 @@ void transform_moving_by(const Motion& motion, const Arc& between, const double*
 
 template <bool kInverse>
 void transform_each_by(const Pose* poses, std::size_t n, const Points& points) {
-  double *__restrict xs = points.x, *__restrict ys = points.y, *__restrict zs = points.z;
+  double* __restrict xs = points.x, * __restrict ys = points.y, * __restrict zs = points.z;
   for (std::size_t i = 0; i < n; ++i) {
     const double* q = poses[i].q;
     const Point point = seen<kInverse>(q[0], q[1], q[2], q[3], FixedOffset{poses[i].p}, {xs[i], ys[i], zs[i]});
@@ -82,7 +82,7 @@ void transform_each_by(const Pose* poses, std::size_t n, const Points& points) {
 void transform(const Affine& affine, std::size_t n, Points points) {
   double m[3][4];
   std::memcpy(m, affine.m, sizeof(m));
-  double *__restrict xs = points.x, *__restrict ys = points.y, *__restrict zs = points.z;
+  double* __restrict xs = points.x, * __restrict ys = points.y, * __restrict zs = points.z;
   for (std::size_t i = 0; i < n; ++i) {
     const double x = xs[i], y = ys[i], z = zs[i];
     xs[i] = m[0][3] + m[0][0] * x + m[0][1] * y + m[0][2] * z;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The algebra of core/pose.hpp for one number or many at a time: T is a double or Lanes.
 #pragma once
 
@@ -64,8 +65,7 @@ struct Step {
   Vector<T> p;
 };
 
-// What is told in one end of a step, seen from the other end: of its child's from its parent, or of its parent's from
-// its child.
+// Transforms a vector across a step: from the child to the parent, or with kDown from the parent to the child.
 template <bool kDown, class T>
 COFRAME_INLINE Vector<T> seen(const Step<T>& step, const Vector<T>& v) {
   if constexpr (kDown) return rotated(conjugate(step.q), v - step.p);

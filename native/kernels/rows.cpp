@@ -1,4 +1,5 @@
-// Many look-ups along one path: poses in the registers' lanes, samples and rows as they lie in memory.
+// SPDX-License-Identifier: Apache-2.0
+// Many lookups along one path: poses in vector registers, samples and rows as they are stored.
 #include "kernels/arc.hpp"
 #include "kernels/lanes.hpp"
 #include "kernels/level.hpp"
@@ -42,8 +43,8 @@ COFRAME_INLINE void store(const TwistLanes& twist, TwistRows& rows, std::size_t 
   store_lanes(twist.angular.z, rows.angular[2] + i);
 }
 
-// From the step's child to its parent, which sees the step move as well; or from its parent to its child, which does
-// not see itself move. `pose` is still told in the end that is left.
+// From the child of the step to its parent, which also observes the motion of the step; or from the parent to the
+// child, which does not observe its own motion. `pose` is still relative to the start.
 template <bool kDown>
 COFRAME_INLINE TwistLanes seen(const PoseLanes& step, const TwistLanes& rate, const PoseLanes& pose,
                                const TwistLanes& twist) {
@@ -68,8 +69,8 @@ COFRAME_INLINE void add_step(const PoseLanes& step, const TwistLanes& rate, bool
   store(first && !kDown ? step : seen<kDown>(step, pose), poses, i);
 }
 
-// The step of rows from `i` on: interpolate() of core/pose.hpp, and with kMoving how fast that changes: straight for the
-// translation, about one axis for the rotation, told in the parent's axes.
+// The step of the rows from `i` on: interpolate() of core/pose.hpp, and with kMoving its rate of change: straight for
+// the translation, about one axis for the rotation, expressed in the parent's axes.
 template <bool kMoving>
 COFRAME_INLINE PoseLanes step_at(const Between& link, std::size_t i, TwistLanes& rate) {
   const Lanes t = load_lanes(link.share + i);
@@ -84,9 +85,9 @@ COFRAME_INLINE PoseLanes step_at(const Between& link, std::size_t i, TwistLanes&
     const Lanes scale = with_sign(2.0 * per_second * weights.angle_by_sine, sign);
     rate = {per_second * (to - from), scale * Vector<Lanes>{turn.x, turn.y, turn.z}};
   }
-  return {{first * a.x + second * b.x, first * a.y + second * b.y, first * a.z + second * b.z,
-           first * a.w + second * b.w},
-          (1.0 - t) * from + t * to};
+  return {
+      {first * a.x + second * b.x, first * a.y + second * b.y, first * a.z + second * b.z, first * a.w + second * b.w},
+      (1.0 - t) * from + t * to};
 }
 
 // Where a link stands still.

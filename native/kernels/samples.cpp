@@ -1,5 +1,6 @@
-// Many samples of one frame as they are stored. Compiled without contraction of products and sums: what is stored is the
-// same to the last bit, whether it came alone or among others, and on whatever processor.
+// SPDX-License-Identifier: Apache-2.0
+// Many samples of one frame as they are stored. Compiled without contraction of products and sums: what is stored is
+// the same to the last bit, whether it came alone or among others, and on whatever processor.
 #include "kernels/lanes.hpp"
 #include "kernels/level.hpp"
 #include "kernels/rotation.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sine and cosine of several angles at a time, both at once; within 2e-16 of the true ones.
 #pragma once
 
@@ -16,8 +17,8 @@ COFRAME_INLINE void sine_and_cosine(double angle, double& sine, double& cosine) 
 }
 
 #if COFRAME_LANES > 1
-// The series of fdlibm (k_sin.c, k_cos.c) around the nearest multiple of a quarter turn, which is taken off in three parts:
-// the first two have 33 bits, so that their products with up to 2^20 are exact.
+// The series of fdlibm (k_sin.c, k_cos.c) around the nearest multiple of a quarter turn, which is taken off in three
+// parts: the first two have 33 bits, so that their products with up to 2^20 are exact.
 COFRAME_INLINE void sine_and_cosine(const Lanes& angle, Lanes& sine, Lanes& cosine) {
   constexpr double kLargest = 1e5;
   if (!all_above(kLargest - with_sign(angle, sign_of(angle)), 0.0)) {
@@ -35,18 +36,19 @@ COFRAME_INLINE void sine_and_cosine(const Lanes& angle, Lanes& sine, Lanes& cosi
   const Lanes r = ((angle - quarters * 1.57079632673412561417e+00) - quarters * 6.07710050630396597660e-11) -
                   quarters * 2.02226624879595063154e-21;
   const Lanes z = r * r;
-  const Lanes s =
-      r + r * z * (-1.66666666666666324348e-01 +
-                   z * (8.33333333332248946124e-03 +
-                        z * (-1.98412698298579493134e-04 +
-                             z * (2.75573137070700676789e-06 +
-                                  z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)))));
-  const Lanes c = (1.0 - 0.5 * z) +
-                  z * z * (4.16666666666666019037e-02 +
-                           z * (-1.38888888888741095749e-03 +
-                                z * (2.48015872894767294178e-05 +
-                                     z * (-2.75573143513906633035e-07 +
-                                          z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
+  const Lanes s = r + r * z *
+                          (-1.66666666666666324348e-01 +
+                           z * (8.33333333332248946124e-03 +
+                                z * (-1.98412698298579493134e-04 +
+                                     z * (2.75573137070700676789e-06 +
+                                          z * (-2.50507602534068634195e-08 + z * 1.58969099521155010221e-10)))));
+  const Lanes c =
+      (1.0 - 0.5 * z) + z * z *
+                            (4.16666666666666019037e-02 +
+                             z * (-1.38888888888741095749e-03 +
+                                  z * (2.48015872894767294178e-05 +
+                                       z * (-2.75573143513906633035e-07 +
+                                            z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
   const LaneBits quadrant = (LaneBits)shifted;
   const LaneBits is_odd = -(quadrant & 1);
   sine = (Lanes)((LaneBits)(is_odd ? c : s) ^ ((quadrant & 2) << 62));

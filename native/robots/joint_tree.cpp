@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "robots/joint_tree.hpp"
 
 #include <algorithm>
@@ -44,7 +45,8 @@ void gather(const char* data, std::ptrdiff_t step, std::size_t n, double* out) {
     std::memcpy(out, data, n * sizeof(double));
     return;
   }
-  for (std::size_t i = 0; i < n; ++i) std::memcpy(out + i, data + static_cast<std::ptrdiff_t>(i) * step, sizeof(double));
+  for (std::size_t i = 0; i < n; ++i)
+    std::memcpy(out + i, data + static_cast<std::ptrdiff_t>(i) * step, sizeof(double));
 }
 
 // Quaternions to unit length; false where one is zero.
@@ -67,14 +69,10 @@ bool normalise(double (*columns)[kRowBlock], std::size_t n) {
 
 std::size_t position_size(JointKind kind) {
   switch (kind) {
-    case JointKind::still:
-      return 0;
-    case JointKind::planar:
-      return 3;
-    case JointKind::floating:
-      return 7;
-    default:
-      return 1;
+    case JointKind::still: return 0;
+    case JointKind::planar: return 3;
+    case JointKind::floating: return 7;
+    default: return 1;
   }
 }
 
@@ -138,8 +136,8 @@ JointTree::Drive JointTree::drive(std::size_t joint, const std::vector<JointPosi
   }
 }
 
-// The position of configurations from `first` on as columns; what is beyond the last one, up to a whole group of lanes, is
-// set to 0.
+// The position of configurations from `first` on as columns; what is beyond the last one, up to a whole group of lanes,
+// is set to 0.
 bool JointTree::read(std::size_t joint, const std::vector<JointPositions>& given, std::size_t first, std::size_t n,
                      double (*columns)[kRowBlock]) const {
   const JointKind kind = nodes_[joint].motion.kind;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tree of joints, and where all its links are: for one configuration or many. Knows numbers only, no names.
 #pragma once
 
@@ -10,15 +11,15 @@ namespace coframe {
 
 struct JointDescription {
   JointKind kind = JointKind::still;
-  std::ptrdiff_t parent = -1;  // the joint that the link before it hangs from; -1: the root link
-  Pose origin;                 // of unit length
+  std::ptrdiff_t parent = -1;        // the joint that the link before it hangs from; -1: the root link
+  Pose origin;                       // of unit length
   double axis[3] = {0.0, 0.0, 1.0};  // of unit length; of a planar joint the normal of the plane
-  std::ptrdiff_t leader = -1;  // the joint it follows, both with one number, as multiplier * position + offset
+  std::ptrdiff_t leader = -1;        // the joint it follows, both with one number, as multiplier * position + offset
   double multiplier = 1.0, offset = 0.0;
 };
 
-// A joint's position in many configurations. Steps are in bytes: from one configuration to the next, 0 where all have the
-// same, and from one number to the next. Without data the joint was not given.
+// A joint's position in many configurations. Steps are in bytes: from one configuration to the next, 0 where all have
+// the same, and from one number to the next. Without data the joint was not given.
 struct JointPositions {
   const char* data = nullptr;
   std::ptrdiff_t step = 0, number_step = 0;
@@ -29,16 +30,17 @@ std::size_t position_size(JointKind kind);
 
 class JointTree {
  public:
-  // Parents stand before their children; std::invalid_argument otherwise, or where joints follow each other in a circle.
+  // Parents stand before their children; std::invalid_argument otherwise, or where joints follow each other in a
+  // circle.
   explicit JointTree(const std::vector<JointDescription>& joints);
 
   std::size_t size() const { return nodes_.size(); }
   JointKind kind(std::size_t joint) const { return nodes_[joint].motion.kind; }
 
-  // Where the link behind each joint is, told in the root link or else in the link before it: x, y, z, qx, qy, qz, qw of
-  // joint j in configuration i at out + 7 * (j * n + i). Joints that are not given follow their leaders, or are at 0.
-  // The first joint with a position that is no position, because it is not finite or a zero quaternion; size() if there
-  // is none. So many threads share the work.
+  // Computes the pose of each joint's child link relative to the root link or to its parent link: x, y, z, qx, qy, qz,
+  // qw of joint j in configuration i at out + 7 * (j * n + i). Joints that are not given follow the joint they mimic,
+  // or are at 0. Returns the first joint with an invalid position (not finite, or a zero quaternion); size() if there
+  // is none. `threads` share the work.
   std::size_t poses(const std::vector<JointPositions>& given, std::size_t n, bool in_root, unsigned threads,
                     double* out) const;
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "sensors/deskew.hpp"
 
 #include <limits>
@@ -13,8 +14,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // Points of one time, or between the same two samples, are worth a call of their own if there are so many.
 constexpr std::size_t kLongRun = 8;
 
-// The span of all times that are told, with `latest` for 0.
-Span told_span(const Stamp* times, std::size_t count, Stamp latest) {
+// The span of all given times, with `latest` for 0.
+Span span_of_times(const Stamp* times, std::size_t count, Stamp latest) {
   Span span{std::numeric_limits<Stamp>::max(), std::numeric_limits<Stamp>::min()};
   for (std::size_t i = 0; i < count; ++i) {
     if (times[i] == kNoTime) continue;
@@ -27,7 +28,7 @@ Span told_span(const Stamp* times, std::size_t count, Stamp latest) {
 // What one thread does, block by block.
 class Worker {
  public:
-  // `plain`: the trajectory has an answer for all times, and they are told as they are.
+  // `plain`: the trajectory covers all times, and none of them needs a replacement.
   Worker(const Trajectory& trajectory, const Deskewing& how, Stamp latest, bool plain)
       : trajectory_(trajectory), how_(how), latest_(latest), plain_(plain), hints_(trajectory.hints()) {}
 
@@ -182,8 +183,8 @@ bool goes_on(const Missing& missing, const Deskewing& how, std::size_t count) {
   return missing.count == 0 || (how.nan_for_none && missing.count < count);
 }
 
-// Where frames have changed their parents there is no trajectory: a look-up for each point. What is missing gets a
-// translation of NaN.
+// If frames have changed their parents there is no trajectory, and each point is looked up. Points without a transform
+// get a translation of NaN.
 Missing look_up(const Buffer& buffer, const Deskewing& how, std::vector<Pose>& poses) {
   Missing missing;
   Failure ignored;
@@ -237,7 +238,7 @@ Missing deskew(const Buffer& buffer, const Deskewing& how, const Grid& grid,
     Pose ignored_pose;
     Failure ignored;
     buffer.lookup_by_id(how.target, how.source, latest, ignored_pose, ignored);
-    span = told_span(how.times, count, latest);
+    span = span_of_times(how.times, count, latest);
   }
   Trajectory trajectory;
   if (!trajectory.record(buffer, how.target, how.source, span.first, span.last)) {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points that were measured one after the other while the sensor moved, seen from one frame: each by where the sensor
 // was at the point's own time.
 #pragma once
@@ -15,9 +16,9 @@ inline constexpr Stamp kNoTime = std::numeric_limits<Stamp>::min();
 
 struct Deskewing {
   FrameId target, source;
-  Pose onward;         // of the target, seen from the frame that the points shall be in
+  Pose onward;         // of the target, relative to the frame of the result
   const Stamp* times;  // of each point; 0 is the latest, kNoTime none
-  bool nan_for_none;   // points without a transform become NaN; else none is touched if one has none
+  bool nan_for_none;   // points without a transform become NaN; otherwise no point changes if one has none
   unsigned threads;
 };
 

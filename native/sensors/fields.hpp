@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the coordinates of points lie, and a block of them at work.
 #pragma once
 

@@ -1,5 +1,6 @@
-// One frame seen from another over a span of time: what a buffer has of it, copied. Many questions about it then see one
-// state of the tree, and nobody waits for another.
+// SPDX-License-Identifier: Apache-2.0
+// A copy of a buffer's data for one frame relative to another over a span of time. Many lookups on it see one state of
+// the tree, without waiting for other threads.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +22,7 @@ class Trajectory {
     bool inverse = false;
 
     bool stands_still() const { return stamps.empty(); }
-    // i with stamps[i] <= stamp <= stamps[i + 1], as a look-up chooses between samples; the `guess` is likely to be it.
+    // Returns i with stamps[i] <= stamp <= stamps[i + 1], chosen like a lookup does. `guess` is the likely result.
     std::size_t interval(Stamp stamp, std::size_t guess) const;
     // The first stamp for which interval() is this one; all up to the stamp at its end follow.
     Stamp start(std::size_t interval) const;
@@ -32,10 +33,10 @@ class Trajectory {
   // The intervals of all links that were asked for last; each thread has its own.
   using Hints = std::vector<std::size_t>;
 
-  // For two different frames. False where look-ups have to decide one by one: there is no path, or a frame on it has
+  // Records two different frames. Returns false if every time must be looked up: there is no path, or a frame on it has
   // changed its parent.
   bool record(const Buffer& buffer, FrameId target, FrameId source, Stamp first, Stamp last);
-  // Seen from yet another frame, where the target is told to be.
+  // Makes the poses relative to another frame, in which the target has this pose.
   void continue_to(const Pose& pose);
 
   // When all links have data, and so at() an answer.

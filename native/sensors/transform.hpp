@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // All points of a cloud, seen from another frame at one time.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "wire/data_reader.hpp"
 
 namespace coframe {
@@ -5,7 +6,7 @@ namespace coframe {
 DataReader::DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data,
                        void* argument) {
   const dds::Functions& f = dds::functions();
-  // Not given to dds_create_reader: a callback that comes while the reader is being made cannot take from it yet.
+  // Not passed to dds_create_reader: a callback during the creation of the reader could not take samples yet.
   entity_ = dds::check(f.dds_create_reader(participant, topic, qos, nullptr), "create a reader");
   dds::Listener* listener = f.dds_create_listener(argument);
   f.dds_lset_data_available(listener, on_data);
@@ -20,7 +21,7 @@ DataReader::DataReader(dds::Entity participant, dds::Entity topic, const dds::Qo
 void DataReader::close() noexcept {
   const dds::Entity entity = entity_.exchange(0);
   if (entity <= 0 || dds::forked()) return;
-  dds::functions().dds_set_listener(entity, nullptr);  // waits for callbacks that run or are about to
+  dds::functions().dds_set_listener(entity, nullptr);  // waits for running and pending callbacks
   dds::functions().dds_delete(entity);
 }
 

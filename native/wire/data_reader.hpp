@@ -1,4 +1,5 @@
-// A DDS reader with a data listener: the part that all our readers share.
+// SPDX-License-Identifier: Apache-2.0
+// A DDS reader with a data listener: the common part of all readers here.
 #pragma once
 
 #include <atomic>
@@ -9,10 +10,11 @@
 namespace coframe {
 
 // Calls `on_data(entity, argument)` on DDS threads, one call at a time, from before the constructor returns until
-// `close` returns. Samples may be waiting already when the listener is attached: the owner looks once by itself.
+// `close` returns. Samples may already be waiting when the listener is attached, so the owner checks once itself.
 class DataReader {
  public:
-  DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data, void* argument);
+  DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data,
+             void* argument);
   ~DataReader() { close(); }
   DataReader(const DataReader&) = delete;
   DataReader& operator=(const DataReader&) = delete;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "wire/dds.hpp"
 
 #include <atomic>
@@ -73,7 +74,7 @@ Code check(Code code, const char* what) {
 }
 
 Entity create_unchecked_topic(Entity participant, const std::string& name, const std::string& type) {
-  // One octet, and no description of the type: by the name alone it matches those who have one and those who have not.
+  // One octet and no type description: it matches by name alone, with or without type information on the other side.
   constexpr std::uint32_t kOctetAtOffset = 0x01010000, kEnd = 0;
   constexpr std::uint32_t instructions[] = {kOctetAtOffset, 0, kEnd};
   const TypeDescriptor descriptor{.size = 1,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The functions of Cyclone DDS that the wire calls, found at run time in the library of the `cyclonedds` wheel.
 // The wheel brings no headers: the few structures that cross the boundary are declared here as Cyclone 11 has them.
 #pragma once
@@ -12,7 +13,7 @@
 namespace coframe::dds {
 
 using Entity = std::int32_t;
-using Handle = std::uint64_t;  // of an instance: a sample's writer, an announced endpoint
+using Handle = std::uint64_t;  // handle of an instance: the writer of a sample, an announced endpoint
 using Code = std::int32_t;     // 0 or a negative error
 
 struct Guid {
@@ -23,7 +24,7 @@ struct SampleInfo {
   std::int32_t sample_state;
   std::int32_t view_state;
   std::int32_t instance_state;
-  bool valid_data;  // false: an instance's or a writer's end, the payload is a stub
+  bool valid_data;  // false: an instance or a writer has ended, the payload is a stub
   std::int64_t source_timestamp;
   Handle instance_handle;
   Handle publication_handle;
@@ -34,8 +35,8 @@ struct SampleInfo {
   std::uint32_t absolute_generation_rank;
 };
 
-struct Serdata;   // a reference-counted serialised sample
-struct Sertype;   // what a topic's samples are
+struct Serdata;  // a reference-counted serialised sample
+struct Sertype;  // the type of a topic's samples
 struct Qos;
 struct Listener;
 
@@ -74,13 +75,13 @@ struct IoVector {
 #endif
 };
 
-// What the wheel's topics take as a sample to write.
+// The sample that topics of the wheel write.
 struct SampleContainer {
   const void* data;
   std::size_t size;
 };
 
-// dds_topic_descriptor_t: a type, as programs are made of it that know it at compile time.
+// dds_topic_descriptor_t: a type as generated code describes it.
 struct TypeDescriptor {
   struct Blob {
     const unsigned char* data;
@@ -115,53 +116,53 @@ inline constexpr Code kTimeout = -10;
 inline constexpr Code kPreconditionNotMet = -4;
 
 // X(return type, name, arguments): every function called, once.
-#define COFRAME_DDS_FUNCTIONS(X)                                                                              \
-  X(Entity, dds_create_domain, (std::uint32_t id, const char* config))                                       \
-  X(Entity, dds_create_participant, (std::uint32_t domain, const Qos*, const Listener*))                     \
-  X(Entity, dds_create_topic,                                                                                 \
-    (Entity participant, const TypeDescriptor*, const char* name, const Qos*, const Listener*))              \
-  X(Entity, dds_create_writer, (Entity participant, Entity topic, const Qos*, const Listener*))              \
-  X(Entity, dds_create_reader, (Entity participant, Entity topic, const Qos*, const Listener*))              \
-  X(Code, dds_delete, (Entity))                                                                              \
-  X(Code, dds_write, (Entity writer, const void* sample))                                                    \
-  X(Code, dds_writecdr, (Entity writer, Serdata*))                                                           \
-  X(Code, dds_get_entity_sertype, (Entity, const Sertype**))                                                 \
-  X(Code, dds_take, (Entity reader, void** samples, SampleInfo*, std::size_t size, std::uint32_t limit))     \
-  X(Code, dds_return_loan, (Entity reader, void** samples, std::int32_t count))                              \
-  X(Code, dds_takecdr, (Entity reader, Serdata**, std::uint32_t limit, SampleInfo*, std::uint32_t mask))     \
-  X(Code, dds_get_guid, (Entity, Guid*))                                                                     \
-  X(Code, dds_get_publication_matched_status, (Entity writer, MatchedStatus*))                               \
-  X(Code, dds_get_subscription_matched_status, (Entity reader, MatchedStatus*))                              \
-  X(Code, dds_get_matched_subscriptions, (Entity writer, Handle*, std::size_t size))                         \
-  X(Code, dds_get_matched_publications, (Entity reader, Handle*, std::size_t size))                          \
-  X(Code, dds_get_offered_incompatible_qos_status, (Entity writer, IncompatibleQosStatus*))                  \
-  X(Code, dds_get_requested_incompatible_qos_status, (Entity reader, IncompatibleQosStatus*))                \
-  X(Listener*, dds_create_listener, (void* argument))                                                        \
-  X(void, dds_delete_listener, (Listener*))                                                                  \
-  X(void, dds_lset_data_available, (Listener*, DataCallback))                                                \
-  X(Code, dds_set_listener, (Entity, const Listener*))                                                       \
-  X(Qos*, dds_create_qos, ())                                                                                \
-  X(void, dds_delete_qos, (Qos*))                                                                            \
-  X(void, dds_qset_userdata, (Qos*, const void* data, std::size_t size))                                     \
-  X(void, dds_qset_durability, (Qos*, std::int32_t kind))                                                    \
-  X(void, dds_qset_history, (Qos*, std::int32_t kind, std::int32_t depth))                                   \
-  X(void, dds_qset_reliability, (Qos*, std::int32_t kind, std::int64_t max_blocking_ns))                     \
-  X(void, dds_qset_ignorelocal, (Qos*, std::int32_t kind))                                                   \
-  X(void, dds_qset_data_representation, (Qos*, std::uint32_t count, const std::int16_t* values))             \
-  X(void, dds_qset_durability_service,                                                                       \
-    (Qos*, std::int64_t cleanup_delay_ns, std::int32_t history_kind, std::int32_t history_depth,             \
-     std::int32_t max_samples, std::int32_t max_instances, std::int32_t max_samples_per_instance))           \
-  X(bool, dds_qget_userdata, (const Qos*, void** data, std::size_t* size))                                   \
-  X(void, dds_free, (void*))                                                                                 \
-  X(bool, dds_qget_durability, (const Qos*, std::int32_t* kind))                                             \
-  X(bool, dds_qget_history, (const Qos*, std::int32_t* kind, std::int32_t* depth))                           \
-  X(bool, dds_qget_reliability, (const Qos*, std::int32_t* kind, std::int64_t* max_blocking_ns))             \
-  X(const char*, dds_strretcode, (Code))                                                                     \
-  X(Serdata*, ddsi_serdata_from_ser_iov,                                                                      \
-    (const Sertype*, std::int32_t kind, std::size_t count, const IoVector*, std::size_t size))               \
-  X(std::uint32_t, ddsi_serdata_size, (const Serdata*))                                                      \
-  X(Serdata*, ddsi_serdata_to_ser_ref, (const Serdata*, std::size_t offset, std::size_t size, IoVector*))    \
-  X(void, ddsi_serdata_to_ser_unref, (Serdata*, const IoVector*))                                            \
+#define COFRAME_DDS_FUNCTIONS(X)                                                                          \
+  X(Entity, dds_create_domain, (std::uint32_t id, const char* config))                                    \
+  X(Entity, dds_create_participant, (std::uint32_t domain, const Qos*, const Listener*))                  \
+  X(Entity, dds_create_topic,                                                                             \
+    (Entity participant, const TypeDescriptor*, const char* name, const Qos*, const Listener*))           \
+  X(Entity, dds_create_writer, (Entity participant, Entity topic, const Qos*, const Listener*))           \
+  X(Entity, dds_create_reader, (Entity participant, Entity topic, const Qos*, const Listener*))           \
+  X(Code, dds_delete, (Entity))                                                                           \
+  X(Code, dds_write, (Entity writer, const void* sample))                                                 \
+  X(Code, dds_writecdr, (Entity writer, Serdata*))                                                        \
+  X(Code, dds_get_entity_sertype, (Entity, const Sertype**))                                              \
+  X(Code, dds_take, (Entity reader, void** samples, SampleInfo*, std::size_t size, std::uint32_t limit))  \
+  X(Code, dds_return_loan, (Entity reader, void** samples, std::int32_t count))                           \
+  X(Code, dds_takecdr, (Entity reader, Serdata**, std::uint32_t limit, SampleInfo*, std::uint32_t mask))  \
+  X(Code, dds_get_guid, (Entity, Guid*))                                                                  \
+  X(Code, dds_get_publication_matched_status, (Entity writer, MatchedStatus*))                            \
+  X(Code, dds_get_subscription_matched_status, (Entity reader, MatchedStatus*))                           \
+  X(Code, dds_get_matched_subscriptions, (Entity writer, Handle*, std::size_t size))                      \
+  X(Code, dds_get_matched_publications, (Entity reader, Handle*, std::size_t size))                       \
+  X(Code, dds_get_offered_incompatible_qos_status, (Entity writer, IncompatibleQosStatus*))               \
+  X(Code, dds_get_requested_incompatible_qos_status, (Entity reader, IncompatibleQosStatus*))             \
+  X(Listener*, dds_create_listener, (void* argument))                                                     \
+  X(void, dds_delete_listener, (Listener*))                                                               \
+  X(void, dds_lset_data_available, (Listener*, DataCallback))                                             \
+  X(Code, dds_set_listener, (Entity, const Listener*))                                                    \
+  X(Qos*, dds_create_qos, ())                                                                             \
+  X(void, dds_delete_qos, (Qos*))                                                                         \
+  X(void, dds_qset_userdata, (Qos*, const void* data, std::size_t size))                                  \
+  X(void, dds_qset_durability, (Qos*, std::int32_t kind))                                                 \
+  X(void, dds_qset_history, (Qos*, std::int32_t kind, std::int32_t depth))                                \
+  X(void, dds_qset_reliability, (Qos*, std::int32_t kind, std::int64_t max_blocking_ns))                  \
+  X(void, dds_qset_ignorelocal, (Qos*, std::int32_t kind))                                                \
+  X(void, dds_qset_data_representation, (Qos*, std::uint32_t count, const std::int16_t* values))          \
+  X(void, dds_qset_durability_service,                                                                    \
+    (Qos*, std::int64_t cleanup_delay_ns, std::int32_t history_kind, std::int32_t history_depth,          \
+     std::int32_t max_samples, std::int32_t max_instances, std::int32_t max_samples_per_instance))        \
+  X(bool, dds_qget_userdata, (const Qos*, void** data, std::size_t* size))                                \
+  X(void, dds_free, (void*))                                                                              \
+  X(bool, dds_qget_durability, (const Qos*, std::int32_t* kind))                                          \
+  X(bool, dds_qget_history, (const Qos*, std::int32_t* kind, std::int32_t* depth))                        \
+  X(bool, dds_qget_reliability, (const Qos*, std::int32_t* kind, std::int64_t* max_blocking_ns))          \
+  X(const char*, dds_strretcode, (Code))                                                                  \
+  X(Serdata*, ddsi_serdata_from_ser_iov,                                                                  \
+    (const Sertype*, std::int32_t kind, std::size_t count, const IoVector*, std::size_t size))            \
+  X(std::uint32_t, ddsi_serdata_size, (const Serdata*))                                                   \
+  X(Serdata*, ddsi_serdata_to_ser_ref, (const Serdata*, std::size_t offset, std::size_t size, IoVector*)) \
+  X(void, ddsi_serdata_to_ser_unref, (Serdata*, const IoVector*))                                         \
   X(void, ddsi_serdata_unref, (Serdata*))
 
 struct Functions {
@@ -170,7 +171,7 @@ struct Functions {
 #undef COFRAME_DECLARE
 };
 
-// A call that DDS refused.
+// A DDS call that failed.
 class Error : public std::runtime_error {
  public:
   Error(const std::string& what, Code code);
@@ -184,26 +185,27 @@ class Error : public std::runtime_error {
 // The library stays loaded: its threads may outlive any of our objects.
 void load(const std::string& path);
 
-// The functions; throws std::logic_error before `load`, and where `forked`.
+// The functions. Throws std::logic_error before `load` and if `forked`.
 const Functions& functions();
 
-// True in a child that was forked while its parent had joined: DDS's threads are not there, and its locks may be held.
+// True in a child process that was forked while its parent used DDS: the DDS threads do not exist there, and locks may
+// be held.
 bool forked() noexcept;
-// A participant has been opened (1) or closed (-1).
+// Counts participants: opened (1) or closed (-1).
 void count_participants(int change) noexcept;
 
-// `code` itself, or throws Error "could not <what>: <DDS's word>" where it is negative.
+// Returns `code`, or throws Error "could not <what>: <DDS's text>" if it is negative.
 Code check(Code code, const char* what);
 
-// A topic for who checks the bytes himself: its readers are given any that come under the type's name. With the type
-// itself, Cyclone drops what does not fit, with a line on stderr for each message, where nobody can count it; and its
-// check of a message that is sent takes three times as long as all the rest of the sending.
+// Creates a topic whose readers receive all bytes that arrive under the type's name and check them themselves. With the
+// real type, Cyclone drops invalid messages with a line on stderr each, which cannot be counted, and its check of sent
+// messages takes three times as long as the rest of sending.
 Entity create_unchecked_topic(Entity participant, const std::string& name, const std::string& type);
 
 // The handles that `get`, dds_get_matched_*, gives for `entity`.
 std::vector<Handle> matched_handles(Code (*get)(Entity, Handle*, std::size_t), Entity entity);
 
-// One taken sample, given back to DDS when it goes out of scope.
+// One taken sample, returned to DDS at the end of its scope.
 class Sample {
  public:
   Sample(Serdata* data, const SampleInfo& info) noexcept;
@@ -218,14 +220,14 @@ class Sample {
   const SampleInfo& info() const noexcept { return info_; }
 
  private:
-  Serdata* data_;      // owned
-  Serdata* view_;      // the reference that keeps `bytes_` mapped
+  Serdata* data_;  // owned
+  Serdata* view_;  // the reference that keeps `bytes_` mapped
   IoVector bytes_{};
   SampleInfo info_;
 };
 
-// Takes up to `limit` (at most kBatch) samples off `reader`; calls `use(Sample&&)` for those that hold data.
-// Returns how many were taken, with or without data.
+// Takes up to `limit` (at most kBatch) samples from `reader` and calls `use(Sample&&)` for those with data. Returns how
+// many were taken, with or without data.
 inline constexpr std::uint32_t kBatch = 64;
 
 template <class Use>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "wire/endpoint_reader.hpp"
 
 #include <memory>
@@ -56,7 +57,7 @@ void EndpointReader::on_data(dds::Entity, void* self) noexcept { static_cast<End
 std::vector<EndpointChange> EndpointReader::take() {
   std::vector<EndpointChange> changes;
   for (;;) {
-    void* samples[dds::kBatch] = {};  // null: DDS lends its own
+    void* samples[dds::kBatch] = {};  // null: DDS provides the memory
     dds::SampleInfo info[dds::kBatch];
     const dds::Code count = dds::functions().dds_take(reader_.entity(), samples, info, dds::kBatch, dds::kBatch);
     if (count <= 0) return changes;

@@ -1,4 +1,5 @@
-// The endpoints that DDS discovery knows, own and foreign: publications or subscriptions as they come and go.
+// SPDX-License-Identifier: Apache-2.0
+// The endpoints found by DDS discovery, own and foreign: publications or subscriptions as they appear and disappear.
 #pragma once
 
 #include <memory>
@@ -13,7 +14,7 @@ namespace coframe {
 
 struct EndpointChange {
   dds::Handle handle;  // equals the publication_handle of a writer's samples
-  bool alive;          // false: it has gone, and only the handle is set
+  bool alive;          // false: it has disappeared, and only the handle is set
   dds::Guid guid{};
   dds::Guid participant{};
   std::string topic{};
@@ -24,7 +25,7 @@ struct EndpointChange {
 
 class EndpointReader {
  public:
-  // `topic` is dds::kPublicationTopic or dds::kSubscriptionTopic; `on_change` is set whenever something changed.
+  // `topic` is dds::kPublicationTopic or dds::kSubscriptionTopic. `on_change` is set whenever something has changed.
   EndpointReader(dds::Entity participant, dds::Entity topic, std::shared_ptr<Event> on_change);
   void close() noexcept { reader_.close(); }
   std::vector<EndpointChange> take();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A flag that threads wait for: set by DDS threads and by Python, consumed by one waiter at a time.
 #pragma once
 

@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "wire/qos.hpp"
 
 namespace coframe {
 namespace {
 
-// How long a write waits for a reliable reader that does not keep up, before it fails.
+// How long a write waits for a slow reliable reader before it fails.
 constexpr std::int64_t kMaxBlockingNs = 1'000'000'000;
 
 }  // namespace
@@ -24,7 +25,7 @@ QosPointer make_qos(const QosProfile& profile, const std::string& user_data) {
   f.dds_qset_reliability(qos.get(), profile.reliable ? dds::kReliable : dds::kBestEffort, kMaxBlockingNs);
   f.dds_qset_durability(qos.get(), profile.transient_local ? dds::kTransientLocal : dds::kVolatile);
   if (profile.transient_local) {
-    // What a late joiner is given: as much as the writer's own history.
+    // Late joiners receive as many messages as the writer's history holds.
     f.dds_qset_durability_service(qos.get(), 0, history, depth, dds::kUnlimited, dds::kUnlimited, dds::kUnlimited);
   }
   const std::int16_t representation = dds::kXcdr1;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Quality of service: the four policies ROS programs set, and the DDS object made of them.
 #pragma once
 
@@ -17,7 +18,7 @@ struct QosProfile {
 
 using QosPointer = std::unique_ptr<dds::Qos, void (*)(dds::Qos*)>;
 
-// What others read of the entity is `user_data`.
+// `user_data` is visible to other participants.
 QosPointer make_qos(const std::string& user_data);
 QosPointer make_qos(const QosProfile& profile, const std::string& user_data);
 

@@ -1,4 +1,5 @@
-// DDS -> serialised messages of any type, taken by whoever waits for the event.
+// SPDX-License-Identifier: Apache-2.0
+// DDS -> serialised messages of any type, taken by the thread that waits for the event.
 #pragma once
 
 #include <atomic>
@@ -21,7 +22,7 @@ class Reader {
 
   // Up to `limit` messages, oldest first.
   std::vector<dds::Sample> take(std::uint32_t limit);
-  // Whether samples may be waiting: true once too often rather than once too few.
+  // Returns whether samples may be waiting; false positives are possible, false negatives are not.
   bool pending() const { return pending_; }
 
   const DataReader& reader() const { return reader_; }
@@ -30,7 +31,7 @@ class Reader {
   static void on_data(dds::Entity, void* self) noexcept;
 
   std::shared_ptr<Event> event_;
-  std::atomic<bool> pending_ = true;  // samples may have come before the listener
+  std::atomic<bool> pending_ = true;  // samples may have arrived before the listener was attached
   DataReader reader_;                 // last: its callback uses the members above
 };
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "wire/tap.hpp"
 
 #include <algorithm>
@@ -19,7 +20,7 @@ Tap::Tap(dds::Entity participant, dds::Entity topic, const QosProfile& profile, 
     : head_(head),
       capacity_(capacity),
       reader_(participant, topic, make_qos(profile, user_data).get(), &Tap::on_data, this) {
-  on_data(reader_.entity(), this);  // what came before the listener
+  on_data(reader_.entity(), this);  // samples that arrived before the listener was attached
 }
 
 // An exception must not reach DDS, which is C: out of memory, a message is lost.

@@ -1,4 +1,5 @@
-// DDS -> serialised messages with the time at which each came, taken by whoever looks now and then.
+// SPDX-License-Identifier: Apache-2.0
+// DDS -> serialised messages with their arrival times, taken by polling.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +15,8 @@ namespace coframe {
 
 class Tap {
  public:
-  // Messages, the oldest first: when each came by the system's clock, when its writer says it was sent (both nanoseconds
-  // since 1970), by whom, and where its first bytes end among those of all of them.
+  // Messages, the oldest first: arrival time by the system clock, send time by the writer's clock (both in nanoseconds
+  // since 1970), the writer, and where the stored bytes of each end.
   struct Messages {
     std::vector<std::int64_t> arrived, sent;
     std::vector<dds::Handle> writers;
@@ -23,14 +24,14 @@ class Tap {
     std::string bytes;
   };
 
-  // Keeps the first `head` bytes of each message, and so many messages; what comes while it is full is counted only.
+  // Keeps the first `head` bytes of each message and at most `capacity` messages; further messages are only counted.
   Tap(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
       std::size_t head, std::size_t capacity);
   void close() noexcept { reader_.close(); }
 
-  // What has come since the last call.
+  // Returns the messages since the last call.
   Messages take();
-  // How many came while it was full.
+  // Returns how many messages arrived while it was full.
   std::uint64_t missed();
 
   const DataReader& reader() const { return reader_; }

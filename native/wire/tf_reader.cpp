@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "wire/tf_reader.hpp"
 
 #include <chrono>
@@ -7,7 +8,7 @@
 namespace coframe {
 namespace {
 
-// Publishers come and go, and of those without a name nobody says that they have left: so many are remembered.
+// Limits the number of remembered publishers: DDS does not report the end of every one.
 constexpr std::size_t kMaxSources = 1024;
 
 template <class Clock>
@@ -17,15 +18,15 @@ std::int64_t now() {
 
 }  // namespace
 
-TfReader::TfReader(dds::Entity participant, dds::Entity topic, const QosProfile& profile,
-                   const std::string& user_data, std::shared_ptr<Buffer> buffer, bool is_static,
-                   const std::string& authority, std::shared_ptr<const Renaming> renaming)
+TfReader::TfReader(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
+                   std::shared_ptr<Buffer> buffer, bool is_static, const std::string& authority,
+                   std::shared_ptr<const Renaming> renaming)
     : buffer_(std::move(buffer)),
       is_static_(is_static),
       authority_(authority),
       renaming_(std::move(renaming)),
       reader_(participant, topic, make_qos(profile, user_data).get(), &TfReader::on_data, this) {
-  on_data(reader_.entity(), this);  // what came before the listener
+  on_data(reader_.entity(), this);  // samples that arrived before the listener was attached
 }
 
 void TfReader::name_writer(dds::Handle writer, const std::string& authority) {
@@ -44,7 +45,8 @@ std::vector<TfReader::WriterStatistics> TfReader::writers() const {
   const std::lock_guard lock(mutex_);
   std::vector<WriterStatistics> all;
   for (const auto& [writer, source] : sources_) {
-    all.push_back({writer, source.messages, source.received_at, source.period, source.delay, source.stream.name_problems});
+    all.push_back(
+        {writer, source.messages, source.received_at, source.period, source.delay, source.stream.name_problems});
   }
   return all;
 }
@@ -67,7 +69,9 @@ TfReader::Source& TfReader::source_of(dds::Handle writer) {
   const auto found = sources_.find(writer);
   if (found != sources_.end()) return found->second;
   if (sources_.size() >= kMaxSources) std::erase_if(sources_, [](const auto& entry) { return !entry.second.named; });
-  return sources_.emplace(writer, Source{.stream = buffer_->open_stream(is_static_, authority_, renaming_), .period = {}, .delay = {}})
+  return sources_
+      .emplace(writer,
+               Source{.stream = buffer_->open_stream(is_static_, authority_, renaming_), .period = {}, .delay = {}})
       .first->second;
 }
 
@@ -75,7 +79,7 @@ void TfReader::store(const dds::Sample& sample) {
   const auto bytes = sample.bytes();
   std::size_t stored = 0;
   Source& source = source_of(sample.info().publication_handle);
-  // What is malformed the buffer counts.
+  // The buffer counts malformed messages.
   buffer_->ingest_without_notify(source.stream, bytes.data(), bytes.size(), stored);
   source.received_at = now<std::chrono::steady_clock>();
   source.period.add(source.received_at);

@@ -1,4 +1,5 @@
-// DDS -> buffer: transforms are stored on DDS's own thread, without Python and its lock.
+// SPDX-License-Identifier: Apache-2.0
+// DDS -> buffer: transforms are stored on DDS's own thread, without the GIL.
 #pragma once
 
 #include <atomic>
@@ -9,8 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "core/buffer.hpp"
 #include "core/arrival_period.hpp"
+#include "core/buffer.hpp"
 #include "core/stamp_delay.hpp"
 #include "wire/data_reader.hpp"
 #include "wire/qos.hpp"
@@ -19,32 +20,32 @@ namespace coframe {
 
 class TfReader {
  public:
-  // What one writer has sent so far.
+  // Statistics of one writer.
   struct WriterStatistics {
     dds::Handle writer;
     std::uint64_t messages;
     std::int64_t received_at;  // nanoseconds of the steady clock
     ArrivalPeriod period;
-    StampDelay delay;                // behind the system clock; of transforms that are not static
+    StampDelay delay;  // of its stamps behind the system clock; dynamic transforms only
     NameProblems name_problems;
   };
 
-  // `authority` is what the buffer notes as the source of every transform, until `name_writer` says better. With a
-  // `renaming` (may be null) the buffer gets the frames under the names that it makes.
+  // `authority` is stored as the source of every transform until `name_writer` is called. With a `renaming` (may be
+  // null), frames are renamed.
   TfReader(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
            std::shared_ptr<Buffer> buffer, bool is_static, const std::string& authority,
            std::shared_ptr<const Renaming> renaming);
   void close() noexcept { reader_.close(); }
 
-  // The buffer notes `authority` for what this writer has sent and will send.
+  // Stores `authority` as the source of this writer's past and future transforms.
   void name_writer(dds::Handle writer, const std::string& authority);
-  // The writer has left.
+  // Forget a writer that has disappeared.
   void forget_writer(dds::Handle writer);
 
-  // Of each writer that is remembered.
+  // Returns the statistics of all writers.
   std::vector<WriterStatistics> writers() const;
 
-  // When the newest message's transforms were in the buffer, in nanoseconds of the steady clock; 0: never.
+  // When the transforms of the newest message were stored, in nanoseconds of the steady clock; 0: never.
   std::int64_t stored_at() const { return stored_at_; }
 
   const DataReader& reader() const { return reader_; }
@@ -68,10 +69,10 @@ class TfReader {
   const bool is_static_;
   const std::string authority_;
   const std::shared_ptr<const Renaming> renaming_;
-  mutable std::mutex mutex_;                          // of the sources
+  mutable std::mutex mutex_;                         // of the sources
   std::unordered_map<dds::Handle, Source> sources_;  // by writer
   std::atomic<std::int64_t> stored_at_ = 0;
-  DataReader reader_;                                 // last: its callback uses the members above
+  DataReader reader_;  // last: its callback uses the members above
 };
 
 }  // namespace coframe

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Serialised messages -> DDS.
 #pragma once
 
@@ -22,7 +23,7 @@ class Writer {
 
   // Sends one message: 4 bytes of encapsulation, then CDR. Throws std::invalid_argument for less than that.
   void write(const void* data, std::size_t size) const;
-  // The same on an unchecked topic for a message of any type: the bytes are nobody's business here.
+  // The same on an unchecked topic, for a message of any type, without a check of its bytes.
   void forward(const void* data, std::size_t size) const;
   void close() noexcept;
 

@@ -74,7 +74,7 @@ class Failure:
     def parents(self) -> dict[str, str]: ...
 
 class Buffer:
-    """The native buffer; coframe.Buffer is the public class on top of it."""
+    """The native buffer; coframe.Buffer is the public class derived from it."""
 
     def __init__(self, cache_ns: int) -> None: ...
     @property
@@ -114,6 +114,7 @@ class Buffer:
             ExtrapolationException: An edge has no sample at that time.
             InvalidArgumentException: A name is empty or has a leading slash.
             TypeError: A stamp or duration has a wrong type, such as a float of seconds.
+            ValueError: A duration is an int below one microsecond, such as 2, or is text without a unit.
 
         Example:
             >>> import coframe
@@ -339,40 +340,40 @@ class Buffer:
         """A counter that increases with every insertion."""
 
 class Mailbox:
-    """Where waits and watches leave their token when something has happened."""
+    """A queue of tokens that waits and watches put when something has happened."""
 
     def __init__(self) -> None: ...
     def put(self, token: int) -> None:
-        """Leaves a token from Python."""
+        """Put a token from Python."""
 
     @property
     def empty(self) -> bool: ...
     def take(self) -> list[int]:
-        """The tokens that have come."""
+        """Return and remove the tokens."""
 
     def wait(self, timeout_ns: int) -> bool:
-        """Waits, without the GIL, until there are some (True) or the time (negative: for ever) is over."""
+        """Wait without the GIL until there is a token (True) or the time is over (negative: no limit)."""
 
 class Wait:
-    """A look-up that waits for its answer."""
+    """A lookup that waits until it succeeds."""
 
     def transform(self) -> PublicTransform | None:
-        """The transform, or None while there is none."""
+        """Return the transform, or None while there is none."""
 
     def cancel(self) -> None:
-        """Waits no more."""
+        """Stop waiting."""
 
 class Watch:
-    """Notes which edges change."""
+    """Records which edges change."""
 
     def take(self) -> list[str]:
-        """The child frames of the edges that have changed since the last call."""
+        """Return the child frames of the edges that have changed since the last call."""
 
     def cancel(self) -> None:
-        """Notes no more."""
+        """Stop watching."""
 
 def wait(buffer: Buffer, mailbox: Mailbox, token: int, target: str, source: str, stamp: StampLike | None) -> Wait:
-    """A look-up whose token is put into the mailbox once it has its answer."""
+    """Start a lookup whose token is put into the mailbox once it succeeds."""
 
 def wait_full(
     buffer: Buffer,
@@ -384,23 +385,23 @@ def wait_full(
     source_stamp: StampLike | None,
     fixed: str,
 ) -> Wait:
-    """The same for _lookup_full."""
+    """Start a _lookup_full whose token is put into the mailbox once it succeeds."""
 
 def watch(buffer: Buffer, mailbox: Mailbox, token: int, child: str) -> Watch:
-    """Puts the token into the mailbox when the edge from `child` to its parent changes; "": any edge."""
+    """Put the token into the mailbox when the edge from `child` to its parent changes; "": any edge."""
 
 class Event:
-    """A flag that DDS threads and Python set, and one thread waits for without the GIL."""
+    """A flag that DDS threads and Python set and that one thread waits for without the GIL."""
 
     def __init__(self) -> None: ...
     def set(self) -> None:
-        """Sets the flag and wakes the waiting thread."""
+        """Set the flag and wake the waiting thread."""
 
     def clear(self) -> None:
-        """Takes the flag back."""
+        """Clear the flag."""
 
     def wait(self, timeout_ns: int | None) -> bool:
-        """Waits until set (True, and cleared) or for timeout_ns nanoseconds (False); None waits for ever."""
+        """Wait until the flag is set and clear it (True), or until timeout_ns has passed (False); None: no limit."""
 
 def insert_texts(
     refusals: int,
@@ -416,16 +417,16 @@ def insert_texts(
     qw: float,
     authority: str,
 ) -> list[tuple[str, str]]:
-    """tf2's log lines for a transform that _set_values refused: (level, text)."""
+    """Return tf2's log lines for a transform that _set_values rejected: (level, text)."""
 
 def register_buffer_class(cls: type[Buffer]) -> None:
-    """Gives a class on top of Buffer the most frequent methods as its own.
+    """Copy the most frequent methods into a class derived from Buffer.
 
-    CPython has a shorter way to call those of an object's very class.
+    CPython has a shorter way to call own class faster.
     """
 
 def register_transform_class(cls: type[Transform]) -> None:
-    """Look-ups return instances of `cls`, a subclass of Transform."""
+    """Register the class of lookup results, a subclass of Transform."""
 
 def register_messages(
     transform_stamped: type,
@@ -436,23 +437,23 @@ def register_messages(
     vector3: type,
     quaternion: type,
 ) -> None:
-    """The classes that _set_message() reads and _lookup_message() makes."""
+    """Register the classes that _set_message() reads and _lookup_message() creates."""
 
 def register_errors(errors: ModuleType) -> None:
-    """Failures are raised as the exceptions of this module."""
+    """Register the module whose exceptions are raised for failures."""
 
 def register_time(time: ModuleType) -> None:
-    """Stamps and durations that are not int are converted by this module."""
+    """Register the module that converts stamps and durations other than int."""
 
 CPU_LEVEL: str
 CPU_LEVELS: tuple[str, ...]
 
 def mcap_records(data: Any) -> tuple[bytes, bytes, bytes, bytes, bytes, list[tuple[int, int, int]], int]:
-    """Where the messages lie among records of MCAP, up to the first record that is cut off or of another kind.
+    """Return the positions of the messages in MCAP records, up to the first truncated or other record.
 
     Returns:
-        Of each message its channel (uint16), log time (uint64), and where its record begins, its bytes begin and its
-        bytes end (uint64); of each schema and channel its opcode and the two ends of its content; the bytes dealt with.
+        For each message its channel (uint16), log time (uint64), and the start of its record, the start of its bytes
+        and their end (uint64); for each schema and channel its opcode, start and end; the number of bytes processed.
     """
 
 def ingest_slices(
@@ -465,7 +466,7 @@ def ingest_slices(
     encoding: str = "cdr",
     renaming: Renaming | None = None,
 ) -> tuple[int, str]:
-    """Buffer.ingest() of many parts of `data`, told by uint64 arrays: how many are damaged, and why the first is.
+    """Ingest many slices of `data`, given by uint64 arrays; return how many are malformed, and why the first is.
 
     `encoding` is "cdr", or "ros1" for tf2_msgs/TFMessage and tf/tfMessage of ROS 1.
     """
@@ -473,62 +474,62 @@ def ingest_slices(
 def transform_columns(
     data: Any, starts: Any, ends: Any, encoding: str = "cdr"
 ) -> tuple[bytes, bytes, bytes, bytes, bytes, list[str], int, str]:
-    """The transforms of many TFMessages as they were sent, whatever a buffer would make of them.
+    """Return the transforms of many TFMessages as they were sent, without a buffer's checks.
 
     Returns:
-        Of each transform the number of its message (uint32), its stamp (int64), the numbers of its parent's and its
-        child's name (uint32), x, y, z, qx, qy, qz, qw (float64); the names; how many messages are damaged, and why the
-        first.
+        For each transform the index of its message (uint32), its stamp (int64), the indices of its parent's and
+        child's name (uint32), x, y, z, qx, qy, qz, qw (float64); the names; how many messages are malformed, and why
+        the first is.
     """
 
 class JointTree:
-    """A tree of joints, and where all its links are.
+    """A joint tree and the forward kinematics of its links.
 
     Args:
-        root: The link that no joint moves.
+        root: The root link.
         joints: Parents before children: name, type, parent link, child link, origin (x, y, z, qx, qy, qz, qw), axis,
-            and whom it follows, (joint, multiplier, offset), or None.
+            and the joint it mimics as (joint, multiplier, offset), or None.
 
     Raises:
-        ValueError: A parent stands behind its child, or joints follow each other in a circle.
+        ValueError: A child comes before its parent, or joints mimic each other in a cycle.
     """
 
     def __init__(self, root: str, joints: list[tuple[object, ...]]) -> None: ...
     def transforms(self, positions: dict[str, Any], in_root: bool) -> dict[str, PublicTransform] | None:
-        """Of one configuration, by link in the root link, or by joint in the link before it.
+        """Return the transforms of one configuration: of links relative to the root, or of joints to the previous link.
 
         Args:
             positions: By joint: a number, or a list or tuple of them for a joint that has several.
-            in_root: Which of the two.
+            in_root: True for links relative to the root link.
 
         Returns:
-            None where a position is not finite, not of the joint's size, or of no joint that moves.
+            None if a position is not finite, has the wrong size, or belongs to no movable joint.
         """
 
     def poses_into(
         self, positions: list[tuple[str, Any]], count: int, in_root: bool, out: Any, threads: int
     ) -> str | None:
-        """Of many configurations.
+        """Compute the poses of many configurations.
 
         Args:
-            positions: (joint, float64 array): (N,), of a joint with several numbers (N, size), of any strides.
+            positions: (joint, float64 array) with the shape (N,), or (N, size) for joints with several numbers.
             count: N.
-            in_root: As of transforms().
-            out: Is filled: (J, N, 7) float64, in the order of the joints.
-            threads: So many share the work.
+            in_root: See transforms().
+            out: (J, N, 7) float64, filled in the order of the joints.
+            threads: Number of threads.
 
         Returns:
-            The first joint found with a position that is not finite, or a quaternion of zero; None if there is none.
+            The first joint with a position that is not finite, or with a zero quaternion; None if there is none.
         """
 
 def transform_fields(pose: Sequence[float], fields: Sequence[Sequence[Any]], threads: int) -> None:
-    """Moves points by a pose (x, y, z, qx, qy, qz, qw), in place.
+    """Transform points by a pose (x, y, z, qx, qy, qz, qw), in place.
 
     Args:
-        pose: What they are moved by.
-        fields: Threes of float32 or float64 arrays of one shape, with one or two axes and any strides: the position,
-            then directions, which are turned only.
-        threads: How many share the work.
+        pose: The transform to apply.
+        fields: Triples of float32 or float64 arrays of one shape, with one or two axes and any strides: the position,
+            then directions, which are only rotated.
+        threads: Number of threads.
     """
 
 def deskew_fields(
@@ -541,143 +542,143 @@ def deskew_fields(
     nan_for_none: bool,
     threads: int,
 ) -> tuple[int, int]:
-    """Moves points in `source` to `target`, each by its own time, and then by a pose, in place.
+    """Transform points from `source` to `target`, each at its own time, and then by a pose, in place.
 
     Args:
-        buffer: Where the motion is known.
-        target: The frame that stands still.
+        buffer: The buffer with the motion.
+        target: The fixed frame.
         source: The sensor's frame.
-        times: int64 nanoseconds, one a point; 0 is the latest, the least int64 is none.
-        onward: The pose of `target`, seen from where the points shall be.
-        fields: As in transform_fields().
-        nan_for_none: Points without a transform become NaN; else none is touched if one has none.
-        threads: How many share the work.
+        times: int64 nanoseconds, one per point; 0 is the latest, the smallest int64 means none.
+        onward: The pose of `target` relative to the frame of the result.
+        fields: See transform_fields().
+        nan_for_none: Points without a transform become NaN; otherwise no point changes if one has no transform.
+        threads: Number of threads.
 
     Returns:
-        How many points have no transform, and the first of them. If all of them, none is touched.
+        How many points have no transform, and the first of them. If all of them have none, no point changes.
     """
 
 class PoseTable:
-    """Many frames, looked up together again and again; for one thread.
+    """Many frames that are looked up together repeatedly, by one thread.
 
     Args:
-        buffer: Where they are looked up.
-        fixed: The frame that the poses are told in.
+        buffer: The buffer to look up in.
+        fixed: The frame that the poses are relative to.
         frames: N frames.
-        roots: None, or the frame that a frame is seen from instead of `fixed`.
+        roots: For each frame None, or the frame that its pose is relative to instead of `fixed`.
     """
 
     def __init__(self, buffer: Buffer, fixed: str, frames: list[str], roots: list[str | None]) -> None: ...
     def look_up(self, stamp: int, hold: int, poses: Any, states: Any) -> None:
-        """Where all of them are at one time.
+        """Compute the poses of all frames at one time.
 
         Args:
-            stamp: Nanoseconds; 0 is the latest, for each frame its own.
-            hold: How many nanoseconds beyond its samples a link is taken to stand still.
-            poses: (N, 7) float64, gets x, y, z, qx, qy, qz, qw, or NaN.
-            states: (N,) uint8, gets 0: exactly; 1: held beyond the samples of a link; 2: not at all; 3: seen from its
-                root.
+            stamp: Nanoseconds; 0 is the latest of each frame.
+            hold: For how many nanoseconds after its last sample an edge is assumed not to move.
+            poses: (N, 7) float64, receives x, y, z, qx, qy, qz, qw, or NaN.
+            states: (N,) uint8, receives 0: exact; 1: held after the last sample of an edge; 2: no pose; 3: relative to
+                its own root.
         """
 
 def poses_near(poses: Any, states: Any, origin: Any, fixed: int, limit: float, near: Any) -> int:
-    """Poses as float32, relative to an origin; how many are far from it.
+    """Write poses as float32 relative to an origin; return how many are far from it.
 
     Args:
         poses: (N, 7) float64: x, y, z, qx, qy, qz, qw.
-        states: (N,) uint8: how they were found, as of `PoseTable.look_up`.
+        states: (N,) uint8: the states of `PoseTable.look_up`.
         origin: (3,) float64.
-        fixed: The index of a frame that is never far; -1: none.
-        limit: How far from the origin is far, along an axis; frames are counted whose state is 0 or 1.
-        near: (N, 7) float32, gets the poses.
+        fixed: The index of a frame that is not counted; -1: none.
+        limit: The distance along an axis from which a frame is far; only frames with state 0 or 1 are counted.
+        near: (N, 7) float32, receives the poses.
     """
 
 class Renaming:
-    """Puts a prefix in front of the names of frames, except of those to keep."""
+    """Add a prefix to the names of frames, except those to keep."""
 
     def __init__(self, prefix: str, keep: Sequence[str]) -> None: ...
     def __call__(self, name: str) -> str:
-        """The name among those of others."""
+        """Return the renamed frame."""
 
 class Relay:
-    """TFMessages of several sources into those of one tree. Not for several threads at once."""
+    """Merge the TFMessages of several sources into one tree. Not thread-safe."""
 
     def __init__(self, static: bool, period: int) -> None:
-        """With `static`, what is written is always all; else of each edge one transform in `period` nanoseconds."""
+        """Write all edges at once if `static`, else at most one transform of each edge per `period` nanoseconds."""
 
     def add_source(self, renaming: Renaming, split: bool) -> int:
-        """The number of another source. With `split` only what has the prefix or is kept passes, without the prefix."""
+        """Add a source; return its number. With `split`, only kept or prefixed frames pass; the prefix goes."""
 
     def add(self, source: int, writer: int, message: bytes, at: int = -1) -> None:
-        """Takes a message in that came from a writer of a source.
+        """Add a message from a writer of a source.
 
         Args:
             source: Its number.
             writer: Any number for the writer.
-            message: A TFMessage's CDR; what is malformed is counted.
-            at: When it came, in nanoseconds of a clock that never goes back; negative: now, by the steady clock.
+            message: A TFMessage as CDR; malformed messages are counted.
+            at: The arrival time in nanoseconds of a monotonic clock; negative: now, by the steady clock.
         """
 
     def take(self) -> bytes | None:
-        """One message of what was taken in since the last one, or None."""
+        """Return one message with everything added since the last call, or None."""
 
     def forget_writer(self, source: int, writer: int) -> None:
-        """The writer has left."""
+        """Forget a writer that has disappeared."""
 
     def edges(self) -> list[tuple[str, str, int, int, int | None, int, int, int, int, int]]:
-        """What is known of each edge.
+        """Return the statistics of each edge.
 
         Returns:
-            Parent and child as they are written; the source that is listened to, and the writer of its last message; a
-            source that tells something else, or None, and how often that was; how many transforms were passed on, and
-            how many left out for the rate; the newest stamp; when it was heard of last.
+            Parent and child as they are written; the relayed source and the writer of its last message; a source that
+            publishes something different, or None, and how often; how many transforms were passed on and how many were
+            dropped for the rate; the newest stamp; the arrival time of the last transform.
         """
 
     def writers(self, source: int) -> list[tuple[tuple[int, int, int, int, int | None, str, str, str], int, int]]:
-        """What each writer of a source has sent: as TfReader.writers(), messages and transforms that were bad."""
+        """Return for each writer of a source: see TfReader.writers(); malformed messages; rejected transforms."""
 
 def frozen_parts(buffer: Buffer) -> tuple[bytes, int]:
-    """Of a frozen buffer the table that a file of it begins with, and how many chunks of samples it has."""
+    """Return the table of a frozen buffer for a file, and its number of sample chunks."""
 
 def frozen_chunks(buffer: Buffer, first: int, count: int) -> bytes:
-    """Some of these chunks; fewer at the end."""
+    """Return the bytes of some of these chunks; fewer at the end."""
 
 def become_frozen(buffer: Buffer, file: Any, table: int, table_size: int, samples: int, samples_size: int) -> str:
-    """Makes a new buffer one that uses a file's bytes where they lie.
+    """Restore a new buffer from a file's bytes, which are used in place.
 
     Args:
-        buffer: One that nobody uses yet.
-        file: The whole file, by the buffer protocol; held as long as it is needed.
+        buffer: A new buffer.
+        file: The whole file as an object with the buffer protocol; kept as long as it is needed.
         table: Where the table begins.
         table_size: How many bytes it has.
         samples: Where the chunks of samples begin, at a multiple of 64.
         samples_size: How many bytes they have.
 
     Returns:
-        What is wrong with them; nothing if they are good.
+        What is wrong with them; "" if they are valid.
     """
 
 def samples_of(buffer: Buffer, child: str) -> tuple[bytes, bytes, bytes, list[str]]:
-    """The samples of one frame of a frozen buffer.
+    """Return the samples of one frame of a frozen buffer.
 
     Returns:
-        Stamps (int64), poses (rows of 7 float64: x, y, z, qx, qy, qz, qw), which of the names each parent has (uint32),
-        these names.
+        Stamps (int64), poses (rows of 7 float64: x, y, z, qx, qy, qz, qw), the index of each parent's name (uint32),
+        the names.
     """
 
 PUBLICATIONS: int
 SUBSCRIPTIONS: int
 
 class DdsError(RuntimeError):
-    """DDS has refused something."""
+    """A DDS call failed."""
 
 def load_dds(path: str) -> None:
-    """Loads the DDS library; RuntimeError where it does not fit."""
+    """Load the DDS library; raise RuntimeError if it is not usable."""
 
 def create_unchecked_topic(participant: int, name: str, type_name: str) -> int:
-    """A topic for who checks the bytes himself: its number."""
+    """Create a topic whose readers check the bytes themselves; return its handle."""
 
 class QosProfile:
-    """The four policies ROS programs set."""
+    """The four QoS policies that ROS programs set."""
 
     def __init__(self, depth: int, reliable: bool, transient_local: bool, keep_all: bool) -> None: ...
 
@@ -692,7 +693,7 @@ class DomainParticipant:
     @property
     def guid(self) -> bytes: ...
     def close(self) -> None:
-        """Ends the participant and DDS's threads."""
+        """End the participant and DDS's threads."""
 
 class Writer:
     """A DDS writer of serialised messages."""
@@ -701,10 +702,10 @@ class Writer:
         self, participant: int, topic: int, qos: QosProfile, user_data: str, unchecked: bool = False
     ) -> None: ...
     def write(self, message: bytes) -> None:
-        """Sends one serialised message, without the GIL."""
+        """Send one serialised message without the GIL."""
 
     def forward(self, message: bytes) -> None:
-        """The same on an unchecked topic for a message of any type, whose bytes nobody looks at."""
+        """Send a message of any type on an unchecked topic, without a check of its bytes."""
 
     @property
     def guid(self) -> bytes: ...
@@ -713,11 +714,11 @@ class Writer:
         """How many readers the writer has found."""
 
     def matched_handles(self) -> list[int]:
-        """The handles of those readers."""
+        """Return the handles of those readers."""
 
     @property
     def refused_policy(self) -> int:
-        """DDS's number of the policy by which the last reader was refused; 0: none was."""
+        """DDS's number of the QoS policy that rejected the last reader; 0: none."""
 
     def close(self) -> None: ...
 
@@ -728,7 +729,7 @@ class Reader:
         self, participant: int, topic: int, qos: QosProfile, user_data: str, on_data: Event | None
     ) -> None: ...
     def take(self, limit: int) -> list[tuple[bytes, int, int]]:
-        """Up to `limit` tuples (bytes, source timestamp in ns, writer's handle)."""
+        """Return up to `limit` tuples (bytes, source timestamp in ns, writer's handle)."""
 
     @property
     def pending(self) -> bool:
@@ -741,23 +742,23 @@ class Reader:
         """How many writers the reader has found."""
 
     def matched_handles(self) -> list[int]:
-        """The handles of those writers."""
+        """Return the handles of those writers."""
 
     @property
     def refused_policy(self) -> int:
-        """DDS's number of the policy by which the last writer was refused; 0: none was."""
+        """DDS's number of the QoS policy that rejected the last writer; 0: none."""
 
     def close(self) -> None:
-        """Ends the reader; no callback runs afterwards."""
+        """End the reader; no callback runs afterwards."""
 
 class Tap:
-    """Notes when messages come, on DDS's thread and without the GIL; whoever looks now and then takes them."""
+    """Records messages with their arrival times on DDS's thread, without the GIL; polled with take()."""
 
     def __init__(
         self, participant: int, topic: int, qos: QosProfile, user_data: str, head: int, capacity: int
     ) -> None: ...
     def take(self) -> tuple[bytes, bytes, bytes, bytes, bytes]:
-        """The messages since the last call, the oldest first.
+        """Return the messages since the last call, the oldest first.
 
         Returns:
             The first `head` bytes of all of them, one after the other; then, as bytes, of each where it ends (uint64),
@@ -767,7 +768,7 @@ class Tap:
 
     @property
     def missed(self) -> int:
-        """How many messages came while `capacity` of them were waiting."""
+        """How many messages arrived while `capacity` messages were waiting."""
 
     @property
     def guid(self) -> bytes: ...
@@ -776,14 +777,14 @@ class Tap:
         """How many writers the reader has found."""
 
     def matched_handles(self) -> list[int]:
-        """The handles of those writers."""
+        """Return the handles of those writers."""
 
     @property
     def refused_policy(self) -> int:
-        """DDS's number of the policy by which the last writer was refused; 0: none was."""
+        """DDS's number of the QoS policy that rejected the last writer; 0: none."""
 
     def close(self) -> None:
-        """Ends the reader; no callback runs afterwards."""
+        """End the reader; no callback runs afterwards."""
 
 class TfReader:
     """Stores the transforms of a topic in a buffer, on DDS's thread and without the GIL."""
@@ -800,7 +801,7 @@ class TfReader:
         renaming: Renaming | None = None,
     ) -> None: ...
     def writers(self) -> list[tuple[int, int, int, int, int | None, str, str, str]]:
-        """What each writer has sent.
+        """Return the statistics of each writer.
 
         Returns:
             The writer's handle; how many messages; when the last one came, in nanoseconds of the steady clock; by how
@@ -809,14 +810,14 @@ class TfReader:
         """
 
     def forget_writer(self, writer: int) -> None:
-        """The writer with this handle has left."""
+        """Forget the writer with this handle."""
 
     def name_writer(self, writer: int, authority: str) -> None:
-        """The buffer notes `authority` for what the writer with this handle has sent and will send."""
+        """Store `authority` as the source of this writer's past and future transforms."""
 
     @property
     def stored_at(self) -> int:
-        """When the newest message's transforms were in the buffer, in nanoseconds of the steady clock; 0: never."""
+        """When the newest message's transforms were stored, in nanoseconds of the steady clock; 0: never."""
 
     @property
     def guid(self) -> bytes: ...
@@ -825,20 +826,20 @@ class TfReader:
         """How many writers the reader has found."""
 
     def matched_handles(self) -> list[int]:
-        """The handles of those writers."""
+        """Return the handles of those writers."""
 
     @property
     def refused_policy(self) -> int:
-        """DDS's number of the policy by which the last writer was refused; 0: none was."""
+        """DDS's number of the QoS policy that rejected the last writer; 0: none."""
 
     def close(self) -> None:
-        """Ends the reader; no callback runs afterwards."""
+        """End the reader; no callback runs afterwards."""
 
 class EndpointReader:
-    """What DDS discovery tells about writers (PUBLICATIONS) or readers (SUBSCRIPTIONS)."""
+    """The writers (PUBLICATIONS) or readers (SUBSCRIPTIONS) found by DDS discovery."""
 
     def __init__(self, participant: int, topic: int, on_change: Event) -> None: ...
     def take(self) -> list[tuple[int, bool, bytes, bytes, str, str, tuple[int, bool, bool, bool], bytes]]:
-        """The changes: (handle, alive, guid, participant's guid, topic, type, four policies of its QoS, user data)."""
+        """Return the changes: (handle, alive, guid, participant's guid, topic, type, four QoS policies, user data)."""
 
     def close(self) -> None: ...

@@ -146,7 +146,8 @@ class Buffer(_core.Buffer):
 
     Raises:
         TypeError: ``cache`` is not a duration; a float of seconds is not accepted.
-        ValueError: ``cache`` is negative, or its text is not a number and a unit.
+        ValueError: ``cache`` is negative, or its text is not a number and a unit, or it is an int from 1 to 999: such
+            a cache would have a length of a few nanoseconds.
 
     Example:
         >>> import coframe

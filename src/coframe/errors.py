@@ -15,7 +15,9 @@
         ├── RobotDescriptionError(ValueError)   a robot description that is invalid
         ├── PackageError(LookupError)           a package, or a file in one, that does not exist
         ├── FrozenFileError(ValueError)         a file that is not a frozen buffer, or is damaged
-        └── RecordingError(ValueError)          a recording without any readable data
+        ├── RecordingError(ValueError)          a recording without any readable data
+        ├── TrajectoryError(ValueError)         a trajectory that cannot be read or compared
+        └── PlotError(ValueError)               something that cannot be plotted
 
 Wrong arguments of Python calls (a wrong type, shape or unit) raise TypeError and ValueError as usual.
 
@@ -50,9 +52,11 @@ __all__ = [
     "InvalidArgumentException",
     "LookupException",
     "PackageError",
+    "PlotError",
     "RecordingError",
     "RobotDescriptionError",
     "TimeoutException",
+    "TrajectoryError",
     "TransformException",
     "ViewerError",
     "WireError",
@@ -274,6 +278,14 @@ class FrozenFileError(_HintedError, ValueError):
 
 class RecordingError(_HintedError, ValueError):
     """A recording without any readable data."""
+
+
+class TrajectoryError(_HintedError, ValueError):
+    """A trajectory file that cannot be read, or two trajectories that cannot be compared."""
+
+
+class PlotError(_HintedError, ValueError):
+    """An expression that is not valid or has no values, or a plot that cannot be written."""
 
 
 def _restore(kind: str | type[TransformException], text: str, facts: dict[str, object]) -> TransformException:

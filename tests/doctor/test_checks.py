@@ -379,7 +379,7 @@ def test_static_publisher_with_durability_volatile(only, examine, plugin):
     finding = only(Offered(Run.healthy(seconds=1), plugin, kept, volatile, volatile), "TF016")
     assert finding.severity is Severity.ERROR
     assert "a publisher of /tf_static offered durability volatile" in finding.text
-    assert "--qos-profile-overrides-path" in finding.fix
+    assert "`coframe play`" in finding.fix
     assert examine(Offered(Run.healthy(seconds=1), plugin, kept), folder="good").findings == []
 
 

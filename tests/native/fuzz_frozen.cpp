@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Frozen buffers whose table and samples are damaged, opened and asked, for a sanitizer to watch. The same every time.
 
 #include <algorithm>
@@ -85,7 +86,8 @@ class Fuzzer {
 
  private:
   void damage(std::string& bytes) {
-    static const std::array<std::uint64_t, 8> name_problems{0, 1, 0xff, 0x7fffffff, 0xffffffff, 1ull << 63, ~0ull, ~0ull >> 1};
+    static const std::array<std::uint64_t, 8> name_problems{0,          1,          0xff,  0x7fffffff,
+                                                            0xffffffff, 1ull << 63, ~0ull, ~0ull >> 1};
     const std::uint64_t number = rng_() % 2 == 0 ? name_problems[rng_() % name_problems.size()] : rng_();
     const std::size_t size = std::size_t{1} << rng_() % 4, at = rng_() % (bytes.size() - size);
     std::memcpy(&bytes[at], &number, size);

@@ -1,5 +1,5 @@
-// TFMessages as bytes, most of them damaged, taken in by a buffer and by relays, for a sanitizer to watch. The same every
-// time.
+// SPDX-License-Identifier: Apache-2.0
+// TFMessages as bytes, most of them malformed, ingested by a buffer and by relays under a sanitizer. Deterministic.
 
 #include <algorithm>
 #include <array>
@@ -106,7 +106,8 @@ class Fuzzer {
   }
 
   std::string name() {
-    static const std::array<std::string, 8> name_problems{"", "/", "//", "/a", "größe", "NO_PARENT", "a b", std::string(300, 'x')};
+    static const std::array<std::string, 8> name_problems{"",      "/",         "//",  "/a",
+                                                          "größe", "NO_PARENT", "a b", std::string(300, 'x')};
     return rng_() % 8 == 0 ? one_of(name_problems) : "frame" + std::to_string(rng_() % 20);
   }
 
@@ -170,8 +171,9 @@ class Fuzzer {
       expect(stored == 0 && failure.offset <= bytes.size(), "a refused message leaves traces");
       expect(after.refused == before.refused && after.old == before.old, "parts of a refused message are counted");
     } else {
-      const std::uint64_t told = after.stored + after.refused + after.old - before.stored - before.refused - before.old;
-      expect(damaged || told == transforms, "transforms that were not counted");
+      const std::uint64_t counted =
+          after.stored + after.refused + after.old - before.stored - before.refused - before.old;
+      expect(damaged || counted == transforms, "transforms that were not counted");
     }
   }
 

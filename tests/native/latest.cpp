@@ -1,5 +1,6 @@
-// One writer that goes on in order, with a cache that keeps two samples: however fast samples are dropped, the latest of
-// all links is always there.
+// SPDX-License-Identifier: Apache-2.0
+// One writer that goes on in order, with a cache that keeps two samples: however fast samples are dropped, the latest
+// of all links is always there.
 
 #include <atomic>
 #include <chrono>
@@ -44,7 +45,8 @@ int main(int argc, char** argv) {
     Failure failure;
     expect(buffer.lookup_by_id(map, base, stamp, pose, failure), "the latest is not there");
     stamp = 0;
-    expect(buffer.lookup_full_by_id(map, stamp, base, 0, odom, pose, failure), "the latest is not there for time travel");
+    expect(buffer.lookup_full_by_id(map, stamp, base, 0, odom, pose, failure),
+           "the latest is not there for time travel");
   }
   over = true;
   writer.join();

@@ -1,8 +1,7 @@
-// Readers and writers on one buffer, for a sanitizer to watch; and poses that say by themselves when they are torn.
-//
-// Every sample is a function of its parent, its child and its stamp: x is the time, y tells the parent and z the child,
-// and the rotation is about z by an angle that grows with the time. Interpolation keeps that, so that whatever a reader
-// gets can be checked, however writers and readers meet.
+// SPDX-License-Identifier: Apache-2.0
+// Readers and writers on one buffer under a sanitizer, with poses that reveal torn reads. Every sample is a function of
+// its parent, its child and its stamp: x is the time, y encodes the parent and z the child, and the rotation is about z
+// by an angle that grows with time. Interpolation preserves this, so every result of a reader can be checked.
 
 #include <algorithm>
 #include <array>
@@ -145,12 +144,12 @@ struct World {
       : buffer(cache), calm(calm), always_there(calm && (cache == kKeepAll || cache >= 300 * kTick)) {}
 
   Buffer buffer;
-  const bool calm;          // samples come in order only, so that readers are hardly ever told to try again
-  const bool always_there;  // the chain's latest, once it has come: neither cleared nor dropped
+  const bool calm;          // samples arrive in order, so that readers rarely need to retry
+  const bool always_there;  // the chain's latest transform is never cleared or pruned once it exists
   std::atomic<bool> begun{false};
   std::atomic<Stamp> now{kStart};
-  std::atomic<int> names{0};             // new ones so far
-  std::atomic<std::uint64_t> clears{0};  // odd while one is under way
+  std::atomic<int> names{0};                          // new ones so far
+  std::atomic<std::uint64_t> clears{0};               // odd while one is under way
   std::array<std::atomic<int>, kReaders> promised{};  // number of the sample that a reader waits for; 0: it is there
   std::atomic<bool> over{false};
 };
@@ -209,8 +208,8 @@ class Writer {
     const std::string bytes = encode_tf_message(views);
     std::size_t stored = 0;
     const auto start = Clock::now();
-    const DecodeFailure failure = world_.buffer.ingest(
-        stream_, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), stored);
+    const DecodeFailure failure =
+        world_.buffer.ingest(stream_, reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), stored);
     took(start);
     expect(!failure.reason, "a good message was refused");
   }
@@ -373,8 +372,8 @@ class Reader {
     LookupQuery query;
     query.target = down ? below : above;
     query.source = down ? above : below;
-    const Batch batch{stamps.size(), stamps.data(), poses.data(), rng_() % 2 == 0 ? twists.data() : nullptr, nullptr,
-                      Batch::Missing::nan};
+    const Batch batch{stamps.size(), stamps.data(),      poses.data(), rng_() % 2 == 0 ? twists.data() : nullptr,
+                      nullptr,       Batch::Missing::nan};
     Failure failure;
     const bool ok = buffer_.lookup_many(query, nullptr, batch, 1, failure) == stamps.size();
     bool any = false;
@@ -399,12 +398,13 @@ class Reader {
     const Stamp source_stamp = when();
     Pose pose;
     Failure failure;
-    const bool ok = buffer_.lookup_full_by_id(target_id, target_stamp, source_id, source_stamp, fixed_id, pose, failure);
+    const bool ok =
+        buffer_.lookup_full_by_id(target_id, target_stamp, source_id, source_stamp, fixed_id, pose, failure);
     if (!count(ok, failure, Kind::full)) return;
     expect_pose(pose, inverse(along(0, target, target_stamp)) * along(0, source, source_stamp), "time travel");
   }
 
-  // The latest common time never runs back, unless somebody clears meanwhile.
+  // The latest common time never decreases, unless another thread clears the buffer meanwhile.
   void check_latest() {
     const std::uint64_t clears = world_.clears.load();
     Stamp before = 0;
@@ -539,7 +539,7 @@ class Reader {
       Stamp stamp = 0;
       Pose pose;
       Failure failure;
-      const bool ok = snapshot->lookup(target, source, stamp, pose, failure);
+      const bool ok = snapshot->lookup_by_id(target, source, stamp, pose, failure);
       if (i == 0) first = ok ? stamp : -1;
       expect(ok == (first != -1), "a snapshot that changes its mind");
       if (!ok) continue;

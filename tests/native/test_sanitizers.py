@@ -26,7 +26,7 @@ def build(kind, tmp_path):
     if subprocess.run(command, capture_output=True, check=False).returncode != 0:
         pytest.skip(f"the C++ compiler cannot build with {FLAGS[kind]}")
     BUILD.mkdir(parents=True, exist_ok=True)
-    with (BUILD / "lock").open("w") as lock:  # somebody else may be testing in this folder
+    with (BUILD / "lock").open("w") as lock:  # another test run may use this folder
         fcntl.flock(lock, fcntl.LOCK_EX)
         made = subprocess.run(
             ["make", "-s", "-j2", "-C", FOLDER, kind, f"BUILD={BUILD}"], capture_output=True, text=True, check=False

@@ -176,7 +176,9 @@ def test_descriptions_are_received_and_joint_states_published(domain_id, view, o
         publisher.publish(text(data=URDF.replace("{mesh}", "package://none/x.dae")))
         robot = tab.wait("robot")
         assert (robot["name"], robot["description_topic"]) == ("arm", "/robot_description")
-        assert robot["problems"] == ["ROS package 'none' not found"]
+        assert robot["problems"] == [
+            "ROS package 'none' not found. Add the folder that contains it to COFRAME_PACKAGE_PATH."
+        ]
 
         joint_states = ros.subscribe(topic, find("sensor_msgs/msg/JointState"))
         tab.send("joints", robot=robot["id"], positions={"turn": 1.0}, publish=True)

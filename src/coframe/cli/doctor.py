@@ -60,6 +60,9 @@ def doctor(
     explain: Annotated[
         str | None, typer.Option(metavar="CODE", help="Print the page about this code and exit.")
     ] = None,
+    list_codes: Annotated[
+        bool, typer.Option("--list", help="List all codes with their titles and exit; with --json, as JSON.")
+    ] = False,
     duration: Annotated[
         str, typer.Option(metavar="DURATION", help="Time to listen; with --watch, the window of the findings.")
     ] = "10s",
@@ -79,6 +82,9 @@ def doctor(
 
     Example: coframe doctor run.mcap --ignore TF018
     """
+    if list_codes:
+        _list_codes(as_json)
+        return
     if explain is not None:
         _explain(explain)
         return
@@ -112,6 +118,15 @@ def doctor(
             observer.listen(window / SECOND)
             report = diagnose(observer.observe(), ignore=ignored)
         _print_and_exit({"": report}, as_json, sarif, None)
+
+
+def _list_codes(as_json: bool) -> None:
+    titles = {code: page(code).title for code in codes()}
+    if as_json:
+        print(json.dumps([{"code": code, "title": title} for code, title in titles.items()]))
+        return
+    for code, title in titles.items():
+        print(f"{code}  {title}")
 
 
 def _explain(code: str) -> None:

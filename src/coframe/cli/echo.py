@@ -25,7 +25,7 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, log, with_doctor_command
 from coframe.errors import TransformException
-from coframe.time import SECOND
+from coframe.time import MICROSECOND, SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -155,7 +155,7 @@ def _wait_until_possible(buffer: Buffer, source: str, target: str, period: int) 
     logged_at = logged_hint = None
     while True:
         try:
-            buffer.lookup(source, target, timeout=min(period, SECOND))
+            buffer.lookup(source, target, timeout=min(max(period, MICROSECOND), SECOND))
         except TransformException as error:
             if logged_at is None or time.monotonic() - logged_at >= 1.0:
                 logged_at = time.monotonic()

@@ -18,6 +18,7 @@ __all__ = ["Packages"]
 _MANIFEST = "package.xml"
 _MAX_DEPTH = 4  # levels of folders between a workspace and its packages
 _NEIGHBOR_DEPTH = 2  # less, because the folder around a package may be large, such as a home folder
+_SEARCHED = "Packages are searched in the folders of COFRAME_PACKAGE_PATH."
 _NOT_SEARCHED = {"build", "install", "log", "node_modules", "__pycache__"}
 
 
@@ -65,7 +66,7 @@ class Packages:
         if not separator:
             return self._inside(url, *self._surroundings(url))
         if scheme != "package":
-            raise PackageError(f"{url!r} is not a package URL", hint="Use package://PACKAGE/PATH.")
+            raise PackageError(f"{url!r} is not a package URL", hint=f"Use package://PACKAGE/PATH. {_SEARCHED}")
         name, _, path = unquote(rest).partition("/")
         root = self.find(name)
         return self._inside(url, root, root / path)
@@ -74,17 +75,23 @@ class Packages:
         try:
             real = path.resolve()
             if not real.is_relative_to(root):
-                raise PackageError(f"{url!r} is outside {root}", hint="Only files inside the package can be read.")
+                raise PackageError(
+                    f"{url!r} is outside {root}", hint=f"Only files inside the package can be read. {_SEARCHED}"
+                )
             if not real.is_file():
-                raise PackageError(f"{url!r} does not exist: there is no file {real}")
+                raise PackageError(
+                    f"{url!r} does not exist: there is no file {real}",
+                    hint=f"Check the spelling, and whether this is the right copy of the package. {_SEARCHED}",
+                )
         except (OSError, ValueError, RuntimeError) as error:  # circular links, NUL characters, names that are too long
-            raise PackageError(f"{url!r} is not a valid file name: {error}") from None
+            raise PackageError(f"{url!r} is not a valid file name: {error}", hint=_SEARCHED) from None
         return real
 
     def _surroundings(self, url: str) -> tuple[Path, Path]:
         if self.near is None:
             raise PackageError(
-                f"{url!r} is relative, but the robot description has no file", hint="Use package://PACKAGE/PATH."
+                f"{url!r} is relative, but the robot description has no file",
+                hint=f"Use package://PACKAGE/PATH. {_SEARCHED}",
             )
         folder = self.near if self.near.is_dir() else self.near.parent
         return _package_around(folder) or folder, folder / unquote(url)
@@ -92,7 +99,9 @@ class Packages:
     def _search(self, name: str) -> Path:
         # The name must not contain path separators or anything else that leads to another folder.
         if not name or name.startswith(".") or not all(c.isalnum() or c in "_-." for c in name):
-            raise PackageError(f"{name!r} is not a valid package name")
+            raise PackageError(
+                f"{name!r} is not a valid package name", hint=f"Use letters, digits, '_', '-' and '.'. {_SEARCHED}"
+            )
         for folder in self._nearby_folders():
             if name in self._below(folder, _NEIGHBOR_DEPTH):
                 return self._below(folder, _NEIGHBOR_DEPTH)[name]

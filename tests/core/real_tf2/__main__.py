@@ -1,4 +1,4 @@
-"""coframe beside Debian's real tf2, from the command line:
+"""Command line for the comparison of coframe with Debian's real tf2:
 
 PYTHONPATH=tests/core python -m real_tf2 failure.json               a scenario that a test has printed
 PYTHONPATH=tests/core python -m real_tf2 --operations 10000000      random ones

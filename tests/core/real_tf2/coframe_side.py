@@ -1,11 +1,11 @@
-"""coframe's answers to a scenario's operations, in the form in which debian_side.py gives ROS 1's."""
+"""The answers of coframe to the operations of a scenario, in the format of debian_side.py."""
 
 import coframe
 from coframe import _core
 
 
 class CoframeSide:
-    """A buffer that is told and asked operations."""
+    """A buffer that runs operations."""
 
     def __init__(self, cache):
         self.buffer = coframe.Buffer(cache)

@@ -1,4 +1,4 @@
-"""Scenarios, run on coframe and on Debian's real tf2: every answer compared, and what differs made small."""
+"""Run scenarios on coframe and on Debian's real tf2, compare every answer, and minimise differences."""
 
 import collections
 import contextlib
@@ -20,7 +20,7 @@ SCENARIOS_PER_BATCH = 20
 
 
 class Difference(NamedTuple):
-    """An answer that no rule explains."""
+    """A difference between two answers that no rule explains."""
 
     number: int  # of the scenario's operation
     asked: list
@@ -30,7 +30,7 @@ class Difference(NamedTuple):
 
 
 class Debian:
-    """Debian's tf2 in a process of its own: a batch of (cache length, operations) in, a batch of answers out."""
+    """Debian's tf2 in a separate process: takes batches of (cache length, operations), returns answers."""
 
     def __init__(self):
         self._process = subprocess.Popen(
@@ -61,7 +61,7 @@ class Debian:
 
 
 def run(debian, seed, operations, make_side=CoframeSide):
-    """So many operations: how often each rule has explained something, and what no rule explains, or None."""
+    """Run the operations; return how often each rule explained a difference, and the first unexplained one or None."""
     explained = collections.Counter()
     with _few_collections():
         for batch, their_answers in _batches(debian, seed, -(-operations // OPERATIONS_PER_SCENARIO)):
@@ -72,14 +72,14 @@ def run(debian, seed, operations, make_side=CoframeSide):
 
 
 def first_difference(debian, made, make_side=CoframeSide):
-    """Of one scenario by itself, or None."""
+    """Return the unexplained difference of one scenario, or None."""
     steps = script(made)
     (their_answers,) = debian.ask([_for_ros1(made, steps)]).result()
     return _compare(made["cache"], steps, their_answers, collections.Counter(), make_side)
 
 
 def told(debian, made, make_side=CoframeSide):
-    """A scenario with a difference, as text: the difference, and the operations that it needs, ready to be replayed."""
+    """Return a difference as text, with the operations that reproduce it."""
     made = _shrunk(debian, made, make_side)
     difference = first_difference(debian, made, make_side)
     operations = ",\n  ".join(json.dumps(operation, ensure_ascii=False) for operation in made["operations"])
@@ -92,7 +92,7 @@ def told(debian, made, make_side=CoframeSide):
 
 
 def _batches(debian, seed, scenarios):
-    """Batches of (number, scenario, its steps), and the future of Debian's answers; it is always one batch ahead."""
+    """Yield batches of (number, scenario, steps) with the future of Debian's answers, one batch ahead."""
     ahead = None
     for start in range(0, scenarios, SCENARIOS_PER_BATCH):
         numbers = range(start, min(start + SCENARIOS_PER_BATCH, scenarios))
@@ -107,7 +107,7 @@ def _batches(debian, seed, scenarios):
 
 @contextlib.contextmanager
 def _few_collections():
-    """Millions of small objects and no cycles: looking for these would take a third of the time."""
+    """Disable the garbage collector: there are millions of objects and no cycles, and it takes a third of the time."""
     before = gc.get_threshold()
     gc.set_threshold(200_000)
     try:
@@ -149,7 +149,7 @@ def _is(expected, found):
 
 
 def _part(expected, answer):
-    """Of a YAML, the block that is expected; other answers as they are."""
+    """Return the expected block of a YAML answer; other answers unchanged."""
     if expected[0] != "block":
         return answer
     child = expected[1]
@@ -162,7 +162,7 @@ def _part(expected, answer):
 
 
 def _shrunk(debian, made, make_side):
-    """The scenario without the operations that its difference does not need."""
+    """Return the scenario without the operations that the difference does not need."""
     operations, size = made["operations"], len(made["operations"])
     while size:
         start = 0

@@ -1,4 +1,4 @@
-"""Runs in Debian's own Python, which has the real tf2 of ROS 1: takes scenarios, gives their answers.
+"""Run scenarios on the real tf2 of ROS 1 and return the answers; runs in Debian's Python.
 
 Both as pickles: a batch is a list of (cache length in ns, operations), and comes back as a list of lists of answers.
 """
@@ -18,7 +18,7 @@ LOG = Log()
 
 
 class Seconds:
-    """A time as the binding reads it."""
+    """A time in the form that the binding reads."""
 
     def __init__(self, nanoseconds):
         self.seconds = nanoseconds / 1_000_000_000

@@ -17,7 +17,7 @@ class Sample:
 
 
 class History:
-    """Samples oldest first; equal stamps in the order in which they came."""
+    """Samples sorted by stamp; equal stamps in the order of insertion."""
 
     def __init__(self, cache):
         self.cache = cache
@@ -120,7 +120,7 @@ class Ros1History(History):
 
 
 def canonical(quaternion):
-    """Of unit length, with tf2's sign: w positive where w^2 > 1/4, else the largest of x, y, z."""
+    """Return a unit quaternion with tf2's sign: w positive if w^2 > 1/4, otherwise the largest of x, y, z."""
     squares = [x * x for x in quaternion]
     length2 = sum(squares)
     leading = 3 if 4 * squares[3] > length2 else squares.index(max(squares[:3]))
@@ -129,7 +129,7 @@ def canonical(quaternion):
 
 
 def interpolated(a, b, ratio):
-    """A straight line for the translation, the shorter arc for the rotation."""
+    """Interpolate the translation linearly and the rotation along the shorter arc."""
     cosine = sum(x * y for x, y in zip(a[3:], b[3:], strict=True))
     angle = math.acos(min(abs(cosine), 1.0))
     if angle < 1e-6:

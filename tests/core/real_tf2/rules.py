@@ -1,4 +1,4 @@
-"""The list of differences between ROS 1 and ROS 2, applied: which rule explains that two answers are not the same?
+"""The rules for differences between ROS 1 and ROS 2, and which rule explains that two answers differ.
 
 The list is data: ros1_rules.json, and the wordings of ../../conformance/ros1_differences.json. Its parts:
 
@@ -30,7 +30,7 @@ TOLERANCE = 1e-11  # metres, and of quaternions of unit length
 
 
 def explain_insertion(ours, theirs):
-    """Why an insertion into equal histories comes to something else in ROS 1."""
+    """Return the rule by which an insertion into equal histories has another result in ROS 1."""
     for rule in _RULES["insertions"]:
         if re.search(rule["ros2"], ours) and re.search(rule["ros1"], theirs):
             return rule["reason"]
@@ -38,7 +38,7 @@ def explain_insertion(ours, theirs):
 
 
 def explain(operation, ours, theirs):
-    """Why ROS 1's answer is not ours: rules; none where it is the same, and None where no rule explains it."""
+    """Return the rules that explain the difference of two answers; empty if they are equal, None if no rule does."""
     if ours == theirs:
         return []
     if ours[0] == "pose" or theirs[0] == "pose":
@@ -60,7 +60,7 @@ def explain(operation, ours, theirs):
 
 
 def is_close(expected, found):
-    """Whether a pose is the one that it has to be, its quaternion with the same sign."""
+    """Return whether a pose equals the expected one, including the sign of the quaternion."""
     return expected[:2] == found[:2] and _close(expected[2], found[2])
 
 
@@ -77,7 +77,7 @@ def _close(ours, theirs):
 
 
 def _text(answer, say):
-    """An answer as one text; `say` puts what tf2 has said."""
+    """Return an answer as one text; `say` formats the texts of tf2."""
     if answer[0] == "log":
         return "\n".join(f"{level}: {say(line)}" for level, line in answer[1])
     *head, last = answer
@@ -93,7 +93,7 @@ def _in_our_words(text, used):
 
 
 def _with_our_numbers(rule, ours, theirs):
-    """Their text with the numbers of ours in the rule's places, where they are the same within its tolerance."""
+    """Return their text with our numbers where the rule allows a difference within its tolerance."""
     numbers = iter(re.findall(rule["number"], ours))
 
     def ours_if_close(match):
@@ -105,6 +105,6 @@ def _with_our_numbers(rule, ours, theirs):
 
 
 def _pattern(rule, names):
-    """Of both answers in one, ours first; {target} is the name that was asked for."""
+    """Return both answers as one text, ours first; {target} is the requested name."""
     pattern = f"(?:{rule['ros2']})\0(?:{rule['ros1']})"
     return re.sub(r"\{(\w+)\}", lambda match: re.escape(names.get(match[1], match[0])), pattern)

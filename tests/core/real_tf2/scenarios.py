@@ -27,7 +27,7 @@ NAN = math.nan
 
 
 def scenario(seed, number):
-    """The scenario of that number, always the same for the same seed."""
+    """Return the scenario with this number; it depends only on the seed."""
     world = _World(random.Random(f"{seed}/{number}"))
     return {"cache": world.cache, "operations": world.operations(OPERATIONS_PER_SCENARIO)}
 

@@ -29,7 +29,7 @@ class Step(NamedTuple):
 
 
 def script(scenario):
-    """The steps of a scenario."""
+    """Return the steps of a scenario."""
     return _Writer(scenario).steps
 
 
@@ -140,7 +140,7 @@ def _way_back(ours, theirs):
 
 
 def _look_ups(history, child, stamp):
-    """Questions about one link, around a stamp above all, and the answers that a history has to give."""
+    """Return lookups on one edge, mostly around a stamp, with the answers expected from a history."""
     for when in (stamp,) if history.static else {0, *_stamps_around(history.stamps, stamp)}:
         sample = history.at(when)
         told = when if when or history.static else history.stamps[-1]
@@ -149,7 +149,7 @@ def _look_ups(history, child, stamp):
 
 
 def _stamps_around(stamps, stamp):
-    """Both ends, and within them the stamp, its neighbours, and the times halfway to these."""
+    """Return both ends, the stamp between them, its neighbours, and the times halfway to these."""
     if not stamps[0] <= stamp <= stamps[-1]:
         return {stamps[0], stamps[-1]}
     before = stamps[max(0, bisect.bisect_left(stamps, stamp) - 1)]
@@ -158,7 +158,7 @@ def _stamps_around(stamps, stamp):
 
 
 def _log(outcome, child, stamp, authority):
-    """What is logged of an insertion with such an outcome, in ROS 2's words."""
+    """Return the log lines of ROS 2 for an insertion with this result."""
     template = LOGS.get(outcome.partition(",")[0])
     if template is None:
         return ("log", ())

@@ -1,4 +1,4 @@
-"""Random operations on coframe and on the real tf2 of ROS 1, mixed in one sequence per buffer; every answer compared.
+"""Random operations on coframe and on the real tf2 of ROS 1, in one sequence per buffer, with all answers compared.
 
 ROS 1 differs from ROS 2 by rules, which are data (rules.py); how buffers that differ are compared is told in script.py.
 """
@@ -37,8 +37,8 @@ def test_coframe_answers_as_the_real_tf2_for_long(debian):
     assert [reason for reason in REASONS if not explained[reason]] == [], "rules that have explained nothing"
 
 
-class Off(CoframeSide):
-    """coframe, but a little wrong."""
+class FaultySide(CoframeSide):
+    """coframe with a small error."""
 
     def __init__(self, cache):
         super().__init__(cache)
@@ -46,14 +46,14 @@ class Off(CoframeSide):
         self.stamps = {}  # of the dynamic samples of each child
 
 
-class PrunesAfter(Off):
+class PrunesAfter(FaultySide):
     def set(self, *operation):
         answer = super().set(*operation)
         super().set(*operation)  # a repetition: only prunes
         return answer
 
 
-class RefusesTheEdge(Off):
+class RefusesTheEdge(FaultySide):
     def set(self, parent, child, stamp, values, static, authority):
         newest = max(self.stamps.setdefault(child, []), default=stamp)
         if not static and self.cache and stamp == newest - self.cache:
@@ -63,7 +63,7 @@ class RefusesTheEdge(Off):
         return super().set(parent, child, stamp, values, static, authority)
 
 
-class KeepsTheFirstOfEqualStamps(Off):
+class KeepsTheFirstOfEqualStamps(FaultySide):
     def set(self, parent, child, stamp, values, static, authority):
         if not static and stamp in self.stamps.setdefault(child, []):
             return "log", ()
@@ -71,43 +71,43 @@ class KeepsTheFirstOfEqualStamps(Off):
         return super().set(parent, child, stamp, values, static, authority)
 
 
-class ForgetsNothingOnFlips(Off):
+class ForgetsNothingOnFlips(FaultySide):
     def set(self, *operation):
         *told, _, authority = operation
         return super().set(*told, False, authority)
 
 
-class IsOff(Off):
+class IsOff(FaultySide):
     def lookup(self, *asked):
         tag, stamp, (x, *others) = super().lookup(*asked)
         return tag, stamp, (x + 1e-9, *others)
 
 
-class TurnsQuaternions(Off):
+class TurnsQuaternions(FaultySide):
     def lookup_full(self, *asked):
         tag, stamp, (x, y, z, *q) = super().lookup_full(*asked)
         return tag, stamp, (x, y, z, q[1], q[0], *q[2:])
 
 
-class HasAnotherStamp(Off):
+class HasAnotherStamp(FaultySide):
     def latest_common_time(self, *asked):
         tag, stamp = super().latest_common_time(*asked)
         return tag, stamp + 1
 
 
-class SaysLess(Off):
+class SaysLess(FaultySide):
     def answer(self, operation):
         tag, *told = super().answer(operation)
         return (tag, told[0], told[1].rstrip()) if tag == "raises" else (tag, *told)
 
 
-class NamesInOrder(Off):
+class NamesInOrder(FaultySide):
     def frame_names(self):
         tag, names = super().frame_names()
         return tag, sorted(names)
 
 
-@pytest.mark.parametrize("make_side", Off.__subclasses__())
-def test_what_is_a_little_wrong_is_found(debian, make_side):
+@pytest.mark.parametrize("make_side", FaultySide.__subclasses__())
+def test_small_errors_are_detected(debian, make_side):
     _, finding = run(debian, seed="coframe", operations=20_000, make_side=make_side)
     assert finding

@@ -92,9 +92,8 @@ def _bursts(observation: Observation) -> Iterator[Finding]:
                 severity=Severity.WARNING,
                 text=f"no transform was received for {duration(pause)}, and then {len(burst)} transforms at once that "
                 "had been published in the meantime: the recorder or its network connection was blocked",
-                fix="Record fewer topics (ros2 bag record /tf /tf_static ...), use a faster disk or a larger cache "
-                "(--max-cache-size). In this recording, lookups by time of receipt are wrong there, those by stamp "
-                "are correct.",
+                fix="Record fewer topics (`coframe record /tf /tf_static ...`), or use a faster disk. In this "
+                "recording, lookups by time of receipt are wrong there, those by stamp are correct.",
                 first_stamp=int(burst.min()),
             )
             return

@@ -25,7 +25,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         severity=Severity.WARNING,
         text="the recording has no static transforms, and the dynamic ones form "
         f"{len(observation.trees)} separate trees",
-        fix="Record /tf_static too: `ros2 bag record /tf /tf_static ...`; read a split recording as the whole folder, "
+        fix="Record /tf_static too: `coframe record /tf /tf_static ...`; read a split recording as the whole folder, "
         "not one of its later files. With this recording, publish the static transforms during replay: "
         "`coframe static ...`, or start robot_state_publisher.",
     )

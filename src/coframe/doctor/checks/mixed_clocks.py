@@ -48,7 +48,7 @@ def _finding(observation: Observation, usual: str, usual_names: list[str], clock
             "Start these nodes with --ros-args -p use_sim_time:=true."
             if should_be_simulated
             else "In a simulation start every node with --ros-args -p use_sim_time:=true, on a robot none. Replay a "
-            "recording with its own clock (ros2 bag play --clock)."
+            "recording with its own clock (`coframe play BAG --clock`)."
         ),
         edge=first.key if first else None,
         topic="" if first else sensors[0].topic,
@@ -60,7 +60,7 @@ def _finding(observation: Observation, usual: str, usual_names: list[str], clock
 
 def _static(observation: Observation, usual: str) -> Iterator[Finding]:
     """Yield a note for static transforms: tf2 ignores their stamps, but their publishers use another clock."""
-    moving = [edge for edge in observation.dynamic if observation.clocks[edge.name] == usual]
+    moving = [edge for edge in observation.dynamic if observation.clocks.get(edge.name) == usual]
     if not moving or usual == "wall":
         return
     low = min(int(edge.stamp.min()) for edge in moving)

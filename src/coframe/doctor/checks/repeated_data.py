@@ -24,6 +24,8 @@ _LEAST = 3
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield repetitions and old data per edge, and repetitions per topic of joint states."""
     for edge in observation.dynamic:
+        if edge.is_unset:
+            continue
         yield from _repeated(edge.current)
         yield from _old(edge, observation.cache)
     for states in observation.joint_states:

@@ -37,7 +37,7 @@ def find(observation: Observation) -> Iterator[Finding]:
                 code=CODE,
                 severity=Severity.NOTE if superseded else Severity.WARNING,
                 text=f"{name} {'is empty' if empty else 'is invalid'}: {error}{later}",
-                fix=error.hint or "Check the file that is loaded: `check_urdf FILE` or `coframe robot FILE`.",
+                fix=error.hint or "Check the file that is loaded: `coframe robot FILE` names the line.",
                 harm="Programs that use only the first description have no robot model." if superseded else "",
                 topic=_TOPIC,
             )
@@ -64,8 +64,8 @@ def _missing_meshes(robot: Robot) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.NOTE,
             text=f"{len(missing)} of {len(meshes)} meshes do not exist on this machine: {listed(missing)}",
-            fix="Source the workspace that contains the packages, or add their folder to ROS_PACKAGE_PATH. Only "
-            "visualization needs the meshes.",
+            fix="Add the folder that contains the packages to COFRAME_PACKAGE_PATH (folders are separated as in PATH). "
+            "Only visualization needs the meshes.",
             harm="Visualization tools do not show these parts of the robot; its transforms are not affected.",
             topic=_TOPIC,
         )

@@ -52,7 +52,7 @@ def _publisher(topic: str, node: str) -> Finding:
         fix=_BROADCASTER
         if node
         else f"{_BROADCASTER} On the running robot, `coframe doctor` names the node. Replay this recording with "
-        "`coframe play`, or with `ros2 bag play --qos-profile-overrides-path FILE`.",
+        "`coframe play`, which publishes static transforms with durability transient local.",
         topic=topic,
         publishers=(node,) if node else (),
     )

@@ -28,7 +28,7 @@ _RARE = 0.1
 
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield one finding in all: a reset affects every edge."""
-    found = [(edge, jumps) for edge in observation.dynamic if len(jumps := _jumps(edge.stamp))]
+    found = [(edge, jumps) for edge in observation.dynamic if not edge.is_unset and len(jumps := _jumps(edge.stamp))]
     on_clock = _jumps(observation.clock.stamp) if observation.clock is not None else np.zeros(0, dtype=np.intp)
     if not found and not len(on_clock):
         return

@@ -138,7 +138,9 @@ class MeshTable:
             if folder is not None:
                 self.declare(folder)
         if folder is None:
-            raise MeshError(f"ROS package {_shown(name)} not found")
+            raise MeshError(
+                f"ROS package {_shown(name)} not found. Add the folder that contains it to COFRAME_PACKAGE_PATH."
+            )
         return folder
 
     def _root_of(self, file: Path, reference: str) -> _Root:
@@ -161,7 +163,9 @@ def _check_file(file: Path, reference: str) -> None:
     if file.suffix.lower() not in MESH_TYPES:
         raise MeshError(f"{_shown(reference)} is not a mesh or texture. Known extensions: {', '.join(MESH_TYPES)}")
     if not _is_file(file):
-        raise MeshError(f"file {_shown(reference)} not found")
+        is_package = reference.startswith("package://")
+        hint = ". Is the right copy of the package in a folder of COFRAME_PACKAGE_PATH?" if is_package else ""
+        raise MeshError(f"file {_shown(reference)} not found{hint}")
     if (size := file.stat().st_size) > LARGEST_FILE:
         raise MeshError(f"{_shown(reference)} has {size >> 20} MB; at most {LARGEST_FILE >> 20} MB are served")
 
