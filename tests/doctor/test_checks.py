@@ -421,7 +421,7 @@ def test_changing_transform_published_as_static(only):
     [
         ((0, 0, 0, 0), "the rotation was not set", Severity.ERROR),
         ((0, 0, float("nan"), 1), "NaN", Severity.ERROR),
-        ((0, 0, 0.5, 1), "is not a rotation", Severity.ERROR),
+        ((0, 0, 0.5, 1), "is not normalized", Severity.ERROR),
         ((0, 0.707, 0, 0.707), "not exactly normalized", Severity.NOTE),
     ],
 )

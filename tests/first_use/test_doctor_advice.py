@@ -3,6 +3,7 @@
 import ast
 import json
 import re
+from math import cos, pi, radians, sin
 from pathlib import Path
 
 import pytest
@@ -211,3 +212,80 @@ def test_mount_between_two_trees_can_be_static():
     edge = MissingEdge("base_link", "lidar", misspelt=False)
     assert "coframe static --frame-id base_link --child-frame-id lidar" in edge.fix
     assert "StaticTransformBroadcaster" in edge.hint
+
+
+# Quaternions
+
+
+@pytest.mark.parametrize(
+    ("turn", "mistake", "values"),
+    [
+        (
+            lambda a: (0, 0, sin(a / 2), cos(a)),
+            "w is cos(yaw) in place of cos(yaw / 2)",
+            "z = 0.479426 and .*w = 0.877583",
+        ),
+        (
+            lambda a: (0, sin(a), 0, cos(a / 2)),
+            "y is sin(pitch) in place of sin(pitch / 2)",
+            "y = 0.479426 and .*w = 0.877583",
+        ),
+        (lambda a: (sin(a) / 2, 0, 0, cos(a / 2)), r"x is sin(roll) / 2 in place of sin(roll / 2)", "x = 0.479426 and"),
+        (
+            lambda a: (0, 0, sin(a) / 2, cos(a) / 2),
+            "z and w are sin(yaw) / 2 and cos(yaw) / 2 in place of",
+            "z = 0.479426",
+        ),
+        (
+            lambda a: (0, 0, sin(-a / 2), cos(a)),
+            "w is cos(yaw) in place of cos(yaw / 2)",
+            "yaw = -57.3 degrees .*z = -0.479426",
+        ),
+    ],
+)
+@pytest.mark.parametrize("moving", [False, True])
+def test_missing_half_angle_is_named_with_the_right_values(findings, turn, mistake, values, moving):
+    run = Run.healthy()
+    for i in range(600 if moving else 1):
+        run.tf("base_link", "arm", START + i * SECOND // 50, (0.1, 0, 0), turn(1.0 + i / 1000), static=not moving)
+    (finding,) = findings(run)
+    assert finding.code == "TF019"
+    assert f"; the half angle is missing: {mistake}" in finding.text
+    assert re.search(values, finding.fix), finding.fix
+
+
+def test_rotation_with_the_full_angle_at_more_than_120_degrees_is_named(findings):
+    run = Run.healthy()
+    run.tf("base_link", "arm", START, (0.1, 0, 0), (0, 0, sin(2.5), cos(1.25)), static=True)
+    (finding,) = findings(run)
+    assert "z is sin(yaw) in place of sin(yaw / 2)" in finding.text
+    assert "yaw = 143 degrees" in finding.fix
+
+
+@pytest.mark.parametrize(
+    ("turn", "text", "fix"),
+    [
+        ((0, 0, 90, 1), "the angles yaw = 90 degrees in degrees", "x = 0, y = 0, z = 0.707107, w = 0.707107"),
+        ((0, 0, pi / 2, 0), "the angles yaw = 90 degrees in radians", "z = 0.707107, w = 0.707107"),
+        ((-90, 0, -90, 0), "roll = -90 degrees, yaw = -90 degrees in degrees", "x = -0.5, y = 0.5, z = -0.5, w = 0.5"),
+        (
+            (0, 0, sin(radians(30)), 1),
+            "w is 1, as if only z had been set",
+            "z = 0.5 and t.transform.rotation.w = 0.866025",
+        ),
+    ],
+)
+def test_angles_in_place_of_components_are_named(findings, turn, text, fix):
+    run = Run.healthy()
+    run.tf("base_link", "arm", START, (0.1, 0, 0), turn, static=True)
+    (finding,) = findings(run)
+    assert text in finding.text
+    assert fix in finding.fix
+
+
+@pytest.mark.parametrize("turn", [(0, 0, 0.5, 0.5), (0.1, 0.2, 0.3, 0.4), (0, 0, 2, 3), (0.7, 0.1, 0, 0.8)])
+def test_other_quaternions_get_no_false_cause(findings, turn):
+    run = Run.healthy()
+    run.tf("base_link", "arm", START, (0.1, 0, 0), turn, static=True)
+    (finding,) = findings(run)
+    assert finding.fix.startswith("Check the order x, y, z, w, and normalize it")
