@@ -167,9 +167,7 @@ def test_transforms_that_tf2_refuses_are_reported(tmp_path):
     recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap", rows=rows))
     recordings.assert_same(recording.buffer)
     (problem,) = recording.problems
-    assert (
-        problem == "transforms that tf2 rejects: NaN, an invalid rotation, an empty name, or equal frame names"
-    )
+    assert problem == "transforms that tf2 rejects: NaN, an invalid rotation, an empty name, or equal frame names"
 
 
 def test_mixed_clocks_are_reported(tmp_path):
