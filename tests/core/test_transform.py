@@ -117,7 +117,7 @@ def test_values_are_kept_by_pickle_and_copy(rng):
         assert copy.deepcopy(a) == a
     buffer = coframe.Buffer()
     buffer.set("odom", "base", Transform(), 1)
-    guess = buffer.lookup("odom", "base", 4, extrapolate=10)
+    guess = buffer.lookup("odom", "base", 4, extrapolate="10ns")
     assert copy.copy(guess).extrapolated == pickle.loads(pickle.dumps(guess)).extrapolated == 3
     error = pickle.loads(pickle.dumps(coframe.LookupException.with_details("text", target="a", hint="do")))
     assert (str(error), error.target, error.hint) == ("text", "a", "do")

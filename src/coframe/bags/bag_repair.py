@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from collections import Counter
 from functools import partial
@@ -19,6 +20,7 @@ from coframe.bags.transforms import is_static
 from coframe.bags.writer import Writer
 from coframe.buffer import Buffer
 from coframe.errors import RecordingError
+from coframe.formatting import count
 from coframe.frame_names import absolute, belongs, renaming
 from coframe.messages import deserialize, find, serialize
 from coframe.messages.conversions import to_transform_stamped
@@ -33,6 +35,7 @@ if TYPE_CHECKING:
 __all__ = ["RepairReport", "repair"]
 
 _TF = "tf2_msgs/msg/TFMessage"
+_PLURAL = re.compile(r"\b(messages|transforms|names)\b")  # the nouns of the counted sentences
 _PROGRESS_STEP = 1000  # messages between two calls of the progress function
 _STATIC_QOS = OfferedQos(1, transient_local=True)
 
@@ -192,11 +195,12 @@ class _Repair:
     def changes(self) -> list[str]:
         """Return the differences from the original, one sentence each."""
         topics = len({channel.topic for channel, route in self._routes.items() if route is not None})
-        copied = f"{self._copied} messages on {topics} topics copied, with an index and metadata.yaml"
-        return [copied, *(sentence.format(count) for sentence, count in self._counts.items())]
+        amounts = f"{count(self._copied, 'message')} on {count(topics, 'topic')}"
+        copied = f"{amounts} copied, with an index and metadata.yaml"
+        return [copied, *(_counted(sentence, number) for sentence, number in self._counts.items())]
 
-    def _count(self, channel: Channel, what: str, count: int = 1) -> None:
-        self._counts[f"{channel.topic}: {{}} {what}"] += count
+    def _count(self, channel: Channel, what: str, number: int = 1) -> None:
+        self._counts[f"{channel.topic}: {{}} {what}"] += number
 
     def _route(self, channel: Channel) -> _Route | None:
         if channel not in self._routes:
@@ -326,6 +330,12 @@ def _statics_of(path: str | os.PathLike[str]) -> list[TransformStamped]:
     if not transforms:
         raise RecordingError(f"{path} has no static transforms to add", hint="Give a recording with /tf_static.")
     return [to_transform_stamped(parent, child, transform, 0) for parent, child, transform in transforms]
+
+
+def _counted(sentence: str, number: int) -> str:
+    """Return a sentence with its number, and with the noun in the singular if the number is 1."""
+    text = sentence.format(number)
+    return _PLURAL.sub(lambda match: match[0].removesuffix("s"), text, count=1) if number == 1 else text
 
 
 def _is_accepted(transform: TransformStamped) -> bool:

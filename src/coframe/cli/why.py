@@ -34,7 +34,7 @@ from coframe.cli.options import (
     reject_namespace_of_live_graph,
 )
 from coframe.cli.output import fail, printable, with_doctor_command
-from coframe.cli.recordings import open_recording, parse_time
+from coframe.cli.recordings import check_has_transforms, open_recording, parse_time
 from coframe.doctor import Observation, diagnose
 from coframe.doctor.recorded import collecting
 from coframe.doctor.rendering.plain import as_data
@@ -155,6 +155,7 @@ def _answer_recorded(
     collectors: dict[str, Collector] = {}
     collect = collecting(collectors, renaming(**names._asdict()), recorded_tf_topics(**topics))
     with open_recording(bag, namespace, **topics, **names._asdict(), on_transforms=collect) as recording:
+        check_has_transforms(recording)
         found = recording.buffer.why(target, source, None if at is None else parse_time("--at", at, recording))
         seen = [
             Observation(live=False, start=recording.start, end=recording.end, transforms=collectors[name].transforms())
