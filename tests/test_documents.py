@@ -47,6 +47,15 @@ def test_commands_and_links_exist(document):
         assert command in commands, f"{document.name} names coframe {command}"
 
 
+def test_the_steps_of_the_architecture_exist():
+    text = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+    steps = re.findall(r"`([\w/]+\.\w+)`: `(\w+)`", text)
+    assert len(steps) > 20
+    for path, name in steps:
+        source = (ROOT / path).read_text(encoding="utf-8")
+        assert re.search(rf"\b{name}\b", source), f"{path} has no {name}"
+
+
 def public_modules():
     # Where coframe is installed for editing, its path also has the folder above, in which it is once more.
     folder = str(Path(coframe.__file__).parent)

@@ -11,21 +11,21 @@ three.js,
 ${readFileSync("node_modules/three/LICENSE", "utf8").trim()}
 */`;
 
-/** Puts the script and the style into the page itself, so that a replay is one file that opens from disk. */
+/** Inlines the script and the style sheet, so that a replay is a single file that opens from disk. */
 function oneFile(): Plugin {
   return {
     name: "one-file",
     enforce: "post",
-    // After Vite has filled in what a script that is imported later has to load first.
+    // Vite must insert the preload list of dynamic imports first.
     generateBundle: {
       order: "post",
       handler(_options, bundle) {
         const page = bundle["index.html"];
-        if (page?.type !== "asset") throw new Error("the build made no index.html");
+        if (page?.type !== "asset") throw new Error("The build contains no index.html.");
         let html = String(page.source);
         for (const [name, part] of Object.entries(bundle)) {
           if (part.type === "chunk") {
-            // `</script` would end the element early; the escape means the same to JavaScript's strings.
+            // `</script` would end the element early. The escaped form is the same JavaScript string.
             const code = part.code.replaceAll("</script", "<\\/script");
             const hash = createHash("sha256").update(code).digest("base64");
             html = html
@@ -48,7 +48,7 @@ const REPLAY_HEAD =
   `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src '%SCRIPT_HASH%'; ` +
   `style-src 'unsafe-inline'; img-src data: blob:; connect-src data: blob:">`;
 
-/** What tells a replay from the live page: it may reach nothing at all, and it has a place for the recording. */
+/** Adds what distinguishes a replay from the live page: a policy that forbids all requests, and the recording. */
 function replayPage(): Plugin {
   return {
     name: "replay-page",
@@ -59,7 +59,7 @@ function replayPage(): Plugin {
   };
 }
 
-/** The first script asks for the second one when it runs: this has the browser fetch both at once. */
+/** Preloads the second script, which the first one imports only when it runs. */
 function preload(): Plugin {
   return {
     name: "preload",
@@ -81,7 +81,7 @@ export default defineConfig(({ mode }) => {
       modulePreload: false,
       cssCodeSplit: false,
       chunkSizeWarningLimit: 2000,
-      // Fixed names: a rebuild gives the same files, and the server answers with an ETag.
+      // The names are fixed, so that a rebuild gives the same files. The server uses ETags for caching.
       rollupOptions: {
         output: {
           codeSplitting: !replay,

@@ -76,7 +76,8 @@ class EdgeInfo(NamedTuple):
         samples: Number of samples in the buffer.
         oldest: Stamp of the oldest sample.
         newest: Stamp of the newest sample.
-        age: Age of the newest sample; negative if it is ahead of the clock, None if static or without data.
+        age: Age of the newest sample; negative if it is ahead of the clock, None if static or without data, and in
+            recordings and snapshots if no time was given.
         rate: Samples per second, from the mean interval between the stamps in the buffer.
         jitter: Standard deviation of these intervals.
         longest_gap: The longest of these intervals.
@@ -145,7 +146,8 @@ class Buffer(_core.Buffer):
 
     Raises:
         TypeError: ``cache`` is not a duration; a float of seconds is not accepted.
-        ValueError: ``cache`` is negative, or its text is not a number and a unit.
+        ValueError: ``cache`` is negative, or its text is not a number and a unit, or it is an int from 1 to 999: such
+            a cache would have a length of a few nanoseconds.
 
     Example:
         >>> import coframe
@@ -188,7 +190,7 @@ class Buffer(_core.Buffer):
             True if the sample was stored; False if it was older than the cache.
 
         Raises:
-            InvalidArgumentException: tf2 refuses the transform (empty or equal frame names, NaN, ...), with tf2's
+            InvalidArgumentException: tf2 rejects the transform (empty or equal frame names, NaN, ...), with tf2's
                 text; or the transform is between other frames, or has no stamp, or the buffer is frozen.
             TypeError: ``transform`` is not a :class:`coframe.Transform`.
         """
@@ -253,7 +255,7 @@ class Buffer(_core.Buffer):
             The number of stored samples. Samples older than the cache are not stored.
 
         Raises:
-            InvalidArgumentException: tf2 refuses one of the samples, with tf2's text, or the buffer is frozen; then
+            InvalidArgumentException: tf2 rejects one of the samples, with tf2's text, or the buffer is frozen; then
                 no sample is stored.
             ValueError: The shapes do not match.
         """
@@ -588,8 +590,8 @@ class Buffer(_core.Buffer):
 
         Args:
             children: Child frames of the edges to return; None returns all edges.
-            now: Current time in nanoseconds, from which ages are computed; by default the system time. Pass the time
-                of the clock for recordings and simulations.
+            now: Current time in nanoseconds, from which ages are computed; by default the system time, and no age for
+                recordings. Pass the time of the clock for simulations.
         """
         given = now is not None or self.frozen or self.cache_ns < 0
         wall = system_time.time_ns() if now is None else now
@@ -597,7 +599,7 @@ class Buffer(_core.Buffer):
         for facts in self._edge_tuples(children):
             newest = facts[0][5]
             present = now if given else present_for(newest, wall)
-            edges.append(_edge_info(self, *facts, wall, present))
+            edges.append(_edge_info(self, *facts, None if now is None and given else wall, present))
         return edges
 
     def frames(self) -> list[FrameInfo]:
@@ -644,7 +646,7 @@ def _edge_info(
     frame: tuple[str, str, bool, int, int, int, float, str],
     intervals: tuple[float, float, float],
     counts: tuple[int, int, int, int, int, int, int],
-    now: int,
+    now: int | None,
     present: int | None,
 ) -> EdgeInfo:
     child, parent, static, samples, oldest, newest, _, authority = frame
@@ -658,7 +660,7 @@ def _edge_info(
         samples=samples,
         oldest=oldest,
         newest=newest,
-        age=None if static or not samples else now - newest,
+        age=None if static or not samples or now is None else now - newest,
         rate=time.SECOND / mean if mean else 0.0,
         jitter=deviation,
         longest_gap=round(longest),

@@ -169,10 +169,10 @@ class Fuzzer {
     const DecodeFailure failure = buffer_.ingest(stream, exact.get(), bytes.size(), stored);
     const Counts after = buffer_.counts();
     expect(after.stored - before.stored == stored, "the result differs from the count of stored transforms");
-    expect(damaged || (!failure.reason && stored <= transforms), "a valid message is refused");
+    expect(damaged || (!failure.reason && stored <= transforms), "a valid message is rejected");
     if (failure.reason) {
-      expect(stored == 0 && failure.offset <= bytes.size(), "a refused message changed the buffer");
-      expect(after.refused == before.refused && after.old == before.old, "transforms of a refused message are counted");
+      expect(stored == 0 && failure.offset <= bytes.size(), "a rejected message changed the buffer");
+      expect(after.refused == before.refused && after.old == before.old, "transforms of a rejected message are counted");
     } else {
       const std::uint64_t counted =
           after.stored + after.refused + after.old - before.stored - before.refused - before.old;
@@ -194,7 +194,7 @@ class Fuzzer {
     expect(!decode_tf_message(data, relayed.size(), views).reason, "a message of the relay is malformed");
     for (const TransformView& view : views) {
       expect(check_names(view.parent, view.child) == 0 && check_values(view.values) == 0 && is_utf8(view.child),
-             "the relay forwards a transform that a buffer refuses");
+             "the relay forwards a transform that a buffer rejects");
     }
   }
 

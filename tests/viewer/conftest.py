@@ -63,7 +63,7 @@ class Tab:
             assert content.keys() <= {field.name for field in record.fields}, "the protocol has no such field"
         else:
             kind, content = decode(message)
-            if kind == "tick":
+            if kind == "frames":
                 self.send("ready", drawn=None if np.isnan(content.time) else content.time)
             else:
                 self.drawings[content.display, content.sequence] = content
@@ -88,18 +88,18 @@ class Tab:
         self.send(kind, **fields)
         return self.wait(answer)
 
-    def tick(self, condition=lambda _tick: True):
-        return self.wait("tick", condition)
+    def frame_update(self, condition=lambda _update: True):
+        return self.wait("frames", condition)
 
-    def world(self, tick, name):
+    def world(self, update, name):
         """Return a frame's pose in the fixed frame, (7,) float64."""
         index = next(i for i, frame in enumerate(self.last["tree"]["frames"]) if frame["name"] == name)
-        pose = tick.poses[index].astype(np.float64)
-        pose[:3] += tick.origin
+        pose = update.poses[index].astype(np.float64)
+        pose[:3] += update.origin
         return pose
 
-    def state(self, tick, name):
-        return tick.states[[frame["name"] for frame in self.last["tree"]["frames"]].index(name)]
+    def state(self, update, name):
+        return update.states[[frame["name"] for frame in self.last["tree"]["frames"]].index(name)]
 
     def close(self):
         self._connection.__exit__(None, None, None)
@@ -114,7 +114,7 @@ def decode(data):
     """Return the kind and the content of a binary message."""
     (kind,) = struct.unpack_from("<I", data)
     if kind == messages.BinaryKind.FRAMES:
-        return "tick", decode_frames(data)
+        return "frames", decode_frames(data)
     display, sequence = struct.unpack_from("<II", data, 4)
     content = SimpleNamespace(display=display, sequence=sequence, size=len(data))
     if kind == messages.BinaryKind.CLOUD:

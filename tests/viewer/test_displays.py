@@ -105,10 +105,10 @@ def test_a_scan_is_drawn_at_the_pose_of_its_sensor_at_its_stamp(ros, robot, view
     publisher = RepeatingPublisher(
         ros, tab, "/scan", scan("lidar", stamp, [2.0, 3.0, float("inf"), float("nan")]), QoS(5, reliable=False)
     )
-    tick = publisher.until("tick", lambda tick: tick.displays)
-    ((number, sequence), pose), *others = tick.displays.items()
+    update = publisher.until("frames", lambda update: update.displays)
+    ((number, sequence), pose), *others = update.displays.items()
     assert (number, others) == (1, [])
-    np.testing.assert_allclose(pose[:3] + tick.origin, [5.0, 0.0, 1.0], atol=1e-5)
+    np.testing.assert_allclose(pose[:3] + update.origin, [5.0, 0.0, 1.0], atol=1e-5)
     drawn = tab.drawings[1, sequence]
     np.testing.assert_allclose(drawn.points, [[2.0, 0.0, 0.0], [0.0, 3.0, 0.0]], atol=1e-6)
     np.testing.assert_allclose(drawn.scalars, [2.0, 3.0])
@@ -116,10 +116,10 @@ def test_a_scan_is_drawn_at_the_pose_of_its_sensor_at_its_stamp(ros, robot, view
     assert drawn.stamp == stamp - int(tab.last["hello"]["origin"])
     assert tab.last["display"]["state"] == "ok"
     tab.send("fixed", frame="base")
-    tick = tab.tick(lambda tick: tab.last["tree"]["fixed"] == "base" and tick.displays)
-    np.testing.assert_allclose(next(iter(tick.displays.values()))[:3], [0.0, 0.0, 1.0], atol=1e-5)
+    update = tab.frame_update(lambda update: tab.last["tree"]["fixed"] == "base" and update.displays)
+    np.testing.assert_allclose(next(iter(update.displays.values()))[:3], [0.0, 0.0, 1.0], atol=1e-5)
     tab.send("unsubscribe", id=1)
-    tab.tick(lambda tick: not tick.displays)
+    tab.frame_update(lambda update: not update.displays)
 
 
 def test_a_display_without_a_transform_shows_the_reason(ros, robot, view, open_tab):
@@ -133,7 +133,7 @@ def test_a_display_without_a_transform_shows_the_reason(ros, robot, view, open_t
     lost = RepeatingPublisher(ros, tab, "/lost", scan("lider", robot, [1.0]))
     received = lost.until("display", lambda received: received["id"] == 2 and received["state"] == "error")
     assert "Did you mean 'lidar'?" in received["text"]
-    assert not tab.tick().displays
+    assert not tab.frame_update().displays
 
 
 def test_a_message_waits_for_its_transform(ros, robot, view, open_tab):
@@ -141,10 +141,10 @@ def test_a_message_waits_for_its_transform(ros, robot, view, open_tab):
     subscribe(tab, "/scan")
     later = robot + SECOND // 2
     publisher = RepeatingPublisher(ros, tab, "/scan", scan("base", later, [1.0]), QoS(transient_local=True))
-    publisher.until("tick", lambda _tick: publisher.publisher.matched)
+    publisher.until("frames", lambda _update: publisher.publisher.matched)
     ros.buffer.set("map", "base", coframe.Transform([20.0, 0.0, 0.0]), later)
-    tick = tab.tick(lambda tick: tick.displays)
-    np.testing.assert_allclose(next(iter(tick.displays.values()))[:3] + tick.origin, [20.0, 0.0, 0.0], atol=1e-5)
+    update = tab.frame_update(lambda update: update.displays)
+    np.testing.assert_allclose(next(iter(update.displays.values()))[:3] + update.origin, [20.0, 0.0, 0.0], atol=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -198,7 +198,7 @@ def test_time_travel_shows_the_messages_of_that_time(ros, robot, view, open_tab)
     made = message("geometry_msgs/msg/PoseStamped", "map", robot - 4 * SECOND)
     made.pose.position.x = 1.0
     publisher = RepeatingPublisher(ros, tab, "/pose", made)
-    publisher.until("tick", lambda tick: tick.displays)
+    publisher.until("frames", lambda update: update.displays)
     publisher.made.header.stamp.sec += 3
     publisher.made.pose.position.x = 2.0
     shown = publisher.until("shapes", lambda received: received.payload[0] == 2.0)
@@ -213,7 +213,7 @@ def test_time_travel_shows_the_messages_of_that_time(ros, robot, view, open_tab)
     tab.send("time", mode="at", at=robot - 2 * SECOND - origin)
     assert tab.wait("shapes").payload[0] == 1.0
     tab.send("step", direction=1)
-    tab.tick(lambda tick: tick.time > robot - 2 * SECOND - origin)
+    tab.frame_update(lambda update: update.time > robot - 2 * SECOND - origin)
 
 
 def test_markers_are_added_deleted_and_grouped_by_frame(ros, robot, view, open_tab):
@@ -234,11 +234,11 @@ def test_markers_are_added_deleted_and_grouped_by_frame(ros, robot, view, open_t
     publisher = RepeatingPublisher(
         ros, tab, "/markers", array_type(markers=[one(1, "map"), strip, mesh]), QoS(transient_local=True)
     )
-    tick = publisher.until("tick", lambda tick: len(tick.displays) == 3)
-    drawn = {tab.drawings[key].head["frame"]: (tab.drawings[key], pose) for key, pose in tick.displays.items()}
+    update = publisher.until("frames", lambda update: len(update.displays) == 3)
+    drawn = {tab.drawings[key].head["frame"]: (tab.drawings[key], pose) for key, pose in update.displays.items()}
     assert set(drawn) == {"map", "base", "lidar"}
-    np.testing.assert_allclose(drawn["base"][1][:3] + tick.origin, [9.0, 0.0, 0.0], atol=1e-5)
-    np.testing.assert_allclose(drawn["lidar"][1][:3] + tick.origin, [10.0, 0.0, 1.0], atol=1e-5)
+    np.testing.assert_allclose(drawn["base"][1][:3] + update.origin, [9.0, 0.0, 0.0], atol=1e-5)
+    np.testing.assert_allclose(drawn["lidar"][1][:3] + update.origin, [10.0, 0.0, 1.0], atol=1e-5)
     (item,) = drawn["base"][0].head["items"]
     assert (item["ns"], item["id"], item["points"], item["colors"]) == ("test", 2, [0, 2], None)
     np.testing.assert_allclose(drawn["base"][0].payload, [1.0, 0.0, 0.0, 2.0, 3.0, 0.0])
@@ -247,12 +247,12 @@ def test_markers_are_added_deleted_and_grouped_by_frame(ros, robot, view, open_t
     assert "ROS package" in item["mesh_problem"]
 
     publisher.made = array_type(markers=[one(2, "base", action=marker.DELETE)])
-    left = publisher.until("tick", lambda tick: len(tick.displays) == 2).displays.keys()
+    left = publisher.until("frames", lambda update: len(update.displays) == 2).displays.keys()
     publisher.made = array_type(markers=[one(4, "base"), one(5, "base", action=marker.DELETE)])
-    tick = publisher.until("tick", lambda tick: len(tick.displays) == 3)
-    assert left < tick.displays.keys(), "unchanged drawings are not sent again"
+    update = publisher.until("frames", lambda update: len(update.displays) == 3)
+    assert left < update.displays.keys(), "unchanged drawings are not sent again"
     publisher.made = array_type(markers=[one(0, "map", action=marker.DELETEALL)])
-    publisher.until("tick", lambda tick: not tick.displays)
+    publisher.until("frames", lambda update: not update.displays)
 
 
 def test_odometry_is_drawn_with_a_trail(ros, robot, view, open_tab):

@@ -22,7 +22,7 @@ def test_the_page_is_served_before_the_source_is_available(early_viewer, open_ta
     hello = tab.wait("hello")
     assert (hello["title"], hello["mode"], hello["span"]) == ("run.mcap", "buffer", None)
     assert tab.wait("tree")["frames"] == []
-    assert np.isnan(tab.tick().time)
+    assert np.isnan(tab.frame_update().time)
     early_viewer.set_title("run.mcap: 40 % read")
     assert tab.wait("hello")["title"] == "run.mcap: 40 % read"
     buffer = coframe.Buffer(None)
@@ -30,9 +30,9 @@ def test_the_page_is_served_before_the_source_is_available(early_viewer, open_ta
     early_viewer.set_source(BufferSource(buffer, "all of it"))
     hello = tab.wait("hello", lambda hello: hello["title"] == "all of it")
     assert [frame["name"] for frame in tab.wait("tree")["frames"]] == ["base", "map"]
-    tick = tab.tick()
-    assert tick.time + int(hello["origin"]) == 100 * SECOND
-    np.testing.assert_allclose(tab.world(tick, "base")[:3], [1.0, 2.0, 0.0])
+    update = tab.frame_update()
+    assert update.time + int(hello["origin"]) == 100 * SECOND
+    np.testing.assert_allclose(tab.world(update, "base")[:3], [1.0, 2.0, 0.0])
     assert open_tab(early_viewer).wait("hello")["title"] == "all of it"
 
 

@@ -60,7 +60,7 @@ def test_a_deleted_recording_gives_a_message(view, open_tab, tmp_path):
     message = findings(tab)
     assert message["state"] == "failed"
     assert str(folder) in message["text"]
-    tab.tick()
+    tab.frame_update()
 
 
 def test_the_samples_of_all_namespaces_count_towards_the_limit(tmp_path, monkeypatch):

@@ -24,19 +24,19 @@ def test_a_recording_at_any_time(shared, view, open_tab):
         at = first + round(share * (last - first))
         tab.send("time", mode="at", at=at)
         expected = int(stamps[stamps <= at + origin][-1]) - origin
-        tick = tab.tick(
-            lambda tick, at=at, expected=expected: (
-                tick.time == at and any(tab.drawings[key].stamp == expected for key in tick.displays)
+        update = tab.frame_update(
+            lambda update, at=at, expected=expected: (
+                update.time == at and any(tab.drawings[key].stamp == expected for key in update.displays)
             )
         )
-        ((key, pose),) = tick.displays.items()
+        ((key, pose),) = update.displays.items()
         message = bag.message_at("/scan", at + origin).message
         frame, stamp = message.header.frame_id, expected + origin
         np.testing.assert_allclose(
-            pose[:3] + tick.origin, bag.buffer.lookup("odom", frame, stamp).translation, atol=1e-5
+            pose[:3] + update.origin, bag.buffer.lookup("odom", frame, stamp).translation, atol=1e-5
         )
         np.testing.assert_allclose(
-            tab.world(tick, "base_scan")[:3],
+            tab.world(update, "base_scan")[:3],
             bag.buffer.lookup("odom", "base_scan", at + origin).translation,
             atol=1e-5,
         )
@@ -51,7 +51,7 @@ def test_a_topic_without_a_display_gives_a_message(shared, view, open_tab):
     tab.send("subscribe", id=1, topic="/robot_description", options={})
     received = tab.wait("display", lambda received: received["state"] == "error")
     assert "the viewer has no display for std_msgs/msg/String" in received["text"]
-    tab.tick()
+    tab.frame_update()
 
 
 def test_a_ros_1_bag_with_slashes_in_front_of_frame_names(shared, view, open_tab):
@@ -61,7 +61,7 @@ def test_a_ros_1_bag_with_slashes_in_front_of_frame_names(shared, view, open_tab
     tab.send("subscribe", id=1, topic=topic["topic"], options={})
     first, last = hello["span"]
     tab.send("time", mode="at", at=(first + last) / 2)
-    tab.tick(lambda tick: tick.displays)
+    tab.frame_update(lambda update: update.displays)
     assert tab.last["display"]["state"] == "ok"
 
 
@@ -71,8 +71,8 @@ def test_scans_are_drawn_in_a_tree_with_a_prefix(shared, view, open_tab):
         first, last = tab.wait("hello")["span"]
         tab.send("subscribe", id=1, topic="/scan", options={})
         tab.send("time", mode="at", at=(first + last) / 2)
-        tick = tab.tick(lambda tick: tick.displays)
-        assert np.isfinite(tab.world(tick, "r1/base_scan")).all()
+        update = tab.frame_update(lambda update: update.displays)
+        assert np.isfinite(tab.world(update, "r1/base_scan")).all()
         assert tab.last["display"]["state"] == "ok"
 
 

@@ -107,4 +107,4 @@ def test_steps_move_from_stamp_to_stamp_and_stop_at_the_ends(view, open_tab):
     tab.send("time", mode="at", at=first + SECOND // 2)
     for direction, expected in ((1, SECOND), (1, 1000 * SECOND), (1, 1000 * SECOND), (-1, SECOND), (-1, 0)):
         tab.send("step", direction=direction)
-        tab.tick(lambda tick, expected=expected: tick.time == first + expected)
+        tab.frame_update(lambda update, expected=expected: update.time == first + expected)

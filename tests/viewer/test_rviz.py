@@ -235,10 +235,10 @@ def test_the_frame_rate_of_a_file_limits_the_updates(view, open_tab, tmp_path, r
     buffer.set("map", "base", coframe.Transform(), 0)
     buffer.set("map", "base", coframe.Transform([1.0, 0.0, 0.0]), 100 * SECOND)
     tab = open_tab(view(buffer, rviz=file))
-    tab.tick()
+    tab.frame_update()
     tab.send("time", mode="at", at=1 - int(tab.last["hello"]["origin"]), playing=True)
-    tab.tick(lambda tick: tick.time < 0)
-    moments = [tab.tick() and time.monotonic() for _ in range(12)]
+    tab.frame_update(lambda update: update.time < 0)
+    moments = [tab.frame_update() and time.monotonic() for _ in range(12)]
     typical = statistics.median(later - earlier for earlier, later in itertools.pairwise(moments))
     assert least <= 1 / typical <= most
     tab.send("save_rviz", displays=[], view={}, **{"global": {"frame_rate": 30}})

@@ -169,11 +169,11 @@ def test_invalid_messages_are_answered(view, open_tab):
         "state": "waiting",
         "text": "no node publishes /no_such_topic",
     }
-    assert tab.tick().time is not None
+    assert tab.frame_update().time is not None
     tab.socket.send("x" * (2 << 20))
     with pytest.raises(ConnectionClosed):
         read_forever(tab)
-    assert open_tab(viewer).tick().revision == 1
+    assert open_tab(viewer).frame_update().revision == 1
 
 
 def test_long_and_fragmented_messages_arrive_complete(view, open_tab):
@@ -197,7 +197,7 @@ def test_invalid_utf8_closes_only_that_connection(view, open_tab):
     with pytest.raises(ConnectionClosed) as ended:
         read_forever(tab)
     assert ended.value.rcvd.code == 1007
-    assert open_tab(viewer).tick().revision == 1
+    assert open_tab(viewer).frame_update().revision == 1
 
 
 def test_the_size_limit_applies_to_all_fragments_together(view, open_tab):
@@ -211,7 +211,7 @@ def test_the_size_limit_applies_to_all_fragments_together(view, open_tab):
     with pytest.raises(ConnectionClosed) as ended:
         send_requests()
     assert ended.value.rcvd is None or ended.value.rcvd.code == 1009
-    assert open_tab(viewer).tick().revision == 1
+    assert open_tab(viewer).frame_update().revision == 1
 
 
 def test_other_protocols_on_the_port_do_no_harm(view, open_tab):
@@ -225,7 +225,7 @@ def test_other_protocols_on_the_port_do_no_harm(view, open_tab):
     ):
         with socket.create_connection((address.hostname, address.port), timeout=20) as connection:
             connection.sendall(data)
-    assert open_tab(viewer).tick().revision == 1
+    assert open_tab(viewer).frame_update().revision == 1
 
 
 def test_a_stuck_tab_takes_no_memory_and_does_not_delay_others(view, open_tab):
@@ -253,12 +253,12 @@ def test_a_stuck_tab_takes_no_memory_and_does_not_delay_others(view, open_tab):
     requester = threading.Thread(target=send_requests, daemon=True)
     requester.start()
     good = open_tab(viewer)
-    good.tick()
+    good.frame_update()
     good.send("time", mode="at", at=2 * SECOND - int(good.last["hello"]["origin"]), playing=True, speed=1.0)
     memory = []
     for _ in range(4):
         for _ in range(8):
-            good.tick()
+            good.frame_update()
         memory.append(resident_bytes())
     ended.set()
     for tab in (asking, stuck):  # A closing handshake would time out.
@@ -275,15 +275,15 @@ def resident_bytes():
 def test_updates_wait_until_the_last_one_is_drawn(view, open_tab):
     buffer = small_buffer()
     tab = open_tab(view(buffer))
-    tab.tick()
-    ticks = []
+    tab.frame_update()
+    updates = []
     deadline = time.monotonic() + 1.5  # An update is sent every second even if nothing changes.
     while (left := deadline - time.monotonic()) > 0:
-        buffer.set("map", "base", coframe.Transform(), 200 * SECOND + len(ticks))
+        buffer.set("map", "base", coframe.Transform(), 200 * SECOND + len(updates))
         with contextlib.suppress(TimeoutError):
             message = tab.socket.recv(left)
-            ticks += [message] if isinstance(message, bytes) else []
-    assert len(ticks) == 1, "only the first update was confirmed"
+            updates += [message] if isinstance(message, bytes) else []
+    assert len(updates) == 1, "only the first update was confirmed"
 
 
 def read_forever(tab):
@@ -295,7 +295,7 @@ def test_closing_ends_all_threads(open_tab):
     before = set(threading.enumerate())
     viewer = coframe.show(small_buffer(), port=0)
     tab = open_tab(viewer)
-    tab.tick()
+    tab.frame_update()
     url = viewer.url
     viewer.close()
     viewer.close()
@@ -355,9 +355,9 @@ def test_poses_that_are_not_finite_are_sent(view, open_tab):
     buffer.set("map", "late", coframe.Transform(), 100 * SECOND)
     buffer.set("map", "huge", coframe.Transform([1e300, 0.0, 0.0]), 100 * SECOND)
     tab = open_tab(view(buffer, fixed="map"))
-    tick = tab.tick()
-    assert np.isinf(tab.world(tick, "huge")[0]) or tab.world(tick, "huge")[0] > 1e290
+    update = tab.frame_update()
+    assert np.isinf(tab.world(update, "huge")[0]) or tab.world(update, "huge")[0] > 1e290
     tab.send("time", mode="at", at=SECOND - int(tab.last["hello"]["origin"]))
-    tick = tab.tick(lambda tick: tick.time < 0)
-    assert tab.state(tick, "late") == 2
-    assert np.isnan(tab.world(tick, "late")).all()
+    update = tab.frame_update(lambda update: update.time < 0)
+    assert tab.state(update, "late") == 2
+    assert np.isnan(tab.world(update, "late")).all()

@@ -40,8 +40,8 @@ def test_the_demo_in_a_tab(open_tab):
         assert rows["link1"]["age"] < 5.0
         tab.send("fixed", frame="world")
         tab.send("subscribe", id=1, topic="/scan", options={})
-        tick = tab.tick(lambda tick: tick.displays)
-        drawn = tab.drawings[next(iter(tick.displays))]
+        update = tab.frame_update(lambda update: update.displays)
+        drawn = tab.drawings[next(iter(update.displays))]
         # The lab's hall: all walls and pillars are within ten metres.
         assert len(drawn.points) > 50
         assert np.isfinite(drawn.points).all()

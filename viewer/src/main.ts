@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * What runs first, while the page itself is still being read: the server is asked for the frames, and the browser for
- * the canvas's context, which takes it as long.
+ * The entry point. While the browser still loads the page's main script, it connects to the server and creates the
+ * WebGL context, which takes about as long.
  */
 
 import "./styles/index.css";
@@ -12,13 +12,13 @@ import { ReplaySource, replayBlock } from "./replay/source";
 import { SocketSource, socketUrl } from "./protocol/socket";
 import type { Source } from "./protocol/source";
 
-/** Which of the two it is is known when the page is built: neither holds what only the other needs. */
+/** The build mode selects the source, so that each page contains only the code that it needs. */
 function openSource(): Source {
   if (import.meta.env.MODE !== "replay") return new SocketSource(socketUrl(location));
   try {
     return new ReplaySource(replayBlock());
   } catch (error) {
-    throw fatal("This replay cannot be played", error instanceof Error ? error.message : String(error));
+    throw fatal("Cannot open this replay", error instanceof Error ? error.message : String(error));
   }
 }
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The page: what comes from the source goes to the model, and every part listens to that. */
+/** Builds the page, and passes the messages of the source to the model, whose events update all parts. */
 
 import { Bar } from "./panels/bar";
 import { Displays } from "./displays/manager";
 import { DisplaysPanel } from "./panels/displays";
 import { byId } from "./util/dom";
-import { ReplayExport, savePicture } from "./panels/export";
-import { FindingsPanel, marksOf } from "./panels/findings";
+import { ReplayExport, saveImage } from "./panels/export";
+import { FindingsPanel } from "./panels/findings";
 import { Inspector } from "./panels/inspector";
 import { JointsPanel } from "./panels/joints";
+import { marksOf } from "./model/marks";
 import { Forest, Model } from "./model/model";
 import { Overlay } from "./panels/overlay";
 import { Panel } from "./panels/side_panel";
@@ -41,7 +42,7 @@ export function showPage(source: Source): void {
     { id: "rviz", title: "RViz file", body: rviz.element },
   ]);
   model.on("findings", ({ findings }) =>
-    panel.entitle("findings", findings.length ? `Findings ${findings.length}` : "Findings"),
+    panel.setTitle("findings", findings.length ? `Findings ${findings.length}` : "Findings"),
   );
   const timeline = new Timeline(byId("timeline"), model);
   const overlay = new Overlay(byId("overlay"), byId("notice"), model, view);
@@ -50,23 +51,23 @@ export function showPage(source: Source): void {
   const shortcuts = new Shortcuts([
     { key: " ", shown: "Space", text: "Pause or play", act: () => timeline.toggle() },
     { key: "l", text: "Back to live", act: () => timeline.goLive() },
-    { key: ",", text: "One message back", act: () => timeline.step(-1) },
-    { key: ".", text: "One message on", act: () => timeline.step(1) },
-    { key: "ArrowLeft", shown: "←", text: "One second back", act: () => timeline.jump(-1) },
-    { key: "ArrowRight", shown: "→", text: "One second on", act: () => timeline.jump(1) },
+    { key: ",", text: "Previous message", act: () => timeline.step(-1) },
+    { key: ".", text: "Next message", act: () => timeline.step(1) },
+    { key: "ArrowLeft", shown: "←", text: "Back by one second", act: () => timeline.jump(-1) },
+    { key: "ArrowRight", shown: "→", text: "Forward by one second", act: () => timeline.jump(1) },
     { key: "o", text: "Loop", act: () => timeline.toggleLoop() },
-    { key: "t", text: "Rates over time", act: () => timeline.toggleSparks() },
+    { key: "t", text: "Rates over time", act: () => timeline.toggleSparklines() },
     { key: "a", text: "Show everything", act: () => view.fit() },
-    { key: "v", text: "Top-down or turning view", act: () => overlay.toggleTop() },
+    { key: "v", text: "Top-down or orbit view", act: () => overlay.toggleTop() },
     { key: "f", text: "Follow the selected frame", act: () => overlay.toggleFollow() },
     { key: "m", text: "Measure", act: () => overlay.toggleMeasure() },
     { key: "h", text: "Hide the selected frame", act: () => hideSelected() },
     { key: "/", text: "Search frames", act: () => (panel.open("frames"), tree.focusSearch()) },
-    { key: "p", text: "Panel", act: () => panel.toggle() },
-    { key: "d", text: "Dark or light", act: () => theme.toggleDark() },
-    { key: "s", text: "Save a picture", act: () => void savePicture(view, model) },
-    { key: "Escape", shown: "Esc", text: "Let go", act: () => letGo() },
-    { key: "?", text: "This sheet", act: () => shortcuts.show() },
+    { key: "p", text: "Show or hide the panel", act: () => panel.toggle() },
+    { key: "d", text: "Dark or light theme", act: () => theme.toggleDark() },
+    { key: "s", text: "Save an image", act: () => void saveImage(view, model) },
+    { key: "Escape", shown: "Esc", text: "Deselect or stop measuring", act: () => deselect() },
+    { key: "?", text: "Show or hide this help", act: () => shortcuts.show() },
   ]);
 
   new Bar(
@@ -77,8 +78,8 @@ export function showPage(source: Source): void {
       toggleDistinct: () => theme.toggleDistinct(),
       help: () => shortcuts.show(),
       togglePanel: () => panel.toggle(),
-      savePicture: () => void savePicture(view, model),
-      saveReplay: () => replays.ask(),
+      saveImage: () => void saveImage(view, model),
+      saveReplay: () => replays.open(),
     },
     source.live,
   );
@@ -89,7 +90,7 @@ export function showPage(source: Source): void {
     if (frame) model.setHidden([frame], model.isShown(frame));
   }
 
-  function letGo(): void {
+  function deselect(): void {
     if (view.measure.active) overlay.toggleMeasure();
     else model.select(null);
   }
@@ -146,12 +147,12 @@ export function showPage(source: Source): void {
   }
 
   function receiveBinary(message: BinaryMessage): void {
-    if (message.kind !== "tick") {
+    if (message.kind !== "frames") {
       model.emit("message", message);
       return;
     }
-    model.take(message);
-    // A hidden tab draws nothing; it still tells that it is there, and asks for the next tick once a second.
+    model.setFrameUpdate(message);
+    // A hidden tab draws nothing. It requests one update per second, so that the server keeps the connection.
     if (document.hidden) setTimeout(() => document.hidden && ready(message.time), HIDDEN_PING_MS);
   }
 
@@ -159,7 +160,7 @@ export function showPage(source: Source): void {
     source.send({ type: "ready", drawn: Number.isFinite(time) ? time : null });
   }
 
-  view.onTaken((tick) => ready(tick.time));
+  view.onBeforeDraw((update) => ready(update.time));
 
   source.start((event, value) => {
     if (event === "text") receive(value as ServerMessage);
@@ -168,7 +169,7 @@ export function showPage(source: Source): void {
       model.connected = value as boolean;
       model.emit("connected", model.connected);
     } else {
-      model.broken++;
+      model.invalidMessages++;
       console.warn(`coframe: ${value as string}`);
     }
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What tests, and the curious, can read of the page: `window.coframe`, told anew with each picture. */
+/** The state of the page for tests and debugging, as `window.coframe`. */
 
 import * as THREE from "three";
 import type { Displays } from "./displays/manager";
@@ -8,7 +8,7 @@ import type { Vector } from "./protocol/messages";
 import type { View } from "./scene/view";
 
 interface FrameProbe {
-  /** In the fixed frame, in metres, as float64. */
+  /** Expressed in the fixed frame, in metres. */
   position: Vector;
   quaternion: number[];
   visible: boolean;
@@ -17,16 +17,16 @@ interface FrameProbe {
 
 export function exposeProbe(model: Model, view: View, displays: Displays): void {
   const frames = (): Record<string, FrameProbe> => {
-    const { placement } = view;
+    const { framePoses } = view;
     const found: Record<string, FrameProbe> = {};
-    for (let i = 0; i < placement.count; i++) {
+    for (let i = 0; i < framePoses.count; i++) {
       const position = [0, 1, 2].map(
-        (k) => (placement.positions[i * 3 + k] as number) + (placement.origin[k] as number),
+        (k) => (framePoses.positions[i * 3 + k] as number) + (framePoses.origin[k] as number),
       ) as Vector;
       found[model.forest.name(i)] = {
         position,
-        quaternion: Array.from(placement.quaternions.subarray(i * 4, i * 4 + 4)),
-        visible: placement.drawn[i] === 1 && view.tfShown,
+        quaternion: Array.from(framePoses.quaternions.subarray(i * 4, i * 4 + 4)),
+        visible: framePoses.drawn[i] === 1 && view.tfShown,
         state: view.shown?.states[i] ?? 0,
       };
     }
@@ -45,31 +45,36 @@ export function exposeProbe(model: Model, view: View, displays: Displays): void 
     get displays() {
       return Object.fromEntries(displays.list.map((display) => [display.config.name, display.probe()]));
     },
-    get ticks() {
-      return view.ticks;
+    get updates() {
+      return view.updates;
     },
     get fps() {
-      return view.stage.fps;
+      return view.renderer.fps;
     },
-    /** Whether what is drawn is what was asked for, and stands still. */
+    /** Whether the playhead stands still and its frame update is drawn. */
     get settled() {
       const { live, playing } = model.clock;
-      return !live && !playing && !model.waiting && view.shown === model.tick;
+      return !live && !playing && !model.seeking && view.shown === model.frameUpdate;
     },
-    /** How one looks, in the fixed frame's metres. */
+    /** The camera, expressed in the fixed frame, in metres. */
     get camera() {
-      const { camera } = view.stage;
-      const { origin } = view.placement;
-      const told = (place: THREE.Vector3): number[] => place.toArray().map((value, k) => value + (origin[k] as number));
-      return { mode: camera.mode, position: told(camera.current.position), target: told(camera.target) };
+      const { camera } = view.renderer;
+      const { origin } = view.framePoses;
+      const inFixedFrame = (point: THREE.Vector3): number[] =>
+        point.toArray().map((value, k) => value + (origin[k] as number));
+      return {
+        mode: camera.mode,
+        position: inFixedFrame(camera.current.position),
+        target: inFixedFrame(camera.target),
+      };
     },
-    /** Where a point of the fixed frame is on the canvas, in pixels. */
+    /** Projects a point of the fixed frame onto the canvas; returns pixels. */
     pixel(point: Vector): [number, number] {
-      const { width, height, camera } = view.stage;
-      const place = new THREE.Vector3(...point)
-        .sub(new THREE.Vector3(...view.placement.origin))
+      const { width, height, camera } = view.renderer;
+      const projected = new THREE.Vector3(...point)
+        .sub(new THREE.Vector3(...view.framePoses.origin))
         .project(camera.current);
-      return [((place.x + 1) / 2) * width, ((1 - place.y) / 2) * height];
+      return [((projected.x + 1) / 2) * width, ((1 - projected.y) / 2) * height];
     },
     get connected() {
       return model.connected;
@@ -77,8 +82,8 @@ export function exposeProbe(model: Model, view: View, displays: Displays): void 
     get live() {
       return model.clock.live;
     },
-    get broken() {
-      return model.broken;
+    get invalidMessages() {
+      return model.invalidMessages;
     },
   };
   Object.defineProperty(window, "coframe", { value: probe });

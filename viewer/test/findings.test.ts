@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
-import { marksOf, verdict } from "../src/panels/findings";
+import { marksOf } from "../src/model/marks";
+import { summary } from "../src/panels/findings";
 import type { Finding, Findings } from "../src/protocol/messages";
 
 const finding = (change: Partial<Finding>): Finding => ({
@@ -9,8 +10,8 @@ const finding = (change: Partial<Finding>): Finding => ({
   ...change,
 });
 
-describe("marks", () => {
-  it("are the worst of what concerns a frame, consequences among it", () => {
+describe("the marks of frames", () => {
+  it("have the highest severity of all findings that affect a frame, including consequences", () => {
     const effect = finding({ code: "TF003", severity: "error", frames: ["base"], text: "two publishers" });
     const marks = marksOf([
       finding({ frames: ["base", "arm"] }),
@@ -25,17 +26,17 @@ describe("marks", () => {
   });
 });
 
-describe("the verdict", () => {
-  const told = (state: Findings["state"]): Findings => ({ type: "findings", state, text: "gone", findings: [] });
+describe("the summary of the findings", () => {
+  const result = (state: Findings["state"]): Findings => ({ type: "findings", state, text: "gone", findings: [] });
 
-  it("is empty until the doctor has spoken", () => {
-    expect(verdict(null, "live")).toBe("");
-    expect(verdict(null, "recording")).toBe("");
+  it("is empty before the first result", () => {
+    expect(summary(null, "live")).toBe("");
+    expect(summary(null, "recording")).toBe("");
   });
 
-  it("says what cannot be told only where that is so", () => {
-    expect(verdict(told("none"), "buffer")).toContain("cannot tell who sent what");
-    expect(verdict(told("ready"), "live")).toBe("Nothing is wrong in the last 10 seconds.");
-    expect(verdict(told("failed"), "recording")).toBe("gone");
+  it("explains why a buffer has no findings", () => {
+    expect(summary(result("none"), "buffer")).toContain("neither publishers nor arrival times");
+    expect(summary(result("ready"), "live")).toBe("No problems in the last 10 seconds.");
+    expect(summary(result("failed"), "recording")).toBe("gone");
   });
 });

@@ -2,9 +2,9 @@
 import * as THREE from "three";
 import { describe, expect, it } from "vitest";
 import {
-  between,
   compose,
   IDENTITY,
+  interpolate,
   inverse,
   matrix,
   multiply,
@@ -17,7 +17,7 @@ import {
   type Quaternion,
 } from "../src/util/math";
 
-/** The same numbers at every run. */
+/** A generator of pseudo-random numbers with a fixed seed. */
 function* numbers(): Generator<number> {
   let state = 12345;
   for (;;) {
@@ -33,7 +33,7 @@ const somePose = (): Pose => ({
   quaternion: normalize([next(), next(), next(), next()]),
 });
 
-/** three.js as the independent answer. */
+/** The same transform computed by three.js, as an independent reference. */
 function three({ position, quaternion }: Pose): THREE.Matrix4 {
   return new THREE.Matrix4().compose(
     new THREE.Vector3(...position),
@@ -42,12 +42,12 @@ function three({ position, quaternion }: Pose): THREE.Matrix4 {
   );
 }
 
-function close(found: number[], wanted: number[], digits = 9): void {
-  found.forEach((value, i) => expect(value).toBeCloseTo(wanted[i] as number, digits));
+function close(found: number[], expected: number[], digits = 9): void {
+  found.forEach((value, i) => expect(value).toBeCloseTo(expected[i] as number, digits));
 }
 
 describe("poses agree with three.js", () => {
-  it("composed, inverted and seen from each other", () => {
+  it("when composed, inverted and expressed relative to each other", () => {
     for (let i = 0; i < 100; i++) {
       const [a, b] = [somePose(), somePose()];
       close(matrix(compose(a, b)), three(a).multiply(three(b)).transpose().elements);
@@ -56,7 +56,7 @@ describe("poses agree with three.js", () => {
     }
   });
 
-  it("as roll, pitch and yaw", () => {
+  it("when converted to roll, pitch and yaw", () => {
     for (let i = 0; i < 100; i++) {
       const { quaternion } = somePose();
       const euler = new THREE.Euler().setFromQuaternion(new THREE.Quaternion(...quaternion), "ZYX");
@@ -64,7 +64,7 @@ describe("poses agree with three.js", () => {
     }
   });
 
-  it("looking straight up and down", () => {
+  it("at a pitch of ±90 degrees", () => {
     for (const pitch of [90, -90])
       for (const yaw of [0, 30, -120]) {
         const euler = new THREE.Euler(0, (pitch * Math.PI) / 180, (yaw * Math.PI) / 180, "ZYX");
@@ -75,8 +75,8 @@ describe("poses agree with three.js", () => {
       }
   });
 
-  it("have principal axes", () => {
-    // 0.09, 0.04 and 0.01 along axes that are turned by a third of a turn about (1, 1, 1) and then by 30 degrees about z.
+  it("when decomposed into principal axes", () => {
+    // Variances 0.09, 0.04 and 0.01 along axes rotated by 120 degrees about (1, 1, 1) and then by 30 degrees about z.
     const turn = multiply([0, 0, Math.sin(Math.PI / 12), Math.cos(Math.PI / 12)], [0.5, 0.5, 0.5, 0.5]);
     const wanted = [0.09, 0.04, 0.01];
     const columns = (
@@ -103,9 +103,9 @@ describe("poses agree with three.js", () => {
     });
   });
 
-  it("are mixed on the shorter turn", () => {
+  it("when interpolated along the shorter rotation", () => {
     const there: Pose = { position: [2, 4, 6], quaternion: [0, 0, -Math.SQRT1_2, -Math.SQRT1_2] };
-    const { position, quaternion } = between(IDENTITY, there, 0.5);
+    const { position, quaternion } = interpolate(IDENTITY, there, 0.5);
     expect(position).toEqual([1, 2, 3]);
     expect(rpyDegrees(quaternion)[2]).toBeCloseTo(45, 6);
   });

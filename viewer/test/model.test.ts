@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import { describe, expect, it } from "vitest";
 import { Forest, Model } from "../src/model/model";
-import type { ClientMessage, Tick } from "../src/protocol/messages";
+import type { ClientMessage, FrameUpdate } from "../src/protocol/messages";
 import { decodeCounts } from "../src/panels/sparklines";
 import { cssColour, Options, rvizColour } from "../src/displays/options";
 import * as format from "../src/util/format";
@@ -28,19 +28,19 @@ describe("the forest", () => {
   );
   const names = (indices: number[] | null): string[] | null => indices?.map((i) => forest.name(i)) ?? null;
 
-  it("finds the way over the nearest common ancestor", () => {
+  it("returns the chain via the nearest common ancestor", () => {
     expect(names(forest.chain(3, 4))).toEqual(["laser", "base", "camera"]);
     expect(names(forest.chain(0, 3))).toEqual(["map", "odom", "base", "laser"]);
     expect(names(forest.chain(2, 2))).toEqual(["base"]);
     expect(forest.chain(3, 6)).toBeNull();
   });
 
-  it("knows what hangs below a frame", () => {
+  it("returns the descendants of a frame", () => {
     expect(names(forest.subtree(2))?.sort()).toEqual(["base", "camera", "laser"]);
     expect(names(forest.roots)).toEqual(["map", "world"]);
   });
 
-  it("comes to an end in a tree that is none", () => {
+  it("terminates if the tree is invalid", () => {
     const loop = new Forest(1, [frame("a", 1), frame("b", 0), frame("self", 2), frame("far", 99)], []);
     expect(loop.ancestors(0).length).toBeLessThanOrEqual(4);
     expect(loop.subtree(0).length).toBeLessThanOrEqual(6);
@@ -48,36 +48,36 @@ describe("the forest", () => {
 });
 
 describe("the playhead", () => {
-  const tick = (time: number) =>
-    ({ kind: "tick", revision: 1, time, origin: [0, 0, 0], count: 0, displays: [] }) as unknown as Tick;
+  const update = (time: number) =>
+    ({ kind: "frames", revision: 1, time, origin: [0, 0, 0], count: 0, displays: [] }) as unknown as FrameUpdate;
 
-  it("counts from the time that was asked for, not from the last picture", () => {
+  it("is the requested time until its frame update arrives", () => {
     const sent: ClientMessage[] = [];
     const model = new Model((message) => void sent.push(message));
-    model.take(tick(10e9));
+    model.setFrameUpdate(update(10e9));
     for (let press = 0; press < 3; press++) {
       model.setClock({ live: false, playing: false }, model.playhead + 1e9);
-      model.take(tick(10e9)); // one that was on its way
+      model.setFrameUpdate(update(10e9)); // sent before the seek
     }
     expect(sent.map((message) => message.type === "time" && message.mode === "at" && message.at)).toEqual([
       11e9, 12e9, 13e9,
     ]);
-    expect([model.playhead, model.waiting]).toEqual([13e9, true]);
-    model.take(tick(13e9));
-    model.take(tick(14e9));
-    expect([model.playhead, model.waiting]).toEqual([14e9, false]);
+    expect([model.playhead, model.seeking]).toEqual([13e9, true]);
+    model.setFrameUpdate(update(13e9));
+    model.setFrameUpdate(update(14e9));
+    expect([model.playhead, model.seeking]).toEqual([14e9, false]);
   });
 
-  it("is where the source found the next message after a step", () => {
+  it("is the time of the next message after a step", () => {
     const model = new Model(() => {});
     model.setClock({ live: false, playing: false }, 5e9);
     model.step(1);
-    model.take(tick(5.1e9));
+    model.setFrameUpdate(update(5.1e9));
     expect(model.playhead).toBe(5.1e9);
   });
 });
 
-describe("options under RViz's names", () => {
+describe("display options", () => {
   const options = (values: Record<string, never | string | number | boolean | null>) =>
     new Options(values, [
       { key: "Alpha", kind: "number", value: 0.5, min: 0, max: 1 },
@@ -85,7 +85,7 @@ describe("options under RViz's names", () => {
       { key: "Style", kind: "choice", value: "Points", choices: ["Points", "Boxes"] },
     ]);
 
-  it("take what fits and leave the rest at its default", () => {
+  it("use the default for invalid values", () => {
     const given = options({ Alpha: 7, Color: "255; 170; 0", Style: "Boxes" });
     expect([given.number("Alpha"), given.colour("Color"), given.choice("Style")]).toEqual([1, "#ffaa00", "Boxes"]);
     const wrong = options({ Alpha: "x", Color: "999; 0; 0", Style: "Teapots" });
@@ -93,26 +93,26 @@ describe("options under RViz's names", () => {
     expect(options({ Alpha: null }).number("Alpha")).toBe(0.5);
   });
 
-  it("write colours as they read them", () => {
+  it("convert colours to and from the format of RViz", () => {
     expect(rvizColour(cssColour("48; 48; 48") as string)).toBe("48; 48; 48");
     expect(cssColour([0, 255, 16])).toBe("#00ff10");
   });
 });
 
-describe("numbers as text", () => {
-  it("have no negative zero and a real minus", () => {
+describe("formatted numbers", () => {
+  it("have no negative zero, and a minus sign", () => {
     expect(format.fixed(-0.00001, 2)).toBe("0.00");
     expect(format.fixed(-1.5, 1)).toBe("−1.5");
     expect(format.fixed(NaN, 2)).toBe("–");
   });
 
-  it("are short where they stand in columns", () => {
+  it("are short in columns", () => {
     expect([0.0123, 5, 250, 90000].map(format.duration)).toEqual(["12 ms", "5.0 s", "4 min", "25 h"]);
     expect([50, 99.97, 12345, null].map(format.rate)).toEqual(["50.0 Hz", "100 Hz", "12.3 kHz", ""]);
     expect([0.0042, 1.5, 12000].map(format.metres)).toEqual(["4.2 mm", "1.500 m", "12.00 km"]);
   });
 
-  it("count from base64, whatever stands in it", () => {
+  it("are decoded from base64, also if it is invalid", () => {
     expect(Array.from(decodeCounts(btoa("\x01\x00\x00\x01"), 3))).toEqual([1, 256, 0]);
     expect(Array.from(decodeCounts("not base64!", 2))).toEqual([0, 0]);
   });

@@ -2,7 +2,7 @@
 import { describe, expect, it } from "vitest";
 import { decode, ProtocolError, slice } from "../src/protocol/messages";
 
-/** Packs the fields one after another, as the server does. */
+/** Encodes fields in the format of the server. */
 function pack(...fields: ["u32" | "f32" | "f64" | "u8", ...number[]][]): ArrayBuffer {
   const bytes: number[] = [];
   for (const [type, ...values] of fields)
@@ -21,7 +21,7 @@ function pack(...fields: ["u32" | "f32" | "f64" | "u8", ...number[]][]): ArrayBu
 const POSE = [1, 2, 3, 0, 0, 0, 1];
 
 describe("frame updates", () => {
-  const tick = pack(
+  const update = pack(
     ["u32", 1, 7],
     ["f64", 2 ** 52 + 1, 500000.125, 4e6, 0],
     ["u32", 3, 1],
@@ -32,9 +32,9 @@ describe("frame updates", () => {
     ["u32", 1],
   );
 
-  it("are decoded, with exact times and origins", () => {
-    const read = decode(tick);
-    if (read.kind !== "tick") throw new Error(read.kind);
+  it("are decoded with exact times and origins", () => {
+    const read = decode(update);
+    if (read.kind !== "frames") throw new Error(read.kind);
     expect(read.revision).toBe(7);
     expect(read.time).toBe(2 ** 52 + 1);
     expect(read.origin).toEqual([500000.125, 4e6, 0]);
@@ -45,19 +45,19 @@ describe("frame updates", () => {
     expect(read.displays[0]).toMatchObject({ id: 9, sequence: 4, ok: false });
   });
 
-  it("are rejected at every length that is too short", () => {
-    for (let length = 0; length < tick.byteLength; length++)
-      expect(() => decode(tick.slice(0, length)), `of ${length} bytes`).toThrow(ProtocolError);
+  it("are rejected if they are too short", () => {
+    for (let length = 0; length < update.byteLength; length++)
+      expect(() => decode(update.slice(0, length)), `of ${length} bytes`).toThrow(ProtocolError);
   });
 
-  it("with more frames than bytes allocate no memory", () => {
-    const invalid = pack(["u32", 1, 1], ["f64", 0, 0, 0, 0], ["u32", 0xffffffff, 0xffffffff]);
-    expect(() => decode(invalid)).toThrow(ProtocolError);
+  it("are rejected before allocation if they declare more frames than bytes", () => {
+    const oversized = pack(["u32", 1, 1], ["f64", 0, 0, 0, 0], ["u32", 0xffffffff, 0xffffffff]);
+    expect(() => decode(oversized)).toThrow(ProtocolError);
   });
 });
 
 describe("display messages", () => {
-  it("contain the scalars or colours of clouds", () => {
+  it("of clouds contain scalars or colours", () => {
     const head = (flags: number): Parameters<typeof pack> => [
       ["u32", 2, 5, 6, 2, flags],
       ["f64", 10],
@@ -73,12 +73,12 @@ describe("display messages", () => {
     expect(rgba.kind === "cloud" && Array.from(rgba.rgba ?? [])).toEqual([1, 2, 3, 4, 5, 6, 7, 8]);
   });
 
-  it("contain -1 for unknown cells of grids", () => {
+  it("of grids use -1 for unknown cells", () => {
     const grid = decode(pack(["u32", 3, 1, 1, 2, 1], ["f32", 0.5, ...POSE], ["u8", 255, 100]));
     expect(grid.kind === "grid" && Array.from(grid.cells)).toEqual([-1, 100]);
   });
 
-  it("refer to rows inside the payload of shapes only", () => {
+  it("of shapes contain only rows inside the payload", () => {
     const payload = new Float32Array([0, 1, 2, 3, 4, 5]);
     expect(Array.from(slice(payload, [3, 1], 3))).toEqual([3, 4, 5]);
     for (const pair of [
@@ -91,7 +91,7 @@ describe("display messages", () => {
       expect(slice(payload, pair, 3)).toHaveLength(0);
   });
 
-  it("of unknown kinds, or with a description that is not JSON, are rejected", () => {
+  it("are rejected if their kind is unknown or their description is not JSON", () => {
     expect(() => decode(pack(["u32", 77]))).toThrow("unknown kind 77");
     expect(() => decode(pack(["u32", 4, 1, 1, 4], ["u8", 123, 123, 123, 123]))).toThrow("JSON");
   });

@@ -11,7 +11,7 @@ from coframe.analysis.static_command import static_command
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["MissingEdge", "missing_edge", "unknown_mount"]
+__all__ = ["BASE_FRAMES", "MissingEdge", "estimator_advice", "is_sensor_frame", "missing_edge", "unknown_mount"]
 
 _SIMILARITY = 0.8
 _MOST_COMPARED = 1_000  # names: comparing one takes microseconds
@@ -26,6 +26,14 @@ _USUAL = (
     ("world", "map"),
     ("world", "odom"),
     ("world", "base_link"),
+)
+
+BASE_FRAMES = ("base_footprint", "base_link")
+"""The names of the frame of a robot's base, the upper one first."""
+_ESTIMATED = {"odom", "map", *BASE_FRAMES}
+_SENSOR = re.compile(
+    "camera|cam(?![a-z])|optical|depth|rgb|stereo|infra|imager|laser|lidar|scan|velodyne|ouster|livox|hokuyo|rplidar|ldlidar"
+    "|imu|gyro|gps|gnss|navsat|radar|sonar|ultraso|range|tof|realsense|zed|kinect|sensor|magnet|baro|microphone"
 )
 
 
@@ -52,7 +60,7 @@ class MissingEdge(NamedTuple):
     @property
     def fix(self) -> str:
         """What to do, for findings: the line of code to change, or the command to run."""
-        if self.misspelt:
+        if self.misspelt or estimator_advice(self.parent, self.child):
             return self.hint
         edge, command = f"{self.parent} -> {self.child}", static_command(self.parent, self.child)
         return f"If {edge} never moves, run `{command}`; otherwise start the node that publishes it."
@@ -65,6 +73,8 @@ class MissingEdge(NamedTuple):
                 f"In the node that publishes {self.child!r}, change the line to t.header.frame_id = {self.parent!r} "
                 f"(or t.child_frame_id); the two names must be the same."
             )
+        if advice := estimator_advice(self.parent, self.child):
+            return advice
         return (
             f"If {self.parent} -> {self.child} never moves, publish it with a StaticTransformBroadcaster or insert it "
             f"with buffer.set({self.parent!r}, {self.child!r}, ..., static=True); otherwise start the node that "
@@ -72,8 +82,53 @@ class MissingEdge(NamedTuple):
         )
 
 
+def estimator_advice(parent: str, child: str, node: str = "") -> str:
+    """Return what to do if an edge that odometry or localization estimates is missing; "" for all other edges.
+
+    Such an edge must not be published as a static transform: the robot would not move.
+
+    Args:
+        parent: The parent frame.
+        child: The child frame.
+        node: The node that probably estimates the edge, such as the publisher of the odometry; "" if not known.
+
+    Example:
+        >>> estimator_advice("odom", "base_link")[:61]
+        'Your odometry publisher does not broadcast odom -> base_link '
+        >>> estimator_advice("base_link", "lidar")
+        ''
+    """
+    upper, lower = _without_prefix(parent), _without_prefix(child)
+    named = f" ({node})" if node else ""
+    if upper == "odom" and lower in BASE_FRAMES:
+        return (
+            f"Your odometry publisher{named} does not broadcast {parent} -> {child} (often an option such as "
+            "publish_tf): enable it, or broadcast the pose of each odometry message."
+        )
+    if upper == "map" and lower in {"odom", *BASE_FRAMES}:
+        return (
+            f"Your localization or SLAM node{named} does not broadcast {parent} -> {child} (often an option such as "
+            "publish_tf or tf_broadcast): start it, or enable the option; localization also needs an initial pose."
+        )
+    return ""
+
+
+def is_sensor_frame(frame: str) -> bool:
+    """Return whether the name of a frame is that of a sensor, which is usually mounted at a constant pose.
+
+    Example:
+        >>> is_sensor_frame("front_laser"), is_sensor_frame("imu_link"), is_sensor_frame("odom")
+        (True, True, False)
+    """
+    return _SENSOR.search(_without_prefix(frame).lower()) is not None
+
+
 def unknown_mount(root: str) -> str:
     """Return what to do about a tree with this root where no missing edge is more likely than others."""
+    if _without_prefix(root) in _ESTIMATED:
+        return (
+            f"Start the node that publishes a transform with child_frame_id = {root!r}: odometry, localization or SLAM."
+        )
     return (
         f"Publish a transform with child_frame_id = {root!r}; if it never moves, run "
         f"`{static_command('PARENT', root)}`."

@@ -12,10 +12,10 @@ from coframe.bags.offered_qos import OfferedQos, from_yaml
 from coframe.bags.recording import RecordedMessage, Recording, Topic, open_bag
 from coframe.bags.summary import EdgeSummary, SensorSummary, Summary, TreeSummary, summarize
 from coframe.bags.time_points import parse_time_point
-from coframe.bags.trajectories import FORMATS, format_of, write_trajectory
 from coframe.bags.trajectory_query import TrajectoryQuery
 from coframe.bags.writer import Writer
 from coframe.errors import RecordingError
+from coframe.trajectories import FORMATS, format_of, write_trajectory
 
 __all__ = [
     "CLOUD_FORMATS",

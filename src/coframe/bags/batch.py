@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from coframe.bags.recording import open_bag
-from coframe.bags.table import POSE_COLUMNS
 from coframe.errors import RecordingError
+from coframe.trajectories.formats import POSE_COLUMNS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

@@ -102,6 +102,15 @@ class MessageIndex:
         """Return the names of all topics, sorted."""
         return sorted(self._tracks)
 
+    def span(self, storage: Storage | None = None) -> tuple[int, int] | None:
+        """Return the first and last time of receipt, of one file or of all; None if there are no messages."""
+        parts = [
+            received
+            for track in self.tracks()
+            if (storage is None or track.storage is storage) and len(received := _int64(track.received))
+        ]
+        return (min(int(part.min()) for part in parts), max(int(part.max()) for part in parts)) if parts else None
+
     def tracks(self, topic: str | None = None) -> list[Track]:
         """Return the tracks of a topic, or of all topics."""
         return [track for name in (self._tracks if topic is None else (topic,)) for track in self._tracks[name]]

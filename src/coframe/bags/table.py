@@ -9,6 +9,7 @@ import numpy as np
 
 from coframe import _core
 from coframe.errors import RecordingError
+from coframe.trajectories.formats import POSE_COLUMNS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -17,9 +18,7 @@ if TYPE_CHECKING:
 
     from coframe.buffer import Buffer, EdgeInfo
 
-__all__ = ["POSE_COLUMNS", "edge_table"]
-
-POSE_COLUMNS = ("x", "y", "z", "qx", "qy", "qz", "qw")
+__all__ = ["edge_table"]
 
 
 class _NameColumn:

@@ -12,14 +12,18 @@ from coframe.bags.time_points import parse_time_point
 from coframe.errors import RecordingError
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import NDArray
 
     from coframe.bags.recording import Recording
+    from coframe.buffer import Buffer
     from coframe.transform import Transform
 
-__all__ = ["MAX_RATE", "TrajectoryQuery"]
+__all__ = ["BATCH", "MAX_RATE", "TrajectoryQuery"]
 
 MAX_RATE = 1e6  # Hz
+BATCH = 50_000  # poses
 
 
 @dataclass(frozen=True)
@@ -68,24 +72,61 @@ class TrajectoryQuery:
             TransformException: A frame does not exist, or the frames are not connected.
             ValueError: ``start`` or ``stop`` is not a point in time.
         """
+        stamps = self.stamps(recording)
+        return self._look_up(recording, stamps)
+
+    def stamps(self, recording: Recording) -> NDArray[np.int64]:
+        """Return the stamps of the poses, at least one, in order: (N,) nanoseconds.
+
+        Raises:
+            RecordingError: As :meth:`run`.
+            TransformException: As :meth:`run`.
+            ValueError: As :meth:`run`.
+        """
         buffer = recording.buffer
         start, stop = _nanoseconds(self.start, recording), _nanoseconds(self.stop, recording)
-        if self.rate is None and self.stamps_of is None:
-            poses = buffer.trajectory(self.target, self.source, start, stop)
-            if not len(poses):
-                raise _no_stamps(recording)
-            return poses, 0
         if self.stamps_of is not None:
             stamps = np.unique(recording.stamps(self.stamps_of))
             first, last = stamps[:1] if start is None else start, stamps[-1:] if stop is None else stop
             stamps = stamps[(stamps >= first) & (stamps <= last)]
+        elif self.rate is not None:
+            stamps = _stamps_at_rate(buffer.span(self.target, self.source), start, stop, self.rate)
         else:
-            stamps = _stamps_at_rate(buffer.span(self.target, self.source), start, stop, self.rate or 1.0)
+            stamps = _stamps_of_samples(buffer, self.target, self.source, start, stop)
         if not stamps.size:
             raise _no_stamps(recording)
-        poses = buffer.lookup_many(self.target, self.source, stamps, on_error="nan")
+        return stamps
+
+    def batches(self, recording: Recording, stamps: NDArray[np.int64]) -> Iterator[tuple[Transform, int]]:
+        """Yield the poses in batches, so that a long trajectory does not have to fit in memory.
+
+        Args:
+            recording: The recording.
+            stamps: As returned by :meth:`stamps`.
+
+        Yields:
+            Poses, possibly none, and the number of stamps omitted because there is no transform.
+        """
+        for start in range(0, len(stamps), BATCH):
+            yield self._look_up(recording, stamps[start : start + BATCH])
+
+    def _look_up(self, recording: Recording, stamps: NDArray[np.int64]) -> tuple[Transform, int]:
+        if self.rate is None and self.stamps_of is None:
+            return recording.buffer.lookup_many(self.target, self.source, stamps), 0
+        poses = recording.buffer.lookup_many(self.target, self.source, stamps, on_error="nan")
         found = ~np.isnan(poses.translation[:, 0])
         return poses[found], int(np.count_nonzero(~found))
+
+
+def _stamps_of_samples(
+    buffer: Buffer, target: str, source: str, start: int | None, stop: int | None
+) -> NDArray[np.int64]:
+    """Return the stamps that :meth:`coframe.Buffer.trajectory` uses."""
+    span = buffer.span(target, source)
+    first = span[0] if start is None else max(span[0], start)
+    last = span[1] if stop is None else min(span[1], stop)
+    inside = np.frombuffer(buffer._stamps_between(target, source, first, last), dtype=np.int64)
+    return np.unique(np.concatenate([[first], inside, [last]]).astype(np.int64)) if first <= last else inside
 
 
 def _no_stamps(recording: Recording) -> RecordingError:

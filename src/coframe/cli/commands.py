@@ -37,7 +37,7 @@ COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
     "record": ("Record topics as MCAP files in rosbag2's layout.", {}),
     "play": ("Replay a recording.", {"cls": "PlayCommand"}),
     "bag": ("Inspect and repair recordings.", {}),
-    "lookup": ("Print a transform from a recording.", {}),
+    "lookup": ("Print a transform once, live or from a recording.", {}),
     "trajectory": ("Write the trajectory of a frame from a recording.", {}),
     "cloud": ("Write point clouds or scans from a recording in one frame.", {}),
     "batch": ("Write trajectories from many recordings as one dataset.", {}),

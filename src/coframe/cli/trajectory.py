@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path  # noqa: TC003 - typer reads the annotations
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from coframe.bags import FORMATS, TrajectoryQuery, format_of, write_trajectory
+from coframe.bags import TrajectoryQuery
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     BagArgument,
@@ -19,8 +19,15 @@ from coframe.cli.options import (
     RecordedTfTopicOption,
 )
 from coframe.cli.output import fail, warn
+from coframe.cli.progress import item_progress
 from coframe.cli.recordings import open_recording, parse_time
 from coframe.formatting import count, seconds
+from coframe.trajectories import FORMATS, format_of, write_trajectory
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from coframe import Transform
 
 __all__ = ["trajectory"]
 
@@ -70,11 +77,20 @@ def trajectory(
     with run_to_completion(), open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
         for text in filter(None, (start, stop)):
             parse_time("--start/--stop", text, recording)
-        poses, missing = query.run(recording)
-        if missing:
-            warn(f"no transform at {missing} of {count(missing + len(poses), 'time')}; those are omitted")
+        stamps = query.stamps(recording)
+        missing, first, last = 0, int(stamps[-1]), int(stamps[0])
+
+        def batches() -> Iterator[Transform]:
+            nonlocal missing, first, last
+            for poses, not_found in query.batches(recording, stamps):
+                missing += not_found
+                if poses.stamps is not None and len(poses):
+                    first, last = min(first, int(poses.stamps[0])), int(poses.stamps[-1])
+                yield poses
+
         try:
-            write_trajectory(poses, sys.stdout if output is None else output, kind)
+            with item_progress("writing", len(stamps)) as progress:
+                write_trajectory(batches(), sys.stdout if output is None else output, kind, progress=progress)
         except OSError as error:
             if isinstance(error, BrokenPipeError):
                 raise
@@ -82,9 +98,15 @@ def trajectory(
                 f"{output} cannot be written: {error.strerror or error}",
                 "Check that the folder exists and is writable.",
             )
-        if output is not None and poses.stamps is not None:
-            first, last = int(poses.stamps[0]), int(poses.stamps[-1])
-            print(f"{output}: {count(len(poses), 'pose')} from {seconds(first)} to {seconds(last)}")
+        if missing:
+            warn(f"no transform at {missing} of {count(len(stamps), 'time')}; those are omitted")
+        if output is not None:
+            poses = count(len(stamps) - missing, "pose")
+            print(
+                f"{output}: {poses} from {seconds(first)} to {seconds(last)}"
+                if missing < len(stamps)
+                else f"{output}: {poses}"
+            )
 
 
 def _format(output: Path | None, requested: str | None) -> str:

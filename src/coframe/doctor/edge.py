@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["Edge", "angles_between", "publishers_of"]
 
 _LATE = SECOND
+_LEAST_UNSET = 5  # transforms with the stamp 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,9 +81,19 @@ class Edge:
         return Edge(self.parent, self.child, self.static, *columns, self.publishers)
 
     @cached_property
+    def unset(self) -> int:
+        """The number of transforms with the stamp 0, whose stamp was never set."""
+        return int(np.count_nonzero(self.stamp == 0))
+
+    @property
+    def is_unset(self) -> bool:
+        """Whether so many stamps were never set that the others do not count; a simulation may begin at 0."""
+        return self.unset == self.count or (self.unset >= _LEAST_UNSET and self.unset > 0.05 * self.count)
+
+    @cached_property
     def intervals(self) -> NDArray[np.int64]:
-        """The intervals between consecutive different stamps, in the order of time."""
-        return stamp_intervals(self.stamp)
+        """The intervals between consecutive different stamps, in the order of time; without stamps of 0."""
+        return stamp_intervals(self.stamp[self.stamp != 0] if self.unset else self.stamp)
 
     @cached_property
     def period(self) -> float:

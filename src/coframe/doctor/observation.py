@@ -1,6 +1,6 @@
 """Observation: the transforms and messages that were received or recorded, with the facts that several checks need.
 
-The rows are the transforms as published, including those that a buffer refuses. All times are int64 nanoseconds.
+The rows are the transforms as published, including those that a buffer rejects. All times are int64 nanoseconds.
 """
 
 from __future__ import annotations
@@ -257,10 +257,15 @@ class Observation:
     def clocks(self) -> dict[str, str]:
         """By name of a dynamic edge and by topic of a sensor: the clock of its stamps.
 
-        The clock is ``wall``, ``simulated``, or ``other 1`` and so on for each clock that is hours off both.
+        The clock is ``wall``, ``simulated``, or ``other 1`` and so on for each clock that is hours off both. Edges
+        and sensors of which all stamps are 0 have no clock.
         """
         times = {edge.name: (edge.stamp, edge.arrived) for edge in self.dynamic}
         times |= {sensor.topic: (sensor.stamp, sensor.arrived) for sensor in self.sensors if len(sensor.stamp)}
+        # A stamp of 0 is not a time: it was never set.
+        times = {
+            name: (stamp[stamp != 0], arrived[stamp != 0]) for name, (stamp, arrived) in times.items() if stamp.any()
+        }
         found: dict[str, str] = {name: self.clock_of(*columns) for name, columns in times.items()}
         others = [name for name, clock in found.items() if clock == "other"]
         offsets = [int(np.median(times[name][1] - times[name][0])) for name in others]
@@ -283,7 +288,7 @@ class Observation:
     def waits(self, sensor: Sensor) -> NDArray[np.int64]:
         """Return how long after the arrival of each message its transform to the root of the tree is available, (N,).
 
-        0 stands for at once, NEVER for not at all.
+        0 stands for at once, NEVER for not at all. For the stamp 0, tf2 uses the latest transform.
         """
         ready = np.zeros(len(sensor.stamp), dtype=np.int64)
         for edge in self.path(sensor.frame):
@@ -291,6 +296,6 @@ class Observation:
                 newest = np.maximum.accumulate(edge.stamp)
                 row = np.searchsorted(newest, sensor.stamp)
                 arrival = edge.arrived[np.minimum(row, edge.count - 1)]
-                is_covered = (row < edge.count) & (sensor.stamp >= edge.stamp.min())
+                is_covered = (sensor.stamp == 0) | ((row < edge.count) & (sensor.stamp >= edge.stamp.min()))
                 ready = np.maximum(ready, np.where(is_covered, arrival, NEVER))
         return np.where(ready == NEVER, NEVER, np.maximum(ready - sensor.arrived, 0))

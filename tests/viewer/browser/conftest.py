@@ -1,4 +1,4 @@
-"""A real browser, the real server, the running demo: what a person sees, asked of the page itself."""
+"""Fixtures for tests in a real browser, with the real server and the running demo."""
 
 import json
 import os
@@ -21,13 +21,13 @@ sync_api = pytest.importorskip(
 )
 websockets = pytest.importorskip("websockets.sync.client", reason="the viewer needs websockets")
 
-SETTLING = 5.0  # seconds
-PATIENCE = 20.0  # seconds; two cores that others use too
-START_PATIENCE = 60.0  # of a process that starts beside a browser that starts
+SETTLING_TIMEOUT = 5.0  # seconds
+TIMEOUT = 20.0  # seconds; the machine may be busy
+START_TIMEOUT = 60.0  # seconds; the process starts at the same time as a browser
 SECOND = 1_000_000_000
 LAB_FRAMES = 11
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-# No sandbox: tests may be run by root. Pictures are drawn in software, and the browser asks nobody for anything.
+# Root cannot use the sandbox. The browser renders in software and resolves no host names.
 ARGUMENTS = [
     "--no-sandbox",
     "--disable-quic",
@@ -44,7 +44,7 @@ ARGUMENTS = [
 
 @pytest.fixture(scope="session")
 def browser():
-    """Debian's Chromium, one for all tests."""
+    """Start one Chromium for all tests."""
     program = next(filter(None, map(shutil.which, BROWSERS)), None)
     if program is None:
         pytest.skip("no browser: apt-get install chromium")
@@ -55,52 +55,54 @@ def browser():
 
 
 class Page:
-    """A tab with the viewer in it."""
+    """A browser tab that shows the viewer."""
 
     def __init__(self, context, url):
         self.url = url
         self.errors = []
-        self.strangers = []
+        self.foreign_urls = []
         context.route(_is_foreign, self._refuse)
         self.raw = context.new_page()
-        self.raw.on("websocket", lambda socket: _is_foreign(socket.url) and self.strangers.append(socket.url))
-        self.raw.set_default_timeout(PATIENCE * 1000)
-        self.raw.on("console", self._hear)
+        self.raw.on("websocket", lambda socket: _is_foreign(socket.url) and self.foreign_urls.append(socket.url))
+        self.raw.set_default_timeout(TIMEOUT * 1000)
+        self.raw.on("console", self._record_error)
         self.raw.on("pageerror", lambda error: self.errors.append(str(error)))
         self.raw.goto(url)
 
-    def _hear(self, message):
+    def _record_error(self, message):
         if message.type == "error":
             self.errors.append(message.text)
 
     def _refuse(self, route):
-        self.strangers.append(route.request.url)
+        self.foreign_urls.append(route.request.url)
         route.abort()
 
-    def ask(self, script, argument=None):
-        """The value of a JavaScript expression, or of a function of one argument."""
+    def evaluate(self, script, argument=None):
+        """Return the value of a JavaScript expression, or of a function of one argument."""
         return self.raw.evaluate(script, argument)
 
     def until(self, script, argument=None):
-        """The value once it is true."""
-        return self.wait(lambda: self.ask(script, argument), script)
+        """Wait until a JavaScript expression is true, and return its value."""
+        return self.wait(lambda: self.evaluate(script, argument), script)
 
     def wait(self, condition, what="a condition"):
-        """What a function of no arguments answers once that is true."""
-        deadline = time.monotonic() + PATIENCE
+        """Wait until a Python function returns a true value, and return the value."""
+        deadline = time.monotonic() + TIMEOUT
         while not (found := condition()):
             if time.monotonic() > deadline:
-                raise AssertionError(f"waited in vain for {what}; on the page: {self.text('#toasts')!r}")
+                raise AssertionError(
+                    f"timed out waiting for {what}; notifications on the page: {self.text('#toasts')!r}"
+                )
             self.raw.wait_for_timeout(30)
         return found
 
     def drawn(self):
-        """Waits for the first picture with frames in it."""
-        self.until("window.coframe && coframe.ticks > 0 && Object.keys(coframe.frames).length > 0")
+        """Wait until frames are drawn, and return the page."""
+        self.until("window.coframe && coframe.updates > 0 && Object.keys(coframe.frames).length > 0")
         return self
 
     def shows(self, frame):
-        """Waits until a frame is drawn."""
+        """Wait until a frame is visible."""
         self.until("name => window.coframe?.frames[name]?.visible", frame)
 
     def click(self, selector):
@@ -119,23 +121,23 @@ class Page:
         return self.raw.locator(selector).all_inner_texts()
 
     def row(self, frame):
-        """A frame's row in the tree."""
+        """Return the locator of the row of a frame."""
         return self.raw.locator(f"#panel .row[data-frame={json.dumps(frame)}]:visible")
 
     def rows(self):
-        """The names of all rows in the tree."""
+        """Return the names in all visible rows of the tree."""
         return self.texts("#panel .row:visible .name")
 
-    def picture(self):
-        """Frames as they are drawn, and their stamp in nanoseconds."""
-        told = self.ask("({time: coframe.time, fixed: coframe.fixed, frames: coframe.frames})")
-        return told["fixed"], self.origin() + round(told["time"]), told["frames"]
+    def drawn_frames(self):
+        """Return the fixed frame, the stamp in nanoseconds and the poses of the drawn frames."""
+        state = self.evaluate("({time: coframe.time, fixed: coframe.fixed, frames: coframe.frames})")
+        return state["fixed"], self.origin() + round(state["time"]), state["frames"]
 
-    def assert_like(self, buffer, tolerance=1e-5):
-        """What is drawn is what a buffer answers for the same moment, once all of it has come."""
-        deadline = time.monotonic() + SETTLING
+    def assert_equals_buffer(self, buffer, tolerance=1e-5):
+        """Assert that the drawn poses equal lookups in a buffer at the same stamp, once all data has arrived."""
+        deadline = time.monotonic() + SETTLING_TIMEOUT
         while True:
-            fixed, stamp, frames = self.picture()
+            fixed, stamp, frames = self.drawn_frames()
             try:
                 for frame, drawn in frames.items():
                     expected = buffer.lookup(fixed, frame, stamp, timeout="5s")
@@ -149,29 +151,29 @@ class Page:
                 return
 
     def origin(self):
-        """What times on the page are relative to, as the server tells all of its tabs."""
+        """Return the origin of the times on the page, from the `hello` of the server."""
         address = urlsplit(self.url)
         with websockets.connect(f"ws://{address.netloc}/ws", max_size=None) as socket:
-            return int(json.loads(socket.recv(PATIENCE))["origin"])
+            return int(json.loads(socket.recv(TIMEOUT))["origin"])
 
     def pause(self):
-        """Stops, and waits until the last picture before that has passed."""
+        """Pause, and wait until the frame update at the playhead is drawn."""
         self.key("Space")
         self.until("!coframe.live")
         self.settle()
         return self
 
     def settle(self):
-        """Waits until what was asked for is drawn, and the playhead stands still."""
+        """Wait until the playhead stands still and its frame update is drawn."""
         self.until("coframe.settled")
 
     def scrub(self, part):
-        """Presses the mouse on the timeline, a part of the way from its start."""
+        """Click the timeline at a fraction of its length."""
         box = self.raw.locator("#timeline .scrub canvas").bounding_box()
         self.raw.mouse.click(box["x"] + part * box["width"], box["y"] + box["height"] / 2)
 
     def save_replay(self, file, seconds):
-        """Saves the last seconds as a file."""
+        """Save the last seconds as a replay, and return the URL of the file."""
         self.click("#bar button[title=Export]")
         self.click("text=Replay (HTML)")
         self.raw.fill("dialog input[aria-label='Seconds']", str(seconds))
@@ -181,21 +183,22 @@ class Page:
         return file.as_uri()
 
     def step(self, key, seconds):
-        """Presses a key that moves the playhead by so much."""
-        wanted = self.ask("coframe.time") + seconds * SECOND
+        """Press a key that moves the playhead by the given number of seconds, and wait for it."""
+        expected = self.evaluate("coframe.time") + seconds * SECOND
         self.key(key)
-        self.until("time => Math.abs(coframe.time - time) < 1e3", wanted)
+        self.until("time => Math.abs(coframe.time - time) < 1e3", expected)
 
     def seconds(self):
-        """The playhead."""
-        return self.ask("coframe.time") / SECOND
+        """Return the time of the playhead in seconds."""
+        return self.evaluate("coframe.time") / SECOND
 
 
 @pytest.fixture
 def open_page(browser) -> Iterator[object]:
-    """Opens a page in a context of its own. Fails where it asks another machine, or has something to complain of.
+    """Open pages, each in its own browser context, and check their requests and errors at the end of the test.
 
-    What is expected to be complained of is told by a part of its text; `relay` stands between page and server.
+    A test fails if a page sends a request to another host, or logs an error that contains none of `expected_errors`.
+    `relay` forwards the messages between page and server.
     """
     contexts, pages = [], []
 
@@ -208,14 +211,14 @@ def open_page(browser) -> Iterator[object]:
         return pages[-1][0]
 
     yield start
-    strangers = [url for page, _ in pages for url in page.strangers]
-    complaints = [
+    foreign_urls = [url for page, _ in pages for url in page.foreign_urls]
+    unexpected_errors = [
         error for page, expected in pages for error in page.errors if not any(text in error for text in expected)
     ]
     for context in contexts:
         context.close()
-    assert not strangers, "the page asked another machine"
-    assert not complaints
+    assert not foreign_urls, "the page sent requests to another host"
+    assert not unexpected_errors
 
 
 def _is_foreign(url):
@@ -223,7 +226,7 @@ def _is_foreign(url):
 
 
 class Demo:
-    """The running `coframe demo`, and a connection that hears what it says."""
+    """The running `coframe demo`, and a connection that receives its transforms."""
 
     def __init__(self, process, url, domain, ros):
         self.process, self.url, self.domain, self.ros = process, url, domain, ros
@@ -231,8 +234,8 @@ class Demo:
 
 @pytest.fixture(scope="session")
 def demo(tmp_path_factory) -> Iterator[Demo]:
-    """One demo for all tests, in a domain that no other test takes."""
-    pytest.importorskip("cyclonedds", reason="the demo speaks over DDS")
+    """Start one demo for all tests, in a domain that no other test uses."""
+    pytest.importorskip("cyclonedds", reason="the demo uses DDS")
     worker = os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw")
     domain = 201 + (os.getppid() + int(worker)) % 9
     output = tmp_path_factory.mktemp("demo") / "output"
@@ -247,23 +250,23 @@ def demo(tmp_path_factory) -> Iterator[Demo]:
                 yield Demo(process, _address(process, output), domain, ros)
     finally:
         process.send_signal(signal.SIGINT)
-        process.wait(PATIENCE)
+        process.wait(TIMEOUT)
 
 
 def _address(process, output):
-    """The line of its own with the address."""
-    deadline = time.monotonic() + START_PATIENCE
+    """Return the address, which the demo prints in a line of its own."""
+    deadline = time.monotonic() + START_TIMEOUT
     while time.monotonic() < deadline and process.poll() is None:
         lines = output.read_text(errors="replace").splitlines()
         if found := [line for line in lines if line.startswith("http://127.0.0.1:")]:
             return found[0]
         time.sleep(0.02)
-    raise AssertionError(f"no address was printed: {output.read_text(errors='replace')}")
+    raise AssertionError(f"the demo printed no address: {output.read_text(errors='replace')}")
 
 
 @pytest.fixture
 def lab(demo, open_page):
-    """The demo's page with all of the lab's frames."""
+    """Open the page of the demo, and wait for all frames of the lab."""
     page = open_page(demo.url)
-    page.until("n => window.coframe?.ticks && Object.keys(coframe.frames).length === n", LAB_FRAMES)
+    page.until("n => window.coframe?.updates && Object.keys(coframe.frames).length === n", LAB_FRAMES)
     return page

@@ -1,4 +1,4 @@
-"""What is drawn beside the frames: RViz's files, scans, robots and their joints."""
+"""Displays: .rviz files, scans, robots and their joints."""
 
 import struct
 import time
@@ -20,12 +20,12 @@ SECOND = 1_000_000_000
 BEGIN = 1_700_000_000 * SECOND
 
 
-def test_the_labs_rviz_file_is_applied(demo, view, open_page, shared):
+def test_the_rviz_file_of_the_lab_is_applied(demo, view, open_page, shared):
     page = open_page(view(demo.ros, rviz=shared / "lab" / "rviz_config.yaml").url).drawn()
     page.until("coframe.fixed === 'base_link'")
     page.tab("displays")
     page.wait(lambda: page.texts("#body-displays .card-title span:first-child") == ["TF", "RobotModel", "World Axes"])
-    shown = page.ask("coframe.displays")
+    shown = page.evaluate("coframe.displays")
     assert {name: (display["class"], display["enabled"]) for name, display in shown.items()} == {
         "TF": ("TF", True),
         "RobotModel": ("RobotModel", True),
@@ -36,9 +36,9 @@ def test_the_labs_rviz_file_is_applied(demo, view, open_page, shared):
     assert page.raw.input_value("#body-displays input[aria-label='Marker Scale']") == "0.3"
 
 
-def test_what_is_unknown_in_an_rviz_file_is_listed_and_kept(view, open_page, tmp_path):
+def test_unsupported_parts_of_an_rviz_file_are_listed_and_preserved(view, open_page, tmp_path):
     yaml = pytest.importorskip("yaml", reason="RViz's files are YAML")
-    told = {
+    configuration = {
         "Panels": [{"Class": "rviz_common/Displays", "Name": "Displays", "Splitter Ratio": 0.4}],
         "Visualization Manager": {
             "Displays": [
@@ -47,36 +47,36 @@ def test_what_is_unknown_in_an_rviz_file_is_listed_and_kept(view, open_page, tmp
                     "Name": "TF",
                     "Enabled": True,
                     "Marker Scale": 2,
-                    "Odd": {"a": [1]},
+                    "Unknown": {"a": [1]},
                 },
                 {"Class": "acme_plugins/Lasso", "Name": "A lasso <b>", "Enabled": True, "Length": 7},
             ],
-            "Global Options": {"Fixed Frame": "map", "Background Color": "1; 2; 3", "Odd Option": "kept"},
+            "Global Options": {"Fixed Frame": "map", "Background Color": "1; 2; 3", "Unknown Option": "kept"},
             "Tools": [{"Class": "rviz_default_plugins/Select"}],
         },
         "Window Geometry": {"Height": 800},
     }
     file = tmp_path / "my.rviz"
-    file.write_text(yaml.safe_dump(told))
+    file.write_text(yaml.safe_dump(configuration))
     buffer = coframe.Buffer(None)
     buffer.set("map", "base", coframe.Transform([1.0, 0.0, 0.0]), BEGIN)
     page = open_page(view(buffer).url).drawn()
     page.tab("rviz")
     page.raw.set_input_files("#body-rviz input[type=file]", file)
-    page.wait(lambda: page.texts("#unknown li"), "the list of what is unknown")
+    page.wait(lambda: page.texts("#unknown li"), "the list of unsupported parts")
     assert "A lasso <b>" in page.text("#unknown")
     page.raw.select_option("#fixed", "base")
     with page.raw.expect_download() as download:
         page.click("#save-rviz")
     saved = yaml.safe_load(download.value.path().read_text())
     manager = saved["Visualization Manager"]
-    assert (saved["Panels"], saved["Window Geometry"]) == (told["Panels"], told["Window Geometry"])
-    assert manager["Tools"] == told["Visualization Manager"]["Tools"]
-    assert told["Visualization Manager"]["Displays"][1] in manager["Displays"]
+    assert (saved["Panels"], saved["Window Geometry"]) == (configuration["Panels"], configuration["Window Geometry"])
+    assert manager["Tools"] == configuration["Visualization Manager"]["Tools"]
+    assert configuration["Visualization Manager"]["Displays"][1] in manager["Displays"]
     tf = next(display for display in manager["Displays"] if display["Name"] == "TF")
-    assert (tf["Marker Scale"], tf["Odd"]) == (2, {"a": [1]})
+    assert (tf["Marker Scale"], tf["Unknown"]) == (2, {"a": [1]})
     assert manager["Global Options"]["Fixed Frame"] == "base"
-    assert manager["Global Options"]["Odd Option"] == "kept"
+    assert manager["Global Options"]["Unknown Option"] == "kept"
 
 
 def test_a_scan_of_the_demo_lies_on_its_walls(lab):
@@ -91,7 +91,7 @@ def test_a_scan_of_the_demo_lies_on_its_walls(lab):
 
 
 def assert_on_the_walls(scan):
-    """In odom, a scan lies on the walls and pillars of the demo's hall."""
+    """Assert that a scan in frame odom lies on the walls and pillars of the demo's hall."""
     points = np.array(scan["first"]).reshape(-1, 3)
     assert 100 < len(points) == scan["points"]
     x, y, _ = (rotation(scan["quaternion"]) @ points.T) + np.array(scan["position"])[:, None]
@@ -99,37 +99,37 @@ def assert_on_the_walls(scan):
     side = np.where(number % 2 == 0, PILLAR_OFFSET, -PILLAR_OFFSET)
     pillars = np.abs(np.hypot(x - number * PILLAR_SPACING, y - side) - PILLAR_RADIUS)
     walls = np.minimum(np.abs(np.abs(y) - HALL_HALF_WIDTH), np.abs(x - HALL_START))
-    # The lidar measures from where it last heard that it was, a few milliseconds before its stamp.
-    off = np.minimum(pillars, walls)
-    assert np.quantile(off, 0.95) < 0.05
+    # The lidar measures from its last received pose, a few milliseconds before its stamp.
+    distances = np.minimum(pillars, walls)
+    assert np.quantile(distances, 0.95) < 0.05
     assert (pillars < 0.05).sum() > 3
     assert (walls < 0.05).sum() > 50
 
 
-def test_a_replay_of_the_demo_has_its_scans_where_they_were(lab, open_page, tmp_path):
+def test_a_replay_of_the_demo_shows_scans_at_their_recorded_poses(lab, open_page, tmp_path):
     lab.raw.select_option("#fixed", "odom")
     lab.until("coframe.frames.odom.position.every((x) => x === 0)")
     shown = "Object.values(coframe.displays).find((one) => one.topic === '/scan')?.messages?.[0]"
     first = lab.until(f"{shown}?.sequence")
     lab.until(f"first => {shown}?.sequence > first + 20", first)
     replay = open_page(lab.save_replay(tmp_path / "replay.html", 2), offline=True).drawn()
-    assert replay.ask("coframe.fixed") == "odom"
-    assert set(replay.ask("coframe.displays")) == set(lab.ask("coframe.displays"))
-    seen = set()
+    assert replay.evaluate("coframe.fixed") == "odom"
+    assert set(replay.evaluate("coframe.displays")) == set(lab.evaluate("coframe.displays"))
+    sequences = set()
     for part in (0.98, 0.6, 0.9):
         replay.scrub(part)
         replay.settle()
         scan = replay.until(shown)
         assert_on_the_walls(scan)
-        seen.add(scan["sequence"])
-    assert len(seen) == 3
+        sequences.add(scan["sequence"])
+    assert len(sequences) == 3
     replay.raw.select_option("#fixed", "lidar_link")
     replay.until("coframe.frames.lidar_link.position.every((x) => x === 0)")
-    # A scan is at most a tenth of a second old, in which the robot goes a few centimetres.
+    # A scan is at most 0.1 s old. The robot moves a few centimetres in this time.
     assert np.abs(replay.until(shown)["position"]).max() < 0.2
     replay.key("t")
-    rows = "document.querySelector('#timeline .sparks canvas').height"
-    replay.until(f"{rows} > 18 * 3")  # a row a frame that moves
+    rows = "document.querySelector('#timeline .sparklines canvas').height"
+    replay.until(f"{rows} > 18 * 3")  # one row per moving frame
 
 
 def rotation(quaternion):
@@ -151,7 +151,7 @@ def write_obj(path):
 
 
 def write_dae(path):
-    """A COLLADA file whose material has a texture beside it, as many robots have."""
+    """Write a COLLADA file whose material uses a texture in the same folder."""
     corners = " ".join(f"{value}" for value in TETRAHEDRON.ravel())
     indices = " ".join(f"{corner} 0" for face in FACES for corner in face)
     path.write_text(f"""<?xml version="1.0"?>
@@ -206,7 +206,7 @@ URDF = """<robot name="crane">
 
 @pytest.fixture
 def crane(tmp_path):
-    """A robot in a ROS package of its own: an STL, an OBJ and a DAE with textures, and a box with one."""
+    """Write a ROS package with a robot: an STL mesh, an OBJ and a DAE mesh with textures, and a textured box."""
     package = tmp_path / "crane"
     (package / "meshes").mkdir(parents=True)
     (package / "package.xml").write_text("<package><name>crane</name></package>")
@@ -221,7 +221,7 @@ def crane(tmp_path):
 
 
 def slide(page, joint, value):
-    """Moves a slider, as a mouse would."""
+    """Move a slider as with the mouse."""
     page.raw.locator(f"#body-joints .joint[data-joint={joint}] input[type=range]").evaluate(
         "(range, value) => { range.value = value; range.dispatchEvent(new Event('input', {bubbles: true})); }", value
     )
@@ -230,12 +230,12 @@ def slide(page, joint, value):
 ROBOT = "Object.values(coframe.displays).find((one) => one.class === 'RobotModel' && one.robot)"
 
 
-def assert_stands_like(page, robot, positions):
-    """Links are drawn where our own kinematics put them; the page uses others."""
+def assert_link_poses(page, robot, positions):
+    """Assert that links are drawn at the poses of coframe's kinematics, which the page does not use."""
     expected = robot.frames(positions)
     deadline = time.monotonic() + 5.0
     while True:
-        links = page.ask(f"{ROBOT}.links")
+        links = page.evaluate(f"{ROBOT}.links")
         try:
             for name, transform in expected.items():
                 np.testing.assert_allclose(links[name][:3], transform.translation, atol=1e-5, err_msg=name)
@@ -248,41 +248,43 @@ def assert_stands_like(page, robot, positions):
             return
 
 
-def test_a_robot_of_a_file_is_drawn_with_its_meshes_and_moved_by_sliders(crane, view, open_page):
+def test_a_robot_from_a_file_is_drawn_with_its_meshes_and_moved_by_sliders(crane, view, open_page):
     buffer = coframe.Buffer(None)
     buffer.set("map", "post", coframe.Transform(), static=True)
     page = open_page(view(buffer, robot=crane, fixed="map").url).drawn()
     page.until(f"{ROBOT}?.visible && {ROBOT}.loading === 0 && {ROBOT}.state === 'ok'")
     page.until(f"{ROBOT}.textures === 3")
-    assert page.ask(f"{ROBOT}.meshes") == 4
+    assert page.evaluate(f"{ROBOT}.meshes") == 4
     robot = coframe.robots.load(crane)
-    assert_stands_like(page, robot, {})
+    assert_link_poses(page, robot, {})
     page.tab("joints")
     positions = {"turn": 1.25, "lift": -0.4, "swing": -2.5}
     for joint, value in positions.items():
         slide(page, joint, value)
-    assert_stands_like(page, robot, positions)
-    assert "Publishing needs a live graph" in page.text("#body-joints")
+    assert_link_poses(page, robot, positions)
+    assert "Publishing requires a live ROS graph" in page.text("#body-joints")
 
 
-def test_joint_states_are_published_only_when_asked(crane, domain_id, view, open_page):
-    pytest.importorskip("cyclonedds", reason="joint states go over DDS")
-    heard = []
+def test_joint_states_are_published_only_if_enabled(crane, domain_id, view, open_page):
+    pytest.importorskip("cyclonedds", reason="joint states are published over DDS")
+    received = []
     with coframe.connect("browser_joints", domain=domain_id) as ros:
         ros.buffer.set("map", "post", coframe.Transform(), static=True)
-        ros.subscribe("/joint_states", find("sensor_msgs/msg/JointState"), heard.append)
+        ros.subscribe("/joint_states", find("sensor_msgs/msg/JointState"), received.append)
         page = open_page(view(ros, robot=crane).url).drawn()
         page.until(f"{ROBOT}?.visible")
         page.tab("joints")
         slide(page, "turn", 0.5)
         page.raw.wait_for_timeout(500)
-        assert not heard
+        assert not received
         page.raw.check("#body-joints label:has-text('Publish') input")
         slide(page, "turn", -0.75)
-        page.wait(lambda: heard and dict(zip(heard[-1].name, heard[-1].position, strict=True))["turn"] == -0.75)
-        assert set(heard[-1].name) == {"turn", "lift", "swing"}
+        page.wait(
+            lambda: received and dict(zip(received[-1].name, received[-1].position, strict=True))["turn"] == -0.75
+        )
+        assert set(received[-1].name) == {"turn", "lift", "swing"}
         page.raw.uncheck("#body-joints label:has-text('Publish') input")
         page.raw.wait_for_timeout(400)
-        count = len(heard)
+        count = len(received)
         page.raw.wait_for_timeout(400)
-        assert len(heard) == count
+        assert len(received) == count

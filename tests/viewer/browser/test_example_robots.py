@@ -1,4 +1,4 @@
-"""Real robots with real meshes, in a real browser: `make test-slow` installs them."""
+"""Real robots with their meshes in a browser; `make test-slow` installs them."""
 
 import importlib.metadata
 
@@ -22,20 +22,20 @@ def description(name):
 
 
 @pytest.mark.parametrize("name", ROBOTS)
-def test_it_is_drawn_with_all_of_its_meshes_where_its_joints_put_them(view, open_page, tmp_path, name):
+def test_a_real_robot_is_drawn_with_all_meshes_at_the_poses_of_its_joints(view, open_page, tmp_path, name):
     path = description(name)
     robot = coframe.robots.load(path)
     buffer = coframe.Buffer(None)
     buffer.set("map", robot.root, coframe.Transform(), static=True)
     page = open_page(view(buffer, robot=path, fixed="map").url).drawn()
     page.until(f"{ROBOT} && {ROBOT}.loading === 0 && {ROBOT}.state !== 'waiting'")
-    told = page.ask(ROBOT)
+    shown = page.evaluate(ROBOT)
     page.raw.screenshot(path=tmp_path / f"{name}.png")
-    print(f"{name}: {told['meshes']} meshes, {told['state']}: {told['text']}; {tmp_path / name}.png")
-    assert told["visible"]
-    assert told["meshes"] >= sum(len(link.visuals) for link in robot.links.values())
-    joints = page.ask("[...document.querySelectorAll('#body-joints .joint')].map((one) => one.dataset.joint)")
+    print(f"{name}: {shown['meshes']} meshes, {shown['state']}: {shown['text']}; {tmp_path / name}.png")
+    assert shown["visible"]
+    assert shown["meshes"] >= sum(len(link.visuals) for link in robot.links.values())
+    joints = page.evaluate("[...document.querySelectorAll('#body-joints .joint')].map((one) => one.dataset.joint)")
     assert joints == list(robot.free_joints)
     for link, transform in robot.frames(robot.zeros()).items():
-        np.testing.assert_allclose(told["links"][link][:3], transform.translation, atol=1e-5, err_msg=link)
-        assert abs(np.dot(told["links"][link][3:], transform.quaternion)) == pytest.approx(1.0, abs=1e-5), link
+        np.testing.assert_allclose(shown["links"][link][:3], transform.translation, atol=1e-5, err_msg=link)
+        assert abs(np.dot(shown["links"][link][3:], transform.quaternion)) == pytest.approx(1.0, abs=1e-5), link

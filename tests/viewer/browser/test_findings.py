@@ -1,4 +1,4 @@
-"""What the doctor says, beside the frames that it concerns."""
+"""The findings of the doctor and the marks of the affected frames."""
 
 import pytest
 from recordings import START
@@ -16,7 +16,7 @@ def run_with_a_jump():
 
 
 @pytest.mark.slow
-def test_a_finding_marks_its_frame_and_leads_to_it_and_to_its_page(view, open_page, tmp_path):
+def test_a_finding_marks_and_selects_its_frame_and_opens_its_page(view, open_page, tmp_path):
     page = open_page(view(run_with_a_jump().write(tmp_path)).url).drawn()
     mark = page.row(EVIL).locator(".mark")
     page.wait(mark.is_visible, "a mark")
@@ -29,12 +29,15 @@ def test_a_finding_marks_its_frame_and_leads_to_it_and_to_its_page(view, open_pa
     assert f"odom → {EVIL}" in text
     assert "jumps once" in text
     assert "Why:" in text
-    assert "Do:" in text
+    assert "Fix:" in text
     card.locator(".finding-head").click()
     assert page.text("#inspector h2") == EVIL
     card.get_by_text("About TF020").click()
     page.until("document.querySelector('#code-page')?.textContent.includes('Why it matters')")
     page.key("Escape")
-    card.locator("[title='Look at the first time']").click()
-    page.wait(lambda: abs(page.origin() + page.ask("coframe.time") - START - 2.02 * SECOND) < 0.05 * SECOND, "a seek")
-    assert page.ask("window.hacked") is None
+    card.locator("[title='Go to the first occurrence']").click()
+    page.wait(
+        lambda: abs(page.origin() + page.evaluate("coframe.time") - START - 2.02 * SECOND) < 0.05 * SECOND,
+        "the seek to the first occurrence",
+    )
+    assert page.evaluate("window.hacked") is None

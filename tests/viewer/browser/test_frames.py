@@ -1,4 +1,4 @@
-"""Frames in the tree and in the scene, beside a buffer that hears the same."""
+"""Frames in the tree and in the scene, compared with a buffer that receives the same transforms."""
 
 import shlex
 
@@ -25,7 +25,7 @@ LAB = {
 }
 
 
-def test_the_lab_is_a_tree_with_rates_ages_and_publishers(lab):
+def test_the_tree_shows_rates_ages_and_publishers(lab):
     assert set(lab.rows()) == set(LAB)
     assert lab.row("world").get_attribute("aria-level") == "1"
     assert lab.row("camera_link").get_attribute("aria-level") == "8"
@@ -39,74 +39,74 @@ def test_the_lab_is_a_tree_with_rates_ages_and_publishers(lab):
     assert 5.0 < rate < 100.0
     assert rows["link1"].locator(".age").inner_text().endswith((" ms", " s"))
     assert rows["lidar_link"].get_attribute("data-state") == "static"
-    # A busy machine may stop its publisher for longer than a fresh frame is quiet.
-    lab.wait(lambda: rows["link1"].get_attribute("data-state") == "fresh", "a frame that is heard of")
-    # A label that would lie over another is left out until the arm has moved on.
+    # On a busy machine the publisher may pause for so long that the frame becomes stale.
+    lab.wait(lambda: rows["link1"].get_attribute("data-state") == "fresh", "a fresh frame")
+    # A label that would overlap another is omitted until the arm has moved.
     lab.wait(lambda: {"base_link", "end_effector", "world"} <= set(lab.texts("#labels .label")), "labels")
 
 
-def test_what_is_drawn_is_what_the_buffer_says_from_any_fixed_frame(lab, demo):
+def test_drawn_poses_equal_buffer_lookups_for_any_fixed_frame(lab, demo):
     for fixed in ("world", "camera_link", "odom"):
-        lab.key("l")  # the demo remembers ten seconds
+        lab.key("l")  # the buffer of the demo keeps ten seconds
         lab.raw.select_option("#fixed", fixed)
         lab.until("fixed => coframe.fixed === fixed && coframe.frames[fixed].position.every((x) => x === 0)", fixed)
         lab.pause()
-        lab.assert_like(demo.ros.buffer)
+        lab.assert_equals_buffer(demo.ros.buffer)
 
 
 LABELS = """() => [...document.querySelectorAll('#labels .label')]
     .filter((label) => coframe.frames[label.textContent])
     .map((label) => {
         const [box, canvas] = [label, document.querySelector('#canvas')].map((one) => one.getBoundingClientRect());
-        const place = coframe.pixel(coframe.frames[label.textContent].position);
-        return [box.x - canvas.x, box.y + box.height / 2 - canvas.y, ...place];
+        const pixel = coframe.pixel(coframe.frames[label.textContent].position);
+        return [box.x - canvas.x, box.y + box.height / 2 - canvas.y, ...pixel];
     })"""
 
 
-def test_labels_stand_where_their_frames_are(lab):
+def test_labels_are_drawn_at_their_frames(lab):
     lab.pause()
     lab.raw.select_option("#fixed", "base_link")
     lab.until("coframe.frames.base_link.position.every((x) => x === 0)")
     lab.raw.click("text=Top")
     lab.key("a")
 
-    def stand():
-        shown = np.array(lab.ask(LABELS))
-        # Up and down they give way to each other.
+    def labels_match():
+        shown = np.array(lab.evaluate(LABELS))
+        # Labels are only moved vertically to avoid overlaps.
         return len(shown) >= 4 and np.abs(shown[:, 0] - shown[:, 2]).max() < 20.0 and np.ptp(shown[:, 2:]) > 60.0
 
-    lab.wait(stand, "labels beside their frames")
+    lab.wait(labels_match, "labels at their frames")
 
 
 def test_hide_solo_and_search(lab):
     lab.row("base_link").locator("input").uncheck()
     lab.until("!coframe.frames.base_link.visible")
-    assert lab.ask("coframe.frames.lidar_link.visible"), "its children stay"
+    assert lab.evaluate("coframe.frames.lidar_link.visible"), "its children stay visible"
     lab.raw.click("text=Show all")
     lab.shows("base_link")
     lab.row("link2").hover()
     lab.row("link2").locator(".solo").click()
     lab.until("!coframe.frames.base_link.visible")
-    shown = lab.ask("Object.entries(coframe.frames).filter(([, f]) => f.visible).map(([name]) => name)")
+    shown = lab.evaluate("Object.entries(coframe.frames).filter(([, f]) => f.visible).map(([name]) => name)")
     assert set(shown) == {"link2", "end_effector", "camera_link", "gripper_link"}
     lab.raw.click("text=Show all")
     lab.shows("base_link")
     lab.key("/")
     lab.raw.keyboard.type("LIDAR")
-    lab.wait(lambda: lab.rows() == ["world", "map", "odom", "base_link", "lidar_link"], "the way to the lidar")
-    lab.raw.fill("#search", "nobody")
-    assert "No frame is called “nobody”" in lab.text("#panel .empty")
+    lab.wait(lambda: lab.rows() == ["world", "map", "odom", "base_link", "lidar_link"], "the lidar and its ancestors")
+    lab.raw.fill("#search", "missing")
+    assert "No frame name contains “missing”" in lab.text("#panel .empty")
 
 
-def test_a_frame_that_is_chosen_tells_its_pose_in_every_notation(demo, view, open_page):
+def test_the_inspector_shows_the_pose_in_every_notation(demo, view, open_page):
     demo.ros.buffer.wait("lidar_link", "camera_link", timeout="60s")
-    # The demo remembers ten seconds, in which a busy machine does not press all buttons.
+    # The demo keeps ten seconds of data, which is too short for all clicks on a busy machine.
     buffer = demo.ros.buffer.snapshot()
     lab = open_page(view(buffer, fixed="world").url).drawn()
     lab.raw.context.grant_permissions(["clipboard-read", "clipboard-write"])
     lab.pause()
-    lab.step("ArrowLeft", -1)  # not all frames are told of up to the very end
-    _, stamp, _ = lab.picture()
+    lab.step("ArrowLeft", -1)  # not all frames have data up to the end
+    _, stamp, _ = lab.drawn_frames()
     lab.row("camera_link").locator(".name").click()
     lab.raw.select_option("#inspector select", "lidar_link")
     expected = buffer.lookup("lidar_link", "camera_link", stamp)
@@ -117,7 +117,7 @@ def test_a_frame_that_is_chosen_tells_its_pose_in_every_notation(demo, view, ope
     def copied(title):
         lab.raw.click(f"#inspector button[title='Copy: {title}']")
         lab.wait(lambda: f"Copied: {title.lower()}" in lab.texts("#toasts .toast div"), title)
-        return lab.ask("navigator.clipboard.readText()")
+        return lab.evaluate("navigator.clipboard.readText()")
 
     np.testing.assert_allclose(np.fromstring(copied("Translation, m"), sep=" "), expected.translation, atol=1e-9)
     np.testing.assert_allclose(np.fromstring(copied("Quaternion"), sep=" "), expected.quaternion, atol=1e-9)
@@ -129,14 +129,14 @@ def test_a_frame_that_is_chosen_tells_its_pose_in_every_notation(demo, view, ope
     )
     command = shlex.split(copied("Command"))
     assert command[:2] == ["coframe", "static"]
-    told = parse(command[2:])
-    assert (told.frame_id, told.child_frame_id) == ("lidar_link", "camera_link")
-    np.testing.assert_allclose(told.transform.matrix, expected.matrix, atol=1e-7)
+    arguments = parse(command[2:])
+    assert (arguments.frame_id, arguments.child_frame_id) == ("lidar_link", "camera_link")
+    np.testing.assert_allclose(arguments.transform.matrix, expected.matrix, atol=1e-7)
     chain = ["camera_link", "end_effector", "link2", "link1", "base_link", "lidar_link"]
     assert lab.texts("#inspector .chain button") == chain
 
 
-def test_trees_that_are_not_connected_are_named_and_a_broken_chain_says_why(view, open_page):
+def test_separate_trees_are_labelled_and_a_broken_chain_is_explained(view, open_page):
     buffer = coframe.Buffer(None)
     buffer.set("map", "base", coframe.Transform([1.0, 0.0, 0.0]), BEGIN)
     buffer.set("map", "other", coframe.Transform([0.0, 1.0, 0.0]), BEGIN)
@@ -144,30 +144,30 @@ def test_trees_that_are_not_connected_are_named_and_a_broken_chain_says_why(view
     page = open_page(view(buffer).url).drawn()
     assert page.texts("#panel .row .tag:visible")[:1] != [""]
     tags = {name: page.row(name).locator(".tag").inner_text() for name in ("map", "dock", "base")}
-    assert tags == {"map": "fixed · own tree · 3", "dock": "own tree · 2", "base": ""}
-    page.wait(lambda: "dock: its own tree" in page.texts("#labels .label"), "a caption in the scene")
+    assert tags == {"map": "fixed · separate tree · 3 frames", "dock": "separate tree · 2 frames", "base": ""}
+    page.wait(lambda: "dock: separate tree" in page.texts("#labels .label"), "a caption in the scene")
     page.row("charger").locator(".name").click()
-    page.wait(lambda: "charger" in page.text("#inspector .fault"), "why there is none")
-    assert "map" in page.text("#inspector .fault")
+    page.wait(lambda: "charger" in page.text("#inspector .problem"), "the reason why there is no transform")
+    assert "map" in page.text("#inspector .problem")
     broken = page.text("#inspector .chain .broken")
     assert broken.startswith("dock")
-    assert broken.endswith("broken here")
+    assert broken.endswith("the chain ends here")
 
 
-def test_maps_in_utm_coordinates_stay_exact(view, open_page):
+def test_utm_coordinates_are_drawn_exactly(view, open_page):
     buffer = coframe.Buffer(None)
     base = [500_123.456_7, 5_812_345.678_9, 123.456_7]
     buffer.set("utm", "base", coframe.Transform.from_rpy(base, [0.1, 0.2, 0.3]), BEGIN)
     buffer.set("base", "lidar", coframe.Transform([0.123_45, 0.0, 0.3]), static=True)
     page = open_page(view(buffer, fixed="utm").url).drawn()
-    page.assert_like(buffer)
+    page.assert_equals_buffer(buffer)
     page.raw.select_option("#fixed", "lidar")
     page.until("coframe.frames.lidar.position.every((x) => x === 0)")
-    _, stamp, frames = page.picture()
+    _, stamp, frames = page.drawn_frames()
     np.testing.assert_allclose(frames["base"]["position"], buffer.lookup("lidar", "base", stamp).translation, atol=1e-5)
 
 
-def test_frames_that_are_not_heard_of_any_more_fade_and_go(view, open_page):
+def test_stale_frames_fade_and_disappear(view, open_page):
     buffer = coframe.Buffer(None)
     for second in range(31):
         buffer.set("map", "base", coframe.Transform([second, 0.0, 0.0]), BEGIN + second * SECOND)
@@ -179,4 +179,4 @@ def test_frames_that_are_not_heard_of_any_more_fade_and_go(view, open_page):
     for _ in range(12):
         page.step("ArrowLeft", -1)
     page.shows("arm")
-    assert page.ask("coframe.frames.arm.state") == 1
+    assert page.evaluate("coframe.frames.arm.state") == 1

@@ -1,4 +1,4 @@
-"""What others send is data: it is refused in a sentence or shown as text, and the viewer lives on."""
+"""Hostile input is rejected with a message or shown as text, and the viewer keeps working."""
 
 import json
 
@@ -30,7 +30,7 @@ def small_buffer():
     return buffer
 
 
-def test_names_with_markup_and_of_any_length_are_text(view, open_page):
+def test_names_with_markup_and_of_any_length_are_shown_as_text(view, open_page):
     buffer = small_buffer()
     names = [*MARKUP, "x" * 10_000]
     for i, name in enumerate(names):
@@ -41,21 +41,23 @@ def test_names_with_markup_and_of_any_length_are_text(view, open_page):
     assert MARKUP[1] in shown
     assert "__proto__" in shown
     assert max(map(len, shown)) <= 300
-    for row in (0, 1, len(shown) - 1):  # each in the inspector, as the fixed frame, and in the lists of names
+    for row in (0, 1, len(shown) - 1):  # in the inspector, as the fixed frame, and in the lists of names
         page.raw.locator("#panel .row:visible .name").nth(row).click()
-        page.click("text=Use as fixed frame")
+        page.click("text=Use as Fixed Frame")
     for name in names:
         page.raw.evaluate(
             "name => { const s = document.querySelector('#fixed'); s.value = name; s.onchange?.(); }", name
         )
-    assert page.ask("document.querySelectorAll('#panel img, #labels img, #inspector img, svg[onload]').length") == 0
-    assert page.ask("window.hacked === undefined && ({}).position === undefined")
+    assert (
+        page.evaluate("document.querySelectorAll('#panel img, #labels img, #inspector img, svg[onload]').length") == 0
+    )
+    assert page.evaluate("window.hacked === undefined && ({}).position === undefined")
     assert page.raw.locator("#panel").bounding_box()["width"] < 500
-    assert page.ask("document.documentElement.scrollWidth <= innerWidth")
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 
-def test_numbers_that_are_none_hide_what_they_would_place(domain_id, view, open_page):
-    pytest.importorskip("cyclonedds", reason="messages come over DDS")
+def test_objects_with_invalid_numbers_are_hidden(domain_id, view, open_page):
+    pytest.importorskip("cyclonedds", reason="messages are received over DDS")
     with coframe.connect("browser_hostile", domain=domain_id) as ros:
         ros.buffer.set("map", "base", coframe.Transform([1.0, 0.0, 0.0]), static=True)
         ros.buffer.set("map", "huge", coframe.Transform([1e300, 0.0, 0.0]), static=True)
@@ -74,18 +76,18 @@ def test_numbers_that_are_none_hide_what_they_would_place(domain_id, view, open_
         ]
         page = open_page(view(ros).url).drawn()
 
-        def seen():
+        def all_received():
             for publisher, message in publishers:
                 publisher.publish(message)
-            shown = page.ask("Object.values(coframe.displays).filter((one) => one.topic)")
+            shown = page.evaluate("Object.values(coframe.displays).filter((one) => one.topic)")
             waiting = [one for one in shown if one["state"] == "waiting" and "no node publishes" in one["text"]]
             return len(shown) == 3 and not waiting
 
-        page.wait(seen, "three displays")
-        ticks = page.ask("coframe.ticks")
-        page.until("ticks => coframe.ticks > ticks + 2", ticks)
-        assert page.ask("coframe.frames.base.visible")
-        assert page.ask("coframe.broken") == 0
+        page.wait(all_received, "three displays")
+        updates = page.evaluate("coframe.updates")
+        page.until("updates => coframe.updates > updates + 2", updates)
+        assert page.evaluate("coframe.frames.base.visible")
+        assert page.evaluate("coframe.invalidMessages") == 0
 
 
 ESCAPE = """<robot name="thief"><link name="base"><visual><geometry>
@@ -95,7 +97,7 @@ BOMB = """<?xml version="1.0"?><!DOCTYPE bomb [<!ENTITY a "aaaaaaaaaaaaaaaaaaaa"
 
 
 def describe(ros, text):
-    """Tells everybody of a robot, as robot_state_publisher does."""
+    """Publish a robot description like robot_state_publisher does."""
     message = find("std_msgs/msg/String")(data=text)
     publisher = ros.publisher("/robot_description", type(message), QoS(1, transient_local=True))
     publisher.publish(message)
@@ -110,8 +112,8 @@ def describe(ros, text):
         pytest.param("../../secret.stl", marks=pytest.mark.slow),
     ],
 )
-def test_meshes_from_elsewhere_are_refused_in_a_sentence(domain_id, tmp_path, view, open_page, mesh):
-    pytest.importorskip("cyclonedds", reason="robot descriptions come over DDS")
+def test_meshes_outside_of_the_packages_are_rejected_with_a_message(domain_id, tmp_path, view, open_page, mesh):
+    pytest.importorskip("cyclonedds", reason="robot descriptions are received over DDS")
     (tmp_path / "a" / "crane").mkdir(parents=True)
     (tmp_path / "a" / "crane" / "package.xml").write_text("<package><name>crane</name></package>")
     (tmp_path / "secret.stl").write_bytes(b"\0" * 84)
@@ -122,11 +124,11 @@ def test_meshes_from_elsewhere_are_refused_in_a_sentence(domain_id, tmp_path, vi
         page.until("Object.values(coframe.displays).some((one) => one.class === 'RobotModel' && one.state === 'error')")
         page.tab("displays")
         page.wait(lambda: mesh.rpartition("/")[2] in page.text("#body-displays .card:has-text('RobotModel') .status"))
-        assert page.ask("coframe.connected")
+        assert page.evaluate("coframe.connected")
 
 
-def test_an_xml_bomb_is_a_sentence(domain_id, view, open_page):
-    pytest.importorskip("cyclonedds", reason="robot descriptions come over DDS")
+def test_an_xml_bomb_is_rejected_with_a_message(domain_id, view, open_page):
+    pytest.importorskip("cyclonedds", reason="robot descriptions are received over DDS")
     levels = "".join(f'<!ENTITY {b} "{f"&{a};" * 20}">' for a, b in zip("abcdefgh", "bcdefghi", strict=True))
     with coframe.connect("browser_bomb", domain=domain_id) as ros:
         ros.buffer.set("map", "base", coframe.Transform(), static=True)
@@ -144,38 +146,38 @@ def test_an_xml_bomb_is_a_sentence(domain_id, view, open_page):
 
 
 @pytest.mark.parametrize(
-    ("size", "sentence"),
+    ("size", "message_part"),
     [
-        (210 << 20, "larger than the 200 MB"),
+        (210 << 20, "At most 200 MB can be drawn."),
         (300 << 20, "at most 256 MB are served"),
     ],
 )
 @pytest.mark.slow
-def test_a_mesh_of_hundreds_of_megabytes_is_refused(tmp_path, view, open_page, size, sentence):
+def test_a_mesh_of_hundreds_of_megabytes_is_rejected(tmp_path, view, open_page, size, message_part):
     with (tmp_path / "huge.stl").open("wb") as file:
         file.truncate(size)
     urdf = tmp_path / "robot.urdf"
     urdf.write_text(ESCAPE.format("huge.stl"))
     page = open_page(view(small_buffer(), robot=urdf).url).drawn()
     page.tab("displays")
-    page.wait(lambda: any(sentence in text for text in page.texts("#body-displays .status")), sentence)
+    page.wait(lambda: any(message_part in text for text in page.texts("#body-displays .status")), message_part)
     page.shows("base")
 
 
-def test_pages_of_others_cannot_reach_the_socket(view, open_page):
+def test_pages_of_other_sites_cannot_connect(view, open_page):
     page = open_page(view(small_buffer()).url, expected_errors=["WebSocket"]).drawn()
-    stranger = page.raw.context.new_page()
-    stranger.goto("about:blank")
-    ended = stranger.evaluate(
+    foreign_page = page.raw.context.new_page()
+    foreign_page.goto("about:blank")
+    ended = foreign_page.evaluate(
         """url => new Promise((done) => {
             const socket = new WebSocket(url);
-            socket.onmessage = (event) => done('heard ' + event.data);
+            socket.onmessage = (event) => done('received ' + event.data);
             socket.onclose = (event) => done(event.code);
         })""",
         page.url.replace("http", "ws") + "ws",
     )
     assert ended == 1006
-    own = page.ask(
+    own = page.evaluate(
         """url => new Promise((done) => {
             const socket = new WebSocket(url);
             socket.onmessage = (event) => done(JSON.parse(event.data).type);
@@ -185,9 +187,9 @@ def test_pages_of_others_cannot_reach_the_socket(view, open_page):
     assert own == "hello"
 
 
-def test_garbage_from_a_page_is_answered_and_hurts_no_other(view, open_page):
+def test_invalid_messages_of_a_page_are_answered_and_affect_no_other_page(view, open_page):
     page = open_page(view(small_buffer()).url).drawn()
-    answers = page.ask(
+    answers = page.evaluate(
         """([url, garbage]) => new Promise((done) => {
             const socket = new WebSocket(url);
             const problems = [];
@@ -208,8 +210,8 @@ def test_garbage_from_a_page_is_answered_and_hurts_no_other(view, open_page):
     page.step("ArrowLeft", -1)
 
 
-def test_garbage_from_a_server_is_counted_and_survived(view, open_page):
-    """Between the server and the page somebody adds messages of their own."""
+def test_invalid_messages_of_a_server_are_counted_and_ignored(view, open_page):
+    """A relay inserts messages between the server and the page."""
     viewer = view(small_buffer())
     relayed = []
 
@@ -223,7 +225,7 @@ def test_garbage_from_a_server_is_counted_and_survived(view, open_page):
     page.pause()
     for garbage in GARBAGE:
         relayed[-1].send(garbage if isinstance(garbage, bytes) else json.dumps(garbage))
-    page.until("coframe.broken > 0")
+    page.until("coframe.invalidMessages > 0")
     page.step("ArrowLeft", -1)
 
 
@@ -240,5 +242,5 @@ GARBAGE = [
     b"\x04\0\0\0" + b"\xff" * 60,
     b"\x63\0\0\0" + b"\0" * 60,
     {"type": "problem", "text": "<img src=x onerror=window.hacked=1>" * 100, "hint": ""},
-    {"type": "display", "id": 99, "state": "error", "text": "nobody asked"},
+    {"type": "display", "id": 99, "state": "error", "text": "not requested"},
 ]

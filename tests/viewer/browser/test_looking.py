@@ -1,4 +1,4 @@
-"""How one looks: measuring with two clicks, going along with a frame, and straight from above."""
+"""The camera: measuring, following a frame, and the top-down view."""
 
 import re
 
@@ -14,7 +14,7 @@ MINUS = "\N{MINUS SIGN}"
 
 @pytest.fixture
 def page(view, open_page):
-    """base goes from x = 0 to x = 10 in ten seconds, with an arm; paused at the end."""
+    """Open a page, paused at the end of ten seconds in which base moves from x = 0 to x = 10, with an arm."""
     buffer = coframe.Buffer(None)
     for tenth in range(101):
         at = coframe.Transform.from_rpy([tenth / 10, 0.0, 0.5], [0.0, 0.0, tenth / 100])
@@ -26,13 +26,13 @@ def page(view, open_page):
 
 
 def position(page, frame):
-    return np.array(page.ask("frame => coframe.frames[frame].position", frame))
+    return np.array(page.evaluate("frame => coframe.frames[frame].position", frame))
 
 
 def click_on(page, frame):
-    """Clicks where a frame is on the canvas, once the camera stands still."""
+    """Click a frame on the canvas, once the camera stands still."""
     before = None
-    while before != (before := page.ask("frame => coframe.pixel(coframe.frames[frame].position)", frame)):
+    while before != (before := page.evaluate("frame => coframe.pixel(coframe.frames[frame].position)", frame)):
         page.raw.wait_for_timeout(200)
     x, y = before[:2]
     box = page.raw.locator("#canvas").bounding_box()
@@ -40,64 +40,64 @@ def click_on(page, frame):
 
 
 def go(page, part):
-    """To a part of the timeline, and waits until base is where it was then."""
+    """Go to a fraction of the timeline, and wait until base is at its position of that time."""
     page.scrub(part)
     page.until("x => Math.abs(coframe.frames.base.position[0] - x) < 0.2", 10 * part)
     page.settle()
 
 
-def test_two_clicks_measure_what_the_buffer_says(page):
+def test_two_clicks_measure_the_distance_of_the_buffer(page):
     page.key("a")
     page.key("m")
-    page.wait(lambda: "click the first frame" in page.text("#measured"), "the ruler")
+    page.wait(lambda: "click the first frame" in page.text("#measured"), "the first instruction")
     click_on(page, "base")
-    page.wait(lambda: page.text("#measured").startswith("From base"), "the second click")
+    page.wait(lambda: page.text("#measured").startswith("From base"), "the second instruction")
     click_on(page, "arm")
     number = rf"([{MINUS}\d.]+)"
-    told = re.compile(rf"{number} m\s+Δx {number}\s+Δy {number}\s+Δz {number}")
-    found = page.wait(lambda: told.fullmatch(page.text("#measured")), "a distance")
+    pattern = re.compile(rf"{number} m\s+Δx {number}\s+Δy {number}\s+Δz {number}")
+    found = page.wait(lambda: pattern.fullmatch(page.text("#measured")), "a distance")
     distance, *along = (float(part.replace(MINUS, "-")) for part in found.groups())
-    stamp = page.picture()[1]
+    stamp = page.drawn_frames()[1]
     base, arm = (page.buffer.lookup("map", frame, stamp) for frame in ("base", "arm"))
     expected = arm.translation - base.translation
     np.testing.assert_allclose(along, expected, atol=0.0006)
     assert distance == pytest.approx(np.linalg.norm(expected), abs=0.0006)
     assert f"{distance:.3f} m" in page.texts("#labels .label")
     page.key("Escape")
-    page.wait(lambda: not page.raw.locator("#measured").is_visible(), "its end")
+    page.wait(lambda: not page.raw.locator("#measured").is_visible(), "the end of the measurement")
 
 
-def test_the_camera_keeps_its_distance_to_a_frame_that_it_follows(page):
+def test_the_camera_keeps_its_distance_to_the_followed_frame(page):
     page.row("arm").locator(".name").click()
     page.key("f")
-    page.wait(lambda: page.text("#overlay .hint:visible") == "Following arm", "a word on it")
+    page.wait(lambda: page.text("#overlay .hint:visible") == "Following arm", "the name of the followed frame")
 
-    def away():
-        camera = page.ask("coframe.camera")
+    def offset():
+        camera = page.evaluate("coframe.camera")
         np.testing.assert_allclose(camera["target"], position(page, "arm"), atol=1e-3)
         return np.array(camera["position"]) - position(page, "arm")
 
-    before, began = away(), position(page, "arm")
+    before, start = offset(), position(page, "arm")
     for part in (0.5, 0.1):
         go(page, part)
-        np.testing.assert_allclose(away(), before, atol=1e-3)
-    assert np.linalg.norm(position(page, "arm") - began) > 5.0
+        np.testing.assert_allclose(offset(), before, atol=1e-3)
+    assert np.linalg.norm(position(page, "arm") - start) > 5.0
     page.key("f")
-    page.wait(lambda: not page.raw.locator("#overlay .hint:visible").count(), "its end")
-    stays = page.ask("coframe.camera.position")
+    page.wait(lambda: not page.raw.locator("#overlay .hint:visible").count(), "the end of following")
+    stopped = page.evaluate("coframe.camera.position")
     go(page, 0.9)
-    assert page.ask("coframe.camera.position") == stays
+    assert page.evaluate("coframe.camera.position") == stopped
 
 
-def test_from_above_y_is_up_and_height_does_not_matter(page):
+def test_in_the_top_view_y_is_up_and_z_has_no_effect(page):
     page.key("v")
     page.until("coframe.camera.mode === 'top'")
     page.key("a")
-    camera = page.ask("coframe.camera")
+    camera = page.evaluate("coframe.camera")
     np.testing.assert_allclose(camera["position"][:2], camera["target"][:2], atol=1e-6)
-    origin, right, up, high = np.array(page.ask("[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 2]].map(coframe.pixel)"))
+    origin, right, up, high = np.array(page.evaluate("[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 2]].map(coframe.pixel)"))
     scale = right[0] - origin[0]
-    assert scale > 10, "pixels a metre"
+    assert scale > 10, "pixels per metre"
     np.testing.assert_allclose([right, up, high] - origin, [[scale, 0], [0, -scale], [0, 0]], atol=1e-2)
     page.row("base").locator(".name").click()
     click_on(page, "arm")

@@ -1,4 +1,4 @@
-"""The page as a thing to use: what it exports, how it looks, and what it does when the server is away."""
+"""The page: exports, layout, shortcuts, and its behaviour without a server."""
 
 import base64
 import struct
@@ -13,7 +13,7 @@ BEGIN = 1_700_000_000 * SECOND
 
 
 def counted_buffer():
-    """A frame that is at x = 10 t for ten seconds."""
+    """Return a buffer with ten seconds of a frame at x = 10 t."""
     buffer = coframe.Buffer(None)
     for tenth in range(101):
         buffer.set("map", "base", coframe.Transform([tenth, 0.0, 0.0]), BEGIN + tenth * SECOND // 10)
@@ -28,20 +28,20 @@ def test_a_replay_plays_from_disk_without_a_network(view, open_page, tmp_path):
     assert replay.text("#bar .pill") == "Replay"
     assert set(replay.rows()) == {"map", "base", "lidar"}
     x = "coframe.frames.base.position[0]"
-    assert replay.ask(x) == pytest.approx(20.0)
+    assert replay.evaluate(x) == pytest.approx(20.0)
     replay.key("Space")
     replay.until(f"{x} > 21")
     replay.key("Space")
     for part, expected in ((0.5, 60.0), (0.01, 20.8), (0.99, 99.2)):
         replay.scrub(part)
         replay.until(f"x => Math.abs({x} - x) < 1.5", expected)
-    assert replay.ask("coframe.frames.lidar.position[2]") == pytest.approx(1.0)
+    assert replay.evaluate("coframe.frames.lidar.position[2]") == pytest.approx(1.0)
     replay.row("lidar").locator(".name").click()
     replay.raw.select_option("#inspector select", "base")
     replay.wait(lambda: replay.text("#distance") == "1.000 m", "relative poses without a server")
 
 
-def test_a_picture_is_saved_with_the_names_in_it(view, open_page):
+def test_a_saved_image_contains_axes_and_labels(view, open_page):
     buffer = coframe.Buffer(None)
     buffer.set("map", "lidar", coframe.Transform([0.3, 0.0, 0.0]), BEGIN)
     page = open_page(view(buffer, fixed="map").url).drawn()
@@ -53,7 +53,7 @@ def test_a_picture_is_saved_with_the_names_in_it(view, open_page):
     width, height = struct.unpack(">II", data[16:24])
     box = page.raw.locator("#canvas").bounding_box()
     assert (width, height) == (round(box["width"]), round(box["height"]))
-    colours = page.ask(
+    colours = page.evaluate(
         """async data => {
             const image = new Image();
             image.src = 'data:image/png;base64,' + data;
@@ -78,9 +78,11 @@ def test_a_picture_is_saved_with_the_names_in_it(view, open_page):
     assert download.value.suggested_filename.endswith(".png")
 
 
-def test_it_fits_a_phone(view, open_page):
+def test_the_page_fits_a_phone(view, open_page):
     page = open_page(view(counted_buffer()).url, width=390, height=760, has_touch=True, is_mobile=True).drawn()
-    assert page.ask("document.documentElement.scrollWidth <= innerWidth && document.body.scrollHeight <= innerHeight")
+    assert page.evaluate(
+        "document.documentElement.scrollWidth <= innerWidth && document.body.scrollHeight <= innerHeight"
+    )
     canvas = page.raw.locator("#canvas").bounding_box()
     assert canvas["width"] == 390
     assert canvas["height"] > 380
@@ -99,53 +101,53 @@ def test_dark_light_and_layout_are_remembered(view, open_page):
     page = open_page(view(counted_buffer()).url, color_scheme="dark").drawn()
     background = "getComputedStyle(document.body).backgroundColor"
     theme = "document.documentElement.dataset.theme"
-    assert page.ask(theme) == "dark"
-    dark = page.ask(background)
+    assert page.evaluate(theme) == "dark"
+    dark = page.evaluate(background)
     page.key("d")
     page.until(f"{theme} === 'light' && {background} !== '{dark}'")
     page.tab("displays")
     page.raw.reload()
     page.drawn()
-    assert page.ask(theme) == "light"
+    assert page.evaluate(theme) == "light"
     assert page.raw.locator("#body-displays").is_visible()
 
 
-def test_the_sheet_lists_the_keys_and_they_work(view, open_page):
+def test_the_help_dialog_lists_the_keys_and_they_work(view, open_page):
     page = open_page(view(counted_buffer()).url).drawn()
     page.key("?")
-    page.wait(lambda: page.raw.locator("dialog[open]").is_visible(), "the sheet")
+    page.wait(lambda: page.raw.locator("dialog[open]").is_visible(), "the help dialog")
     listed = set(page.texts("dialog[open] .key"))
     assert {"Space", "l", ",", ".", "v", "f", "m", "/", "d", "s", "?", "Esc"} <= listed
     page.key("Escape")
-    page.wait(lambda: not page.raw.locator("dialog[open]").is_visible(), "its end")
+    page.wait(lambda: not page.raw.locator("dialog[open]").is_visible(), "the closed dialog")
     page.click("#bar button[title=Export]")
     page.click("text=Replay (HTML)")
     page.key("Escape")
-    page.wait(lambda: not page.raw.locator("dialog[open]").is_visible(), "the end of another")
+    page.wait(lambda: not page.raw.locator("dialog[open]").is_visible(), "the closed replay dialog")
     page.key("m")
-    page.wait(lambda: "click the first frame" in page.text("#measured"), "the ruler")
+    page.wait(lambda: "click the first frame" in page.text("#measured"), "the instruction to measure")
     page.key("v")
     assert page.raw.get_attribute("#overlay button:text('Top')", "aria-pressed") == "true"
 
 
-def test_without_transforms_it_says_what_to_do(view, open_page):
+def test_without_transforms_the_page_shows_instructions(view, open_page):
     buffer = coframe.Buffer(None)
     page = open_page(view(buffer).url)
-    page.wait(lambda: page.raw.locator("#overlay .nothing").is_visible(), "a word")
-    assert "No transforms yet" in page.text("#overlay .nothing")
-    assert "coframe demo" in page.text("#overlay .nothing")
+    page.wait(lambda: page.raw.locator("#overlay .empty-scene").is_visible(), "the instructions")
+    assert "No transforms yet" in page.text("#overlay .empty-scene")
+    assert "coframe demo" in page.text("#overlay .empty-scene")
     buffer.set("map", "base", coframe.Transform(), BEGIN)
     page.shows("base")
-    page.wait(lambda: not page.raw.locator("#overlay .nothing").is_visible(), "its end")
+    page.wait(lambda: not page.raw.locator("#overlay .empty-scene").is_visible(), "the hidden instructions")
 
 
-def test_it_comes_back_when_the_server_does(open_page):
+def test_the_page_reconnects_after_a_server_restart(open_page):
     viewer = coframe.show(counted_buffer(), port=0)
     port = urlsplit(viewer.url).port
     page = open_page(viewer.url, expected_errors=["WebSocket connection to", "ERR_CONNECTION_REFUSED"]).drawn()
     viewer.close()
-    page.wait(lambda: page.text("#bar .pill") == "Not connected", "a word on it")
-    page.wait(lambda: "connection to the server is lost" in page.text("#notice"), "a sentence")
+    page.wait(lambda: page.text("#bar .pill") == "Not connected", "the state")
+    page.wait(lambda: "connection to the server is lost" in page.text("#notice"), "the notice")
     buffer = counted_buffer()
     buffer.set("map", "dock", coframe.Transform([0.0, 3.0, 0.0]), static=True)
     with coframe.show(buffer, port=port):
@@ -154,9 +156,9 @@ def test_it_comes_back_when_the_server_does(open_page):
         assert not page.raw.locator("#notice").is_visible()
 
 
-def test_it_asks_for_nothing_but_its_own_files(view, open_page):
+def test_the_page_requests_only_its_own_files(view, open_page):
     page = open_page(view(counted_buffer()).url).drawn()
-    asked = page.ask("performance.getEntriesByType('resource').map((one) => new URL(one.name).pathname)")
-    assert set(asked) <= {"/assets/viewer.js", "/assets/page.js", "/assets/viewer.css"}
-    assert page.ask("fetch('http://192.0.2.1/').then(() => 'reached', () => 'refused')") == "refused"
-    page.errors.clear()  # of that question
+    requested = page.evaluate("performance.getEntriesByType('resource').map((one) => new URL(one.name).pathname)")
+    assert set(requested) <= {"/assets/viewer.js", "/assets/page.js", "/assets/viewer.css"}
+    assert page.evaluate("fetch('http://192.0.2.1/').then(() => 'reached', () => 'blocked')") == "blocked"
+    page.errors.clear()  # caused by this request

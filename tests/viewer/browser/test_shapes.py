@@ -1,4 +1,4 @@
-"""What programs draw: markers, maps, and how uncertain a pose is, each of it where it belongs."""
+"""Markers, maps, covariances, clouds and images are drawn at the correct poses."""
 
 import base64
 import struct
@@ -39,7 +39,7 @@ def marker(number, kind, *, at=(0.0, 0.0, 0.0), size=(1.0, 1.0, 1.0), stamp=BEGI
 
 
 def markers(*all_of_them, second=0):
-    """What (topic, time, message) says of markers."""
+    """Return a (topic, time, message) with markers."""
     for one in all_of_them:
         one.header.stamp.sec += second
     made = find("visualization_msgs/msg/MarkerArray")(markers=list(all_of_them))
@@ -47,7 +47,7 @@ def markers(*all_of_them, second=0):
 
 
 def recording(path, *messages):
-    """Ten seconds, in which base goes from x = 0 to x = 10 in map, with (topic, time, message)s."""
+    """Write ten seconds in which base moves from x = 0 to x = 10 in map, with messages as (topic, time, message)."""
     rows, types = [], {}
     for tenth in range(101):
         at = BEGIN + tenth * SECOND // 10
@@ -65,20 +65,20 @@ def display(topic):
 
 
 def drawn_markers(page, topic="/markers"):
-    """(namespace, id) -> what is drawn."""
-    messages = page.ask(f"{display(topic)}?.messages ?? []")
+    """Return the drawn markers by (namespace, id)."""
+    messages = page.evaluate(f"{display(topic)}?.messages ?? []")
     return {(one["ns"], one["id"]): one for message in messages for one in message["markers"]}
 
 
 def go_to(page, second):
-    """Moves the playhead."""
+    """Move the playhead."""
     page.scrub(second / 10)
     page.settle()
 
 
-def test_markers_of_many_types_stand_where_they_are_told_to(view, open_page, tmp_path):
+def test_markers_of_many_types_have_the_correct_position_and_size(view, open_page, tmp_path):
     corners = [(0.0, 0.0, 0.0), (2.0, 0.0, 0.0), (0.0, 1.0, 0.0)]
-    told = [
+    sent = [
         marker(0, ARROW, at=(0.0, 3.0, 0.0), size=(2.0, 0.2, 0.2)),
         marker(1, CUBE, at=(1.0, 2.0, 3.0), size=(0.5, 1.0, 2.0)),
         marker(2, SPHERE, at=(-1.0, 0.0, 0.0), size=(0.4, 0.4, 0.4)),
@@ -90,8 +90,8 @@ def test_markers_of_many_types_stand_where_they_are_told_to(view, open_page, tmp
         marker(9, TEXT, at=(0.0, 0.0, 2.0), size=(0.0, 0.0, 0.3), text="<b>pallet</b>"),
         marker(11, TRIANGLES, points=corners),
     ]
-    page = open_page(view(recording(tmp_path, markers(*told)), fixed="map").url).drawn()
-    page.wait(lambda: len(drawn_markers(page)) == len(told), "all markers")
+    page = open_page(view(recording(tmp_path, markers(*sent)), fixed="map").url).drawn()
+    page.wait(lambda: len(drawn_markers(page)) == len(sent), "all markers")
     expected = {  # centre and size
         0: ((1.0, 3.0, 0.0), (2.0, 0.2, 0.2)),
         1: ((1.0, 2.0, 3.0), (0.5, 1.0, 2.0)),
@@ -109,38 +109,38 @@ def test_markers_of_many_types_stand_where_they_are_told_to(view, open_page, tmp
         np.testing.assert_allclose(shown["", number]["size"], size, atol=0.03, err_msg=f"marker {number}")
 
 
-def test_markers_are_taken_away_run_out_and_move_with_their_frames(view, open_page, tmp_path):
+def test_markers_are_deleted_expire_and_move_with_their_frames(view, open_page, tmp_path):
     short = marker(3, CUBE)
     short.lifetime.sec = 2
-    told = (
+    messages = (
         markers(marker(1, CUBE, ns="a"), marker(2, CUBE, ns="a"), marker(1, CUBE, ns="b"), short),
         markers(marker(2, CUBE, ns="a", action=DELETE), second=4),
         markers(marker(0, CUBE, action=DELETE_ALL), marker(9, CUBE), second=6),
         ("/locked", BEGIN, marker(1, CUBE, frame="base", frame_locked=True)),
         ("/loose", BEGIN, marker(1, CUBE, frame="base")),
     )
-    page = open_page(view(recording(tmp_path, *told), fixed="map").url).drawn()
+    page = open_page(view(recording(tmp_path, *messages), fixed="map").url).drawn()
     every = {("a", 1), ("a", 2), ("b", 1), ("", 3)}
     for second, expected in ((1, every), (3, every - {("", 3)}), (5, {("a", 1), ("b", 1)}), (7, {("", 9)}), (1, every)):
         go_to(page, second)
         page.wait(lambda expected=expected: set(drawn_markers(page)) == expected, f"markers at {second} s")
     go_to(page, 8)
-    x = page.ask("coframe.frames.base.position[0]")
+    x = page.evaluate("coframe.frames.base.position[0]")
     for topic, expected in (("/locked", x), ("/loose", 0.0)):
         page.until(f"x => Math.abs(({display(topic)}.messages[0]?.markers[0]?.centre[0] ?? NaN) - x) < 1e-3", expected)
 
 
-def test_namespaces_are_ticked_in_the_panel(view, open_page, tmp_path):
+def test_namespaces_are_hidden_in_the_panel(view, open_page, tmp_path):
     hostile = "<img src=x onerror=alert(1)>"
-    told = markers(marker(1, CUBE, ns="walls"), marker(1, CUBE, ns=hostile))
-    page = open_page(view(recording(tmp_path, told), fixed="map").url).drawn()
-    page.wait(lambda: len(drawn_markers(page)) == 2, "both")
+    sent = markers(marker(1, CUBE, ns="walls"), marker(1, CUBE, ns=hostile))
+    page = open_page(view(recording(tmp_path, sent), fixed="map").url).drawn()
+    page.wait(lambda: len(drawn_markers(page)) == 2, "both markers")
     page.tab("displays")
     page.click("#body-displays .card[data-display=MarkerArray] .card-title")
-    page.wait(lambda: sorted(page.texts(".namespaces label")) == sorted(["walls", hostile]), "a box each")
+    page.wait(lambda: sorted(page.texts(".namespaces label")) == sorted(["walls", hostile]), "a checkbox per namespace")
     page.raw.locator(".namespaces label", has_text="walls").locator("input").focus()
     page.key("Space")
-    page.wait(lambda: set(drawn_markers(page)) == {(hostile, 1)}, "one less")
+    page.wait(lambda: set(drawn_markers(page)) == {(hostile, 1)}, "the remaining marker")
     page.tab("rviz")
     with page.raw.expect_download() as download:
         page.click("#save-rviz")
@@ -149,7 +149,7 @@ def test_namespaces_are_ticked_in_the_panel(view, open_page, tmp_path):
 
 @pytest.fixture
 def grid():
-    """4 x 3 cells of half a metre, whose corner is at (1, 2), turned left; one is occupied and one not known."""
+    """Return 4 x 3 cells of 0.5 m with the corner at (1, 2), rotated by 90 degrees; one occupied, one unknown."""
     made = stamped("nav_msgs/msg/OccupancyGrid", "map", BEGIN)
     made.info.resolution, made.info.width, made.info.height = 0.5, 4, 3
     made.info.origin.position.x, made.info.origin.position.y = 1.0, 2.0
@@ -160,10 +160,10 @@ def grid():
     return made
 
 
-def test_cells_of_a_map_are_painted_where_they_are(grid, view, open_page, tmp_path):
+def test_map_cells_are_drawn_at_their_positions(grid, view, open_page, tmp_path):
     page = open_page(view(recording(tmp_path, ("/map", BEGIN, grid)), fixed="map").url).drawn()
     page.until(f"{display('/map')}?.messages?.length")
-    go_to(page, 6)  # so that the frames reach as far as the map
+    go_to(page, 6)  # so that the frames extend as far as the map
     page.tab("displays")
     for other in ("Grid", "TF"):
         page.raw.uncheck(f"#body-displays input[aria-label='Show {other}']")
@@ -173,7 +173,7 @@ def test_cells_of_a_map_are_painted_where_they_are(grid, view, open_page, tmp_pa
     page.click("#overlay button:text('Top')")
 
     def brightness():
-        """By cell, as it is on the screen: row v, column u lies at x = 1 - v / 2, y = 2 + u / 2."""
+        """Return the brightness of each cell on the screen; row v, column u is at x = 1 - v / 2, y = 2 + u / 2."""
         centres = [[1 - (v + 0.5) / 2, 2 + (u + 0.5) / 2, 0.0] for v in range(3) for u in range(4)]
         return np.array(colours(page, centres)).mean(axis=1).reshape(3, 4)
 
@@ -187,9 +187,9 @@ def test_cells_of_a_map_are_painted_where_they_are(grid, view, open_page, tmp_pa
 
 
 def colours(page, points):
-    """Red, green and blue of the picture at points of the fixed frame."""
-    picture = base64.b64encode(page.raw.locator("#canvas").screenshot()).decode()
-    return page.ask(
+    """Return the RGB values of the canvas at points of the fixed frame."""
+    image = base64.b64encode(page.raw.locator("#canvas").screenshot()).decode()
+    return page.evaluate(
         """async ([data, points]) => {
             const image = new Image();
             image.src = 'data:image/png;base64,' + data;
@@ -200,12 +200,12 @@ def colours(page, points):
             context.drawImage(image, 0, 0);
             return points.map((point) => [...context.getImageData(...coframe.pixel(point), 1, 1).data].slice(0, 3));
         }""",
-        [picture, points],
+        [image, points],
     )
 
 
 @pytest.mark.slow
-def test_a_poses_covariance_is_drawn_when_asked_for(view, open_page, tmp_path):
+def test_the_covariance_of_a_pose_is_drawn_if_enabled(view, open_page, tmp_path):
     pose = stamped("geometry_msgs/msg/PoseWithCovarianceStamped", "map", BEGIN)
     pose.pose.pose.position.x = 5.0
     pose.pose.pose.orientation.w = 1.0
@@ -219,21 +219,21 @@ def test_a_poses_covariance_is_drawn_when_asked_for(view, open_page, tmp_path):
     page.click("#body-displays .card[data-display=PoseWithCovariance] .card-title")
 
     def extent():
-        shown = page.ask(f"{display('/pose')}.messages[0]")
-        return np.array([shown["least"], shown["most"]])
+        shown = page.evaluate(f"{display('/pose')}.messages[0]")
+        return np.array([shown["min"], shown["max"]])
 
     assert extent()[1, 0] < 5.6, "an arrow alone"
     box = "#body-displays input[aria-label='{}']"
-    assert not page.raw.locator(box.format("Of the position")).is_visible()
+    assert not page.raw.locator(box.format("Position")).is_visible()
     page.raw.check(box.format("Covariance"))
-    page.raw.uncheck(box.format("Of the direction"))
+    page.raw.uncheck(box.format("Orientation"))
     page.wait(lambda: np.allclose(extent()[:, :2], [[3.0, -0.5], [7.0, 0.5]], atol=0.02), "the ellipsoid")
-    page.raw.check(box.format("Of the direction"))
-    page.raw.uncheck(box.format("Of the position"))
+    page.raw.check(box.format("Orientation"))
+    page.raw.uncheck(box.format("Position"))
     page.wait(lambda: np.allclose(extent()[:, :2], [[5.0, -0.75], [6.0, 0.75]], atol=0.02), "the cone")
 
 
-def test_heights_of_a_cloud_are_coloured_along_the_fixed_frame_or_its_own(view, open_page, tmp_path):
+def test_clouds_are_coloured_by_an_axis_of_the_fixed_frame_or_their_own(view, open_page, tmp_path):
     field = find("sensor_msgs/msg/PointField")
     cloud = stamped("sensor_msgs/msg/PointCloud2", "tilted", BEGIN + SECOND)
     points = np.array([[0.0, 0.0, 0.0], [3.0, 0.0, 1.0]], "<f4")
@@ -241,7 +241,7 @@ def test_heights_of_a_cloud_are_coloured_along_the_fixed_frame_or_its_own(view, 
     cloud.fields = [field(name=name, offset=4 * i, datatype=7, count=1) for i, name in enumerate("xyz")]
     cloud.data = array("B", points.tobytes())
     with coframe.open_bag(recording(tmp_path, ("/cloud", BEGIN + SECOND, cloud))) as bag:
-        # Its x axis looks up: heights in the fixed frame are 0 and 3.
+        # The x axis of the cloud points up: the heights in the fixed frame are 0 and 3.
         bag.buffer.set("map", "tilted", coframe.Transform.from_rpy([0, 0, 0], [0, -np.pi / 2, 0]), static=True)
         page = open_page(view(bag, fixed="map").url).drawn()
         go_to(page, 5)
@@ -250,11 +250,11 @@ def test_heights_of_a_cloud_are_coloured_along_the_fixed_frame_or_its_own(view, 
         page.until(f"JSON.stringify({colours_of}) === '[0,3]'")
         page.tab("displays")
         page.click("#body-displays .card[data-display=PointCloud2] .card-title")
-        page.raw.uncheck("#body-displays input[aria-label='Axis of the fixed frame']")
+        page.raw.uncheck("#body-displays input[aria-label='Use Fixed Frame']")
         page.until(f"{display('/cloud')}.messages.length && JSON.stringify({colours_of}) === '[0,1]'")
 
 
-PICTURES = """() => [...document.querySelectorAll('#images figure:not([hidden])')].map((figure) => {
+IMAGES = """() => [...document.querySelectorAll('#images figure:not([hidden])')].map((figure) => {
     const canvas = figure.querySelector('canvas');
     const pixel = (x, y) => [...canvas.getContext('2d').getImageData(x, y, 1, 1).data].slice(0, 3);
     const text = figure.querySelector('figcaption').textContent;
@@ -262,33 +262,36 @@ PICTURES = """() => [...document.querySelectorAll('#images figure:not([hidden])'
 })"""
 
 
-def test_pictures_of_cameras_are_shown_beside_the_scene(view, open_page, tmp_path):
-    """Also where nobody tells where the camera is."""
+def test_camera_images_are_shown_without_a_transform_of_the_camera(view, open_page, tmp_path):
     pixels = np.zeros((4, 6, 3), np.uint8)
     pixels[0, 0], pixels[0, 5] = [10, 20, 30], [40, 50, 60]
     raw = stamped("sensor_msgs/msg/Image", "camera", BEGIN + SECOND, height=4, width=6, step=20, encoding="bgr8")
     raw.data = array("B", np.pad(pixels.reshape(4, 18), ((0, 0), (0, 2))).tobytes())
     packed = stamped("sensor_msgs/msg/CompressedImage", "camera", BEGIN + SECOND, format="rgb8; png compressed")
     packed.data = array("B", png(pixels))
-    odd = stamped("sensor_msgs/msg/Image", "camera", BEGIN + SECOND, height=1, width=1, step=2, encoding="16UC1")
-    topics = {"/raw": raw, "/packed": packed, "/odd": odd}
-    told = [(topic, BEGIN + SECOND, message) for topic, message in topics.items()]
-    page = open_page(view(recording(tmp_path, *told), fixed="map").url).drawn()
+    unsupported = stamped(
+        "sensor_msgs/msg/Image", "camera", BEGIN + SECOND, height=1, width=1, step=2, encoding="16UC1"
+    )
+    topics = {"/raw": raw, "/packed": packed, "/unsupported": unsupported}
+    messages = [(topic, BEGIN + SECOND, message) for topic, message in topics.items()]
+    page = open_page(view(recording(tmp_path, *messages), fixed="map").url).drawn()
     page.tab("displays")
     for topic in topics:
         page.raw.select_option("#body-displays select[aria-label='Add a display']", label=f"Image: {topic}")
     go_to(page, 5)
-    shown = page.wait(lambda: len(found := page.ask(PICTURES)) == 2 and {one["text"]: one for one in found}, "both")
+    shown = page.wait(
+        lambda: len(found := page.evaluate(IMAGES)) == 2 and {one["text"]: one for one in found}, "both images"
+    )
     assert shown["/raw"]["size"] == shown["/packed"]["size"] == [6, 4]
     assert shown["/packed"]["corners"] == [[10, 20, 30], [40, 50, 60]]
     assert shown["/raw"]["corners"] == [[30, 20, 10], [60, 50, 40]]
-    assert "16UC1" in page.until(f"{display('/odd')}.state === 'error' && {display('/odd')}.text")
+    assert "16UC1" in page.until(f"{display('/unsupported')}.state === 'error' && {display('/unsupported')}.text")
     go_to(page, 0)
-    page.wait(lambda: not page.ask(PICTURES), "no picture before the first")
+    page.wait(lambda: not page.evaluate(IMAGES), "no image before the first message")
 
 
 def png(pixels):
-    """The simplest PNG of red, green and blue."""
+    """Encode an RGB image as PNG."""
     height, width, _ = pixels.shape
     rows = b"".join(b"\0" + row.tobytes() for row in pixels)
 

@@ -1,4 +1,4 @@
-"""How soon there is something to be seen: `make test-slow ARGS=-s` prints it."""
+"""The time until frames are drawn. `make test-slow ARGS=-s` prints the measurements."""
 
 import os
 import signal
@@ -13,19 +13,18 @@ import pytest
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(
-        hasattr(os, "getloadavg") and os.getloadavg()[0] > 1.0, reason="a machine that others use says nothing"
+        hasattr(os, "getloadavg") and os.getloadavg()[0] > 1.0, reason="the machine is too busy for timing"
     ),
 ]
 
 COFRAME = str(Path(sys.executable).with_name("coframe"))
-TALKER = [COFRAME, "static", "1", "2", "0", "0", "0", "0", "map", "base"]
-# Beside a browser that runs already.
-LIMIT = 2.0
+PUBLISHER = [COFRAME, "static", "1", "2", "0", "0", "0", "0", "map", "base"]
+LIMIT = 2.0  # seconds; the browser is already running
 ATTEMPTS = 5
 
 
 def until_drawn(open_page, *arguments):
-    """The seconds from the command until its address is printed, and until frames are drawn."""
+    """Return the seconds until the command prints its address, and until frames are drawn."""
     begin = time.monotonic()
     process = subprocess.Popen(
         [COFRAME, "view", "--no-browser", "--port", "0", *arguments], stdout=subprocess.PIPE, text=True
@@ -43,19 +42,19 @@ def until_drawn(open_page, *arguments):
 
 def assert_quick(measured):
     for announced, drawn in measured:
-        print(f"the address after {announced:.2f} s, frames are drawn after {drawn:.2f} s")
+        print(f"address after {announced:.2f} s, frames after {drawn:.2f} s")
     assert statistics.median(drawn for _, drawn in measured) < LIMIT
 
 
 @pytest.mark.usefixtures("domain_id")
 def test_the_graph_is_drawn_within_two_seconds_of_the_command(open_page):
     pytest.importorskip("cyclonedds", reason="the command joins the ROS graph")
-    talker = subprocess.Popen(TALKER, stderr=subprocess.DEVNULL)
+    publisher = subprocess.Popen(PUBLISHER, stderr=subprocess.DEVNULL)
     try:
         assert_quick([until_drawn(open_page) for _ in range(ATTEMPTS)])
     finally:
-        talker.terminate()
-        talker.wait()
+        publisher.terminate()
+        publisher.wait()
 
 
 def test_a_recording_is_drawn_within_two_seconds_of_the_command(shared, open_page):

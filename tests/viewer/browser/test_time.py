@@ -1,4 +1,4 @@
-"""Back and forth in time: by keys, by the mouse, at any speed, live and in recordings."""
+"""Time travel by keys and mouse, at any speed, in live data and recordings."""
 
 import numpy as np
 import pytest
@@ -11,7 +11,7 @@ BEGIN = 1_700_000_000 * SECOND
 
 @pytest.fixture
 def counted(view, open_page):
-    """A frame that is at x = 10 t for ten seconds, sampled ten times a second; seen at the start, paused."""
+    """Open a page, paused at the end of ten seconds of a frame at x = 10 t, sampled at 10 Hz."""
     buffer = coframe.Buffer(None)
     for tenth in range(101):
         buffer.set("map", "base", coframe.Transform([tenth, 0.0, 0.0]), BEGIN + tenth * SECOND // 10)
@@ -22,40 +22,42 @@ def counted(view, open_page):
 
 
 def x_of(page):
-    return page.ask("coframe.frames.base.position[0]")
+    return page.evaluate("coframe.frames.base.position[0]")
 
 
-def test_five_seconds_ago_the_demo_was_where_the_buffer_says(lab, demo):
+def test_poses_of_five_seconds_ago_equal_the_buffer(lab, demo):
     lab.wait(lambda: timeline(lab)[0] > 6.5, "six seconds of data")
 
     def look_back():
         lab.scrub(1 - 5.0 / timeline(lab)[0])
         lab.settle()
-        return 4.0 < ago(lab) < 8.0  # the demo remembers ten seconds, and a busy machine takes its time
+        return 4.0 < ago(lab) < 8.0  # the demo keeps ten seconds, and the machine may be busy
 
     lab.wait(look_back, "five seconds ago")
-    lab.assert_like(demo.ros.buffer)
-    then, arm = lab.seconds(), lab.ask("coframe.frames.end_effector.position")
+    lab.assert_equals_buffer(demo.ros.buffer)
+    then, arm = lab.seconds(), lab.evaluate("coframe.frames.end_effector.position")
     lab.key("l")
     lab.until("coframe.live")
     lab.until("time => coframe.time / 1e9 > time", then + 4.0)
-    lab.wait(lambda: not np.allclose(lab.ask("coframe.frames.end_effector.position"), arm, atol=1e-3), "the arm")
+    lab.wait(
+        lambda: not np.allclose(lab.evaluate("coframe.frames.end_effector.position"), arm, atol=1e-3), "the arm to move"
+    )
     assert lab.text("#bar .pill") == "Live"
 
 
 def ago(page):
-    """How long before the timeline's end the playhead stands, in seconds."""
+    """Return how many seconds the playhead is before the end of the timeline."""
     length, now = timeline(page)
     return length - now
 
 
 def timeline(page):
-    """How long it is, and where the playhead stands, in seconds."""
+    """Return the length of the timeline and the position of the playhead, in seconds."""
     slider = page.raw.locator("#timeline .scrub canvas")
     return float(slider.get_attribute("aria-valuemax") or 0), float(slider.get_attribute("aria-valuenow") or 0)
 
 
-def test_the_mouse_scrubs(counted):
+def test_the_mouse_scrubs_the_timeline(counted):
     counted.scrub(0.25)
     counted.until("Math.abs(coframe.frames.base.position[0] - 25) < 1")
     box = counted.raw.locator("#timeline .scrub canvas").bounding_box()
@@ -79,29 +81,29 @@ def test_steps_go_from_message_to_message(counted):
         counted.until("x => Math.abs(coframe.frames.base.position[0] - x) < 1e-4", expected)
 
 
-def test_keys_that_are_pressed_quickly_all_count(counted):
+def test_quick_key_presses_all_have_an_effect(counted):
     for _ in range(4):
         counted.key("ArrowLeft")
     counted.until("Math.abs(coframe.frames.base.position[0] - 60) < 1e-4")
     for key in ("ArrowRight", "ArrowLeft", "ArrowLeft", "Space", "Space"):
         counted.key(key)
     counted.settle()
-    assert 49.0 < x_of(counted) < 60.0, "playing goes on from there"
+    assert 49.0 < x_of(counted) < 60.0, "playback continues from there"
 
 
-def test_playing_has_a_speed_an_end_and_a_loop(counted):
+def test_playback_has_a_speed_an_end_and_a_loop(counted):
     counted.raw.select_option("#timeline select", "0.25")
     counted.scrub(0.0)
     counted.until("coframe.frames.base.position[0] === 0")
     counted.key("Space")
-    took, went = counted.ask(
+    elapsed, played = counted.evaluate(
         """async () => {
             const begin = [performance.now(), coframe.time];
             await new Promise((done) => setTimeout(done, 1500));
             return [performance.now() - begin[0], (coframe.time - begin[1]) / 1e6];
         }"""
     )
-    assert went / took == pytest.approx(0.25, rel=0.35)
+    assert played / elapsed == pytest.approx(0.25, rel=0.35)
     assert counted.text("#bar .pill") == "Playing"
     counted.raw.select_option("#timeline select", "5")
     counted.until("coframe.frames.base.position[0] === 100")
@@ -110,7 +112,7 @@ def test_playing_has_a_speed_an_end_and_a_loop(counted):
     assert counted.raw.get_attribute("#timeline button[title^='Loop']", "aria-pressed") == "true"
 
 
-def test_gaps_and_rates_are_told_over_the_timeline(view, open_page):
+def test_gaps_are_marked_in_the_rates_over_time(view, open_page):
     buffer = coframe.Buffer(None)
     for tenth in [*range(40), *range(70, 101)]:
         buffer.set("map", "base", coframe.Transform([tenth, 0.0, 0.0]), BEGIN + tenth * SECOND // 10)
@@ -118,10 +120,10 @@ def test_gaps_and_rates_are_told_over_the_timeline(view, open_page):
     page.key("t")
 
     def painted(part):
-        """Which share of a column of the rows' canvas has something in it."""
-        return page.ask(
+        """Return the colours in a column of the canvas with the rates."""
+        return page.evaluate(
             """part => {
-                const canvas = document.querySelector('#timeline .sparks canvas');
+                const canvas = document.querySelector('#timeline .sparklines canvas');
                 if (!canvas.width || !canvas.height) return 0;
                 const x = Math.floor(part * canvas.width);
                 const pixels = canvas.getContext('2d').getImageData(x, 0, 1, canvas.height).data;
@@ -133,10 +135,10 @@ def test_gaps_and_rates_are_told_over_the_timeline(view, open_page):
             part,
         )
 
-    page.wait(lambda: painted(0.4) and painted(0.4) != painted(0.6), "a gap that looks other than data")
+    page.wait(lambda: painted(0.4) and painted(0.4) != painted(0.6), "a gap that differs from data")
 
 
-def test_a_recording_is_seen_from_its_start_and_at_any_time(shared, view, open_page):
+def test_a_recording_starts_paused_and_can_be_viewed_at_any_time(shared, view, open_page):
     pytest.importorskip("rosbags", reason="recordings need rosbags")
     with coframe.open_bag(shared / "recordings" / "tb3_gazebo_walker") as recording:
         page = open_page(view(recording, fixed="odom").url).drawn()
@@ -144,11 +146,11 @@ def test_a_recording_is_seen_from_its_start_and_at_any_time(shared, view, open_p
         assert page.raw.locator("#timeline button:text('Live')").is_hidden()
         first, last = recording.span
         page.settle()
-        assert page.picture()[1] == first
+        assert page.drawn_frames()[1] == first
         for part in (0.3, 0.8):
             page.scrub(part)
             page.until("time => Math.abs(coframe.time - time) < 1e8", first + part * (last - first) - page.origin())
             page.settle()
-            page.assert_like(recording.buffer)
+            page.assert_equals_buffer(recording.buffer)
         page.key("Space")
-        page.until("time => coframe.time > time", page.ask("coframe.time"))
+        page.until("time => coframe.time > time", page.evaluate("coframe.time"))

@@ -43,7 +43,7 @@ def test_a_stale_page_reloads_itself_once(viewer, open_page):
     page.raw.wait_for_load_state()
     page.drawn()
     assert len(connections) == 2, "the page was reloaded only once"
-    assert page.ask("sessionStorage.getItem('coframe.reloaded')") is None
+    assert page.evaluate("sessionStorage.getItem('coframe.reloaded')") is None
 
 
 def test_a_page_that_still_differs_after_a_reload_explains_the_problem(viewer, open_page):

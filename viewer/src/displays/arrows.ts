@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Arrows along x and small axes, many at once. */
+/** Arrows along x and axes, as instances. */
 
 import * as THREE from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
@@ -14,7 +14,7 @@ export interface ArrowShape {
   headRadius: number;
 }
 
-/** From the origin along +x. */
+/** An arrow from the origin along +x. */
 export function arrowGeometry(shape: ArrowShape): THREE.BufferGeometry {
   const shaft = new THREE.CylinderGeometry(shape.shaftRadius, shape.shaftRadius, shape.shaftLength, 12);
   shaft.translate(0, shape.shaftLength / 2, 0);
@@ -27,7 +27,7 @@ export function arrowGeometry(shape: ArrowShape): THREE.BufferGeometry {
   return arrow;
 }
 
-/** One mesh for all poses, rows of x, y, z, qx, qy, qz, qw. */
+/** One mesh for all poses, which are rows of x, y, z, qx, qy, qz, qw. */
 export function instances(
   geometry: THREE.BufferGeometry,
   material: THREE.Material,
@@ -50,7 +50,7 @@ export function instances(
   return mesh;
 }
 
-/** A pose as axes rather than as an arrow. */
+/** Poses as axes instead of arrows. */
 export function poseAxes(poses: Float32Array, palette: Palette, length: number, radius: number): THREE.Object3D {
   const material = axesMaterial(1);
   material.vertexShader = material.vertexShader

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Axes: one frame, drawn large. */
+/** The Axes display: the axes of one frame. */
 
 import * as THREE from "three";
 import { axesGeometry } from "../scene/frames";
-import type { Placement } from "../scene/frame_poses";
-import type { Tick } from "../protocol/messages";
-import { Display, release, toFrame } from "./display";
+import type { FramePoses } from "../scene/frame_poses";
+import type { FrameUpdate } from "../protocol/messages";
+import { Display, release, moveToFrame } from "./display";
 import { FIXED_FRAME, type OptionSpec } from "./options";
 
 export const AXES_SPECS: readonly OptionSpec[] = [
@@ -15,7 +15,7 @@ export const AXES_SPECS: readonly OptionSpec[] = [
   { key: "Reference Frame", kind: "frame", value: FIXED_FRAME },
 ];
 
-export class Axes extends Display {
+export class AxesDisplay extends Display {
   private mesh: THREE.Mesh | null = null;
 
   override restyle(): void {
@@ -30,32 +30,32 @@ export class Axes extends Display {
     this.object.add(this.mesh);
   }
 
-  override place(placement: Placement, _tick: Tick): void {
+  override setPoses(framePoses: FramePoses, _update: FrameUpdate): void {
     if (!this.mesh) this.restyle();
-    const wanted = this.options.text("Reference Frame");
-    const frame = wanted === FIXED_FRAME || wanted === "" ? this.context.model.fixed : wanted;
-    const known = toFrame(this.object, frame, placement, this.context.model);
-    this.status = known ? { state: "ok", text: "" } : { state: "error", text: `There is no frame “${frame}” to draw.` };
+    const reference = this.options.text("Reference Frame");
+    const frame = reference === FIXED_FRAME || reference === "" ? this.context.model.fixed : reference;
+    const known = moveToFrame(this.object, frame, framePoses, this.context.model);
+    this.status = known ? { state: "ok", text: "" } : { state: "error", text: `No frame named “${frame}”.` };
     this.object.visible = known && this.config.enabled;
   }
 }
 
-/** The geometry's colours are as on the screen; three.js reckons in linear light. */
+/** A material for sRGB vertex colours, which it writes unchanged; three.js would convert them from linear colours. */
 export function axesMaterial(alpha: number): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     vertexColors: true,
     transparent: alpha < 1,
     uniforms: { alpha: { value: alpha } },
     vertexShader: `
-      varying vec3 shown;
+      varying vec3 shaded;
       void main() {
         vec3 n = normalize(normalMatrix * normal);
-        shown = color * (0.72 + 0.28 * abs(n.z));
+        shaded = color * (0.72 + 0.28 * abs(n.z));
         gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
       }`,
     fragmentShader: `
       uniform float alpha;
-      varying vec3 shown;
-      void main() { gl_FragColor = vec4(shown, alpha); }`,
+      varying vec3 shaded;
+      void main() { gl_FragColor = vec4(shaded, alpha); }`,
   });
 }

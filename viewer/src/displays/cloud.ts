@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/** LaserScan and PointCloud2: points, coloured on the graphics card. */
+/** The LaserScan and PointCloud2 displays: points, coloured on the graphics card. */
 
 import * as THREE from "three";
-import { displayed } from "../scene/frames";
+import { srgb } from "../scene/frames";
 import type { Cloud, DisplayOptions } from "../protocol/messages";
 import { MessageDisplay } from "./display";
 import type { OptionSpec } from "./options";
@@ -16,15 +16,15 @@ const MODES: Record<string, DisplayOptions["color_by"]> = {
   Distance: "distance",
 };
 const SAMPLES = 4096;
-/** A point takes two microseconds and a half there, and everything else waits for it. */
-const MOST_POINTS_IN_SOFTWARE = 40_000;
+/** Software rendering takes 2.5 microseconds per point, during which the page blocks. */
+const MAX_POINTS_IN_SOFTWARE = 40_000;
 
 export function cloudSpecs(size: number, colourBy: (typeof TRANSFORMERS)[number]): readonly OptionSpec[] {
   return [
-    { key: "Color Transformer", label: "Colour by", kind: "choice", value: colourBy, choices: TRANSFORMERS },
+    { key: "Color Transformer", kind: "choice", value: colourBy, choices: TRANSFORMERS },
     { key: "Axis", kind: "choice", value: "Z", choices: ["X", "Y", "Z"] },
-    { key: "Use Fixed Frame", label: "Axis of the fixed frame", kind: "flag", value: true },
-    { key: "Color", label: "Flat colour", kind: "colour", value: "#ff5a36" },
+    { key: "Use Fixed Frame", kind: "flag", value: true },
+    { key: "Color", kind: "colour", value: "#ff5a36" },
     {
       key: "Style",
       kind: "choice",
@@ -44,13 +44,13 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
       color_by: MODES[this.options.choice("Color Transformer")] ?? "flat",
       axis: this.options.choice("Axis").toLowerCase() as "x" | "y" | "z",
       decay: this.options.number("Decay Time"),
-      ...(this.context.software() ? { most_points: MOST_POINTS_IN_SOFTWARE } : {}),
+      ...(this.context.software() ? { most_points: MAX_POINTS_IN_SOFTWARE } : {}),
     };
   }
 
   protected build(message: Cloud): THREE.Object3D {
-    const why = this.context.replayed() ? "thinned for the replay" : "for want of a graphics card";
-    this.note = message.step > 1 ? `1 of ${message.step} points, ${why}` : "";
+    const reason = this.context.replayed() ? "thinned for the replay" : "thinned without a graphics card";
+    this.note = message.step > 1 ? `1 of ${message.step} points, ${reason}` : "";
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(message.points, 3));
     const mode = this.mode(message);
@@ -74,10 +74,10 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
   }
 
   private mode(message: Cloud): "rgb" | "scalar" | "axis" | "flat" {
-    const wanted = this.options.choice("Color Transformer");
-    if (wanted === "RGB8" && message.rgba) return "rgb";
-    if (wanted === "AxisColor") return "axis";
-    if ((wanted === "Intensity" || wanted === "Distance") && message.scalar) return "scalar";
+    const transformer = this.options.choice("Color Transformer");
+    if (transformer === "RGB8" && message.rgba) return "rgb";
+    if (transformer === "AxisColor") return "axis";
+    if ((transformer === "Intensity" || transformer === "Distance") && message.scalar) return "scalar";
     return "flat";
   }
 
@@ -96,7 +96,7 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
       },
       uniforms: {
         alpha: { value: alpha },
-        flatColour: { value: displayed(this.options.colour("Color")) },
+        flatColour: { value: srgb(this.options.colour("Color")) },
         axis: { value: "XYZ".indexOf(this.options.choice("Axis")) },
         range: { value: new THREE.Vector2(...message.range) },
         size: { value: this.options.number(style === "Points" ? "Size (Pixels)" : "Size (m)") },
@@ -113,19 +113,19 @@ export class CloudDisplay extends MessageDisplay<Cloud> {
     return material;
   }
 
-  protected override placed(object: THREE.Object3D, message: Cloud): void {
-    if (this.mode(message) !== "axis" || object.userData.ranged === this.context.model.fixed) return;
-    object.userData.ranged = this.context.model.fixed;
+  protected override onPose(object: THREE.Object3D, message: Cloud): void {
+    if (this.mode(message) !== "axis" || object.userData.rangeFrame === this.context.model.fixed) return;
+    object.userData.rangeFrame = this.context.model.fixed;
     object.updateMatrixWorld();
-    const seenFrom = this.options.flag("Use Fixed Frame") ? object.matrixWorld : new THREE.Matrix4();
+    const pose = this.options.flag("Use Fixed Frame") ? object.matrixWorld : new THREE.Matrix4();
     const axis = "XYZ".indexOf(this.options.choice("Axis"));
     const material = (object as THREE.Points).material as THREE.ShaderMaterial;
     const range = material.uniforms.range as THREE.IUniform<THREE.Vector2>;
-    range.value.set(...axisRange(message, seenFrom, axis));
+    range.value.set(...axisRange(message, pose, axis));
   }
 }
 
-/** The lowest and highest along an axis that a pose leads to, from a sample of the points. */
+/** The range of the transformed points along an axis, estimated from a sample. */
 function axisRange(message: Cloud, pose: THREE.Matrix4, axis: number): [number, number] {
   const step = Math.max(1, Math.floor(message.count / SAMPLES));
   const e = pose.elements;
@@ -138,7 +138,7 @@ function axisRange(message: Cloud, pose: THREE.Matrix4, axis: number): [number, 
     if (value < low) low = value;
     if (value > high) high = value;
   }
-  // A flat scan has one height: one colour in the middle of the scale rather than noise.
+  // Points of equal height get the colour in the middle of the scale instead of amplified noise.
   return high - low > 1e-3 ? [low, high] : [low - 0.5, low + 0.5];
 }
 
@@ -153,9 +153,9 @@ const VERTEX = `
   #ifdef BY_SCALAR
     attribute float scalar;
   #endif
-  varying vec3 shown;
+  varying vec3 colour;
 
-  // Polynomial fits: Turbo (A. Mikhailov) for all colours, a blue-to-yellow scale for eyes that lack some.
+  // Turbo (polynomial fit by A. Mikhailov), or a blue-to-yellow scale for colour-blind users.
   vec3 scale(float t) {
     t = clamp(t, 0.0, 1.0);
     #ifdef DISTINCT
@@ -175,19 +175,18 @@ const VERTEX = `
 
   void main() {
     vec4 world = modelMatrix * vec4(position, 1.0);
-    vec4 seen = viewMatrix * world;
-    gl_Position = projectionMatrix * seen;
+    gl_Position = projectionMatrix * viewMatrix * world;
     float spread = max(range.y - range.x, 1e-6);
     #if defined(BY_RGB)
-      shown = rgba.rgb;
+      colour = rgba.rgb;
     #elif defined(BY_SCALAR)
-      shown = scale((scalar - range.x) / spread);
+      colour = scale((scalar - range.x) / spread);
     #elif defined(BY_AXIS) && defined(OWN_AXIS)
-      shown = scale((position[axis] - range.x) / spread);
+      colour = scale((position[axis] - range.x) / spread);
     #elif defined(BY_AXIS)
-      shown = scale((world[axis] - range.x) / spread);
+      colour = scale((world[axis] - range.x) / spread);
     #else
-      shown = flatColour;
+      colour = flatColour;
     #endif
     #ifdef IN_METRES
       gl_PointSize = max(1.5, 0.5 * size * height * projectionMatrix[1][1] / max(gl_Position.w, 1e-3));
@@ -198,10 +197,10 @@ const VERTEX = `
 
 const FRAGMENT = `
   uniform float alpha;
-  varying vec3 shown;
+  varying vec3 colour;
   void main() {
     #ifdef ROUND
       if (length(gl_PointCoord - 0.5) > 0.5) discard;
     #endif
-    gl_FragColor = vec4(shown, alpha);
+    gl_FragColor = vec4(colour, alpha);
   }`;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** How uncertain a pose is: an ellipsoid of one standard deviation about it, and a cone that its x axis may lie in. */
+/** The covariance of a pose: an ellipsoid for the position, and a cone around the x axis for the orientation. */
 
 import * as THREE from "three";
 import { principalAxes } from "../util/math";
@@ -7,87 +7,48 @@ import type { OptionSpec, Options } from "./options";
 
 export const COVARIANCE_SPECS: readonly OptionSpec[] = [
   { key: "Covariance/Value", label: "Covariance", kind: "flag", value: false },
-  { key: "Covariance/Position/Value", label: "Of the position", needs: "Covariance/Value", kind: "flag", value: true },
-  {
-    key: "Covariance/Position/Scale",
-    label: "Standard deviations",
-    needs: "Covariance/Value",
-    kind: "number",
-    value: 1,
-    min: 0,
-    max: 1000,
-    step: 1,
-  },
-  {
-    key: "Covariance/Position/Color",
-    label: "Its colour",
-    needs: "Covariance/Value",
-    kind: "colour",
-    value: "#cc33cc",
-  },
-  {
-    key: "Covariance/Position/Alpha",
-    label: "Its alpha",
-    needs: "Covariance/Value",
-    kind: "number",
-    value: 0.3,
-    min: 0,
-    max: 1,
-    step: 0.05,
-  },
-  {
-    key: "Covariance/Orientation/Value",
-    label: "Of the direction",
-    needs: "Covariance/Value",
-    kind: "flag",
-    value: true,
-  },
-  {
-    key: "Covariance/Orientation/Scale",
-    label: "Standard deviations",
-    needs: "Covariance/Value",
-    kind: "number",
-    value: 1,
-    min: 0,
-    max: 1000,
-    step: 1,
-  },
-  {
-    key: "Covariance/Orientation/Offset",
-    label: "Its length",
-    needs: "Covariance/Value",
-    kind: "number",
-    value: 1,
-    min: 0,
-    max: 100,
-    step: 0.1,
-    unit: "m",
-  },
-  {
-    key: "Covariance/Orientation/Color",
-    label: "Its colour",
-    needs: "Covariance/Value",
-    kind: "colour",
-    value: "#ffff7f",
-  },
-  {
-    key: "Covariance/Orientation/Alpha",
-    label: "Its alpha",
-    needs: "Covariance/Value",
-    kind: "number",
-    value: 0.5,
-    min: 0,
-    max: 1,
-    step: 0.05,
-  },
+  flag("Position"),
+  number("Position", "Scale", { value: 1, max: 1000, step: 1 }),
+  colour("Position", "#cc33cc"),
+  number("Position", "Alpha", { value: 0.3, max: 1, step: 0.05 }),
+  flag("Orientation"),
+  number("Orientation", "Scale", { value: 1, max: 1000, step: 1 }),
+  number("Orientation", "Offset", { value: 1, max: 100, step: 0.1, unit: "m" }),
+  colour("Orientation", "#ffff7f"),
+  number("Orientation", "Alpha", { value: 0.5, max: 1, step: 0.05 }),
 ];
 
-/** A quarter turn would be a disc, and beyond it a cone opens backwards. */
-const WIDEST = 1.5;
+type Part = "Position" | "Orientation";
+
+function flag(part: Part): OptionSpec {
+  return { key: `Covariance/${part}/Value`, label: part, needs: "Covariance/Value", kind: "flag", value: true };
+}
+
+function colour(part: Part, value: string): OptionSpec {
+  return { ...nested(part, "Color"), kind: "colour", value };
+}
+
+function number(
+  part: Part,
+  name: string,
+  rest: { value: number; max: number; step: number; unit?: string },
+): OptionSpec {
+  return { ...nested(part, name), kind: "number", min: 0, ...rest };
+}
+
+function nested(part: Part, name: string): { key: string; label: string; needs: string } {
+  return { key: `Covariance/${part}/${name}`, label: `${part} ${name}`, needs: "Covariance/Value" };
+}
+
+/** The largest half angle of the cone in radians; at π/2 it would be a disc. */
+const MAX_HALF_ANGLE = 1.5;
 
 /**
+ * Draws the covariance of a pose.
+ *
  * @param pose x, y, z, qx, qy, qz, qw.
- * @param covariance 6 x 6, row after row: x, y, z along the message's axes, and turns about the pose's own.
+ * @param covariance 6x6 in row-major order: x, y, z along the axes of the message's frame, and rotations about the axes
+ *   of the pose.
  */
 export function covarianceShapes(
   pose: Float32Array,
@@ -100,7 +61,7 @@ export function covarianceShapes(
   group.position.fromArray(pose);
   if (options.flag("Covariance/Position/Value")) group.add(...ellipsoid(at, options));
   if (options.flag("Covariance/Orientation/Value")) {
-    const cone = directions(at, options);
+    const cone = orientationCone(at, options);
     for (const part of cone) part.quaternion.premultiply(new THREE.Quaternion().fromArray(pose, 3).normalize());
     group.add(...cone);
   }
@@ -115,20 +76,20 @@ function ellipsoid(at: Covariance, options: Options): THREE.Mesh[] {
   const radii = axes.variances.map((variance) => Math.sqrt(variance) * options.number("Covariance/Position/Scale"));
   if (!radii.every(Number.isFinite)) return [];
   const mesh = new THREE.Mesh(new THREE.SphereGeometry(1, 24, 16), material(options, "Position"));
-  // What is certain is flat, not nothing: that could not be lit.
+  // A radius of zero would make the normals invalid, and the ellipsoid black.
   mesh.scale.fromArray(radii.map((radius) => Math.max(radius, 1e-6)));
   mesh.quaternion.fromArray(axes.quaternion);
   return [mesh];
 }
 
-/** Turning about z moves the tip of the x axis along y, turning about y against z. */
-function directions(at: Covariance, options: Options): THREE.Mesh[] {
-  const across = -at(4, 5);
-  const axes = principalAxes([0, 0, 0, 0, at(5, 5), across, 0, across, at(4, 4)]);
+/** A rotation about z moves the tip of the x axis along +y; a rotation about y moves it along -z. */
+function orientationCone(at: Covariance, options: Options): THREE.Mesh[] {
+  const yz = -at(4, 5);
+  const axes = principalAxes([0, 0, 0, 0, at(5, 5), yz, 0, yz, at(4, 4)]);
   const length = options.number("Covariance/Orientation/Offset");
   const [, y, z] = axes.variances.map((variance) => {
     const angle = Math.sqrt(variance) * options.number("Covariance/Orientation/Scale");
-    return Math.max(1e-6, length * Math.tan(Math.min(WIDEST, angle)));
+    return Math.max(1e-6, length * Math.tan(Math.min(MAX_HALF_ANGLE, angle)));
   }) as [number, number, number];
   if (!Number.isFinite(y) || !Number.isFinite(z) || length === 0) return [];
   const cone = new THREE.ConeGeometry(1, 1, 32, 1, true).translate(0, -0.5, 0).rotateZ(Math.PI / 2);
@@ -138,11 +99,11 @@ function directions(at: Covariance, options: Options): THREE.Mesh[] {
   return [mesh];
 }
 
-function material(options: Options, what: "Position" | "Orientation"): THREE.Material {
+function material(options: Options, part: Part): THREE.Material {
   return new THREE.MeshLambertMaterial({
-    color: options.colour(`Covariance/${what}/Color`),
+    color: options.colour(`Covariance/${part}/Color`),
     transparent: true,
-    opacity: options.number(`Covariance/${what}/Alpha`),
+    opacity: options.number(`Covariance/${part}/Alpha`),
     side: THREE.DoubleSide,
     depthWrite: false,
   });

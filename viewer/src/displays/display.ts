@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What all displays have: a place in the scene, options, and a word on how they are doing. */
+/** The base classes of displays: scene object, options and status. */
 
 import * as THREE from "three";
 import type { Model } from "../model/model";
-import type { Placement } from "../scene/frame_poses";
-import type { DisplayMessage, DisplayPose, JsonObject, DisplayOptions, Tick } from "../protocol/messages";
+import type { FramePoses } from "../scene/frame_poses";
+import type { DisplayMessage, DisplayPose, JsonObject, DisplayOptions, FrameUpdate } from "../protocol/messages";
 import type { Palette } from "../util/theme";
 import { Options, type OptionSpec } from "./options";
 
@@ -20,11 +20,11 @@ export interface Context {
   model: Model;
   palette(): Palette;
   distinct(): boolean;
-  /** Pixels the picture is high. */
+  /** The height of the canvas in pixels. */
   height(): number;
-  /** Whether there is no graphics card to draw with. */
+  /** Whether the browser renders without a graphics card. */
   software(): boolean;
-  /** Whether it comes out of a file of its own. */
+  /** Whether the page is a replay. */
   replayed(): boolean;
   redraw(): void;
 }
@@ -38,10 +38,10 @@ export abstract class Display {
   readonly object = new THREE.Group();
   readonly options: Options;
   status: Status = { state: "ok", text: "" };
-  /** What else is worth a word beside its name. */
+  /** A short note next to the name, such as the thinning of a cloud. */
   note = "";
-  /** What a replay was thinned by. */
-  leftOut = "";
+  /** What a replay omits of this display. */
+  omitted = "";
 
   constructor(
     readonly id: number,
@@ -53,18 +53,18 @@ export abstract class Display {
     this.object.visible = config.enabled;
   }
 
-  /** An option or the palette changed. */
+  /** Applies changed options or a changed palette. */
   restyle(): void {}
 
-  /** New poses are known. */
-  place(_placement: Placement, _tick: Tick): void {}
+  /** Applies the poses of a frame update. */
+  setPoses(_framePoses: FramePoses, _update: FrameUpdate): void {}
 
-  /** What is to be seen when everything is looked at; nothing for what only helps to see. */
+  /** The box that "Show everything" makes visible; empty for grids and axes. */
   bounds(): THREE.Box3 {
     return new THREE.Box3();
   }
 
-  /** For tests: what is drawn, in few words. */
+  /** A summary of what is drawn, for tests. */
   probe(): Record<string, unknown> {
     return { class: this.config.class, enabled: this.config.enabled, ...this.status };
   }
@@ -75,15 +75,16 @@ export abstract class Display {
   }
 }
 
-const MOST_WAITING = 16;
-/** One wild point must not make everything else a speck. */
-const FARTHEST_M = 200;
+const MAX_WAITING = 16;
+/** Larger coordinates are ignored when fitting the camera, because one outlier would make everything else tiny. */
+const MAX_FIT_COORDINATE_M = 200;
 
-/** Draws what comes on a topic: each message an object, shown where and as long as the server says. */
+/** A display of a topic. Each message is an object, whose pose and visibility are set by frame updates. */
 export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> extends Display {
-  private readonly buried: THREE.Object3D[] = [];
-  /** How many of them were there at the last picture. */
-  private ripe = 0;
+  /** Removed objects whose resources are not freed yet. */
+  private readonly removed: THREE.Object3D[] = [];
+  /** The number of removed objects at the last frame update. */
+  private removedBefore = 0;
   private origin: readonly number[] = [0, 0, 0];
   protected readonly drawn = new Map<number, { object: THREE.Object3D; message: M }>();
 
@@ -92,7 +93,7 @@ export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> 
   }
 
   receive(message: DisplayMessage): void {
-    this.forget(message.sequence);
+    this.removeMessage(message.sequence);
     const object = this.build(message as M);
     object.visible = false;
     this.drawn.set(message.sequence, { object, message: message as M });
@@ -102,8 +103,8 @@ export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> 
 
   protected abstract build(message: M): THREE.Object3D;
 
-  /** Called when a message's pose is known. */
-  protected placed(_object: THREE.Object3D, _message: M): void {}
+  /** Called after the pose of a message is set. */
+  protected onPose(_object: THREE.Object3D, _message: M): void {}
 
   override restyle(): void {
     for (const entry of this.drawn.values()) {
@@ -112,32 +113,32 @@ export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> 
       entry.object.position.copy(object.position);
       entry.object.quaternion.copy(object.quaternion);
       entry.object.visible = object.visible;
-      this.bury(object);
+      this.removeObject(object);
       this.object.add(entry.object);
-      this.placed(entry.object, entry.message);
+      this.onPose(entry.object, entry.message);
     }
   }
 
-  override place(placement: Placement, tick: Tick): void {
-    this.freeBuried();
+  override setPoses(framePoses: FramePoses, update: FrameUpdate): void {
+    this.freeRemoved();
     const listed = new Map<number, DisplayPose>();
-    for (const entry of tick.displays) if (entry.id === this.id) listed.set(entry.sequence, entry);
-    this.origin = placement.origin;
+    for (const entry of update.displays) if (entry.id === this.id) listed.set(entry.sequence, entry);
+    this.origin = framePoses.origin;
     const newest = Math.max(-1, ...listed.keys());
     for (const [sequence, { object, message }] of this.drawn) {
       const entry = listed.get(sequence);
       if (!entry) {
         object.visible = false;
-        if (sequence < newest || listed.size === 0) this.forget(sequence);
+        if (sequence < newest || listed.size === 0) this.removeMessage(sequence);
         continue;
       }
       object.visible = entry.ok && entry.pose.every(Number.isFinite);
       if (!object.visible) continue;
       for (const [k, axis] of (["x", "y", "z"] as const).entries())
         object.position[axis] =
-          (entry.pose[k] as number) + (tick.origin[k] as number) - (placement.origin[k] as number);
+          (entry.pose[k] as number) + (update.origin[k] as number) - (framePoses.origin[k] as number);
       object.quaternion.fromArray(entry.pose, 3);
-      this.placed(object, message);
+      this.onPose(object, message);
     }
   }
 
@@ -145,12 +146,12 @@ export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> 
     const box = new THREE.Box3();
     for (const { object } of this.drawn.values()) {
       const own = object.visible ? new THREE.Box3().setFromObject(object) : box;
-      if ([...own.min, ...own.max].every((value) => Math.abs(value) < FARTHEST_M)) box.union(own);
+      if ([...own.min, ...own.max].every((value) => Math.abs(value) < MAX_FIT_COORDINATE_M)) box.union(own);
     }
     return box;
   }
 
-  /** In the fixed frame: where each visible message's frame is. */
+  /** Adds the pose of each visible message, expressed in the fixed frame. */
   override probe(): Record<string, unknown> {
     const shown = [...this.drawn.values()].filter(({ object }) => object.visible);
     return {
@@ -169,50 +170,50 @@ export abstract class MessageDisplay<M extends DisplayMessage = DisplayMessage> 
     return {};
   }
 
-  /** A place in the scene, as the fixed frame has it. */
-  protected inFixed(place: THREE.Vector3): number[] {
-    return place.toArray().map((value, k) => value + (this.origin[k] as number));
+  /** Converts scene coordinates to the fixed frame. */
+  protected inFixed(point: THREE.Vector3): number[] {
+    return point.toArray().map((value, k) => value + (this.origin[k] as number));
   }
 
   override dispose(): void {
     this.drawn.clear();
-    for (const object of this.buried) release(object);
+    for (const object of this.removed) release(object);
     super.dispose();
   }
 
   clear(): void {
-    for (const sequence of [...this.drawn.keys()]) this.forget(sequence);
+    for (const sequence of [...this.drawn.keys()]) this.removeMessage(sequence);
   }
 
-  private forget(sequence: number): void {
+  private removeMessage(sequence: number): void {
     const entry = this.drawn.get(sequence);
     if (!entry) return;
-    this.bury(entry.object);
+    this.removeObject(entry.object);
     this.drawn.delete(sequence);
   }
 
   /**
-   * Frees what is not drawn any more one picture later: by then the next message's material uses the same program,
-   * which would else be thrown away and compiled anew for every message.
+   * Removes an object and frees its resources one frame later. By then the next message uses the same shader program,
+   * which would otherwise be deleted and compiled again for every message.
    */
-  private bury(object: THREE.Object3D): void {
+  private removeObject(object: THREE.Object3D): void {
     object.removeFromParent();
-    this.buried.push(object);
+    this.removed.push(object);
   }
 
-  private freeBuried(): void {
-    for (const object of this.buried.splice(0, this.ripe)) release(object);
-    this.ripe = this.buried.length;
+  private freeRemoved(): void {
+    for (const object of this.removed.splice(0, this.removedBefore)) release(object);
+    this.removedBefore = this.removed.length;
   }
 
-  /** Messages that no tick names must not pile up. */
+  /** Limits the number of messages that no frame update lists. */
   private dropOldest(): void {
     const waiting = [...this.drawn].filter(([, entry]) => !entry.object.visible);
-    for (const [sequence] of waiting.slice(0, Math.max(0, waiting.length - MOST_WAITING))) this.forget(sequence);
+    for (const [sequence] of waiting.slice(0, Math.max(0, waiting.length - MAX_WAITING))) this.removeMessage(sequence);
   }
 }
 
-/** Frees what the graphics card holds for an object and all below it. Shared meshes are marked `userData.shared`. */
+/** Frees the graphics resources of an object and its descendants, except those marked `userData.shared`. */
 export function release(object: THREE.Object3D): void {
   object.traverse((part) => {
     const mesh = part as Partial<THREE.Mesh>;
@@ -226,14 +227,14 @@ export function release(object: THREE.Object3D): void {
   });
 }
 
-/** Sets an object to a frame's pose; hides it where that is not known. */
-export function toFrame(object: THREE.Object3D, frame: string, placement: Placement, model: Model): boolean {
+/** Moves an object to the pose of a frame, or hides it if the pose is unknown. Returns whether it is known. */
+export function moveToFrame(object: THREE.Object3D, frame: string, framePoses: FramePoses, model: Model): boolean {
   const i = model.forest.index.get(frame) ?? -1;
   const at = i * 3;
-  const known = i >= 0 && i < placement.count && Number.isFinite(placement.positions[at] as number);
+  const known = i >= 0 && i < framePoses.count && Number.isFinite(framePoses.positions[at] as number);
   object.visible = known;
   if (!known) return false;
-  object.position.fromArray(placement.positions, at);
-  object.quaternion.fromArray(placement.quaternions, i * 4);
+  object.position.fromArray(framePoses.positions, at);
+  object.quaternion.fromArray(framePoses.quaternions, i * 4);
   return true;
 }

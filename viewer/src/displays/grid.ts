@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Grid: lines on the ground, to see how large and how level things are. */
+/** The Grid display: lines in a plane. */
 
 import * as THREE from "three";
-import type { Placement } from "../scene/frame_poses";
-import type { Tick } from "../protocol/messages";
-import { Display, release, toFrame } from "./display";
+import type { FramePoses } from "../scene/frame_poses";
+import type { FrameUpdate } from "../protocol/messages";
+import { Display, release, moveToFrame } from "./display";
 import { FIXED_FRAME, type OptionSpec } from "./options";
 
-export const GROUND_SPECS: readonly OptionSpec[] = [
+export const GRID_SPECS: readonly OptionSpec[] = [
   { key: "Cell Size", kind: "number", value: 1, min: 0.001, max: 10000, step: 0.1, unit: "m" },
   { key: "Plane Cell Count", kind: "number", value: 10, min: 1, max: 1000, step: 1 },
   { key: "Plane", kind: "choice", value: "XY", choices: ["XY", "XZ", "YZ"] },
@@ -16,7 +16,7 @@ export const GROUND_SPECS: readonly OptionSpec[] = [
   { key: "Reference Frame", kind: "frame", value: FIXED_FRAME },
 ];
 
-export class Ground extends Display {
+export class GridDisplay extends Display {
   private lines: THREE.LineSegments | null = null;
 
   override restyle(): void {
@@ -38,23 +38,23 @@ export class Ground extends Display {
     this.object.add(this.lines);
   }
 
-  override place(placement: Placement, _tick: Tick): void {
+  override setPoses(framePoses: FramePoses, _update: FrameUpdate): void {
     if (!this.lines) this.restyle();
     const frame = this.options.text("Reference Frame");
     const shown = this.config.enabled;
     if (frame !== FIXED_FRAME && frame !== "") {
-      const known = toFrame(this.object, frame, placement, this.context.model);
+      const known = moveToFrame(this.object, frame, framePoses, this.context.model);
       this.object.visible = shown && known;
       return;
     }
-    // Far from the world's origin the grid still lies on its lines, but below what is looked at.
+    // Far from the origin of the fixed frame, the grid moves below the frames by whole cells.
     const cell = this.options.number("Cell Size");
-    const [x, y, z] = placement.origin;
-    const lines = (value: number): number => -(value - Math.round(value / cell) * cell);
+    const [x, y, z] = framePoses.origin;
+    const toLine = (value: number): number => -(value - Math.round(value / cell) * cell);
     this.object.visible = shown;
     this.object.quaternion.identity();
     const far = Math.hypot(x, y) > 1000;
-    this.object.position.set(far ? lines(x) : -x, far ? lines(y) : -y, Math.abs(z) > 50 ? 0 : -z);
+    this.object.position.set(far ? toLine(x) : -x, far ? toLine(y) : -y, Math.abs(z) > 50 ? 0 : -z);
   }
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Image: what a camera sees, in a corner over the scene. */
+/** The Image display: camera images in a corner above the scene. */
 
 import * as THREE from "three";
 import { byId, h, setText, shorten } from "../util/dom";
-import type { Placement } from "../scene/frame_poses";
-import { ImageFormat, type DisplayMessage, type Image, type Tick } from "../protocol/messages";
+import type { FramePoses } from "../scene/frame_poses";
+import { ImageFormat, type DisplayMessage, type Image, type FrameUpdate } from "../protocol/messages";
 import { MessageDisplay, type Context, type DisplayConfig } from "./display";
 import type { OptionSpec } from "./options";
 
@@ -16,12 +16,12 @@ export class ImageDisplay extends MessageDisplay<Image> {
   private readonly canvas = h("canvas", { role: "img" });
   private readonly caption = h("figcaption");
   private readonly figure = h("figure", { hidden: true }, this.canvas, this.caption);
-  /** The drawing that is on the canvas, or on its way there. */
+  /** The sequence number of the message on the canvas, or of the one being decoded. */
   private painted = -1;
 
   constructor(id: number, config: DisplayConfig, specs: readonly OptionSpec[], context: Context) {
     super(id, config, specs, context);
-    this.canvas.setAttribute("aria-label", `Picture of ${config.topic ?? config.name}`);
+    this.canvas.setAttribute("aria-label", `Image of ${config.topic ?? config.name}`);
     byId("images").append(this.figure);
   }
 
@@ -40,14 +40,14 @@ export class ImageDisplay extends MessageDisplay<Image> {
     this.painted = -1;
   }
 
-  override place(placement: Placement, tick: Tick): void {
-    super.place(placement, tick);
+  override setPoses(framePoses: FramePoses, update: FrameUpdate): void {
+    super.setPoses(framePoses, update);
     if ([...this.drawn.values()].some(({ object }) => object.visible)) return;
     this.figure.hidden = true;
     this.painted = -1;
   }
 
-  protected override placed(_object: THREE.Object3D, message: Image): void {
+  protected override onPose(_object: THREE.Object3D, message: Image): void {
     if (message.sequence === this.painted) return;
     this.painted = message.sequence;
     this.note = message.step > 1 ? `1 of ${message.step} rows and columns` : "";
@@ -72,21 +72,21 @@ export class ImageDisplay extends MessageDisplay<Image> {
   private async paint(message: Image): Promise<void> {
     const { canvas } = this;
     try {
-      const picture = await decoded(message);
-      if (message.sequence !== this.painted) return; // another one has come meanwhile
-      [canvas.width, canvas.height] = [picture.width, picture.height];
+      const image = await decodeImage(message);
+      if (message.sequence !== this.painted) return; // A newer message has arrived.
+      [canvas.width, canvas.height] = [image.width, image.height];
       const context = canvas.getContext("2d");
-      if (picture instanceof ImageData) context?.putImageData(picture, 0, 0);
-      else context?.drawImage(picture, 0, 0);
+      if (image instanceof ImageData) context?.putImageData(image, 0, 0);
+      else context?.drawImage(image, 0, 0);
       this.figure.hidden = false;
     } catch {
       this.figure.hidden = true;
-      this.status = { state: "error", text: "The picture is damaged: the browser cannot read it." };
+      this.status = { state: "error", text: "The browser cannot decode the image." };
     }
   }
 }
 
-async function decoded({ format, width, height, data }: Image): Promise<ImageData | ImageBitmap> {
+async function decodeImage({ format, width, height, data }: Image): Promise<ImageData | ImageBitmap> {
   if (format === ImageFormat.jpeg || format === ImageFormat.png) {
     const type = format === ImageFormat.jpeg ? "image/jpeg" : "image/png";
     return createImageBitmap(new Blob([data], { type }));

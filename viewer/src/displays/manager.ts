@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The list of displays: made from an .rviz file, from what was shown last time, or from what there is to see. */
+/** The list of displays: from an .rviz file, from the last session, or from the available topics. */
 
 import * as THREE from "three";
 import { Meshes } from "../scene/meshes";
@@ -21,7 +21,7 @@ import { KINDS, kindName } from "./registry";
 import { RobotDisplay } from "./robot";
 import { TfDisplay } from "./tf";
 
-const MOST_AT_FIRST = 12;
+const MAX_AUTOMATIC = 12;
 
 export class Displays {
   list: Display[] = [];
@@ -30,7 +30,7 @@ export class Displays {
   private readonly listeners: (() => void)[] = [];
   private readonly offered = new Set<string>();
   private nextId = 1;
-  /** Until the user or a file decides, new topics are shown by themselves. */
+  /** Whether new topics are displayed automatically, until the user or a file changes the list. */
   private automatic = true;
   private started = false;
 
@@ -43,8 +43,8 @@ export class Displays {
       model,
       palette: () => theme.palette(),
       distinct: () => theme.distinct,
-      height: () => view.stage.height,
-      software: () => view.stage.software,
+      height: () => view.renderer.height,
+      software: () => view.renderer.software,
       replayed: () => model.hello?.mode === "replay",
       redraw: () => view.refresh(),
     };
@@ -52,16 +52,16 @@ export class Displays {
     model.on("topics", (topics) => this.offer(topics));
     model.on("robot", (robot) => this.setRobot(robot));
     model.on("message", (message) => this.receive(message));
-    model.on("display", (told) => this.tell(told));
+    model.on("display", (status) => this.setStatus(status));
     model.on("connected", (connected) => {
       if (!connected) return;
       for (const display of this.list) this.subscribe(display);
       this.sendTimeout();
     });
-    view.onPlaced((placement, tick) => {
-      for (const display of this.list) if (display.config.enabled) display.place(placement, tick);
+    view.onPoses((framePoses, update) => {
+      for (const display of this.list) if (display.config.enabled) display.setPoses(framePoses, update);
     });
-    view.onFit(() => {
+    view.addBounds(() => {
       const box = new THREE.Box3();
       for (const display of this.list) if (display.config.enabled) box.union(display.bounds());
       return box;
@@ -79,7 +79,7 @@ export class Displays {
     return this.list.filter((display) => display instanceof RobotDisplay);
   }
 
-  /** Adds what the user asked for. */
+  /** Adds a display that the user has chosen. */
   add(className: string, topic: string | null, name = kindName(className)): void {
     this.automatic = false;
     this.create({ class: className, name: this.freeName(name), enabled: true, topic, options: {} });
@@ -106,29 +106,29 @@ export class Displays {
     this.changed();
   }
 
-  /** An option was changed in the panel; its value stands in the display's config. */
+  /** Applies an option that the panel has changed in the configuration of a display. */
   optionChanged(display: Display): void {
     if (display instanceof MessageDisplay) this.resubscribeIfNeeded(display);
     display.restyle();
     this.changed();
   }
 
-  /** Replaces all displays by a file's. */
+  /** Replaces all displays by those of a file. */
   apply(rviz: RvizConfiguration): void {
     this.automatic = false;
     for (const display of this.list) this.discard(display);
     this.list = [];
     for (const display of rviz.displays) this.create({ ...display, topic: display.topic ?? null });
-    for (const robot of this.model.robots.values()) this.giveRobot(robot);
+    for (const robot of this.model.robots.values()) this.assignRobot(robot);
     this.changed();
   }
 
-  /** As an .rviz file has them. */
+  /** The displays in the format of .rviz files. */
   save(): RvizDisplay[] {
     return this.list.map(({ config }) => ({ ...config }));
   }
 
-  /** What is asked for of topics that are shown. */
+  /** The topics of enabled displays, with the options of their subscriptions. */
   get shownTopics(): { topic: string; options: DisplayOptions }[] {
     return this.list.flatMap((display) => {
       const { topic, enabled } = display.config;
@@ -157,25 +157,25 @@ export class Displays {
     if (!this.automatic || !this.started) return;
     for (const { topic, display } of topics) {
       const shown = this.list.filter((other) => other instanceof MessageDisplay).length;
-      if (this.offered.has(topic) || !KINDS[display]?.topic || KINDS[display].heavy || shown >= MOST_AT_FIRST) continue;
+      if (this.offered.has(topic) || !KINDS[display]?.topic || KINDS[display].heavy || shown >= MAX_AUTOMATIC) continue;
       this.offered.add(topic);
       this.create({ class: display, name: this.freeName(display), enabled: true, topic, options: {} });
     }
-    this.tellListeners();
+    this.notify();
   }
 
   private setRobot(robot: Robot): void {
-    this.giveRobot(robot);
-    this.tellListeners();
+    this.assignRobot(robot);
+    this.notify();
     this.view.refresh();
   }
 
-  /** The robot goes to the display that shows it, waits for it, or is made for it. */
-  private giveRobot(robot: Robot): void {
-    const wanted = (display: RobotDisplay): string | null => display.config.topic;
+  /** Passes a robot to the display that shows it, to one that waits for it, or to a new one. */
+  private assignRobot(robot: Robot): void {
+    const topicOf = (display: RobotDisplay): string | null => display.config.topic;
     const display =
       this.robots.find((other) => other.robot?.id === robot.id) ??
-      this.robots.find((other) => !other.robot && (!wanted(other) || wanted(other) === robot.description_topic)) ??
+      this.robots.find((other) => !other.robot && (!topicOf(other) || topicOf(other) === robot.description_topic)) ??
       this.robots.find((other) => !other.robot);
     if (display) display.setRobot(robot);
     else {
@@ -190,9 +190,9 @@ export class Displays {
     if (!kind) return null;
     const id = this.nextId++;
     const display = kind.make(id, { ...config, options: { ...config.options } }, kind.specs, this.context, this.meshes);
-    if (kind.topic && !config.topic) display.status = { state: "waiting", text: "No topic is chosen" };
+    if (kind.topic && !config.topic) display.status = { state: "waiting", text: "No topic selected" };
     this.list.push(display);
-    this.view.stage.scene.add(display.object);
+    this.view.renderer.scene.add(display.object);
     if (!(display instanceof RobotDisplay)) display.restyle();
     this.subscribe(display);
     return display;
@@ -225,22 +225,22 @@ export class Displays {
     if (display instanceof MessageDisplay) display.receive(message);
   }
 
-  private tell({ id, state, text, note }: DisplayStatus): void {
+  private setStatus({ id, state, text, note }: DisplayStatus): void {
     const display = this.list.find((other) => other.id === id);
     if (!display) return;
     display.status = { state, text };
-    display.leftOut = note ?? "";
-    this.tellListeners();
+    display.omitted = note ?? "";
+    this.notify();
   }
 
   private changed(): void {
     if (!this.automatic) remember("displays", this.save());
     this.applyTf();
     this.view.refresh();
-    this.tellListeners();
+    this.notify();
   }
 
-  /** The TF display says how the frames are drawn. */
+  /** Applies the options of the TF display to the view. */
   private applyTf(): void {
     const tf = this.list.find((display) => display instanceof TfDisplay);
     this.view.tfShown = tf?.config.enabled ?? false;
@@ -252,14 +252,14 @@ export class Displays {
       arrows: options.flag("Show Arrows"),
       names: options.flag("Show Names"),
     };
-    this.view.placement.frameTimeout = options.number("Frame Timeout");
+    this.view.framePoses.frameTimeout = options.number("Frame Timeout");
     this.sendTimeout();
   }
 
   private sentTimeout = 0;
 
   private sendTimeout(): void {
-    const seconds = this.view.placement.frameTimeout;
+    const seconds = this.view.framePoses.frameTimeout;
     if (seconds === this.sentTimeout && this.model.connected) return;
     if (this.model.connected) this.sentTimeout = seconds;
     this.model.send({ type: "frame_timeout", seconds });
@@ -273,7 +273,7 @@ export class Displays {
     return `${name} ${n}`;
   }
 
-  private tellListeners(): void {
+  private notify(): void {
     for (const listener of this.listeners) listener();
   }
 }

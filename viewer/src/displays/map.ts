@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Map: an occupancy grid as a picture on the ground. */
+/** The Map display: an occupancy grid as a texture. */
 
 import * as THREE from "three";
 import type { Grid } from "../protocol/messages";
@@ -8,19 +8,22 @@ import type { OptionSpec } from "./options";
 
 export const MAP_SPECS: readonly OptionSpec[] = [
   { key: "Alpha", kind: "number", value: 0.7, min: 0, max: 1, step: 0.05 },
-  { key: "Color Scheme", label: "Colour scheme", kind: "choice", value: "map", choices: ["map", "costmap", "raw"] },
+  { key: "Color Scheme", kind: "choice", value: "map", choices: ["map", "costmap", "raw"] },
   { key: "Draw Behind", kind: "flag", value: false },
 ];
 
-const LARGEST_TEXTURE = 8192;
+const MAX_TEXTURE_SIZE = 8192;
 
 export class MapDisplay extends MessageDisplay<Grid> {
   protected build(message: Grid): THREE.Object3D {
     const { width, height, resolution } = message;
     const group = new THREE.Group();
     if (width === 0 || height === 0) return group;
-    if (Math.max(width, height) > LARGEST_TEXTURE) {
-      this.status = { state: "error", text: `A grid of ${width} × ${height} cells is too large to draw.` };
+    if (Math.max(width, height) > MAX_TEXTURE_SIZE) {
+      this.status = {
+        state: "error",
+        text: `The map has ${width} × ${height} cells. At most ${MAX_TEXTURE_SIZE} × ${MAX_TEXTURE_SIZE} can be drawn.`,
+      };
       return group;
     }
     const cells = new Uint8Array(message.cells.buffer, message.cells.byteOffset, message.cells.length);
@@ -68,8 +71,8 @@ export class MapDisplay extends MessageDisplay<Grid> {
             gl_FragColor = vec4(cell > 100.0 ? vec3(0.44, 0.54, 0.53) : cost, alpha);
             return;
           }
-          vec3 shown = cell <= 100.0 ? vec3(1.0 - part) : vec3(0.44, 0.54, 0.53);
-          gl_FragColor = vec4(shown, alpha);
+          vec3 colour = cell <= 100.0 ? vec3(1.0 - part) : vec3(0.44, 0.54, 0.53);
+          gl_FragColor = vec4(colour, alpha);
         }`,
     });
   }

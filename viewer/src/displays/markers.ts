@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Marker and MarkerArray: whatever a program wants drawn. The numbers are visualization_msgs' own. */
+/** The Marker and MarkerArray displays. The type numbers are those of visualization_msgs/Marker. */
 
 import * as THREE from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
@@ -13,8 +13,8 @@ import type { OptionSpec } from "./options";
 
 export const MARKER_SPECS: readonly OptionSpec[] = [];
 
-const MOST_NAMESPACES = 200;
-const MOST_TEXT = 200;
+const MAX_NAMESPACES = 200;
+const MAX_TEXT = 200;
 const TEXT_PX = 48;
 
 export class MarkersDisplay extends MessageDisplay<Shapes> {
@@ -28,12 +28,12 @@ export class MarkersDisplay extends MessageDisplay<Shapes> {
     super(id, config, specs, context);
   }
 
-  /** Those that were heard of. */
+  /** The namespaces received so far. */
   readonly namespaces = new Set<string>();
-  /** Called when there is another one. */
+  /** Called when a new namespace is received. */
   onNamespace = (): void => {};
 
-  /** Whether the markers of a namespace are to be seen. */
+  /** Whether the markers of a namespace are displayed. */
   isShown(name: string): boolean {
     const all = this.config.options["Namespaces"];
     return !(all && typeof all === "object" && !Array.isArray(all) && Object.hasOwn(all, name) && all[name] === false);
@@ -47,13 +47,13 @@ export class MarkersDisplay extends MessageDisplay<Shapes> {
 
   override receive(message: DisplayMessage): void {
     super.receive(message);
-    if (message.kind !== "shapes" || message.head.kind !== "markers") return;
+    if (message.kind !== "shapes" || message.description.kind !== "markers") return;
     const before = this.namespaces.size;
-    for (const { ns } of message.head.items) if (this.namespaces.size < MOST_NAMESPACES) this.namespaces.add(ns);
+    for (const { ns } of message.description.items) if (this.namespaces.size < MAX_NAMESPACES) this.namespaces.add(ns);
     if (this.namespaces.size > before) this.onNamespace();
   }
 
-  /** Where each marker is drawn, and how large. */
+  /** Returns the centre and the size of each marker. */
   protected override describe(_message: Shapes, object: THREE.Object3D): Record<string, unknown> {
     const markers = object.children.map((part) => {
       const box = new THREE.Box3().setFromObject(part);
@@ -63,10 +63,10 @@ export class MarkersDisplay extends MessageDisplay<Shapes> {
     return { markers };
   }
 
-  protected build({ head, payload }: Shapes): THREE.Object3D {
+  protected build({ description, payload }: Shapes): THREE.Object3D {
     const group = new THREE.Group();
-    if (head.kind !== "markers") return group;
-    for (const item of head.items) {
+    if (description.kind !== "markers") return group;
+    for (const item of description.items) {
       if (!this.isShown(item.ns) || !finite(item)) continue;
       const object = this.marker(item, payload);
       if (!object) continue;
@@ -95,11 +95,11 @@ export class MarkersDisplay extends MessageDisplay<Shapes> {
       case 5:
         return lines(item, points, colours);
       case 6:
-        return many(new THREE.BoxGeometry(1, 1, 1), item, points, colours);
+        return instanced(new THREE.BoxGeometry(1, 1, 1), item, points, colours);
       case 7:
-        return many(new THREE.SphereGeometry(0.5, 12, 8), item, points, colours);
+        return instanced(new THREE.SphereGeometry(0.5, 12, 8), item, points, colours);
       case 8:
-        return many(new THREE.BoxGeometry(1, 1, 0.01), item, points, colours);
+        return instanced(new THREE.BoxGeometry(1, 1, 0.01), item, points, colours);
       case 9:
         return text(item);
       case 10:
@@ -109,7 +109,7 @@ export class MarkersDisplay extends MessageDisplay<Shapes> {
       case 12:
         return arrowStrip(item, points);
       default:
-        this.status = { state: "error", text: `There is no marker type ${item.type}.` };
+        this.status = { state: "error", text: `Unknown marker type ${item.type}. Known types: 0 to 12.` };
         return null;
     }
   }
@@ -170,7 +170,7 @@ function solid(geometry: THREE.BufferGeometry, item: DrawableMarker): THREE.Mesh
   return mesh;
 }
 
-/** By pose and scale (length, width, height), or from the first point to the second. */
+/** An arrow from the first point to the second, or along x with scale as length, width and height. */
 function arrow(item: DrawableMarker, points: Float32Array): THREE.Object3D {
   const [x, y, z] = item.scale;
   if (points.length < 6) {
@@ -209,7 +209,7 @@ function arrowStrip(item: DrawableMarker, points: Float32Array): THREE.Object3D 
   return group;
 }
 
-/** A strip's points twice each, but its ends: segments. */
+/** Converts a line strip to segments, which repeat all inner points. */
 function pairs(values: Float32Array, width: number): Float32Array {
   const count = Math.max(0, values.length / width - 1);
   const out = new Float32Array(count * 2 * width);
@@ -220,10 +220,10 @@ function pairs(values: Float32Array, width: number): Float32Array {
 function lines(item: DrawableMarker, points: Float32Array, colours: Float32Array): THREE.Object3D {
   const group = new THREE.Group();
   if (points.length < 6 || !points.every(Number.isFinite)) return group;
-  const even = points.subarray(0, Math.floor(points.length / 6) * 6);
-  const geometry = new LineSegmentsGeometry().setPositions(even);
-  const coloured = colours.length / 4 >= even.length / 3;
-  if (coloured) geometry.setColors(linear(colours, even.length / 3));
+  const complete = points.subarray(0, Math.floor(points.length / 6) * 6);
+  const geometry = new LineSegmentsGeometry().setPositions(complete);
+  const coloured = colours.length / 4 >= complete.length / 3;
+  if (coloured) geometry.setColors(linear(colours, complete.length / 3));
   const alpha = alphaOf(item);
   const segments = new LineSegments2(
     geometry,
@@ -248,7 +248,7 @@ function linear(colours: Float32Array, count: number): Float32Array {
   return out;
 }
 
-function many(
+function instanced(
   geometry: THREE.BufferGeometry,
   item: DrawableMarker,
   points: Float32Array,
@@ -286,9 +286,9 @@ function triangles(item: DrawableMarker, points: Float32Array, colours: Float32A
   return new THREE.Mesh(geometry, made);
 }
 
-/** Text that faces the viewer, scale.z metres high. */
+/** Text that faces the camera; scale.z is the height of a line in metres. */
 function text(item: DrawableMarker): THREE.Object3D | null {
-  const lines = item.text.slice(0, MOST_TEXT).split("\n");
+  const lines = item.text.slice(0, MAX_TEXT).split("\n");
   const canvas = document.createElement("canvas");
   const context = canvas.getContext("2d");
   if (!context || !item.text.trim()) return null;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * A display's options, under RViz's own names, so that a file's values are used as they stand and saved unharmed.
- * Those that stand inside of others have a path: "Covariance/Position/Alpha".
+ * The options of displays. They have the names of RViz, so that the values of .rviz files are used and saved unchanged.
+ * Nested options have paths, for example "Covariance/Position/Alpha".
  */
 
 import type { Json, JsonObject } from "../protocol/messages";
 
-/** `needs` names a flag without which it has no effect, and is not shown. */
+/** An option. `needs` is the key of a flag; if it is off, the option has no effect and is hidden. */
 export type OptionSpec = { key: string; label?: string; needs?: string } & (
   | { kind: "number"; value: number; min?: number; max?: number; step?: number; unit?: string }
   | { kind: "flag"; value: boolean }
@@ -17,7 +17,7 @@ export type OptionSpec = { key: string; label?: string; needs?: string } & (
 
 export const FIXED_FRAME = "<Fixed Frame>";
 
-/** Reads values with the spec's own as default; whatever does not fit is as if it were not there. */
+/** Reads option values; missing and invalid values are replaced by the default. */
 export class Options {
   constructor(
     readonly values: JsonObject,
@@ -48,7 +48,7 @@ export class Options {
     return typeof value === "string" ? value : this.spec(key, "frame").value;
   }
 
-  /** As "#rrggbb". */
+  /** Returns a colour as "#rrggbb". */
   colour(key: string): string {
     return cssColour(this.value(key)) ?? this.spec(key, "colour").value;
   }
@@ -72,7 +72,7 @@ export class Options {
 
   private spec<K extends OptionSpec["kind"]>(key: string, kind: K): Extract<OptionSpec, { kind: K }> {
     const found = this.specs.find((spec) => spec.key === key && spec.kind === kind);
-    if (!found) throw new Error(`no ${kind} option ${key}`);
+    if (!found) throw new Error(`No option ${key} of kind ${kind}.`);
     return found as Extract<OptionSpec, { kind: K }>;
   }
 }
@@ -81,7 +81,7 @@ function isObject(value: Json | undefined): value is JsonObject {
   return typeof value === "object" && value !== null && !Array.isArray(value);
 }
 
-/** RViz writes "255; 170; 0". */
+/** Converts a colour of RViz, such as "255; 170; 0", to "#rrggbb"; null if it is invalid. */
 export function cssColour(value: Json | undefined): string | null {
   const parts =
     typeof value === "string" ? value.split(/[;,]/).map(Number) : Array.isArray(value) ? value.map(Number) : [];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Path: a line through poses, with axes or arrows at each if wanted. */
+/** The Path display: a line through poses, with optional axes or arrows at each pose. */
 
 import * as THREE from "three";
 import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
@@ -11,7 +11,7 @@ import { MessageDisplay } from "./display";
 import type { OptionSpec } from "./options";
 
 export const PATH_SPECS: readonly OptionSpec[] = [
-  { key: "Color", label: "Colour", kind: "colour", value: "#19d245" },
+  { key: "Color", kind: "colour", value: "#19d245" },
   { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
   { key: "Line Style", kind: "choice", value: "Lines", choices: ["Lines", "Billboards"] },
   { key: "Line Width", kind: "number", value: 0.03, min: 0.001, max: 10, step: 0.01, unit: "m" },
@@ -21,10 +21,10 @@ export const PATH_SPECS: readonly OptionSpec[] = [
 ];
 
 export class PathDisplay extends MessageDisplay<Shapes> {
-  protected build({ head, payload }: Shapes): THREE.Object3D {
+  protected build({ description, payload }: Shapes): THREE.Object3D {
     const group = new THREE.Group();
-    if (head.kind !== "path") return group;
-    const poses = slice(payload, head.poses, 7);
+    if (description.kind !== "path") return group;
+    const poses = slice(payload, description.poses, 7);
     const points: number[] = [];
     for (let i = 0; i + 7 <= poses.length; i += 7) {
       const row = poses.subarray(i, i + 3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Pose, PoseArray and Odometry: arrows or axes, the newest bright and its trail behind it. */
+/** The Pose, PoseArray, PoseWithCovariance and Odometry displays: arrows or axes; Odometry has a trail. */
 
 import * as THREE from "three";
 import { slice, type Shapes, type DisplayOptions } from "../protocol/messages";
@@ -10,7 +10,7 @@ import type { OptionSpec } from "./options";
 
 export const POSE_SPECS: readonly OptionSpec[] = [
   { key: "Shape", kind: "choice", value: "Arrow", choices: ["Arrow", "Axes"] },
-  { key: "Color", label: "Colour", kind: "colour", value: "#ff8a1f" },
+  { key: "Color", kind: "colour", value: "#ff8a1f" },
   { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
   { key: "Shaft Length", kind: "number", value: 0.35, min: 0.001, max: 100, step: 0.05, unit: "m" },
   { key: "Shaft Radius", kind: "number", value: 0.02, min: 0.0005, max: 10, step: 0.005, unit: "m" },
@@ -33,16 +33,16 @@ export class PosesDisplay extends MessageDisplay<Shapes> {
     return this.specs === ODOMETRY_SPECS ? { keep: Math.round(this.options.number("Keep")) } : {};
   }
 
-  protected build({ head, payload }: Shapes): THREE.Object3D {
+  protected build({ description, payload }: Shapes): THREE.Object3D {
     const group = new THREE.Group();
-    if (head.kind !== "poses" && head.kind !== "odometry") return group;
-    const poses = slice(payload, head.poses, 7);
+    if (description.kind !== "poses" && description.kind !== "odometry") return group;
+    const poses = slice(payload, description.poses, 7);
     const count = Math.floor(poses.length / 7);
     if (count === 0) return group;
     const newest = poses.subarray((count - 1) * 7);
-    if (head.covariance && this.specs !== POSE_SPECS)
-      group.add(covarianceShapes(newest, head.covariance, this.options));
-    if (head.kind === "poses") {
+    if (description.covariance && this.specs !== POSE_SPECS)
+      group.add(covarianceShapes(newest, description.covariance, this.options));
+    if (description.kind === "poses") {
       group.add(this.shape(poses, 1));
       return group;
     }
@@ -51,10 +51,10 @@ export class PosesDisplay extends MessageDisplay<Shapes> {
     return group;
   }
 
-  /** How large it is, all in all. */
+  /** Returns the corners of the bounding box. */
   protected override describe(_message: Shapes, object: THREE.Object3D): Record<string, unknown> {
     const box = new THREE.Box3().setFromObject(object);
-    return { least: this.inFixed(box.min), most: this.inFixed(box.max) };
+    return { min: this.inFixed(box.min), max: this.inFixed(box.max) };
   }
 
   private shape(poses: Float32Array, scale: number): THREE.Object3D {
@@ -77,7 +77,7 @@ export class PosesDisplay extends MessageDisplay<Shapes> {
   }
 }
 
-/** Where it was: a line that gets fainter into the past. */
+/** The trail of past poses: a line that fades with age. */
 function trail(poses: Float32Array, colour: string): THREE.Line {
   const count = Math.floor(poses.length / 7);
   const points = new Float32Array(count * 3);

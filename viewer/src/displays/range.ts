@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Range: the cone that an ultrasound or infrared sensor looks into, as far as it sees. */
+/** The Range display: the measured cone of an ultrasound or infrared sensor. */
 
 import * as THREE from "three";
 import type { Shapes } from "../protocol/messages";
@@ -7,19 +7,19 @@ import { MessageDisplay } from "./display";
 import type { OptionSpec } from "./options";
 
 export const RANGE_SPECS: readonly OptionSpec[] = [
-  { key: "Color", label: "Colour", kind: "colour", value: "#ffffff" },
+  { key: "Color", kind: "colour", value: "#ffffff" },
   { key: "Alpha", kind: "number", value: 0.5, min: 0, max: 1, step: 0.05 },
 ];
 
 export class RangeDisplay extends MessageDisplay<Shapes> {
-  protected build({ head }: Shapes): THREE.Object3D {
+  protected build({ description }: Shapes): THREE.Object3D {
     const group = new THREE.Group();
-    if (head.kind !== "range" || head.range === null || !(head.range > 0)) return group;
-    const half = Math.max(0.005, Math.min(1.5, (head.field_of_view ?? 0) / 2));
-    const radius = head.range * Math.tan(half);
-    const cone = new THREE.ConeGeometry(radius, head.range, 32, 1, true);
-    // The tip at the sensor, opening along +x.
-    cone.translate(0, -head.range / 2, 0);
+    if (description.kind !== "range" || description.range === null || !(description.range > 0)) return group;
+    const half = Math.max(0.005, Math.min(1.5, (description.field_of_view ?? 0) / 2));
+    const radius = description.range * Math.tan(half);
+    const cone = new THREE.ConeGeometry(radius, description.range, 32, 1, true);
+    // The tip is at the sensor; the cone opens along +x.
+    cone.translate(0, -description.range / 2, 0);
     cone.rotateZ(Math.PI / 2);
     const material = new THREE.MeshBasicMaterial({
       color: this.options.colour("Color"),

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Which displays there are, by RViz's names. */
+/** The available displays, by RViz's class names. */
 
 import type { Meshes } from "../scene/meshes";
-import { Axes, AXES_SPECS } from "./axes";
+import { AxesDisplay, AXES_SPECS } from "./axes";
 import { CameraDisplay, CAMERA_SPECS } from "./camera_info";
 import { CloudDisplay, cloudSpecs } from "./cloud";
 import type { Context, Display, DisplayConfig } from "./display";
-import { Ground, GROUND_SPECS } from "./grid";
+import { GridDisplay, GRID_SPECS } from "./grid";
 import { IMAGE_SPECS, ImageDisplay } from "./image";
 import { MapDisplay, MAP_SPECS } from "./map";
 import { MarkersDisplay, MARKER_SPECS } from "./markers";
@@ -19,9 +19,9 @@ import { TF_SPECS, TfDisplay } from "./tf";
 
 interface Kind {
   specs: readonly OptionSpec[];
-  /** Whether it takes so much that it is shown only when asked for. */
+  /** Whether it uses too much bandwidth to be displayed automatically. */
   heavy?: boolean;
-  /** Whether it shows what comes on a topic. */
+  /** Whether it displays a topic. */
   topic: boolean;
   make(id: number, config: DisplayConfig, specs: readonly OptionSpec[], context: Context, meshes: Meshes): Display;
 }
@@ -36,8 +36,8 @@ const markers: Kind = { specs: MARKER_SPECS, topic: true, make: (...all) => new 
 
 export const KINDS: Record<string, Kind> = {
   TF: plain(TF_SPECS, TfDisplay, false),
-  Grid: plain(GROUND_SPECS, Ground, false),
-  Axes: plain(AXES_SPECS, Axes, false),
+  Grid: plain(GRID_SPECS, GridDisplay, false),
+  Axes: plain(AXES_SPECS, AxesDisplay, false),
   RobotModel: { specs: ROBOT_SPECS, topic: false, make: (...all) => new RobotDisplay(...all) },
   LaserScan: plain(cloudSpecs(0.03, "Intensity"), CloudDisplay),
   PointCloud2: plain(cloudSpecs(0.01, "AxisColor"), CloudDisplay),
@@ -56,7 +56,7 @@ export const KINDS: Record<string, Kind> = {
   CameraInfo: plain(CAMERA_SPECS, CameraDisplay),
 };
 
-/** "rviz_default_plugins/TF" and "rviz/TF" are both TF. */
+/** Removes the package of a class: "rviz_default_plugins/TF" and "rviz/TF" are both TF. */
 export function kindName(className: string): string {
   return className.replace(/^.*\//, "");
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/** RobotModel: a URDF's links, each where its frame is; where there is no such frame, where the joints put it. */
+/** The RobotModel display: each link of a URDF is drawn at its frame, or at the position of its joint without one. */
 
 import * as THREE from "three";
 import URDFLoader, { type URDFJoint, type URDFRobot } from "urdf-loader";
-import { dropEmptyTextures, hasPicture, materialsOf, NOTHING, type Meshes } from "../scene/meshes";
-import type { Placement } from "../scene/frame_poses";
-import type { Robot, Tick } from "../protocol/messages";
+import { dropEmptyTextures, hasImage, materialsOf, FORBIDDEN_URL, type Meshes } from "../scene/meshes";
+import type { FramePoses } from "../scene/frame_poses";
+import type { Robot, FrameUpdate } from "../protocol/messages";
 import { Display, release, type Context, type DisplayConfig } from "./display";
 import type { OptionSpec } from "./options";
 
@@ -13,17 +13,17 @@ export const ROBOT_SPECS: readonly OptionSpec[] = [
   { key: "Visual Enabled", kind: "flag", value: true },
   { key: "Collision Enabled", kind: "flag", value: false },
   { key: "Alpha", kind: "number", value: 1, min: 0, max: 1, step: 0.05 },
-  { key: "TF Prefix", label: "Frame prefix", kind: "frame", value: "" },
+  { key: "TF Prefix", kind: "frame", value: "" },
 ];
 
 export class RobotDisplay extends Display {
   robot: Robot | null = null;
   model: URDFRobot | null = null;
-  /** Joint values that the user tries out. */
-  private trial: Record<string, number> = {};
-  /** Whether they go before the frames: nobody else has been told of them. */
-  private alone = false;
-  /** How many meshes are still to come, and how many never will. */
+  /** Joint positions set with the sliders. */
+  private sliderPositions: Record<string, number> = {};
+  /** Whether the joint positions override the frames, because they are not published. */
+  private overridesFrames = false;
+  /** The number of meshes being loaded. */
   loading = 0;
   private readonly problems: string[] = [];
 
@@ -35,7 +35,7 @@ export class RobotDisplay extends Display {
     private readonly meshes: Meshes,
   ) {
     super(id, config, specs, context);
-    this.status = { state: "waiting", text: "Waiting for a robot description" };
+    this.status = { state: "waiting", text: "No robot description received" };
   }
 
   setRobot(robot: Robot): void {
@@ -43,10 +43,10 @@ export class RobotDisplay extends Display {
     this.rebuild();
   }
 
-  /** Moves the joints; `alone` says that the frames do not know of it and are not to be followed. */
-  setJoints(positions: Record<string, number>, alone: boolean): void {
-    this.trial = positions;
-    this.alone = alone;
+  /** Sets joint positions; `overridesFrames` draws them even if transforms differ. */
+  setJoints(positions: Record<string, number>, overridesFrames: boolean): void {
+    this.sliderPositions = positions;
+    this.overridesFrames = overridesFrames;
     for (const [name, value] of Object.entries(positions)) this.model?.setJointValue(name, value);
     this.context.redraw();
   }
@@ -64,7 +64,7 @@ export class RobotDisplay extends Display {
     let textures = 0;
     this.model?.traverse((part) => {
       meshes += (part as Partial<THREE.Mesh>).isMesh ? 1 : 0;
-      for (const { map } of materialsOf(part) as THREE.MeshPhongMaterial[]) textures += map && hasPicture(map) ? 1 : 0;
+      for (const { map } of materialsOf(part) as THREE.MeshPhongMaterial[]) textures += map && hasImage(map) ? 1 : 0;
     });
     const visible = (this.model?.visible ?? false) && this.object.visible;
     return {
@@ -78,7 +78,7 @@ export class RobotDisplay extends Display {
     };
   }
 
-  /** In the scene: where each link is drawn. */
+  /** The pose of each link in the scene. */
   private linkPoses(): Record<string, number[]> {
     const poses = Object.entries(this.model?.links ?? {}).map(([name, link]) => {
       const position = link.getWorldPosition(new THREE.Vector3());
@@ -100,14 +100,14 @@ export class RobotDisplay extends Display {
     try {
       this.model = this.parse(robot);
     } catch (error) {
-      this.status = { state: "error", text: `The robot description cannot be drawn: ${String(error)}` };
+      this.status = { state: "error", text: `Cannot parse the robot description: ${String(error)}` };
       return;
     }
     this.model.visible = false;
     for (const joint of robot.joints) this.model.setJointValue(joint.name, joint.value);
-    this.setJoints(this.trial, this.alone);
+    this.setJoints(this.sliderPositions, this.overridesFrames);
     this.object.add(this.model);
-    this.tell();
+    this.updateStatus();
   }
 
   private parse(robot: Robot): URDFRobot {
@@ -115,14 +115,14 @@ export class RobotDisplay extends Display {
     let complete = true;
     textures.onStart = (): void => void (complete = false);
     const loader = new URDFLoader(textures);
-    // Names stay as they were written: the server's table says where each file is.
+    // File names stay unchanged, because the table of the server maps them to URLs.
     loader.packages = (name: string): string => `package://${name}`;
     loader.parseVisual = this.options.flag("Visual Enabled");
     loader.parseCollision = this.options.flag("Collision Enabled");
     loader.loadMeshCb = (path, _manager, material, done): void => {
       const url = Object.hasOwn(robot.meshes, path) ? robot.meshes[path] : undefined;
       if (!url) {
-        this.problems.push(`No mesh ${path.slice(0, 200)} could be found.`);
+        this.problems.push(`Mesh file not found: ${path.slice(0, 200)}`);
         return;
       }
       this.loading++;
@@ -136,11 +136,13 @@ export class RobotDisplay extends Display {
         .catch((error: unknown) => this.problems.push(error instanceof Error ? error.message : String(error)))
         .finally(() => {
           this.loading--;
-          this.tell();
+          this.updateStatus();
           this.context.redraw();
         });
     };
-    textures.setURLModifier((path) => (Object.hasOwn(robot.meshes, path) ? (robot.meshes[path] as string) : NOTHING));
+    textures.setURLModifier((path) =>
+      Object.hasOwn(robot.meshes, path) ? (robot.meshes[path] as string) : FORBIDDEN_URL,
+    );
     const model = loader.parse(robot.urdf);
     textures.onLoad = (): void => {
       complete = true;
@@ -153,7 +155,7 @@ export class RobotDisplay extends Display {
     return model;
   }
 
-  /** Copies shared materials, since one robot may be transparent and another not. */
+  /** Copies shared materials, because the alpha of robots can differ. */
   private paint(object: THREE.Object3D, material: THREE.Material | null): void {
     const alpha = this.options.number("Alpha");
     object.traverse((part) => {
@@ -170,7 +172,7 @@ export class RobotDisplay extends Display {
     });
   }
 
-  private tell(): void {
+  private updateStatus(): void {
     const first = this.problems[0];
     const more = this.problems.length > 1 ? ` (and ${this.problems.length - 1} more)` : "";
     if (first) this.status = { state: "error", text: first + more };
@@ -178,28 +180,31 @@ export class RobotDisplay extends Display {
     else this.status = { state: "ok", text: [this.robot?.name ?? "", ...(this.robot?.warnings ?? [])].join("; ") };
   }
 
-  override place(placement: Placement, _tick: Tick): void {
+  override setPoses(framePoses: FramePoses, _update: FrameUpdate): void {
     const { model } = this;
     if (!model) return;
     const prefix = this.options.text("TF Prefix");
-    const pose = (link: string): THREE.Matrix4 | null => matrixOf(placement, this.context.model, prefix, link);
+    const pose = (link: string): THREE.Matrix4 | null => matrixOf(framePoses, this.context.model, prefix, link);
     const root = pose(model.name);
     const found = root ?? this.rootFromAnyLink(model, pose);
-    // A robot that nobody has told the frames of is worth seeing all the same, and its sliders worth trying.
+    // Without frames, the robot is drawn at the fixed frame, so that its sliders can be used.
     const start = found ?? new THREE.Matrix4();
     model.visible = true;
     if (!found && !this.problems.length)
-      this.status = { state: "waiting", text: `No frame is called ${prefix}${model.name}: drawn at the fixed frame` };
-    else if (found && this.status.state === "waiting" && this.loading === 0) this.tell();
+      this.status = {
+        state: "waiting",
+        text: `No transform from ${prefix}${model.name}; the robot is drawn at the fixed frame`,
+      };
+    else if (found && this.status.state === "waiting" && this.loading === 0) this.updateStatus();
     model.matrixAutoUpdate = false;
     model.matrix.copy(start);
-    for (const joint of Object.values(model.joints)) this.placeJoint(joint, pose);
+    for (const joint of Object.values(model.joints)) this.setJointPose(joint, pose);
     model.matrixWorldNeedsUpdate = true;
   }
 
-  /** A joint's own matrix is what tf says between its two links, when it says anything. */
-  private placeJoint(joint: URDFJoint, pose: (link: string) => THREE.Matrix4 | null): void {
-    const parent = this.alone ? null : pose(joint.parent?.name ?? "");
+  /** Sets the matrix of a joint to the transform between its links, if both frames exist. */
+  private setJointPose(joint: URDFJoint, pose: (link: string) => THREE.Matrix4 | null): void {
+    const parent = this.overridesFrames ? null : pose(joint.parent?.name ?? "");
     const child = parent ? pose(joint.children[0]?.name ?? "") : null;
     joint.matrixAutoUpdate = !(parent && child);
     if (parent && child) joint.matrix.copy(parent.invert().multiply(child));
@@ -207,7 +212,7 @@ export class RobotDisplay extends Display {
     joint.matrixWorldNeedsUpdate = true;
   }
 
-  /** Without a frame for the root, the model hangs on the first link that has one. */
+  /** The pose of the root, derived from the first link that has a frame; null if no link has one. */
   private rootFromAnyLink(model: URDFRobot, pose: (link: string) => THREE.Matrix4 | null): THREE.Matrix4 | null {
     for (const [name, link] of Object.entries(model.links)) {
       const known = pose(name);
@@ -223,12 +228,12 @@ export class RobotDisplay extends Display {
   }
 }
 
-function matrixOf(placement: Placement, model: Context["model"], prefix: string, link: string): THREE.Matrix4 | null {
+function matrixOf(framePoses: FramePoses, model: Context["model"], prefix: string, link: string): THREE.Matrix4 | null {
   const i = model.forest.index.get(prefix + link) ?? -1;
-  if (i < 0 || i >= placement.count || !Number.isFinite(placement.positions[i * 3] as number)) return null;
+  if (i < 0 || i >= framePoses.count || !Number.isFinite(framePoses.positions[i * 3] as number)) return null;
   return new THREE.Matrix4().compose(
-    new THREE.Vector3().fromArray(placement.positions, i * 3),
-    new THREE.Quaternion().fromArray(placement.quaternions, i * 4),
+    new THREE.Vector3().fromArray(framePoses.positions, i * 3),
+    new THREE.Quaternion().fromArray(framePoses.quaternions, i * 4),
     new THREE.Vector3(1, 1, 1),
   );
 }

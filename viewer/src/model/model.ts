@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What the page knows: the last of each kind of message, and what the user has chosen. */
+/** The state of the page: the last message of each type, and the choices of the user. */
 
 import { Emitter } from "../util/emitter";
-import type { Mark } from "../panels/findings";
+import type { Mark } from "./marks";
 import type {
   ClientMessage,
   CodePage,
@@ -17,7 +17,7 @@ import type {
   RvizConfiguration,
   Saved,
   Stats,
-  Tick,
+  FrameUpdate,
   Timeline,
   Topic,
   TreeFrame,
@@ -27,7 +27,7 @@ export interface ModelEvents {
   hello: Hello;
   tree: Forest;
   stats: Stats;
-  tick: Tick;
+  frames: FrameUpdate;
   topics: Topic[];
   robot: Robot;
   display: DisplayStatus;
@@ -49,7 +49,7 @@ export interface ModelEvents {
 
 export interface Selection {
   frame: string | null;
-  /** What the selected frame is compared with; null means the fixed frame. */
+  /** The frame that the pose is relative to; null means the fixed frame. */
   reference: string | null;
 }
 
@@ -60,12 +60,12 @@ export interface Clock {
   loop: [number, number] | null;
 }
 
-/** While the time runs, ticks tell where it is again so long after it was moved. */
-const ANSWER_MS = 1000;
-/** The origin of ticks is a float64's: times come back as they were sent, but for that. */
-const EXACT_NS = 1000;
+/** During playback, the time of frame updates is used again this long after a seek. */
+const SEEK_MS = 1000;
+/** Times are relative to an origin and have the precision of a float64. */
+const TIME_TOLERANCE_NS = 1000;
 
-/** The trees, with what is asked of them often looked up beforehand. */
+/** The trees of frames, with indices for fast queries. */
 export class Forest {
   readonly index = new Map<string, number>();
   readonly children: number[][];
@@ -89,7 +89,7 @@ export class Forest {
     return this.frames[i]?.name ?? "";
   }
 
-  /** Parent, parent's parent, ... to the root; ends even if the tree it was given has a loop. */
+  /** The ancestors from the parent to the root; terminates even if the tree is invalid and has a loop. */
   ancestors(i: number): number[] {
     const found: number[] = [];
     let at = this.frames[i]?.parent ?? -1;
@@ -100,14 +100,14 @@ export class Forest {
     return found;
   }
 
-  /** From one frame to the other over their nearest common ancestor; null when there is none. */
+  /** The frames from one frame to another, via their nearest common ancestor; null if they are not connected. */
   chain(from: number, to: number): number[] | null {
     const up = [from, ...this.ancestors(from)];
     const down = [to, ...this.ancestors(to)];
-    const place = new Map(up.map((frame, i) => [frame, i]));
-    const meet = down.findIndex((frame) => place.has(frame));
+    const position = new Map(up.map((frame, i) => [frame, i]));
+    const meet = down.findIndex((frame) => position.has(frame));
     if (meet < 0) return null;
-    const top = place.get(down[meet] as number) as number;
+    const top = position.get(down[meet] as number) as number;
     return [...up.slice(0, top + 1), ...down.slice(0, meet).reverse()];
   }
 
@@ -124,9 +124,9 @@ export class Model extends Emitter<ModelEvents> {
   forest = new Forest(-1, [], []);
   stats: Stats | null = null;
   statsReceived = 0;
-  tick: Tick | null = null;
+  frameUpdate: FrameUpdate | null = null;
   topics: Topic[] = [];
-  /** By frame: what the doctor says of it. */
+  /** The doctor's marks, by frame. */
   marks = new Map<string, Mark>();
   robots = new Map<string | number, Robot>();
   fixed = "";
@@ -135,9 +135,10 @@ export class Model extends Emitter<ModelEvents> {
   hidden = new Set<string>();
   solo: string | null = null;
   clock: Clock = { live: true, playing: false, speed: 1, loop: null };
-  broken = 0;
-  /** The time that was asked for last, and when. */
-  private asked: { at: number; since: number } | null = null;
+  /** The number of invalid messages received. */
+  invalidMessages = 0;
+  /** The last seek that is not yet visible in frame updates: its time, and when it was requested. */
+  private seek: { at: number; since: number } | null = null;
   private soloShown = new Set<string>();
 
   constructor(readonly send: (message: ClientMessage) => void) {
@@ -179,7 +180,7 @@ export class Model extends Emitter<ModelEvents> {
     this.emit("visibility", undefined);
   }
 
-  /** Shows one frame and what hangs below it, and nothing else, until it is asked again. */
+  /** Shows only one frame and its descendants; null shows all frames again. */
   setSolo(name: string | null): void {
     this.solo = name;
     this.updateSolo();
@@ -199,40 +200,40 @@ export class Model extends Emitter<ModelEvents> {
 
   sendClock(at = this.playhead): void {
     const { live, playing, speed, loop } = this.clock;
-    this.asked = null;
+    this.seek = null;
     if (live) this.send({ type: "time", mode: "live" });
     else if (Number.isFinite(at)) {
-      this.asked = { at: Math.round(at), since: performance.now() };
+      this.seek = { at: Math.round(at), since: performance.now() };
       this.send({ type: "time", mode: "at", at: Math.round(at), playing, speed, loop });
     }
   }
 
-  /** The source finds the next message by itself: what was asked for before is over. */
+  /** Steps to the next or previous message, which the source determines; cancels a pending seek. */
   step(direction: 1 | -1): void {
-    this.asked = null;
+    this.seek = null;
     this.send({ type: "step", direction });
   }
 
-  /** What came is shown from now on. */
-  take(tick: Tick): void {
-    this.tick = tick;
-    const { asked } = this;
-    const answered = this.clock.playing
-      ? asked !== null && performance.now() - asked.since > ANSWER_MS
-      : Math.abs(tick.time - (asked?.at ?? NaN)) < EXACT_NS;
-    if (answered) this.asked = null;
-    this.emit("tick", tick);
+  /** Sets the frame update to be drawn. */
+  setFrameUpdate(update: FrameUpdate): void {
+    this.frameUpdate = update;
+    const { seek } = this;
+    const arrived = this.clock.playing
+      ? seek !== null && performance.now() - seek.since > SEEK_MS
+      : Math.abs(update.time - (seek?.at ?? NaN)) < TIME_TOLERANCE_NS;
+    if (arrived) this.seek = null;
+    this.emit("frames", update);
   }
 
-  /** Whether a tick that shows what was asked for is still to come. */
-  get waiting(): boolean {
-    return this.asked !== null;
+  /** Whether the frame update of the last seek has not arrived yet. */
+  get seeking(): boolean {
+    return this.seek !== null;
   }
 
-  /** The time that is looked at: what was asked for last, also while its tick is on the way. */
+  /** The displayed time, or the time of a pending seek. */
   get playhead(): number {
-    if (!this.asked) return this.tick?.time ?? NaN;
-    const { at, since } = this.asked;
+    if (!this.seek) return this.frameUpdate?.time ?? NaN;
+    const { at, since } = this.seek;
     return this.clock.playing ? at + (performance.now() - since) * 1e6 * this.clock.speed : at;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The bar at the top: what is shown, in which frame, and whether it is alive. */
+/** The top bar: title, Fixed Frame, connection state and menus. */
 
 import { fillSelect, h, iconButton, select, setText } from "../util/dom";
 import * as format from "../util/format";
@@ -11,7 +11,7 @@ export interface BarActions {
   toggleDistinct(): void;
   help(): void;
   togglePanel(): void;
-  savePicture(): void;
+  saveImage(): void;
   saveReplay(): void;
 }
 
@@ -21,8 +21,8 @@ export class Bar {
   private readonly pill = h("span", { class: "pill", role: "status", data: { state: "off" } });
   private readonly fixed: HTMLSelectElement;
   private names = "";
-  /** The frame that was fixed at the last visit, until it is there again. */
-  private wanted = "";
+  /** The Fixed Frame of the user's last session, until this frame exists. */
+  private remembered = "";
 
   constructor(
     root: HTMLElement,
@@ -30,7 +30,7 @@ export class Bar {
     actions: BarActions,
     live: boolean,
   ) {
-    this.fixed = select("Fixed frame", [], "", (frame) => {
+    this.fixed = select("Fixed Frame", [], "", (frame) => {
       model.setFixed(frame);
       remember("fixed", frame);
     });
@@ -41,36 +41,38 @@ export class Bar {
       h("div", { class: "brand" }, brandMark(), h("span", { class: "wide-only" }, "coframe")),
       this.title,
       h("span", { class: "spacer" }),
-      h("label", {}, h("span", {}, "Fixed frame"), this.fixed),
+      h("label", {}, h("span", {}, "Fixed Frame"), this.fixed),
       this.pill,
       menu("download", "Export", [
-        ["Picture (PNG)", "The scene as it is now", actions.savePicture],
-        ...(live ? ([["Replay (HTML)", "One file that plays without a server", actions.saveReplay]] as const) : []),
+        ["Image (PNG)", "The scene as it is displayed", actions.saveImage],
+        ...(live
+          ? ([["Replay (HTML)", "A single file that plays without a server", actions.saveReplay]] as const)
+          : []),
       ]),
       menu("sun", "Appearance", [
-        ["Dark or light", "Key: d", actions.toggleTheme],
-        ["Colour-blind safe colours", "On or off", actions.toggleDistinct],
+        ["Dark or light theme", "Key: d", actions.toggleTheme],
+        ["Colour-blind safe palette", "On or off", actions.toggleDistinct],
       ]),
       iconButton("help", "Keyboard shortcuts (?)", actions.help, "wide-only"),
     );
     model.on("hello", (hello) => {
       setText(this.title, hello.title);
       document.title = hello.title ? `${hello.title} – coframe` : "coframe";
-      const wanted = remembered("fixed", "");
-      if (wanted && hello.mode !== "replay") this.wanted = wanted;
+      const frame = remembered("fixed", "");
+      if (frame && hello.mode !== "replay") this.remembered = frame;
     });
     model.on("tree", () => this.refill());
     model.on("fixed", () => this.refill());
-    for (const event of ["connected", "clock", "hello"] as const) model.on(event, () => this.tellState());
-    this.tellState();
+    for (const event of ["connected", "clock", "hello"] as const) model.on(event, () => this.showState());
+    this.showState();
     this.refill();
   }
 
   private refill(): void {
     const { forest, fixed } = this.model;
-    if (this.wanted && this.wanted !== fixed && forest.index.has(this.wanted)) {
-      const frame = this.wanted;
-      this.wanted = "";
+    if (this.remembered && this.remembered !== fixed && forest.index.has(this.remembered)) {
+      const frame = this.remembered;
+      this.remembered = "";
       this.model.setFixed(frame);
       return;
     }
@@ -80,12 +82,12 @@ export class Bar {
     if (key !== this.names) {
       this.names = key;
       const options = names.map((name) => [name, name] as const);
-      fillSelect(this.fixed, options.length ? options : [["", "no frames yet"]], fixed);
+      fillSelect(this.fixed, options.length ? options : [["", "No frames yet"]], fixed);
     }
     this.fixed.value = fixed;
   }
 
-  private tellState(): void {
+  private showState(): void {
     const { connected, hello, clock } = this.model;
     const [state, text] =
       hello?.mode === "replay"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The list of displays with their options, and what can be added. */
+/** The Displays panel: the displays with their options, and a list of displays to add. */
 
 import type { Display } from "../displays/display";
 import type { Displays } from "../displays/manager";
@@ -24,25 +24,25 @@ const BUILT_IN = ["TF", "Grid", "Axes", "RobotModel"];
 export class DisplaysPanel {
   readonly element: HTMLElement;
   private readonly cards = h("div");
-  private readonly adding: HTMLSelectElement;
-  private readonly known = new Map<number, Card>();
+  private readonly addSelect: HTMLSelectElement;
+  private readonly cardsById = new Map<number, Card>();
 
   constructor(
     private readonly model: Model,
     private readonly displays: Displays,
   ) {
-    this.adding = h("select", { aria: { label: "Add a display" }, on: { change: () => this.add() } });
-    this.element = h("section", { class: "tab-body" }, h("div", { class: "toolbar" }, this.adding), this.cards);
+    this.addSelect = h("select", { aria: { label: "Add a display" }, on: { change: () => this.add() } });
+    this.element = h("section", { class: "tab-body" }, h("div", { class: "toolbar" }, this.addSelect), this.cards);
     displays.onChange(() => this.render());
-    model.on("topics", () => this.fillAdding());
-    setInterval(() => this.tellAll(), 500);
-    this.fillAdding();
+    model.on("topics", () => this.fillAddSelect());
+    setInterval(() => this.updateCards(), 500);
+    this.fillAddSelect();
   }
 
-  private fillAdding(): void {
+  private fillAddSelect(): void {
     const topics = this.model.topics.filter(({ display }) => KINDS[display]);
     fillSelect(
-      this.adding,
+      this.addSelect,
       [
         ["", "Add a display…"],
         ...BUILT_IN.map((name) => [JSON.stringify([name, null]), name] as const),
@@ -53,24 +53,24 @@ export class DisplaysPanel {
   }
 
   private add(): void {
-    if (!this.adding.value) return;
-    const [kind, topic] = JSON.parse(this.adding.value) as [string, string | null];
-    this.adding.value = "";
+    if (!this.addSelect.value) return;
+    const [kind, topic] = JSON.parse(this.addSelect.value) as [string, string | null];
+    this.addSelect.value = "";
     this.displays.add(kind, topic);
   }
 
   private render(): void {
     const current = new Set(this.displays.list.map((display) => display.id));
-    for (const [id, card] of this.known)
+    for (const [id, card] of this.cardsById)
       if (!current.has(id)) {
         card.element.remove();
-        this.known.delete(id);
+        this.cardsById.delete(id);
       }
     for (const display of this.displays.list) {
-      const card = this.known.get(display.id) ?? this.makeCard(display);
+      const card = this.cardsById.get(display.id) ?? this.makeCard(display);
       this.cards.append(card.element);
     }
-    this.tellAll();
+    this.updateCards();
   }
 
   private makeCard(display: Display): Card {
@@ -87,7 +87,7 @@ export class DisplaysPanel {
         type: "button",
         class: "card-title",
         aria: { expanded: "false" },
-        on: { click: () => this.unfold(card, title) },
+        on: { click: () => this.toggleOptions(card, title) },
       },
       h("span", {}, shorten(config.name, 60)),
       h("span", {}, detail),
@@ -102,11 +102,11 @@ export class DisplaysPanel {
     const status = h("div", { class: "status", role: "status", hidden: true });
     const element = h("div", { class: "card", data: { display: config.name } }, head, status);
     const card: Card = { display, element, head, box, detail, status, body: null };
-    this.known.set(display.id, card);
+    this.cardsById.set(display.id, card);
     return card;
   }
 
-  private unfold(card: Card, title: HTMLElement): void {
+  private toggleOptions(card: Card, title: HTMLElement): void {
     if (card.body) {
       card.body.remove();
       card.body = null;
@@ -117,15 +117,15 @@ export class DisplaysPanel {
     title.setAttribute("aria-expanded", String(card.body !== null));
   }
 
-  private tellAll(): void {
-    for (const { display, box, head, detail, status } of this.known.values()) {
+  private updateCards(): void {
+    for (const { display, box, head, detail, status } of this.cardsById.values()) {
       box.checked = display.config.enabled;
       const { state, text } = display.config.enabled ? display.status : { state: "ok", text: "" };
       if (head.dataset.state !== state) head.dataset.state = state;
       const kind = kindName(display.config.class);
       const what = display.config.topic ?? (kind === display.config.name ? "" : kind);
-      const short = state === "error" ? "Error" : state === "waiting" ? "Waiting" : "";
-      setText(detail, [short, what, display.note, display.leftOut].filter(Boolean).join(" · ") || kind);
+      const label = state === "error" ? "Status: Error" : state === "waiting" ? "Status: Warn" : "";
+      setText(detail, [label, what, display.note, display.omitted].filter(Boolean).join(" · ") || kind);
       status.hidden = state === "ok" || !text;
       setText(status, text.slice(0, 1000));
     }
@@ -144,11 +144,11 @@ export class DisplaysPanel {
     body.append(...fields.map(({ element }) => element));
     body.addEventListener("change", hide);
     if (display instanceof MarkersDisplay) body.append(this.namespaces(display));
-    if (!body.childElementCount) body.append(h("span", { class: "muted" }, "Nothing to set."));
+    if (!body.childElementCount) body.append(h("span", { class: "muted" }, "This display has no options."));
     return body;
   }
 
-  /** A box each, as they become known. */
+  /** A checkbox for each namespace; new namespaces are added when they are received. */
   private namespaces(display: MarkersDisplay): HTMLElement {
     const list = h("fieldset", { class: "namespaces" }, h("legend", {}, "Namespaces"));
     const known = new Set<string>();
@@ -162,7 +162,7 @@ export class DisplaysPanel {
           display.show(name, box.checked);
           this.displays.optionChanged(display);
         });
-        list.append(h("label", {}, box, h("span", {}, shorten(name, 60) || "(no name)")));
+        list.append(h("label", {}, box, h("span", {}, shorten(name, 60) || "(empty)")));
       }
       list.hidden = known.size === 0;
     };
@@ -173,9 +173,9 @@ export class DisplaysPanel {
 
   private topicField(display: Display): HTMLElement {
     const kind = kindName(display.config.class);
-    const fitting = this.model.topics.filter((topic) => topic.display === kind).map(({ topic }) => topic);
+    const available = this.model.topics.filter((topic) => topic.display === kind).map(({ topic }) => topic);
     const current = display.config.topic ?? "";
-    const names = [...new Set([current, ...fitting])];
+    const names = [...new Set([current, ...available])];
     const element = h("select", { aria: { label: "Topic" } });
     fillSelect(
       element,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** A picture of the scene, and a replay that plays without a server. */
+/** Exports an image of the scene, or a replay that plays without a server. */
 
 import type { Displays } from "../displays/manager";
 import { download, h, iconButton } from "../util/dom";
@@ -8,35 +8,35 @@ import type { RvizPanel } from "./rviz";
 import { toast } from "../util/toast";
 import type { View } from "../scene/view";
 
-const RATE_HZ = 30;
+const DEFAULT_RATE_HZ = 30;
 
-export async function savePicture(view: View, model: Model): Promise<void> {
+export async function saveImage(view: View, model: Model): Promise<void> {
   try {
-    const picture = await view.stage.picture();
-    const labelled = await withLabels(picture, view);
+    const image = await view.renderer.image();
+    const labelled = await withLabels(image, view);
     const name = (model.hello?.title || "coframe").replace(/[^\w.-]+/g, "_").slice(0, 60);
     download(`${name}.png`, labelled);
   } catch (error) {
-    toast("The picture could not be made.", String(error));
+    toast("Cannot save the image.", String(error));
   }
 }
 
-/** Names are elements over the canvas; in a picture they have to be drawn. */
-async function withLabels(picture: Blob, view: View): Promise<Blob> {
-  const image = await createImageBitmap(picture);
+/** Draws the labels, which are HTML elements above the canvas, into an image of the canvas. */
+async function withLabels(blob: Blob, view: View): Promise<Blob> {
+  const image = await createImageBitmap(blob);
   const canvas = document.createElement("canvas");
   canvas.width = image.width;
   canvas.height = image.height;
   const context = canvas.getContext("2d");
-  if (!context) return picture;
+  if (!context) return blob;
   context.drawImage(image, 0, 0);
-  const scale = image.width / view.stage.width;
+  const scale = image.width / view.renderer.width;
   context.scale(scale, scale);
-  const stage = view.stage.canvas.getBoundingClientRect();
+  const bounds = view.renderer.canvas.getBoundingClientRect();
   for (const label of document.querySelectorAll<HTMLElement>("#labels .label")) {
     const box = label.getBoundingClientRect();
     const style = getComputedStyle(label);
-    const [x, y] = [box.left - stage.left, box.top - stage.top];
+    const [x, y] = [box.left - bounds.left, box.top - bounds.top];
     context.font = `${style.fontWeight} ${style.fontSize} ${style.fontFamily}`;
     context.textBaseline = "middle";
     context.globalAlpha = Number(style.opacity);
@@ -52,12 +52,12 @@ async function withLabels(picture: Blob, view: View): Promise<Blob> {
     context.fillStyle = style.color;
     context.fillText(label.textContent ?? "", left, y + box.height / 2);
   }
-  return new Promise((resolve) => canvas.toBlob((blob) => resolve(blob ?? picture), "image/png"));
+  return new Promise((resolve) => canvas.toBlob((result) => resolve(result ?? blob), "image/png"));
 }
 
-/** What goes into a replay is told to the server first, which then makes the file. */
+/** Saves a replay: sends its settings to the server, then downloads the file. */
 export class ReplayExport {
-  private wanted: URLSearchParams | null = null;
+  private parameters: URLSearchParams | null = null;
 
   constructor(
     private readonly model: Model,
@@ -68,25 +68,29 @@ export class ReplayExport {
     model.on("replay", ({ settings }) => void this.fetch(settings));
   }
 
-  /** Asks the user for the span. */
-  ask(): void {
+  /** Opens the dialog for the time span and the rate. */
+  open(): void {
     const { model } = this;
     const span = model.clock.loop ?? model.span;
     if (!span || !(span[1] > span[0])) {
-      toast("There is nothing to replay yet.", "Wait until transforms have come for a moment.");
+      toast("Cannot save a replay yet.", "The time span is empty. Wait until transforms were received for a moment.");
       return;
     }
     const seconds = (span[1] - span[0]) / 1e9;
     const last = h("input", { type: "number", min: "0.1", step: "1", aria: { label: "Seconds" } });
     last.value = String(Math.round(Math.min(seconds, 30) * 10) / 10);
-    const rate = h("input", { type: "number", min: "1", max: "60", step: "1", aria: { label: "Pictures a second" } });
-    rate.value = String(RATE_HZ);
+    const rate = h("input", { type: "number", min: "1", max: "60", step: "1", aria: { label: "Frames per second" } });
+    rate.value = String(DEFAULT_RATE_HZ);
     const dialog = h("dialog", { aria: { label: "Save a replay" } });
     const save = (): void => {
       const length = Math.max(0.1, Math.min(seconds, last.valueAsNumber || seconds)) * 1e9;
       const end = model.clock.live || model.clock.loop ? span[1] : Math.min(span[1], model.playhead || span[1]);
       const from = Math.max(span[0], end - length);
-      this.save(from, Math.min(span[1], from + length), Math.max(1, Math.min(60, rate.valueAsNumber || RATE_HZ)));
+      this.save(
+        from,
+        Math.min(span[1], from + length),
+        Math.max(1, Math.min(60, rate.valueAsNumber || DEFAULT_RATE_HZ)),
+      );
       dialog.close();
     };
     dialog.append(
@@ -99,18 +103,14 @@ export class ReplayExport {
       h(
         "div",
         { class: "sheet-body" },
+        h("p", { class: "muted" }, "A single HTML file that plays in any browser, without a server."),
         h(
           "p",
           { class: "muted" },
-          "One HTML file that opens anywhere, without a server: for homework and bug reports.",
+          "It contains the frames, the robots and the visible displays. Large clouds are thinned; the replay shows by how much.",
         ),
-        h(
-          "p",
-          { class: "muted" },
-          "It holds the frames, the robots and the displays that are shown. Large clouds are thinned; the file says by how much.",
-        ),
-        h("label", { class: "field" }, h("span", {}, model.clock.loop ? "Marked, s" : "Last seconds"), last),
-        h("label", { class: "field" }, h("span", {}, "Pictures/s"), rate),
+        h("label", { class: "field" }, h("span", {}, model.clock.loop ? "Loop, s" : "Last seconds"), last),
+        h("label", { class: "field" }, h("span", {}, "Frames per second"), rate),
         h("div", { class: "buttons" }, h("button", { type: "button", class: "primary", on: { click: save } }, "Save")),
       ),
     );
@@ -121,38 +121,38 @@ export class ReplayExport {
 
   private save(from: number, to: number, rate: number): void {
     const { model, displays, rviz } = this;
-    this.wanted = new URLSearchParams({
+    this.parameters = new URLSearchParams({
       from: String(Math.round(from)),
       to: String(Math.round(to)),
       rate: String(rate),
       fixed: model.fixed,
     });
-    toast("Making the replay…", null, "info");
+    toast("Saving the replay…", null, "info");
     model.send({
       type: "replay",
       displays: displays.shownTopics,
-      // Far from the origin the camera's place means nothing to another page.
+      // After the scene's origin has moved, the camera's position is not valid in another page.
       rviz: {
         displays: displays.save(),
         global: {},
-        view: this.view.placement.origin.some(Boolean) ? null : rviz.camera(),
+        view: this.view.framePoses.origin.some(Boolean) ? null : rviz.camera(),
       },
     });
   }
 
   private async fetch(settings: string): Promise<void> {
-    const { wanted } = this;
-    this.wanted = null;
-    if (!wanted) return;
-    wanted.set("settings", settings);
+    const { parameters } = this;
+    this.parameters = null;
+    if (!parameters) return;
+    parameters.set("settings", settings);
     const url = new URL("replay", location.href);
-    url.search = wanted.toString();
+    url.search = parameters.toString();
     try {
-      const answer = await fetch(url);
-      if (answer.ok) download("coframe-replay.html", await answer.blob());
-      else toast("The replay could not be made.", await answer.text());
+      const response = await fetch(url);
+      if (response.ok) download("coframe-replay.html", await response.blob());
+      else toast("Cannot save the replay.", await response.text());
     } catch (error) {
-      toast("The replay could not be made.", String(error));
+      toast("Cannot save the replay.", String(error));
     }
   }
 }

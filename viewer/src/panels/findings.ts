@@ -1,36 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What the doctor says of the frames: a list beside them, a mark on each row concerned, and the page of each code. */
+/** The findings of the doctor: a list, and the page of each code. */
 
 import { h, icon, iconButton, shorten, type IconName } from "../util/dom";
 import * as format from "../util/format";
+import { headline } from "../model/marks";
 import type { Model } from "../model/model";
 import type { CodePage, Finding, Findings, Hello, Severity } from "../protocol/messages";
 
-/** What stands on a frame's row. */
-export interface Mark {
-  severity: Severity;
-  lines: string[];
-}
-
-/** Worst first; each has a shape of its own, not only a colour. */
-const SEVERITIES: readonly Severity[] = ["error", "warning", "note"];
+/** Each severity has its own shape, because colour alone is not accessible. */
 const SHAPES: Record<Severity, IconName> = { error: "octagon", warning: "triangle", note: "disc" };
-const MOST_LINES = 8;
-const TEXT = 1000;
-
-/** By frame: the worst of what concerns it, with what each finding says. */
-export function marksOf(findings: readonly Finding[]): Map<string, Mark> {
-  const marks = new Map<string, Mark>();
-  const every = findings.flatMap((finding) => [finding, ...finding.explains]);
-  for (const severity of SEVERITIES)
-    for (const finding of every.filter((one) => one.severity === severity))
-      for (const frame of finding.frames) {
-        const mark = marks.get(frame) ?? { severity, lines: [] };
-        if (mark.lines.length < MOST_LINES) mark.lines.push(headline(finding));
-        marks.set(frame, mark);
-      }
-  return marks;
-}
+const MAX_TEXT = 1000;
 
 export function severityIcon(severity: Severity): SVGElement {
   const svg = icon(SHAPES[severity]);
@@ -38,47 +17,45 @@ export function severityIcon(severity: Severity): SVGElement {
   return svg;
 }
 
-/** What the doctor says of the whole; nothing as long as it has not spoken. */
-export function verdict(told: Findings | null, mode: Hello["mode"] | undefined): string {
-  if (told === null) return "";
-  if (told.state === "failed") return shorten(told.text, TEXT);
-  if (told.state === "waiting") return mode === "live" ? "Listening for some seconds…" : "Examining the recording…";
-  if (told.state === "none")
-    return "The doctor examines the ROS graph and recordings; of what is shown here it cannot tell who sent what.";
-  if (told.findings.length) return "What is wrong, why that matters, and what to do. Click one to see its frame.";
-  return mode === "live" ? "Nothing is wrong in the last 10 seconds." : "Nothing is wrong in this recording.";
-}
-
-function headline({ code, severity, text }: Finding): string {
-  return `${code} ${severity}: ${shorten(text, 200)}`;
+/** The summary of the findings; empty before the first result. */
+export function summary(result: Findings | null, mode: Hello["mode"] | undefined): string {
+  if (result === null) return "";
+  if (result.state === "failed") return shorten(result.text, MAX_TEXT);
+  if (result.state === "waiting")
+    return mode === "live" ? "Collecting data for some seconds…" : "Examining the recording…";
+  if (result.state === "none")
+    return "The doctor examines ROS graphs and recordings. This source contains neither publishers nor arrival times.";
+  if (result.findings.length)
+    return "Problems, their effects and how to fix them. Click a finding to select its frame.";
+  return mode === "live" ? "No problems in the last 10 seconds." : "No problems in this recording.";
 }
 
 export class FindingsPanel {
   readonly element: HTMLElement;
-  private readonly summary = h("p", { id: "verdict", role: "status" });
+  private readonly summaryText = h("p", { id: "findings-summary", role: "status" });
   private readonly list = h("ul", { class: "findings", id: "findings" });
-  private readonly sheet = new CodeSheet();
+  private readonly codeDialog = new CodeDialog();
   private shown = "";
 
   constructor(private readonly model: Model) {
     this.element = h(
       "section",
       { class: "tab-body" },
-      h("div", { class: "section" }, h("h3", {}, "Doctor"), this.summary),
+      h("div", { class: "section" }, h("h3", {}, "Doctor"), this.summaryText),
       this.list,
     );
     model.on("findings", (findings) => this.show(findings));
-    model.on("page", (page) => this.sheet.show(page));
+    model.on("page", (page) => this.codeDialog.show(page));
     model.on("hello", () => this.show(null));
     this.show(null);
   }
 
-  private show(told: Findings | null): void {
-    const key = JSON.stringify(told);
+  private show(result: Findings | null): void {
+    const key = JSON.stringify(result);
     if (key === this.shown) return;
     this.shown = key;
-    const findings = told?.findings ?? [];
-    this.summary.textContent = verdict(told, this.model.hello?.mode);
+    const findings = result?.findings ?? [];
+    this.summaryText.textContent = summary(result, this.model.hello?.mode);
     this.list.replaceChildren(...findings.map((finding) => this.card(finding)));
   }
 
@@ -97,15 +74,17 @@ export class FindingsPanel {
         h("span", {}, h("strong", {}, `${code} ${severity}`), ` ${finding.title}`),
         subject ? h("span", { class: "mono subject" }, shorten(subject, 160)) : null,
       ),
-      h("p", {}, shorten(finding.text, TEXT)),
-      h("p", { class: "muted" }, h("b", {}, "Why: "), shorten(finding.why, TEXT)),
-      h("p", {}, h("b", {}, "Do: "), shorten(finding.fix, TEXT)),
+      h("p", {}, shorten(finding.text, MAX_TEXT)),
+      h("p", { class: "muted" }, h("b", {}, "Why: "), shorten(finding.why, MAX_TEXT)),
+      h("p", {}, h("b", {}, "Fix: "), shorten(finding.fix, MAX_TEXT)),
       facts ? h("p", { class: "muted" }, shorten(facts, 300)) : null,
       finding.explains.length
         ? h(
             "ul",
             { class: "list" },
-            ...finding.explains.map((effect) => h("li", {}, `So: ${headline(effect)} ${shorten(effect.subject, 100)}`)),
+            ...finding.explains.map((effect) =>
+              h("li", {}, `Causes: ${headline(effect)} ${shorten(effect.subject, 100)}`),
+            ),
           )
         : null,
       h(
@@ -125,7 +104,7 @@ export class FindingsPanel {
     const act = (): void => this.model.setClock({ live: false, playing: false }, first);
     return h(
       "button",
-      { type: "button", class: "small", title: "Look at the first time", on: { click: act } },
+      { type: "button", class: "small", title: "Go to the first occurrence", on: { click: act } },
       format.stamp(this.model.origin, first),
     );
   }
@@ -137,8 +116,8 @@ export class FindingsPanel {
   }
 }
 
-/** The page of a code: Markdown, of which headings, lists and code are told apart. */
-class CodeSheet {
+/** A dialog with the page of a code: Markdown with headings, lists and code. */
+class CodeDialog {
   private readonly title = h("h2");
   private readonly body = h("div", { class: "sheet-body", id: "code-page" });
   private readonly dialog: HTMLDialogElement;
@@ -181,7 +160,7 @@ function block(text: string): HTMLElement {
   return h("p", {}, ...inline(text));
 }
 
-/** What stands between backticks is code. */
+/** Converts text between backticks to code elements. */
 function inline(text: string): (string | HTMLElement)[] {
   return text.split("`").map((part, i) => (i % 2 ? h("code", {}, part) : part));
 }

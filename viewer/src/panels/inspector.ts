@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** One frame seen from another: every way of writing the pose, the chain between the two, and why there is none. */
+/** The inspector: the pose of the selected frame relative to another frame, their chain, or why there is no transform. */
 
 import { copyText, fillSelect, h, iconButton, setText, shorten } from "../util/dom";
 import * as format from "../util/format";
@@ -8,7 +8,8 @@ import type { Relation } from "../protocol/messages";
 import { toast } from "../util/toast";
 import type { View } from "../scene/view";
 
-const ASK_MS = 200;
+const REQUEST_INTERVAL_MS = 200;
+const RESPONSE_TIMEOUT_MS = 2000;
 
 export class Inspector {
   private readonly title = h("h2");
@@ -16,14 +17,14 @@ export class Inspector {
   private readonly distance = h("div", { class: "big numbers", id: "distance" });
   private readonly age = h("span", { class: "muted numbers" });
   private readonly results = h("div");
-  private readonly fault = h("div", { class: "fault", role: "alert" });
-  private readonly faultText = h("div");
-  private readonly faultHint = h("p");
+  private readonly problem = h("div", { class: "problem", role: "alert" });
+  private readonly problemText = h("div");
+  private readonly problemHint = h("p");
   private readonly chain = h("ol", { class: "chain", aria: { label: "Chain of frames" } });
   private readonly blocks: Record<"xyz" | "quaternion" | "rpy" | "matrix", HTMLElement[]>;
   private readonly command = h("pre", { class: "command" });
   private relation: Relation | null = null;
-  private asked = 0;
+  private requested = 0;
   private waiting = false;
   private requestId = 0;
   private chainText = "";
@@ -37,7 +38,7 @@ export class Inspector {
     this.reference.addEventListener("change", () =>
       this.model.select(model.selection.frame, this.reference.value || null),
     );
-    this.fault.append(this.faultText, this.faultHint);
+    this.problem.append(this.problemText, this.problemHint);
     this.blocks = {
       xyz: this.block("Translation, m", ["x", "y", "z"], "", (r) => r.translation),
       quaternion: this.block("Quaternion", ["x", "y", "z", "w"], "", (r) => r.quaternion),
@@ -65,23 +66,23 @@ export class Inspector {
       h("label", { class: "field" }, h("span", {}, "Relative to"), this.reference),
       h("div", { class: "field" }, h("span", {}, "Distance"), this.distance),
       h("div", { class: "field" }, h("span", {}, "Stamp"), this.age),
-      this.fault,
+      this.problem,
       h("div", { class: "block" }, h("div", { class: "block-head" }, "Chain"), this.chain),
       this.results,
       h(
         "div",
         { class: "block buttons" },
-        h("button", { type: "button", class: "small", on: { click: () => this.fixHere() } }, "Use as fixed frame"),
-        h("button", { type: "button", class: "small", on: { click: () => this.swap() } }, "Swap the two"),
+        h("button", { type: "button", class: "small", on: { click: () => this.useAsFixed() } }, "Use as Fixed Frame"),
+        h("button", { type: "button", class: "small", on: { click: () => this.swap() } }, "Swap frames"),
       ),
     );
     model.on("selection", () => this.open());
     model.on("tree", () => this.fillReference());
-    model.on("fixed", () => this.ask(true));
+    model.on("fixed", () => this.request(true));
     model.on("relation", (relation) => this.receive(relation));
     model.on("connected", () => (this.waiting = false));
-    view.onDrawn((tick) => {
-      if (tick) this.ask(false);
+    view.onDrawn((update) => {
+      if (update) this.request(false);
     });
   }
 
@@ -96,7 +97,7 @@ export class Inspector {
     setText(this.title, shorten(frame, 100));
     this.title.title = frame.slice(0, 300);
     this.fillReference();
-    this.ask(true);
+    this.request(true);
   }
 
   private fillReference(): void {
@@ -105,17 +106,22 @@ export class Inspector {
     const key = JSON.stringify(names);
     if (key !== this.names) {
       this.names = key;
-      fillSelect(this.reference, [["", "the fixed frame"], ...names.map((name) => [name, name] as const)], "");
+      fillSelect(this.reference, [["", "Fixed Frame"], ...names.map((name) => [name, name] as const)], "");
     }
     this.reference.value = selection.reference ?? "";
   }
 
-  /** At most one question is under way, so that a slow server is not asked faster than it answers. */
-  private ask(now: boolean): void {
+  /** Requests the relation of the two frames. At most one request is pending, so that a slow server is not overloaded. */
+  private request(now: boolean): void {
     const { frame } = this.model.selection;
     const time = performance.now();
-    if (frame === null || (!now && (this.waiting ? time - this.asked < 2000 : time - this.asked < ASK_MS))) return;
-    this.asked = time;
+    if (
+      frame === null ||
+      (!now &&
+        (this.waiting ? time - this.requested < RESPONSE_TIMEOUT_MS : time - this.requested < REQUEST_INTERVAL_MS))
+    )
+      return;
+    this.requested = time;
     this.waiting = true;
     this.model.send({ type: "relate", id: ++this.requestId, target: this.target, source: frame });
   }
@@ -127,9 +133,9 @@ export class Inspector {
     const t = relation.translation;
     setText(this.distance, t ? format.metres(Math.hypot(...t)) : "–");
     setText(this.age, relation.stamp === null ? "static" : format.stamp(this.model.origin, relation.stamp));
-    this.fault.hidden = relation.ok;
-    setText(this.faultText, relation.ok ? "" : (relation.error ?? "There is no transform."));
-    setText(this.faultHint, relation.hint ?? "");
+    this.problem.hidden = relation.ok;
+    setText(this.problemText, relation.ok ? "" : (relation.error ?? "No transform is available."));
+    setText(this.problemHint, relation.hint ?? "");
     this.results.hidden = !relation.ok;
     this.fill("xyz", t, 4);
     this.fill("quaternion", relation.quaternion, 4);
@@ -150,12 +156,12 @@ export class Inspector {
     this.chain.replaceChildren(
       ...relation.chain.slice(0, 500).map((name) => {
         const broken = name === relation.broken_at;
-        const link = h(
+        const button = h(
           "button",
           { type: "button", title: name.slice(0, 300), on: { click: () => this.model.select(name) } },
           shorten(name, 60),
         );
-        return h("li", { class: broken ? "broken" : "" }, link, broken ? " – broken here" : null);
+        return h("li", { class: broken ? "broken" : "" }, button, broken ? " – the chain ends here" : null);
       }),
     );
   }
@@ -175,7 +181,7 @@ export class Inspector {
       cell.append(value);
       row.append(cell);
     });
-    const copied = (): string => {
+    const clipboardText = (): string => {
       const numbers = (this.relation && values(this.relation)) ?? [];
       return numbers.length === 16
         ? [0, 4, 8, 12]
@@ -188,21 +194,26 @@ export class Inspector {
             .join("\n")
         : numbers.map(format.plain).join(" ");
     };
-    this.results.append(h("div", { class: "block" }, this.head(title, copied), row));
+    this.results.append(h("div", { class: "block" }, this.head(title, clipboardText), row));
     return cells.map((cell) => cell.lastElementChild as HTMLElement);
   }
 
   private head(title: string, text: () => string): HTMLElement {
     const button = iconButton("copy", `Copy: ${title}`, () => {
       copyText(text()).then(
-        (ok) => toast(ok ? `Copied: ${title.toLowerCase()}` : "The browser does not let this page copy.", null, "info"),
+        (ok) =>
+          toast(
+            ok ? `Copied: ${title.toLowerCase()}` : "The browser does not allow this page to use the clipboard.",
+            null,
+            "info",
+          ),
         () => {},
       );
     });
     return h("div", { class: "block-head" }, h("span", {}, title), button);
   }
 
-  private fixHere(): void {
+  private useAsFixed(): void {
     if (this.model.selection.frame) this.model.setFixed(this.model.selection.frame);
   }
 

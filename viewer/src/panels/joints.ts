@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Sliders for a robot's movable joints: to try poses, and to publish them if asked to. */
+/** The Joints panel: sliders for the movable joints of robots, whose positions can be published. */
 
 import { RobotDisplay } from "../displays/robot";
 import type { Displays } from "../displays/manager";
@@ -7,7 +7,7 @@ import { h, shorten } from "../util/dom";
 import type { Model } from "../model/model";
 import type { Robot, RobotJoint } from "../protocol/messages";
 
-const SEND_MS = 50;
+const SEND_INTERVAL_MS = 50;
 const DEGREES = 180 / Math.PI;
 
 export class JointsPanel {
@@ -40,8 +40,8 @@ export class JointsPanel {
         h(
           "div",
           { class: "empty" },
-          h("strong", {}, "No robot yet"),
-          h("p", {}, "A robot comes from the topic /robot_description, or from a file:"),
+          h("strong", {}, "No robot"),
+          h("p", {}, "A robot description is read from the topic /robot_description, or from a file:"),
           h("code", {}, "coframe view --robot my_robot.urdf"),
         ),
       );
@@ -75,14 +75,22 @@ export class JointsPanel {
         "label",
         { class: "check" },
         publish,
-        h("span", {}, this.model.hello?.can_publish ? "Publish on /joint_states" : "Publishing needs a live graph"),
+        h(
+          "span",
+          {},
+          this.model.hello?.can_publish ? "Publish on /joint_states" : "Publishing requires a live ROS graph",
+        ),
       ),
       h(
         "div",
         { class: "buttons" },
-        h("button", { type: "button", class: "small", on: { click: () => set(neutral) } }, "Centre"),
+        h("button", { type: "button", class: "small", on: { click: () => set(neutral) } }, "Center"),
         h("button", { type: "button", class: "small", on: { click: () => set(random) } }, "Random"),
-        h("button", { type: "button", class: "small", on: { click: () => this.release(display, robot) } }, "As on /tf"),
+        h(
+          "button",
+          { type: "button", class: "small", on: { click: () => this.release(display, robot) } },
+          "Reset to /tf",
+        ),
       ),
       ...rows.map((row) => row.element),
     );
@@ -104,10 +112,10 @@ export class JointsPanel {
       aria: { label: `${joint.name.slice(0, 100)}, ${angular ? "degrees" : "metres"}` },
     });
     const set = (value: number): void => {
-      const kept = Math.max(lower, Math.min(upper, value));
-      positions[joint.name] = kept;
-      range.value = String(kept);
-      number.value = angular ? (kept * DEGREES).toFixed(1) : kept.toFixed(4);
+      const limited = Math.max(lower, Math.min(upper, value));
+      positions[joint.name] = limited;
+      range.value = String(limited);
+      number.value = angular ? (limited * DEGREES).toFixed(1) : limited.toFixed(4);
     };
     set(positions[joint.name] ?? joint.value);
     range.addEventListener("input", () => {
@@ -125,11 +133,11 @@ export class JointsPanel {
     };
   }
 
-  /** The page tries the values out at once; the server hears of them at a rate that it can use. */
+  /** Applies the positions to the page immediately, and sends them to the server at a limited rate. */
   private send(display: RobotDisplay, robot: Robot): void {
     const publish = this.publishing.has(robot.id);
     const positions = this.positions.get(robot.id) ?? {};
-    // What is published comes back as frames, from whoever turns joint states into transforms.
+    // Published positions return as transforms, for example from robot_state_publisher.
     display.setJoints({ ...positions }, !publish);
     if (this.timers.has(robot.id)) return;
     const timer = window.setTimeout(() => {
@@ -140,7 +148,7 @@ export class JointsPanel {
         positions: { ...positions },
         publish: this.publishing.has(robot.id),
       });
-    }, SEND_MS);
+    }, SEND_INTERVAL_MS);
     this.timers.set(robot.id, timer);
   }
 
@@ -159,13 +167,13 @@ function isMovable(joint: RobotJoint): boolean {
 }
 
 function limits(joint: RobotJoint): [number, number] {
-  const whole = joint.type === "prismatic" ? 1 : Math.PI;
+  const range = joint.type === "prismatic" ? 1 : Math.PI;
   if (joint.type === "continuous" || joint.lower === null || joint.upper === null || !(joint.lower < joint.upper))
-    return [-whole, whole];
+    return [-range, range];
   return [Math.max(joint.lower, -100), Math.min(joint.upper, 100)];
 }
 
-/** Zero where that is allowed, else the middle: as joint_state_publisher_gui has it. */
+/** The neutral position, as in joint_state_publisher_gui: zero if the limits permit it, otherwise their middle. */
 function neutral(joint: RobotJoint): number {
   const [lower, upper] = limits(joint);
   return lower <= 0 && upper >= 0 ? 0 : (lower + upper) / 2;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Over the scene: how to look, what is being measured, and what to do when there is nothing to see. */
+/** Controls above the scene: view buttons, measurements, and instructions if there are no transforms. */
 
 import type { CameraMode } from "../scene/camera";
 import { h, iconButton, setText, shorten } from "../util/dom";
 import type { Model } from "../model/model";
 import type { View } from "../scene/view";
 
-/** A server that answers within this is not worth a word. */
-const PATIENCE_MS = 900;
-const COUNT_MS = 1000;
+/** Messages appear only if the server has not responded within this time. */
+const MESSAGE_DELAY_MS = 900;
+const FPS_INTERVAL_MS = 1000;
 
 export class Overlay {
   private readonly orbit: HTMLButtonElement;
@@ -17,10 +17,10 @@ export class Overlay {
   private readonly ruler: HTMLButtonElement;
   private readonly hint = h("div", { class: "hint numbers", role: "status", id: "measured", hidden: true });
   private readonly following = h("div", { class: "hint", hidden: true });
-  private readonly corner = h("div", { class: "corner numbers" });
-  private readonly nothing: HTMLElement;
-  private lost = 0;
-  private counted = 0;
+  private readonly fps = h("div", { class: "fps numbers" });
+  private readonly empty: HTMLElement;
+  private noticeTimer = 0;
+  private fpsUpdated = 0;
 
   constructor(
     root: HTMLElement,
@@ -30,19 +30,19 @@ export class Overlay {
   ) {
     this.orbit = h(
       "button",
-      { type: "button", title: "Turning view (v)", on: { click: () => this.setMode("orbit") } },
+      { type: "button", title: "Orbit view (v)", on: { click: () => this.setMode("orbit") } },
       "3D",
     );
     this.top = h(
       "button",
-      { type: "button", title: "From above (v)", on: { click: () => this.setMode("top") } },
+      { type: "button", title: "Top-down view (v)", on: { click: () => this.setMode("top") } },
       "Top",
     );
     this.follow = iconButton("target", "Follow the selected frame (f)", () => this.toggleFollow());
     this.ruler = iconButton("ruler", "Measure between two frames (m)", () => this.toggleMeasure());
-    this.nothing = h(
+    this.empty = h(
       "div",
-      { class: "nothing", hidden: true },
+      { class: "empty-scene", hidden: true },
       h("h2", {}, "No transforms yet"),
       h("p", {}, "To see a moving robot, run this in another terminal:"),
       h("code", {}, "coframe demo"),
@@ -60,42 +60,42 @@ export class Overlay {
         this.follow,
         this.ruler,
       ),
-      this.corner,
-      this.nothing,
+      this.fps,
+      this.empty,
     );
-    model.on("connected", (connected) => this.tellConnection(connected));
-    for (const event of ["tree", "robot"] as const) model.on(event, () => this.tellNothing());
-    model.on("hello", () => setTimeout(() => this.tellNothing(), PATIENCE_MS));
-    model.on("selection", () => this.tellButtons());
-    view.onDrawn(() => this.tellPicture());
-    this.tellButtons();
+    model.on("connected", (connected) => this.updateNotice(connected));
+    for (const event of ["tree", "robot"] as const) model.on(event, () => this.updateEmpty());
+    model.on("hello", () => setTimeout(() => this.updateEmpty(), MESSAGE_DELAY_MS));
+    model.on("selection", () => this.updateButtons());
+    view.onDrawn(() => this.updateHints());
+    this.updateButtons();
   }
 
   toggleTop(): void {
-    this.setMode(this.view.stage.camera.mode === "top" ? "orbit" : "top");
+    this.setMode(this.view.renderer.camera.mode === "top" ? "orbit" : "top");
   }
 
   toggleFollow(): void {
     const { frame } = this.model.selection;
     this.view.setFollowed(this.view.followed === frame ? null : frame);
-    this.tellButtons();
+    this.updateButtons();
   }
 
   toggleMeasure(): void {
     const { measure } = this.view;
     measure.setActive(!measure.active);
     this.view.refresh();
-    this.tellButtons();
+    this.updateButtons();
   }
 
   private setMode(mode: CameraMode): void {
-    this.view.stage.camera.setMode(mode);
+    this.view.renderer.camera.setMode(mode);
     this.view.refresh();
-    this.tellButtons();
+    this.updateButtons();
   }
 
-  private tellButtons(): void {
-    const { camera } = this.view.stage;
+  private updateButtons(): void {
+    const { camera } = this.view.renderer;
     this.orbit.setAttribute("aria-pressed", String(camera.mode === "orbit"));
     this.top.setAttribute("aria-pressed", String(camera.mode === "top"));
     this.follow.setAttribute("aria-pressed", String(this.view.followed !== null));
@@ -103,39 +103,39 @@ export class Overlay {
     this.ruler.setAttribute("aria-pressed", String(this.view.measure.active));
   }
 
-  private tellPicture(): void {
+  private updateHints(): void {
     const { measure, followed } = this.view;
     this.hint.hidden = !measure.active;
     if (measure.active) setText(this.hint, measure.text());
     this.following.hidden = followed === null;
     if (followed !== null) setText(this.following, `Following ${shorten(followed, 40)}`);
     const pressed = String(followed !== null);
-    if (this.follow.getAttribute("aria-pressed") !== pressed) this.tellButtons();
+    if (this.follow.getAttribute("aria-pressed") !== pressed) this.updateButtons();
     const now = performance.now();
-    if (now - this.counted < COUNT_MS) return;
-    this.counted = now;
-    setText(this.corner, `${this.view.stage.fps} pictures/s`);
+    if (now - this.fpsUpdated < FPS_INTERVAL_MS) return;
+    this.fpsUpdated = now;
+    setText(this.fps, `${this.view.renderer.fps} fps`);
   }
 
-  private tellNothing(): void {
+  private updateEmpty(): void {
     const { forest, hello, robots } = this.model;
-    this.nothing.hidden = forest.frames.length > 0 || !hello || robots.size > 0;
+    this.empty.hidden = forest.frames.length > 0 || !hello || robots.size > 0;
   }
 
-  private tellConnection(connected: boolean): void {
+  private updateNotice(connected: boolean): void {
     if (connected) {
-      clearTimeout(this.lost);
-      this.lost = 0;
+      clearTimeout(this.noticeTimer);
+      this.noticeTimer = 0;
       this.notice.hidden = true;
       return;
     }
-    // Every attempt that fails says so again: the first counts.
-    this.lost ||= window.setTimeout(() => {
+    // Each failed attempt to reconnect calls this again; only the first one starts the timer.
+    this.noticeTimer ||= window.setTimeout(() => {
       this.notice.hidden = false;
       setText(
         this.notice,
-        "The connection to the server is lost. This page comes back by itself when the server runs again.",
+        "The connection to the server is lost. The page reconnects automatically when the server runs again.",
       );
-    }, PATIENCE_MS);
+    }, MESSAGE_DELAY_MS);
   }
 }

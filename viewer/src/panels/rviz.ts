@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** .rviz files: read one, see what of it is not known here, write one back. */
+/** The panel for .rviz files: opens and saves them, and lists their unsupported parts. */
 
 import type { Displays } from "../displays/manager";
 import { cssColour } from "../displays/options";
@@ -10,7 +10,7 @@ import type { Theme } from "../util/theme";
 import { toast } from "../util/toast";
 import type { View } from "../scene/view";
 
-const LARGEST = 900_000;
+const MAX_FILE_SIZE = 900_000; // bytes
 
 export class RvizPanel {
   readonly element: HTMLElement;
@@ -30,8 +30,8 @@ export class RvizPanel {
     this.unknownSection = h(
       "div",
       { class: "section", hidden: true },
-      h("h3", {}, "Not shown here"),
-      h("p", {}, "These parts of the file are kept and written back as they were."),
+      h("h3", {}, "Unsupported parts"),
+      h("p", {}, "These parts of the file are not displayed. They are preserved when you save the file."),
       this.unknown,
     );
     this.element = h(
@@ -44,7 +44,7 @@ export class RvizPanel {
         h(
           "p",
           {},
-          "Displays, options and view of an .rviz file of RViz 1 or 2. What you change here can be saved for RViz.",
+          "Open an .rviz file of RViz 1 or 2 to apply its displays, options and view. Save the current ones for RViz.",
         ),
         this.file,
         h(
@@ -57,12 +57,12 @@ export class RvizPanel {
       this.unknownSection,
     );
     model.on("hello", (hello) => {
-      if (hello.rviz) this.applyRest(hello.rviz);
+      if (hello.rviz) this.applyGlobals(hello.rviz);
     });
     model.on("rviz", (rviz) => {
       displays.apply(rviz);
-      this.applyRest(rviz);
-      toast(`Read ${rviz.displays.length} displays`, null, "info");
+      this.applyGlobals(rviz);
+      toast(`Loaded ${rviz.displays.length} displays.`, null, "info");
     });
     model.on("saved", ({ text }) => {
       download(this.name, new Blob([text], { type: "application/yaml" }));
@@ -78,9 +78,9 @@ export class RvizPanel {
     this.model.send({ type: "save_rviz", displays: this.displays.save(), global, view: { ...this.camera() } });
   }
 
-  /** The view, as an .rviz file has it. */
+  /** The view in the format of .rviz files. */
   camera(): RvizView {
-    const camera = this.view.stage.camera.describe(this.view.followed);
+    const camera = this.view.renderer.camera.describe(this.view.followed);
     return { class: camera.class.replace(/^.*\//, ""), options: camera.options };
   }
 
@@ -88,21 +88,21 @@ export class RvizPanel {
     const file = this.file.files?.[0];
     if (!file) return;
     this.file.value = "";
-    if (file.size > LARGEST) {
-      toast(`${file.name} is too large for an .rviz file.`);
+    if (file.size > MAX_FILE_SIZE) {
+      toast(`Cannot open ${file.name}: it has ${file.size} bytes, and .rviz files may have at most ${MAX_FILE_SIZE}.`);
       return;
     }
     this.name = file.name;
     this.model.send({ type: "load_rviz", text: await file.text() });
   }
 
-  /** All but the displays: the global options, the view, hidden frames, and the list of what is not known. */
-  private applyRest(rviz: RvizConfiguration): void {
+  /** Applies everything except the displays: global options, view, hidden frames and the list of unsupported parts. */
+  private applyGlobals(rviz: RvizConfiguration): void {
     const { fixed_frame: fixed, background } = rviz.global;
     if (typeof fixed === "string" && fixed) this.model.setFixed(fixed);
     this.theme.setBackground(cssColour(background ?? undefined));
     if (rviz.view) {
-      if (this.view.stage.camera.apply(rviz.view)) this.view.keepCamera();
+      if (this.view.renderer.camera.apply(rviz.view)) this.view.keepCamera();
       const target = rviz.view.options["Target Frame"];
       const name = typeof target === "string" && !target.startsWith("<") ? target : null;
       if (name && name !== fixed) this.view.setFollowed(name);
@@ -123,7 +123,7 @@ export class RvizPanel {
     );
   }
 
-  /** TF: Frames: {All Enabled: true, some_frame: {Value: false}}. */
+  /** Hides the frames that the TF display disables: `Frames: {All Enabled: true, some_frame: {Value: false}}`. */
   private hideFrames(rviz: RvizConfiguration): void {
     const tf = rviz.displays.find((display) => display.class.endsWith("TF"));
     const frames = tf?.options["Frames"];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Keys, and the sheet that lists them. */
+/** Keyboard shortcuts, and the help dialog that lists them. */
 
 import { h, iconButton } from "../util/dom";
 
@@ -46,7 +46,7 @@ export class Shortcuts {
 
   private press(event: KeyboardEvent): void {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
-    // What is open over the page closes by itself.
+    // An open dialog handles its own keys.
     if (document.querySelector("dialog[open]") && !(this.dialog.open && event.key === "?")) return;
     const target = event.target as HTMLElement;
     const typing = target.matches("input:not([type=checkbox]):not([type=range]), select, textarea");
@@ -61,9 +61,9 @@ export class Shortcuts {
 }
 
 const MOUSE: { key: string; shown?: string; text: string }[] = [
-  { key: "drag", text: "Turn the camera" },
+  { key: "drag", text: "Rotate the camera" },
   { key: "right drag", text: "Move the camera" },
-  { key: "wheel", text: "Nearer or farther" },
-  { key: "click a frame", text: "Inspect it" },
-  { key: "Shift drag on the time", text: "Mark a loop" },
+  { key: "wheel", text: "Zoom" },
+  { key: "click a frame", text: "Select and inspect the frame" },
+  { key: "Shift drag on the timeline", text: "Select a time span to loop" },
 ];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The panel at the side: tabs, a width that can be dragged, hidden when asked. On a phone it is a drawer. */
+/** The side panel: tabs, an adjustable width, can be hidden. On a phone it slides over the scene. */
 
 import { h, iconButton } from "../util/dom";
 import { remember, remembered } from "../util/storage";
 
-const NARROWEST = 260;
-const WIDEST = 640;
+const MIN_WIDTH_PX = 260;
+const MAX_WIDTH_PX = 640;
 const PHONE = "(max-width: 760px)";
 
 export interface Tab {
@@ -47,7 +47,7 @@ export class Panel {
         iconButton("close", "Close the panel", () => this.show(false), "narrow-only"),
       ),
       ...tabs.map((tab) => tab.body),
-      this.grip(),
+      this.handle(),
     );
     this.setWidth(remembered("panel-width", 340));
     this.show(!matchMedia(PHONE).matches && remembered("panel-shown", true));
@@ -65,7 +65,7 @@ export class Panel {
     remember("tab", chosen);
   }
 
-  entitle(id: string, title: string): void {
+  setTitle(id: string, title: string): void {
     const button = this.buttons[this.tabs.findIndex((tab) => tab.id === id)];
     if (button) button.textContent = title;
   }
@@ -94,25 +94,25 @@ export class Panel {
   }
 
   private setWidth(width: number): void {
-    const kept = Math.max(NARROWEST, Math.min(WIDEST, width));
-    document.documentElement.style.setProperty("--panel-width", `${kept}px`);
+    const limited = Math.max(MIN_WIDTH_PX, Math.min(MAX_WIDTH_PX, width));
+    document.documentElement.style.setProperty("--panel-width", `${limited}px`);
   }
 
-  private grip(): HTMLElement {
-    const grip = h("div", { class: "panel-grip", aria: { hidden: "true" } });
-    grip.addEventListener("pointerdown", (event) => {
-      grip.setPointerCapture(event.pointerId);
+  private handle(): HTMLElement {
+    const handle = h("div", { class: "panel-handle", aria: { hidden: "true" } });
+    handle.addEventListener("pointerdown", (event) => {
+      handle.setPointerCapture(event.pointerId);
       const move = (at: PointerEvent): void => this.setWidth(at.clientX);
-      grip.addEventListener("pointermove", move);
-      grip.addEventListener(
+      handle.addEventListener("pointermove", move);
+      handle.addEventListener(
         "pointerup",
         (at) => {
-          grip.removeEventListener("pointermove", move);
+          handle.removeEventListener("pointermove", move);
           remember("panel-width", at.clientX);
         },
         { once: true },
       );
     });
-    return grip;
+    return handle;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** How often each edge came, over time: bars on a canvas, gaps marked. */
+/** Draws the rate of each transform over time as bars on a canvas, and marks gaps. */
 
 import { shorten } from "../util/dom";
 import type { Forest } from "../model/model";
@@ -7,7 +7,7 @@ import type { Timeline } from "../protocol/messages";
 
 export const ROW_PX = 18;
 const NAME_PX = 150;
-const MOST_ROWS = 400;
+const MAX_ROWS = 400;
 
 export interface Colours {
   text: string;
@@ -44,7 +44,7 @@ export function decodeEdges(timeline: Timeline): Edge[] {
   }));
 }
 
-/** All edges together, for the bar one scrubs on. */
+/** The sum of all edges, for the timeline. */
 export function total(edges: Edge[], bins: number): Float64Array {
   const sum = new Float64Array(bins);
   for (const { counts } of edges) for (let i = 0; i < bins; i++) sum[i] = (sum[i] as number) + (counts[i] ?? 0);
@@ -55,7 +55,7 @@ export function sparkWidth(width: number): number {
   return Math.max(20, width - NAME_PX);
 }
 
-/** A row an edge: name, bars, gaps. */
+/** Draws one row per edge: name, bars and gaps. */
 export function drawRows(
   canvas: HTMLCanvasElement,
   edges: Edge[],
@@ -63,7 +63,7 @@ export function drawRows(
   forest: Forest,
   colours: Colours,
 ): void {
-  const rows = edges.slice(0, MOST_ROWS);
+  const rows = edges.slice(0, MAX_ROWS);
   const width = canvas.parentElement?.clientWidth ?? 300;
   const context = prepare(canvas, width, Math.max(1, rows.length * ROW_PX));
   if (!context) return;
@@ -95,16 +95,16 @@ export function bars(
   width: number,
   height: number,
 ): void {
-  let most = 1;
-  for (let i = 0; i < counts.length; i++) most = Math.max(most, counts[i] as number);
+  let highest = 1;
+  for (let i = 0; i < counts.length; i++) highest = Math.max(highest, counts[i] as number);
   const step = width / Math.max(1, counts.length);
   for (let i = 0; i < counts.length; i++) {
-    const tall = ((counts[i] as number) / most) * height;
-    if (tall > 0) context.fillRect(left + i * step, top + height - tall, Math.max(1, step - 0.5), tall);
+    const barHeight = ((counts[i] as number) / highest) * height;
+    if (barHeight > 0) context.fillRect(left + i * step, top + height - barHeight, Math.max(1, step - 0.5), barHeight);
   }
 }
 
-/** A context in CSS pixels, sharp on any screen, and empty. */
+/** Clears a canvas and sets its size. Returns a context in CSS pixels that is sharp on high-resolution screens. */
 export function prepare(canvas: HTMLCanvasElement, width: number, height: number): CanvasRenderingContext2D | null {
   const ratio = devicePixelRatio || 1;
   canvas.width = Math.round(width * ratio);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The time: pause, scrub, step, speeds, loops, and back to live. */
+/** The timeline: pause, scrub, step, speed, loop, and return to live data. */
 
 import { h, icon, iconButton, select, setText } from "../util/dom";
 import * as format from "../util/format";
@@ -9,33 +9,33 @@ import { bars, decodeEdges, drawRows, prepare, total, type Colours, type Edge } 
 import { remember, remembered } from "../util/storage";
 
 const SPEEDS = ["0.1", "0.25", "0.5", "1", "2", "5", "10"] as const;
-const ASK_MS = 2000;
+const REQUEST_INTERVAL_MS = 2000;
 const BINS = 240;
 
 export class Timeline {
   private readonly play: HTMLButtonElement;
   private readonly live: HTMLButtonElement;
   private readonly loop: HTMLButtonElement;
-  private readonly sparksButton: HTMLButtonElement;
+  private readonly sparklinesButton: HTMLButtonElement;
   private readonly time = h("span", { class: "time numbers", id: "time" });
   private readonly canvas = h("canvas", {
     tabindex: "0",
     role: "slider",
     aria: { label: "Time", valuemin: "0", valuemax: "0", valuenow: "0" },
   });
-  private readonly head = h("div", { class: "head", aria: { hidden: "true" } });
+  private readonly playhead = h("div", { class: "playhead", aria: { hidden: "true" } });
   private readonly rows = h("canvas", {
     role: "img",
-    aria: { label: "How often each frame came, and where it has gaps" },
+    aria: { label: "Rates and gaps of each frame over time" },
   });
-  private readonly sparks: HTMLElement;
+  private readonly sparklines: HTMLElement;
   private message: TimelineMessage | null = null;
   private edges: Edge[] = [];
   private sum: ArrayLike<number> = [];
-  private asked = 0;
+  private requested = 0;
   private drawing = 0;
   private dragging: number | null = null;
-  /** Ends of the loop, while they are dragged with Shift. */
+  /** The start of the loop while the user selects it by dragging with Shift. */
   private loopStart: number | null = null;
 
   constructor(
@@ -45,22 +45,17 @@ export class Timeline {
     this.play = iconButton("pause", "Pause or play (Space)", () => this.toggle());
     this.live = h(
       "button",
-      { type: "button", class: "small", title: "Back to the newest (l)", on: { click: () => this.goLive() } },
+      { type: "button", class: "small", title: "Back to live (l)", on: { click: () => this.goLive() } },
       "Live",
     );
     this.loop = iconButton(
       "loop",
-      "Loop (o): all, or the part marked by dragging with Shift",
+      "Loop (o): everything, or a time span selected by dragging with Shift",
       () => this.toggleLoop(),
       "wide-only",
     );
-    this.sparksButton = iconButton(
-      "chevron",
-      "Rate of each frame over time (t)",
-      () => this.toggleSparks(),
-      "wide-only",
-    );
-    this.sparks = h("div", { class: "sparks", hidden: !remembered("sparks", false) }, this.rows);
+    this.sparklinesButton = iconButton("chevron", "Rates over time (t)", () => this.toggleSparklines(), "wide-only");
+    this.sparklines = h("div", { class: "sparklines", hidden: !remembered("sparks", false) }, this.rows);
     const speed = select(
       "Speed",
       SPEEDS.map((s) => [s, `${s}×`] as const),
@@ -71,26 +66,26 @@ export class Timeline {
       h(
         "div",
         { class: "transport" },
-        iconButton("back", "One message back (,)", () => this.step(-1)),
+        iconButton("back", "Previous message (,)", () => this.step(-1)),
         this.play,
-        iconButton("forward", "One message on (.)", () => this.step(1)),
+        iconButton("forward", "Next message (.)", () => this.step(1)),
         this.live,
         this.loop,
         speed,
-        h("div", { class: "scrub" }, this.canvas, this.head),
+        h("div", { class: "scrub" }, this.canvas, this.playhead),
         this.time,
-        this.sparksButton,
+        this.sparklinesButton,
       ),
-      this.sparks,
+      this.sparklines,
     );
     this.listen();
-    model.on("tick", () => this.follow());
+    model.on("frames", () => this.follow());
     model.on("stats", () => this.redraw());
-    model.on("clock", () => this.tellButtons());
+    model.on("clock", () => this.updateButtons());
     model.on("hello", () => this.start());
     model.on("timeline", (message) => this.receive(message));
     new ResizeObserver(() => this.redraw()).observe(this.canvas.parentElement as HTMLElement);
-    this.tellButtons();
+    this.updateButtons();
   }
 
   toggle(): void {
@@ -122,15 +117,15 @@ export class Timeline {
     this.model.setClock({ loop: this.model.clock.loop || !span ? null : [...span], live: false });
   }
 
-  toggleSparks(): void {
-    this.sparks.hidden = !this.sparks.hidden;
-    remember("sparks", !this.sparks.hidden);
-    this.tellButtons();
-    this.asked = 0;
+  toggleSparklines(): void {
+    this.sparklines.hidden = !this.sparklines.hidden;
+    remember("sparks", !this.sparklines.hidden);
+    this.updateButtons();
+    this.requested = 0;
     this.redraw();
   }
 
-  /** A recording has no "now": it waits at its start. */
+  /** Recordings have no live data; they are paused at their start. */
   private start(): void {
     const { hello } = this.model;
     this.message = null;
@@ -142,8 +137,8 @@ export class Timeline {
 
   private seek(at: number): void {
     const span = this.model.span;
-    const kept = span ? Math.max(span[0], Math.min(span[1], at)) : at;
-    this.model.setClock({ live: false, playing: this.model.clock.playing && this.dragging === null }, kept);
+    const limited = span ? Math.max(span[0], Math.min(span[1], at)) : at;
+    this.model.setClock({ live: false, playing: this.model.clock.playing && this.dragging === null }, limited);
   }
 
   private receive(message: TimelineMessage): void {
@@ -154,41 +149,41 @@ export class Timeline {
   }
 
   private follow(): void {
-    const tick = this.model.tick;
+    const update = this.model.frameUpdate;
     const span = this.model.span;
-    if (!tick || !span) return;
+    if (!update || !span) return;
     const now = performance.now();
-    const fresh = this.message?.revision === this.model.forest.revision;
-    if (now - this.asked > ASK_MS && span[1] > span[0] && (this.model.clock.live || !fresh)) {
-      this.asked = now;
+    const current = this.message?.revision === this.model.forest.revision;
+    if (now - this.requested > REQUEST_INTERVAL_MS && span[1] > span[0] && (this.model.clock.live || !current)) {
+      this.requested = now;
       this.model.send({ type: "timeline", from: span[0], to: span[1], bins: BINS });
     }
-    setText(this.time, format.stamp(this.model.origin, tick.time));
-    this.time.title = `${format.offset(tick.time - span[0])} of ${format.offset(span[1] - span[0])}`;
-    this.placeHead();
+    setText(this.time, format.stamp(this.model.origin, update.time));
+    this.time.title = `${format.offset(update.time - span[0])} of ${format.offset(span[1] - span[0])}`;
+    this.placePlayhead();
   }
 
-  private placeHead(): void {
+  private placePlayhead(): void {
     const span = this.model.span;
-    const at = this.dragging ?? this.model.tick?.time ?? NaN;
+    const at = this.dragging ?? this.model.frameUpdate?.time ?? NaN;
     const part = span && span[1] > span[0] ? (at - span[0]) / (span[1] - span[0]) : NaN;
-    this.head.hidden = !Number.isFinite(part) && !this.model.clock.live;
+    this.playhead.hidden = !Number.isFinite(part) && !this.model.clock.live;
     const shown = this.model.clock.live ? 1 : Math.max(0, Math.min(1, part));
-    this.head.style.left = `${(shown * 100).toFixed(3)}%`;
+    this.playhead.style.left = `${(shown * 100).toFixed(3)}%`;
     if (!span || !Number.isFinite(part)) return;
     this.canvas.setAttribute("aria-valuemax", ((span[1] - span[0]) / 1e9).toFixed(1));
     this.canvas.setAttribute("aria-valuenow", ((at - span[0]) / 1e9).toFixed(1));
   }
 
-  private tellButtons(): void {
+  private updateButtons(): void {
     const { live, playing, loop } = this.model.clock;
     const running = live || playing;
     this.play.replaceChildren(icon(running ? "pause" : "play"));
     this.play.setAttribute("aria-label", running ? "Pause" : "Play");
     this.live.setAttribute("aria-pressed", String(live));
     this.loop.setAttribute("aria-pressed", String(loop !== null));
-    this.sparksButton.setAttribute("aria-expanded", String(!this.sparks.hidden));
-    this.sparksButton.style.transform = this.sparks.hidden ? "rotate(-90deg)" : "rotate(90deg)";
+    this.sparklinesButton.setAttribute("aria-expanded", String(!this.sparklines.hidden));
+    this.sparklinesButton.style.transform = this.sparklines.hidden ? "rotate(-90deg)" : "rotate(90deg)";
     this.redraw();
   }
 
@@ -204,7 +199,7 @@ export class Timeline {
     };
   }
 
-  /** Soon: what is asked for several times is drawn once. */
+  /** Schedules a redraw; several calls before it cause only one. */
   private redraw(): void {
     this.drawing ||= requestAnimationFrame(() => {
       this.drawing = 0;
@@ -213,7 +208,7 @@ export class Timeline {
   }
 
   private draw(): void {
-    this.placeHead();
+    this.placePlayhead();
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement ?? this.canvas;
     const context = prepare(this.canvas, width, height);
     const span = this.model.span;
@@ -229,7 +224,8 @@ export class Timeline {
       context.fillStyle = `${colours.bar}33`;
       context.fillRect(x(loop[0]), 0, Math.max(1, x(loop[1]) - x(loop[0])), height);
     }
-    if (!this.sparks.hidden && this.message) drawRows(this.rows, this.edges, this.message, this.model.forest, colours);
+    if (!this.sparklines.hidden && this.message)
+      drawRows(this.rows, this.edges, this.message, this.model.forest, colours);
   }
 
   private drawDensity(
@@ -240,18 +236,18 @@ export class Timeline {
   ): void {
     const { message } = this;
     if (!message || message.revision !== this.model.forest.revision) return;
-    // Live, the bars are up to two seconds old: they fill the bar all the same rather than end before it.
+    // Live bars are up to two seconds old. They are stretched to the full width rather than ending early.
     const { live } = this.model.clock;
     const width = context.canvas.clientWidth;
-    const place = live ? (ns: number): number => ((ns - message.from) / (message.to - message.from)) * width : x;
-    const [from, to] = [place(message.from), place(message.to)];
+    const toX = live ? (ns: number): number => ((ns - message.from) / (message.to - message.from)) * width : x;
+    const [from, to] = [toX(message.from), toX(message.to)];
     context.globalAlpha = 0.55;
     context.fillStyle = colours.bar;
     bars(context, this.sum, from, 4, to - from, height - 4);
     context.globalAlpha = 1;
     context.fillStyle = colours.gap.slice(0, 7);
     for (const { gaps } of this.edges)
-      for (const [a, b] of gaps) context.fillRect(place(a), 0, Math.max(1.5, place(b) - place(a)), 3);
+      for (const [a, b] of gaps) context.fillRect(toX(a), 0, Math.max(1.5, toX(b) - toX(a)), 3);
   }
 
   private listen(): void {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * The trees as rows: a check box, a name, how often and how lately it came, and from whom.
+ * The Frames panel: a row per frame with a checkbox, the name, rate, age and publisher.
  *
- * Only the rows in view exist, so that ten thousand frames cost no more than ten.
+ * Only visible rows have HTML elements, so that ten thousand frames cost no more than ten.
  */
 
 import { severityIcon } from "./findings";
@@ -18,7 +18,7 @@ interface Row {
   frame: number;
   depth: number;
   hasChildren: boolean;
-  /** On a root, when there are several: which tree it opens. */
+  /** The size of the tree, in the row of its root if there are several trees. */
   tree: string | null;
 }
 
@@ -44,7 +44,7 @@ export class TreePanel {
   private readonly empty: HTMLElement;
   private readonly summary: HTMLElement;
   private readonly pool: RowElements[] = [];
-  private readonly folded = new Set<string>();
+  private readonly collapsed = new Set<string>();
   private rows: Row[] = [];
 
   constructor(private readonly model: Model) {
@@ -114,8 +114,8 @@ export class TreePanel {
   private rebuild(): void {
     const { forest } = this.model;
     this.model.updateSolo();
-    const wanted = this.search.value.trim().toLowerCase();
-    const kept = wanted ? this.matching(wanted) : null;
+    const text = this.search.value.trim().toLowerCase();
+    const kept = text ? this.matching(text) : null;
     this.rows = [];
     const several = forest.roots.length > 1;
     const walk = (first: number): void => {
@@ -125,27 +125,27 @@ export class TreePanel {
         if (kept && !kept.has(frame)) continue;
         const children = forest.children[frame] ?? [];
         const size = forest.components[forest.frames[frame]?.component ?? 0]?.size;
-        const tree = several && depth === 0 ? `own tree${size ? ` · ${size}` : ""}` : null;
+        const tree = several && depth === 0 ? `separate tree${size ? ` · ${size} frames` : ""}` : null;
         this.rows.push({ frame, depth, hasChildren: children.length > 0, tree });
-        if (this.folded.has(forest.name(frame)) && !kept) continue;
+        if (this.collapsed.has(forest.name(frame)) && !kept) continue;
         for (let k = children.length - 1; k >= 0; k--) stack.push({ frame: children[k] as number, depth: depth + 1 });
       }
     };
     forest.roots.forEach(walk);
     this.inner.style.height = `${this.rows.length * ROW_PX}px`;
     this.summarize(several);
-    this.tellEmpty(wanted);
+    this.updateEmpty(text);
     this.render();
   }
 
-  /** The frames whose name has the text, with the way up to each. */
+  /** The frames whose names contain a text, with their ancestors. */
   private matching(text: string): Set<number> {
     const { forest } = this.model;
     const kept = new Set<number>();
     forest.frames.forEach((frame, i) => {
       if (!frame.name.toLowerCase().includes(text)) return;
       kept.add(i);
-      for (const up of forest.ancestors(i)) kept.add(up);
+      for (const ancestor of forest.ancestors(i)) kept.add(ancestor);
     });
     return kept;
   }
@@ -156,15 +156,15 @@ export class TreePanel {
     setText(this.summary, frames.length ? `${format.count(frames.length)} frames${trees}` : "");
   }
 
-  private tellEmpty(wanted: string): void {
+  private updateEmpty(text: string): void {
     this.empty.hidden = this.rows.length > 0;
     this.list.hidden = this.rows.length === 0;
     if (!this.model.connected && !this.model.hello) this.empty.replaceChildren("Connecting…");
-    else if (wanted && this.model.forest.frames.length) this.empty.replaceChildren(`No frame is called “${wanted}”.`);
+    else if (text && this.model.forest.frames.length) this.empty.replaceChildren(`No frame name contains “${text}”.`);
     else
       this.empty.replaceChildren(
         h("strong", {}, "No transforms yet"),
-        h("p", {}, "Nothing has come on /tf or /tf_static. In another terminal, run"),
+        h("p", {}, "No messages received on /tf or /tf_static. In another terminal, run"),
         h("code", {}, "coframe demo"),
         h("p", {}, "or start your own broadcasters with the same ROS_DOMAIN_ID."),
       );
@@ -187,7 +187,12 @@ export class TreePanel {
     row.frame = -1;
     row.caret = h(
       "button",
-      { type: "button", class: "caret", tabindex: "-1", on: { click: (event) => this.fold(event, row.frame) } },
+      {
+        type: "button",
+        class: "caret",
+        tabindex: "-1",
+        on: { click: (event) => this.toggleCollapsed(event, row.frame) },
+      },
       icon("chevron"),
     );
     row.box = h("input", {
@@ -220,7 +225,7 @@ export class TreePanel {
     return row;
   }
 
-  private fill(row: RowElements, data: Row, place: number): void {
+  private fill(row: RowElements, data: Row, index: number): void {
     const { forest, model } = { forest: this.model.forest, model: this.model };
     const name = forest.name(data.frame);
     const stats = model.stats?.revision === forest.revision ? model.stats.frames[data.frame] : undefined;
@@ -228,7 +233,7 @@ export class TreePanel {
     const isRoot = (forest.frames[data.frame]?.parent ?? -1) < 0;
     const state = isRoot ? "root" : isStatic ? "static" : (stats?.state ?? "fresh");
     row.frame = data.frame;
-    row.element.style.transform = `translateY(${place * ROW_PX}px)`;
+    row.element.style.transform = `translateY(${index * ROW_PX}px)`;
     row.element.style.setProperty("--depth", String(Math.min(data.depth, 12)));
     row.element.dataset.state = state;
     row.element.dataset.frame = name.slice(0, 200);
@@ -236,7 +241,7 @@ export class TreePanel {
     row.element.classList.toggle("dimmed", !model.isShown(name));
     row.element.setAttribute("aria-level", String(data.depth + 1));
     row.element.setAttribute("aria-selected", String(name === model.selection.frame));
-    if (data.hasChildren) row.element.setAttribute("aria-expanded", String(!this.folded.has(name)));
+    if (data.hasChildren) row.element.setAttribute("aria-expanded", String(!this.collapsed.has(name)));
     else row.element.removeAttribute("aria-expanded");
     const mark = model.marks.get(name);
     setMark(row.mark, mark?.severity);
@@ -249,7 +254,7 @@ export class TreePanel {
     );
     row.element.title = [described, ...(mark?.lines ?? [])].join("\n");
     row.caret.hidden = !data.hasChildren;
-    row.caret.setAttribute("aria-label", `${this.folded.has(name) ? "Open" : "Fold"} ${name.slice(0, 60)}`);
+    row.caret.setAttribute("aria-label", `${this.collapsed.has(name) ? "Expand" : "Collapse"} ${name.slice(0, 60)}`);
     row.box.checked = model.isShown(name);
     row.box.setAttribute("aria-label", `Show ${name.slice(0, 60)}`);
     row.solo.classList.toggle("on", model.solo === name);
@@ -260,10 +265,10 @@ export class TreePanel {
     setText(row.age, isStatic || isRoot ? "" : ageText(state, stats?.age ?? null));
   }
 
-  private fold(event: Event, frame: number): void {
+  private toggleCollapsed(event: Event, frame: number): void {
     event.stopPropagation();
     const name = this.model.forest.name(frame);
-    if (!this.folded.delete(name)) this.folded.add(name);
+    if (!this.collapsed.delete(name)) this.collapsed.add(name);
     this.rebuild();
   }
 
@@ -290,15 +295,15 @@ export class TreePanel {
     else if (event.key === "Home") go(0);
     else if (event.key === "End") go(this.rows.length - 1);
     else if (event.key === " " && row) this.model.setHidden([name], this.model.isShown(name));
-    else if (event.key === "ArrowLeft" && row?.hasChildren) this.folded.add(name);
-    else if (event.key === "ArrowRight" && row) this.folded.delete(name);
+    else if (event.key === "ArrowLeft" && row?.hasChildren) this.collapsed.add(name);
+    else if (event.key === "ArrowRight" && row) this.collapsed.delete(name);
     else return;
     event.preventDefault();
     event.stopPropagation();
     if (event.key.startsWith("Arrow")) this.rebuild();
   }
 
-  /** Scrolls to the selected frame when it is out of sight. */
+  /** Scrolls to the selected frame if it is not visible. */
   private reveal(): void {
     const at = this.rows.findIndex((row) => this.model.forest.name(row.frame) === this.model.selection.frame);
     if (at >= 0) {

@@ -19,12 +19,13 @@ import {
   type FieldReader,
   type ShapesDescription,
 } from "../generated/protocol";
+import type { Vector } from "../util/math";
 import { ProtocolError } from "./validation";
 
 export * from "../generated/protocol";
 export { checkServerMessage, ProtocolError } from "./validation";
 
-export type Vector = [number, number, number];
+export type { Vector } from "../util/math";
 
 /** The pose of a displayed message's frame at the stamp of the message. */
 export interface DisplayPose {
@@ -35,9 +36,9 @@ export interface DisplayPose {
   ok: boolean;
 }
 
-/** A frame update. */
-export interface Tick {
-  kind: "tick";
+/** The poses of all frames and displayed messages at one time. */
+export interface FrameUpdate {
+  kind: "frames";
   revision: number;
   /** Nanoseconds relative to hello.origin; NaN while there is no data. */
   time: number;
@@ -92,11 +93,11 @@ export interface Shapes {
   kind: "shapes";
   id: number;
   sequence: number;
-  head: ShapesDescription;
+  description: ShapesDescription;
   payload: Float32Array;
 }
 
-export type BinaryMessage = Tick | DisplayMessage;
+export type BinaryMessage = FrameUpdate | DisplayMessage;
 export type DisplayMessage = Cloud | Grid | Shapes | Image;
 
 /** Reads fields one after another; throws a ProtocolError if the data ends too early. */
@@ -154,7 +155,7 @@ class Reader implements FieldReader {
 export function decode(buffer: ArrayBuffer): BinaryMessage {
   if (buffer.byteLength < 4) throw new ProtocolError(`a binary message of ${buffer.byteLength} bytes`);
   const kind = new DataView(buffer).getUint32(0, true);
-  if (kind === BinaryKind.frames) return decodeTick(new Reader(buffer, "frame update"));
+  if (kind === BinaryKind.frames) return decodeFrameUpdate(new Reader(buffer, "frame update"));
   if (kind === BinaryKind.cloud) return decodeCloud(new Reader(buffer, "cloud"));
   if (kind === BinaryKind.grid) return decodeGrid(new Reader(buffer, "grid"));
   if (kind === BinaryKind.shapes) return decodeShapes(new Reader(buffer, "shapes"));
@@ -162,7 +163,7 @@ export function decode(buffer: ArrayBuffer): BinaryMessage {
   throw new ProtocolError(`a binary message of unknown kind ${kind}`);
 }
 
-function decodeTick(reader: Reader): Tick {
+function decodeFrameUpdate(reader: Reader): FrameUpdate {
   const { revision, time, origin, frames: count, entries } = readFramesHeader(reader);
   const poses = reader.floats(count * 7);
   const states = reader.bytes(count);
@@ -172,7 +173,7 @@ function decodeTick(reader: Reader): Tick {
     const { display: id, sequence, pose, missing } = readEntryRecord(reader);
     displays.push({ id, sequence, pose, ok: missing === 0 });
   }
-  return { kind: "tick", revision, time, origin, count, poses, states, displays };
+  return { kind: "frames", revision, time, origin, count, poses, states, displays };
 }
 
 function decodeCloud(reader: Reader): Cloud {
@@ -194,13 +195,13 @@ function decodeShapes(reader: Reader): Shapes {
   const { display: id, sequence, length } = readShapesHeader(reader);
   const text = new TextDecoder().decode(reader.bytes(length));
   reader.align();
-  let head: ShapesDescription;
+  let description: ShapesDescription;
   try {
-    head = JSON.parse(text) as ShapesDescription;
+    description = JSON.parse(text) as ShapesDescription;
   } catch {
     throw new ProtocolError("shapes: the description is not JSON");
   }
-  return { kind: "shapes", id, sequence, head, payload: reader.floats(Math.floor(reader.rest() / 4)) };
+  return { kind: "shapes", id, sequence, description, payload: reader.floats(Math.floor(reader.rest() / 4)) };
 }
 
 function decodeImage(reader: Reader): Image {

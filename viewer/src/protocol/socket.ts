@@ -63,7 +63,7 @@ export class SocketSource implements Source {
       if (hello?.type === "hello" && !this.matches(hello.version)) return;
       this.listener("text", checkServerMessage(message));
     } catch (error) {
-      this.listener("broken", error instanceof Error ? error.message : String(error));
+      this.listener("invalid", error instanceof Error ? error.message : String(error));
     }
   }
 

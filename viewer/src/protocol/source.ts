@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Where frames come from: a server over a socket, or a recording inside the page itself. */
+/** The source of messages: a server that is connected by a WebSocket, or a recording inside the page. */
 
 import type { BinaryMessage, ClientMessage, ServerMessage } from "./messages";
 
 export interface SourceEvents {
   text: ServerMessage;
   binary: BinaryMessage;
-  /** Broken messages are counted and told, never fatal. */
-  broken: string;
+  /** The error of an invalid message. Invalid messages are counted and logged; they are never fatal. */
+  invalid: string;
   connected: boolean;
 }
 
 export interface Source {
-  /** False in a replay: there is no server to export, publish or save for us. */
+  /** False in a replay, where no server can export, publish or save. */
   readonly live: boolean;
   start(listener: <K extends keyof SourceEvents>(event: K, value: SourceEvents[K]) => void): void;
   send(message: ClientMessage): void;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The displays of a replay: what the server would have sent of each, picture after picture. */
+/** The recorded displays of a replay. */
 
 import { compose, type Pose } from "../util/math";
 import {
@@ -11,10 +11,10 @@ import {
   type Vector,
 } from "../protocol/messages";
 
-/** Where the frame that everything is recorded in was at a time, seen from the one that is looked from now. */
-export type Seen = (stamp: number) => Pose | null;
+/** The pose of the recorded fixed frame relative to the selected one at a stamp; null if there is none. */
+export type PoseAt = (stamp: number) => Pose | null;
 
-export const DAMAGED = "the recording in this file is damaged";
+export const DAMAGED = "The recording in this file is damaged. Save the replay again.";
 
 export class ReplayDisplay {
   readonly changes: Uint32Array;
@@ -25,67 +25,67 @@ export class ReplayDisplay {
 
   constructor(readonly block: ReplayDisplayBlock) {
     this.changes = new Uint32Array(bytes(block.changes, 4));
-    this.starts = ends(new Uint32Array(bytes(block.counts, 4)));
+    this.starts = cumulative(new Uint32Array(bytes(block.counts, 4)));
     this.sequences = new Uint32Array(bytes(block.sequences, 4));
     this.poses = new Float32Array(bytes(block.poses, 4));
     this.stamps = new Float64Array(bytes(block.stamps, 8));
     const rows = this.sequences.length;
-    const whole = this.changes.length === this.starts.length - 1 && this.starts.at(-1) === rows;
-    if (!whole || this.poses.length !== rows * 7 || this.stamps.length !== rows) throw new Error(DAMAGED);
+    const consistent = this.changes.length === this.starts.length - 1 && this.starts.at(-1) === rows;
+    if (!consistent || this.poses.length !== rows * 7 || this.stamps.length !== rows) throw new Error(DAMAGED);
   }
 
-  /** What is to be seen at a picture, as a tick of the server says it. */
-  at(picture: number, id: number, seen: Seen): DisplayPose[] {
-    const listing = lastUpTo(this.changes, picture);
-    const shown: DisplayPose[] = [];
-    if (listing < 0) return shown;
+  /** The visible messages at a sample, as in a frame update of the server. */
+  at(sample: number, id: number, poseAt: PoseAt): DisplayPose[] {
+    const listing = lastUpTo(this.changes, sample);
+    const visible: DisplayPose[] = [];
+    if (listing < 0) return visible;
     for (let row = this.starts[listing] as number; row < (this.starts[listing + 1] as number); row++) {
       const pose = this.poses.slice(row * 7, row * 7 + 7);
-      const base = seen(this.stamps[row] as number);
+      const base = poseAt(this.stamps[row] as number);
       const ok = base !== null && pose.every(Number.isFinite);
       if (ok) {
         const [x, y, z, ...quaternion] = pose as unknown as [number, number, number, number, number, number, number];
         const moved = compose(base, { position: [x, y, z] as Vector, quaternion });
         pose.set([...moved.position, ...moved.quaternion]);
       }
-      shown.push({ id, sequence: this.sequences[row] as number, pose, ok });
+      visible.push({ id, sequence: this.sequences[row] as number, pose, ok });
     }
-    return shown;
+    return visible;
   }
 
-  /** A drawing, as it would have come for a display of the page; null where the file holds none. */
-  drawing(sequence: number, id: number): DisplayMessage | null {
+  /** A recorded message for a display of the page; null if the replay does not contain it. */
+  message(sequence: number, id: number): DisplayMessage | null {
     const packed = this.block.drawings[String(sequence)];
     if (packed === undefined) return null;
-    const message = decode(bytes(packed, 1));
-    return message.kind === "tick" ? null : { ...message, id, sequence };
+    const decoded = decode(bytes(packed, 1));
+    return decoded.kind === "frames" ? null : { ...decoded, id, sequence };
   }
 
-  /** What became of the display by a picture. */
-  status(picture: number): [DisplayStatus["state"], string] {
-    const [, state, text] = this.block.statuses.filter(([from]) => from <= picture).at(-1) ?? [0, "waiting", ""];
+  /** The status of the display at a sample. */
+  status(sample: number): [DisplayStatus["state"], string] {
+    const [, state, text] = this.block.statuses.filter(([from]) => from <= sample).at(-1) ?? [0, "waiting", ""];
     return [state, text];
   }
 
-  /** What was left out of it, in a few words. */
+  /** A short description of what was omitted; empty if nothing was. */
   get note(): string {
-    return this.block.every > 1 ? `1 of ${this.block.every} pictures` : "";
+    return this.block.every > 1 ? `1 of ${this.block.every} frames` : "";
   }
 }
 
-/** The index of the last value that is not larger; -1 where all are. */
-export function lastUpTo(values: ArrayLike<number>, wanted: number): number {
+/** The index of the last value up to a limit in ascending values; -1 if all are larger. */
+export function lastUpTo(values: ArrayLike<number>, limit: number): number {
   let low = -1;
   let high = values.length - 1;
   while (low < high) {
     const middle = (low + high + 1) >> 1;
-    if ((values[middle] as number) <= wanted) low = middle;
+    if ((values[middle] as number) <= limit) low = middle;
     else high = middle - 1;
   }
   return low;
 }
 
-function ends(counts: Uint32Array): Uint32Array {
+function cumulative(counts: Uint32Array): Uint32Array {
   const sums = new Uint32Array(counts.length + 1);
   counts.forEach((count, i) => (sums[i + 1] = (sums[i] as number) + count));
   return sums;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/** A recording inside the page: answers what the server would, as far as the pictures in it can tell. */
+/** The source of a replay: answers requests from the recording inside the page, as the server would. */
 
 import {
-  between,
+  interpolate,
   compose,
   IDENTITY,
   inverse,
@@ -25,28 +25,29 @@ import {
   type DisplayOptions,
   type Vector,
 } from "../protocol/messages";
-import { bytes, DAMAGED, lastUpTo, ReplayDisplay, type Seen } from "./displays";
+import { bytes, DAMAGED, lastUpTo, ReplayDisplay, type PoseAt } from "./displays";
 import type { Source, SourceEvents } from "../protocol/source";
 
-/** A display of the page that shows what was recorded of a topic. */
-interface Subscribed {
+/** A subscription of a display to a recorded topic. */
+interface Subscription {
   recorded: ReplayDisplay;
-  /** The drawings that the page has. */
-  shown: Set<number>;
-  told: string;
-  /** Whether it asks for colours that the file does not hold. */
-  otherColours: boolean;
+  /** The sequence numbers of the messages that the page has received. */
+  sent: Set<number>;
+  /** The last status that was sent. */
+  status: string;
+  /** Whether it requests colours that the replay does not contain. */
+  missingColours: boolean;
 }
 
 type Listener = <K extends keyof SourceEvents>(event: K, value: SourceEvents[K]) => void;
 
-const PICTURE_MS = 33;
+const FRAME_INTERVAL_MS = 33;
 const NO_GLOBAL_OPTIONS: RvizGlobalOptions = { fixed_frame: null, background: null, frame_rate: null };
 
-/** The recording that the server wrote into this page. */
+/** Reads the recording that the server has inserted into this page. */
 export function replayBlock(): ReplayBlock {
   const block = JSON.parse(document.getElementById("replay")?.textContent ?? "null") as ReplayBlock | null;
-  if (block?.format !== "coframe-replay") throw new Error("There is no recording in it.");
+  if (block?.format !== "coframe-replay") throw new Error("The page contains no recording.");
   return block;
 }
 
@@ -58,7 +59,7 @@ export class ReplaySource implements Source {
   private readonly forest: Forest;
   private readonly count: number;
   private readonly displays: ReplayDisplay[];
-  private readonly subscribed = new Map<number, Subscribed>();
+  private readonly subscriptions = new Map<number, Subscription>();
   private fixed: number;
   private at: number;
   private playing = false;
@@ -125,15 +126,15 @@ export class ReplaySource implements Source {
     block.robots.forEach((robot, id) => listener("text", { ...robot, id }));
     if (block.stats.length === this.count) listener("text", { type: "stats", revision: 1, span, frames: block.stats });
     this.started = true;
-    this.tick();
-    setInterval(() => this.advance(), PICTURE_MS);
+    this.sendFrames();
+    setInterval(() => this.advance(), FRAME_INTERVAL_MS);
   }
 
   send(message: ClientMessage): void {
     switch (message.type) {
       case "fixed":
         this.fixed = this.forest.index.get(message.frame) ?? this.fixed;
-        this.tick();
+        this.sendFrames();
         break;
       case "time":
         if (message.mode === "at") {
@@ -143,12 +144,12 @@ export class ReplaySource implements Source {
           this.loop = message.loop ?? null;
           this.last = performance.now();
         }
-        this.tick();
+        this.sendFrames();
         break;
       case "step": {
         const next = this.times[this.sample() + message.direction];
         if (next !== undefined) this.at = next;
-        this.tick();
+        this.sendFrames();
         break;
       }
       case "relate":
@@ -158,8 +159,8 @@ export class ReplaySource implements Source {
         this.subscribe(message.id, message.topic, message.options ?? {});
         break;
       case "unsubscribe":
-        this.subscribed.delete(message.id);
-        this.tick();
+        this.subscriptions.delete(message.id);
+        this.sendFrames();
         break;
       case "timeline": {
         const { from, to, edges, bins } = this.block;
@@ -172,17 +173,22 @@ export class ReplaySource implements Source {
   }
 
   private subscribe(id: number, topic: string, options: DisplayOptions): void {
-    const fitting = this.displays.filter(({ block }) => block.topic === topic);
-    const recorded = fitting.find(({ block }) => block.color_by === (options.color_by ?? null)) ?? fitting[0];
+    const matching = this.displays.filter(({ block }) => block.topic === topic);
+    const recorded = matching.find(({ block }) => block.color_by === (options.color_by ?? null)) ?? matching[0];
     if (!recorded) {
-      this.subscribed.delete(id);
-      this.listener("text", { type: "display", id, state: "error", text: `This replay holds nothing of ${topic}.` });
+      this.subscriptions.delete(id);
+      this.listener("text", {
+        type: "display",
+        id,
+        state: "error",
+        text: `This replay does not contain topic ${topic}.`,
+      });
       return;
     }
     const computed = !options.color_by || ["axis", "flat"].includes(options.color_by);
-    const otherColours = !computed && recorded.block.color_by !== options.color_by;
-    this.subscribed.set(id, { recorded, shown: new Set(), told: "", otherColours });
-    this.tick();
+    const missingColours = !computed && recorded.block.color_by !== options.color_by;
+    this.subscriptions.set(id, { recorded, sent: new Set(), status: "", missingColours });
+    this.sendFrames();
   }
 
   private advance(): void {
@@ -192,10 +198,10 @@ export class ReplaySource implements Source {
     this.at += (now - this.last) * 1e6 * this.speed;
     this.last = now;
     if (this.at > end) this.at = this.loop ? first + ((this.at - first) % Math.max(1, end - first)) : end;
-    this.tick();
+    this.sendFrames();
   }
 
-  /** The last sample that is not later than the playhead. */
+  /** The index of the last sample at or before the playhead. */
   private sample(): number {
     return Math.max(0, lastUpTo(this.times, this.at));
   }
@@ -206,7 +212,7 @@ export class ReplaySource implements Source {
     return { position: row.slice(0, 3) as Vector, quaternion: row.slice(3) as Quaternion };
   }
 
-  private tick(): void {
+  private sendFrames(): void {
     if (this.times.length === 0 || !this.started) return;
     const sample = this.sample();
     const { frames } = this.forest;
@@ -230,61 +236,61 @@ export class ReplaySource implements Source {
     }
     const origin: Vector = asRecorded ? this.block.origin_xyz : [0, 0, 0];
     this.listener("binary", {
-      kind: "tick",
+      kind: "frames",
       revision: 1,
       time: this.at,
       origin,
       count: this.count,
       poses,
       states,
-      displays: this.showDisplays(sample, asRecorded),
+      displays: this.listMessages(sample, asRecorded),
     });
   }
 
-  /** What is to be seen of the displays; drawings that the page has not got go before it. */
-  private showDisplays(sample: number, asRecorded: boolean): DisplayPose[] {
-    const seen: Seen = asRecorded ? () => IDENTITY : (stamp) => this.recordedFrame(sample, stamp);
-    const all: DisplayPose[] = [];
-    for (const [id, subscribed] of this.subscribed) {
-      const entries = subscribed.recorded.at(sample, id, seen);
+  /** Returns the visible messages of all displays, and sends those that the page has not received yet. */
+  private listMessages(sample: number, asRecorded: boolean): DisplayPose[] {
+    const poseAt: PoseAt = asRecorded ? () => IDENTITY : (stamp) => this.recordedFixedFrame(sample, stamp);
+    const listed: DisplayPose[] = [];
+    for (const [id, subscription] of this.subscriptions) {
+      const entries = subscription.recorded.at(sample, id, poseAt);
       for (const { sequence } of entries)
-        if (!subscribed.shown.has(sequence)) this.sendDrawing(id, sequence, subscribed);
-      subscribed.shown = new Set(entries.map(({ sequence }) => sequence));
-      this.tellStatus(id, sample, subscribed);
-      all.push(...entries);
+        if (!subscription.sent.has(sequence)) this.sendMessage(id, sequence, subscription);
+      subscription.sent = new Set(entries.map(({ sequence }) => sequence));
+      this.sendStatus(id, sample, subscription);
+      listed.push(...entries);
     }
-    return all;
+    return listed;
   }
 
-  private sendDrawing(id: number, sequence: number, { recorded }: Subscribed): void {
+  private sendMessage(id: number, sequence: number, { recorded }: Subscription): void {
     try {
-      const drawing = recorded.drawing(sequence, id);
-      if (drawing) this.listener("binary", drawing);
+      const message = recorded.message(sequence, id);
+      if (message) this.listener("binary", message);
     } catch (error) {
-      this.listener("broken", error instanceof Error ? error.message : String(error));
+      this.listener("invalid", error instanceof Error ? error.message : String(error));
     }
   }
 
-  private tellStatus(id: number, sample: number, subscribed: Subscribed): void {
-    const { recorded, otherColours } = subscribed;
-    const [was, said] = recorded.status(sample);
-    const poor = otherColours && was === "ok";
-    const state = poor ? "error" : was;
-    const text = poor ? "This replay holds no other colours than those that it was saved with." : said;
-    if (subscribed.told === `${state} ${text}`) return;
-    subscribed.told = `${state} ${text}`;
+  private sendStatus(id: number, sample: number, subscription: Subscription): void {
+    const { recorded, missingColours } = subscription;
+    const [recordedState, recordedText] = recorded.status(sample);
+    const uncoloured = missingColours && recordedState === "ok";
+    const state = uncoloured ? "error" : recordedState;
+    const text = uncoloured ? "This replay contains only the colours that it was saved with." : recordedText;
+    if (subscription.status === `${state} ${text}`) return;
+    subscription.status = `${state} ${text}`;
     this.listener("text", { type: "display", id, state, text, note: recorded.note });
   }
 
-  /** From the chosen fixed frame, where that of the recording was at a time; null where nobody knows. */
-  private recordedFrame(sample: number, stamp: number): Pose | null {
+  /** The pose of the recorded fixed frame relative to the selected one at a time; null if they are not connected. */
+  private recordedFixedFrame(sample: number, stamp: number): Pose | null {
     const recorded = this.forest.index.get(this.block.fixed) ?? -1;
     if (this.forest.frames[recorded]?.component !== this.forest.frames[this.fixed]?.component) return null;
     const low = Number.isFinite(stamp) ? Math.max(0, lastUpTo(this.times, stamp)) : sample;
     const high = Math.min(low + (Number.isFinite(stamp) ? 1 : 0), this.times.length - 1);
     const [from, to] = [this.times[low] as number, this.times[high] as number];
     const part = to > from ? Math.max(0, Math.min(1, (stamp - from) / (to - from))) : 0;
-    const base = between(this.pose(low, this.fixed), this.pose(high, this.fixed), part);
+    const base = interpolate(this.pose(low, this.fixed), this.pose(high, this.fixed), part);
     return base.position.every(Number.isFinite) ? inverse(base) : null;
   }
 
@@ -294,7 +300,7 @@ export class ReplaySource implements Source {
 
   private relate(id: number, target: string, source: string): Relation {
     const [t, s] = [this.forest.index.get(target), this.forest.index.get(source)];
-    const answer: Relation = {
+    const failure: Relation = {
       type: "relation",
       id,
       ok: false,
@@ -312,27 +318,27 @@ export class ReplaySource implements Source {
       broken_at: null,
     };
     if (t === undefined || s === undefined)
-      return { ...answer, error: `There is no frame “${t === undefined ? target : source}” in this recording.` };
+      return { ...failure, error: `No frame named “${t === undefined ? target : source}” in this replay.` };
     const chain = this.forest.chain(s, t);
     if (!chain) {
       const roots = [this.rootOf(t), this.rootOf(s)].map((root) => this.forest.name(root));
       return {
-        ...answer,
+        ...failure,
         chain: [source, target],
         broken_at: target,
-        error: `“${target}” and “${source}” are in two trees that are not connected.`,
-        hint: `Their roots are “${roots[0]}” and “${roots[1]}”: a transform between them is missing.`,
+        error: `Frames “${target}” and “${source}” are not connected: they are in different trees.`,
+        hint: `Publish a transform that connects their roots “${roots[0]}” and “${roots[1]}”.`,
       };
     }
     const sample = this.sample();
     const names = chain.map((frame) => this.forest.name(frame));
     const pose = relative(this.pose(sample, t), this.pose(sample, s));
     if (![...pose.position, ...pose.quaternion].every(Number.isFinite))
-      return { ...answer, chain: names, error: "At this time the recording cannot tell it." };
+      return { ...failure, chain: names, error: "The replay contains no transform at this time." };
     const values = [...pose.position, ...pose.quaternion].map((value) => String(Number(value.toPrecision(9))));
     const flags = ["x", "y", "z", "qx", "qy", "qz", "qw"].map((name, k) => `--${name} ${values[k]}`).join(" ");
     return {
-      ...answer,
+      ...failure,
       ok: true,
       chain: names,
       translation: pose.position,
@@ -344,7 +350,7 @@ export class ReplaySource implements Source {
   }
 }
 
-/** For a shell: plain names as they are, others in quotes. */
+/** Quotes a name for a shell, if necessary. */
 function quoted(name: string): string {
   return /^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", `'\\''`)}'`;
 }

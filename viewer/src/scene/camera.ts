@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Ways to look: turning about a point, straight down, or following a frame. */
+/** The camera: orbit view, top-down view, and following a frame. */
 
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
@@ -8,7 +8,7 @@ import type { JsonObject, Vector } from "../protocol/messages";
 export type CameraMode = "orbit" | "top";
 
 const FIELD_OF_VIEW = 45;
-const NEAREST_M = 0.02;
+const NEAR_PLANE_M = 0.02;
 
 export interface View {
   class: string;
@@ -17,7 +17,7 @@ export interface View {
 
 export class Camera {
   mode: CameraMode = "orbit";
-  private readonly perspective = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, NEAREST_M, 5000);
+  private readonly perspective = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, NEAR_PLANE_M, 5000);
   private readonly flat = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.1, 5000);
   private readonly controls: Record<CameraMode, OrbitControls>;
   private followed: THREE.Vector3 | null = null;
@@ -56,11 +56,11 @@ export class Camera {
   setMode(mode: CameraMode): void {
     if (mode === this.mode) return;
     const target = this.target.clone();
-    const seen = this.visibleHeight();
+    const height = this.visibleHeight();
     this.controls[this.mode].enabled = false;
     this.mode = mode;
     this.controls[mode].enabled = true;
-    this.moveTo(target, seen);
+    this.moveTo(target, height);
   }
 
   resize(width: number, height: number): void {
@@ -68,12 +68,12 @@ export class Camera {
     this.height = Math.max(1, height);
     this.perspective.aspect = this.width / this.height;
     this.perspective.updateProjectionMatrix();
-    // One unit a pixel: the zoom is then pixels a metre, RViz's Scale.
+    // With one unit per pixel, the zoom is the number of pixels per metre, as RViz's Scale.
     Object.assign(this.flat, { left: -width / 2, right: width / 2, top: height / 2, bottom: -height / 2 });
     this.flat.updateProjectionMatrix();
   }
 
-  /** Everything was moved by -delta because the scene's origin moved. */
+  /** Moves the camera with the scene, whose contents moved by -delta because its origin changed. */
   shift(delta: Vector): void {
     const move = new THREE.Vector3(...delta).negate();
     this.perspective.position.add(move);
@@ -85,7 +85,7 @@ export class Camera {
     this.followed?.add(move);
   }
 
-  /** Keeps the distance to a frame that moves; null lets go. */
+  /** Keeps the distance to a moving frame; null stops following. */
   follow(position: THREE.Vector3 | null): void {
     if (!position) {
       this.followed = null;
@@ -107,16 +107,16 @@ export class Camera {
     this.moveTo(centre, (2.5 * radius) / narrow);
   }
 
-  /** Looks at the target so that this many metres are seen from bottom to top. */
-  private moveTo(target: THREE.Vector3, seen: number): void {
+  /** Moves the camera so that the given height in metres around the target fills the view. */
+  private moveTo(target: THREE.Vector3, visibleHeight: number): void {
     const controls = this.controls[this.mode];
     if (this.mode === "orbit") {
       const direction = this.perspective.position.clone().sub(controls.target).normalize();
-      const distance = seen / (2 * Math.tan(((FIELD_OF_VIEW / 2) * Math.PI) / 180));
+      const distance = visibleHeight / (2 * Math.tan(((FIELD_OF_VIEW / 2) * Math.PI) / 180));
       this.perspective.position.copy(target).addScaledVector(direction, Math.min(2500, distance));
     } else {
       this.flat.position.set(target.x, target.y, target.z + 1000);
-      this.flat.zoom = this.height / Math.max(seen, 1e-3);
+      this.flat.zoom = this.height / Math.max(visibleHeight, 1e-3);
       this.flat.updateProjectionMatrix();
     }
     controls.target.copy(target);
@@ -129,7 +129,7 @@ export class Camera {
     return 2 * distance * Math.tan(((FIELD_OF_VIEW / 2) * Math.PI) / 180);
   }
 
-  /** The options of RViz's Orbit and TopDownOrtho; what is not given stays. */
+  /** Applies the options of RViz's Orbit or TopDownOrtho view. Returns whether the view is supported. */
   apply(view: View): boolean {
     const name = view.class.replace(/^.*\//, "");
     const number = (key: string, fallback: number): number => {

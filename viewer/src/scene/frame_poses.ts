@@ -1,60 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 /**
- * Where each frame stands in the scene.
+ * The poses of the frames in the scene.
  *
- * The scene has its own origin, near the first poses that came, so that float32 on the graphics card is exact also
- * where coordinates are UTM metres. Trees that are not connected with the fixed frame stand beside it on the ground.
+ * The scene has its own origin near the first poses received, so that float32 on the graphics card is precise enough
+ * for UTM coordinates. Trees that are not connected to the fixed frame are drawn next to it.
  */
 
-import { FrameState, type Tick, type Vector } from "../protocol/messages";
+import { FrameState, type FrameUpdate, type Vector } from "../protocol/messages";
 import type { Forest, Model } from "../model/model";
 
-/** Further than this from its origin the scene is moved: float32 has 0.06 mm steps there. */
-const FARTHEST_M = 1000;
+/** Beyond this distance the origin is moved: the resolution of float32 is 0.06 mm there. */
+const MAX_ORIGIN_DISTANCE_M = 1000;
 const TREE_GAP_M = 1;
-const LARGEST_TREE_M = 1e4;
+const MAX_TREE_RADIUS_M = 1e4;
 
-export class Placement {
-  /** Scene coordinates, count x 3. */
+export class FramePoses {
+  /** Scene coordinates in metres, count x 3. */
   positions = new Float64Array(0);
-  /** count x 4. */
+  /** x, y, z, w, count x 4. */
   quaternions = new Float32Array(0);
   drawn = new Uint8Array(0);
-  /** 0 fresh, 1 as good as gone. */
+  /** From 0 (fresh) to 1 (invisible). */
   fade = new Float32Array(0);
   count = 0;
   /** World coordinates of the scene's origin. */
   origin: Vector = [0, 0, 0];
-  /** On the ground, by component; the fixed frame's own stands at zero. */
+  /** The x offset of each tree; zero for the tree of the fixed frame. */
   offsets: number[] = [];
   frameTimeout = 15;
   private started = false;
   private fixed = "";
   private radii: number[] = [];
 
-  /** Takes the tick's poses; returns how far the scene's origin moved, when it did. */
-  update(model: Model, tick: Tick, now: number): Vector | null {
+  /** Applies a frame update. Returns the movement of the scene's origin, or null if it did not move. */
+  update(model: Model, update: FrameUpdate, now: number): Vector | null {
     const forest = model.forest;
-    const moved = this.moveOrigin(tick, model.fixed);
-    if (tick.revision !== forest.revision || tick.count !== forest.frames.length) return moved;
-    this.resize(tick.count);
-    this.arrangeTrees(forest, tick, model.fixed);
+    const moved = this.moveOrigin(update, model.fixed);
+    if (update.revision !== forest.revision || update.count !== forest.frames.length) return moved;
+    this.resize(update.count);
+    this.arrangeTrees(forest, update, model.fixed);
     const age = (now - model.statsReceived) / 1000;
-    const dx = tick.origin[0] - this.origin[0];
-    const dy = tick.origin[1] - this.origin[1];
-    const dz = tick.origin[2] - this.origin[2];
-    for (let i = 0; i < tick.count; i++) {
+    const dx = update.origin[0] - this.origin[0];
+    const dy = update.origin[1] - this.origin[1];
+    const dz = update.origin[2] - this.origin[2];
+    for (let i = 0; i < update.count; i++) {
       const p = i * 7;
-      const state = tick.states[i];
+      const state = update.states[i];
       const foreign = state === FrameState.otherTree;
       const side = foreign ? (this.offsets[forest.frames[i]?.component ?? 0] ?? 0) : 0;
-      this.positions[i * 3] = (tick.poses[p] as number) + (foreign ? side : dx);
-      this.positions[i * 3 + 1] = (tick.poses[p + 1] as number) + (foreign ? 0 : dy);
-      this.positions[i * 3 + 2] = (tick.poses[p + 2] as number) + (foreign ? 0 : dz);
-      for (let k = 0; k < 4; k++) this.quaternions[i * 4 + k] = tick.poses[p + 3 + k] as number;
+      this.positions[i * 3] = (update.poses[p] as number) + (foreign ? side : dx);
+      this.positions[i * 3 + 1] = (update.poses[p + 1] as number) + (foreign ? 0 : dy);
+      this.positions[i * 3 + 2] = (update.poses[p + 2] as number) + (foreign ? 0 : dz);
+      for (let k = 0; k < 4; k++) this.quaternions[i * 4 + k] = update.poses[p + 3 + k] as number;
       this.fade[i] = this.fadeOf(model, i, state, age);
       this.drawn[i] = Number(
-        this.fade[i] < 1 && state !== FrameState.gone && finite(tick.poses, p) && model.isShown(forest.name(i)),
+        this.fade[i] < 1 && state !== FrameState.gone && finite(update.poses, p) && model.isShown(forest.name(i)),
       );
     }
     return moved;
@@ -69,20 +69,20 @@ export class Placement {
     this.fade = new Float32Array(count);
   }
 
-  private moveOrigin(tick: Tick, fixed: string): Vector | null {
+  private moveOrigin(update: FrameUpdate, fixed: string): Vector | null {
     const delta: Vector = [
-      tick.origin[0] - this.origin[0],
-      tick.origin[1] - this.origin[1],
-      tick.origin[2] - this.origin[2],
+      update.origin[0] - this.origin[0],
+      update.origin[1] - this.origin[1],
+      update.origin[2] - this.origin[2],
     ];
     if (!delta.every(Number.isFinite)) return null;
     const other = this.fixed !== fixed;
-    if (this.started && !other && Math.hypot(...delta) < FARTHEST_M) return null;
-    this.origin = [...tick.origin];
+    if (this.started && !other && Math.hypot(...delta) < MAX_ORIGIN_DISTANCE_M) return null;
+    this.origin = [...update.origin];
     const first = !this.started || other;
     this.started = true;
     this.fixed = fixed;
-    // In another fixed frame all coordinates are new: the camera stays where it looks, near the origin.
+    // All coordinates change with the fixed frame, so the camera keeps its position near the origin.
     return first ? null : delta;
   }
 
@@ -95,20 +95,20 @@ export class Placement {
     return age >= this.frameTimeout ? 1 : 0.25 + 0.7 * Math.max(0, age / this.frameTimeout);
   }
 
-  /** Trees only ever get more room, so that none dances while its frames move. */
-  private arrangeTrees(forest: Forest, tick: Tick, fixed: string): void {
+  /** The space of a tree only grows, so that trees keep their positions while their frames move. */
+  private arrangeTrees(forest: Forest, update: FrameUpdate, fixed: string): void {
     if (this.radii.length !== forest.components.length) this.radii = forest.components.map(() => 0);
     if (forest.components.length < 2) {
       this.offsets = [0];
       return;
     }
     const own = forest.frames[forest.index.get(fixed) ?? -1]?.component ?? -1;
-    for (let i = 0; i < tick.count; i++) {
+    for (let i = 0; i < update.count; i++) {
       const c = forest.frames[i]?.component ?? 0;
-      const foreign = tick.states[i] === FrameState.otherTree;
-      const x = (tick.poses[i * 7] as number) + (foreign ? 0 : tick.origin[0] - this.origin[0]);
-      const y = (tick.poses[i * 7 + 1] as number) + (foreign ? 0 : tick.origin[1] - this.origin[1]);
-      const radius = Math.min(LARGEST_TREE_M, Math.hypot(x, y));
+      const foreign = update.states[i] === FrameState.otherTree;
+      const x = (update.poses[i * 7] as number) + (foreign ? 0 : update.origin[0] - this.origin[0]);
+      const y = (update.poses[i * 7 + 1] as number) + (foreign ? 0 : update.origin[1] - this.origin[1]);
+      const radius = Math.min(MAX_TREE_RADIUS_M, Math.hypot(x, y));
       if (radius > (this.radii[c] ?? 0)) this.radii[c] = radius * 1.1;
     }
     let edge = this.radii[own] ?? 0;

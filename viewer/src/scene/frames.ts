@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The frames themselves: axes, lines to their parents, the highlighted chain. A handful of draw calls in all. */
+/** Draws the frames: axes, lines to the parents and the highlighted chain, in few draw calls. */
 
 import * as THREE from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
@@ -7,13 +7,13 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import type { Forest } from "../model/model";
-import type { Placement } from "./frame_poses";
+import type { FramePoses } from "./frame_poses";
 import type { Palette } from "../util/theme";
 
 /** RViz draws a frame with axes of 0.2 m at Marker Scale 1. */
 export const AXIS_M = 0.2;
-/** From here on axes have four sides and no ends: a fifth of the corners, for computers that draw without a graphics card. */
-const MANY = 200;
+/** Above this number of frames, axes have four sides and no caps: a fifth of the vertices, for software rendering. */
+const MAX_DETAILED_FRAMES = 200;
 
 export interface FrameOptions {
   scale: number;
@@ -23,8 +23,8 @@ export interface FrameOptions {
 
 export class FramesView {
   readonly object = new THREE.Group();
-  /** What every picture has. */
-  readonly usual: THREE.Object3D[];
+  /** The objects that are always drawn. */
+  readonly alwaysDrawn: THREE.Object3D[];
   private readonly axes: THREE.InstancedMesh;
   private axesCapacity = 0;
   private fade = new THREE.InstancedBufferAttribute(new Float32Array(0), 1);
@@ -47,32 +47,32 @@ export class FramesView {
     this.chain.frustumCulled = false;
     this.chain.visible = false;
     this.chain.renderOrder = 10;
-    this.usual = [this.axes, this.edges];
-    this.object.add(...this.usual, this.chain);
+    this.alwaysDrawn = [this.axes, this.edges];
+    this.object.add(...this.alwaysDrawn, this.chain);
     this.setPalette(palette);
   }
 
   setPalette(palette: Palette): void {
     this.palette = palette;
     this.rebuildAxes();
-    (this.material.uniforms.background as THREE.IUniform<THREE.Vector3>).value = displayed(palette.background);
+    (this.material.uniforms.background as THREE.IUniform<THREE.Vector3>).value = srgb(palette.background);
     this.chainMaterial.color.set(palette.chain);
     this.edges.geometry.deleteAttribute("position");
   }
 
-  update(placement: Placement, forest: Forest, options: FrameOptions): void {
-    this.updateAxes(placement, options);
-    this.updateEdges(placement, forest, options);
+  update(framePoses: FramePoses, forest: Forest, options: FrameOptions): void {
+    this.updateAxes(framePoses, options);
+    this.updateEdges(framePoses, forest, options);
   }
 
-  /** Draws the way between two frames over everything else. */
-  setChain(placement: Placement, chain: number[]): void {
+  /** Draws the chain between two frames on top of everything else. */
+  setChain(framePoses: FramePoses, chain: number[]): void {
     const points: number[] = [];
     for (let k = 1; k < chain.length; k++) {
       const [a, b] = [chain[k - 1] as number, chain[k] as number];
-      if (!placement.drawn[a] || !placement.drawn[b]) continue;
+      if (!framePoses.drawn[a] || !framePoses.drawn[b]) continue;
       for (const i of [a, b])
-        for (let axis = 0; axis < 3; axis++) points.push(placement.positions[i * 3 + axis] as number);
+        for (let axis = 0; axis < 3; axis++) points.push(framePoses.positions[i * 3 + axis] as number);
     }
     this.chain.visible = points.length > 0;
     if (!this.chain.visible) return;
@@ -80,8 +80,8 @@ export class FramesView {
     this.chain.geometry = new LineSegmentsGeometry().setPositions(points);
   }
 
-  private updateAxes(placement: Placement, options: FrameOptions): void {
-    const { count } = placement;
+  private updateAxes(framePoses: FramePoses, options: FrameOptions): void {
+    const { count } = framePoses;
     this.axes.visible = options.axes && count > 0;
     if (!this.axes.visible) return;
     if (count > this.axesCapacity) this.reserve(count);
@@ -90,8 +90,8 @@ export class FramesView {
     const length = AXIS_M * options.scale;
     const out = this.axes.instanceMatrix.array as Float32Array;
     for (let i = 0; i < count; i++) {
-      fade[i] = placement.fade[i] as number;
-      writeMatrix(out, i * 16, placement, i, placement.drawn[i] ? length : 0);
+      fade[i] = framePoses.fade[i] as number;
+      writeMatrix(out, i * 16, framePoses, i, framePoses.drawn[i] ? length : 0);
     }
     this.fade.needsUpdate = true;
     this.axes.instanceMatrix.needsUpdate = true;
@@ -99,7 +99,7 @@ export class FramesView {
 
   private rebuildAxes(): void {
     this.axes.geometry.dispose();
-    this.axes.geometry = axesGeometry(this.palette, undefined, this.axesCapacity > MANY);
+    this.axes.geometry = axesGeometry(this.palette, undefined, this.axesCapacity > MAX_DETAILED_FRAMES);
     this.axes.geometry.setAttribute("fade", this.fade);
   }
 
@@ -111,8 +111,8 @@ export class FramesView {
     this.rebuildAxes();
   }
 
-  private updateEdges(placement: Placement, forest: Forest, options: FrameOptions): void {
-    const { count, positions } = placement;
+  private updateEdges(framePoses: FramePoses, forest: Forest, options: FrameOptions): void {
+    const { count, positions } = framePoses;
     this.edges.visible = options.arrows && count > 1;
     if (!this.edges.visible) return;
     const geometry = this.edges.geometry;
@@ -127,7 +127,7 @@ export class FramesView {
     let used = 0;
     for (let i = 0; i < count; i++) {
       const parent = forest.frames[i]?.parent ?? -1;
-      if (parent < 0 || !placement.drawn[i] || !placement.drawn[parent]) continue;
+      if (parent < 0 || !framePoses.drawn[i] || !framePoses.drawn[parent]) continue;
       for (let axis = 0; axis < 3; axis++) {
         out[used * 6 + axis] = positions[i * 3 + axis] as number;
         out[used * 6 + 3 + axis] = positions[parent * 3 + axis] as number;
@@ -139,9 +139,9 @@ export class FramesView {
   }
 }
 
-/** Column-major rotation, uniform scale and position, straight into the instances' array. */
-function writeMatrix(out: Float32Array, o: number, placement: Placement, i: number, scale: number): void {
-  const q = placement.quaternions;
+/** Writes rotation, uniform scale and position as a column-major matrix into the array of the instances. */
+function writeMatrix(out: Float32Array, o: number, framePoses: FramePoses, i: number, scale: number): void {
+  const q = framePoses.quaternions;
   const [x, y, z, w] = [q[i * 4] as number, q[i * 4 + 1] as number, q[i * 4 + 2] as number, q[i * 4 + 3] as number];
   if (scale === 0) {
     out.fill(0, o, o + 16);
@@ -160,20 +160,20 @@ function writeMatrix(out: Float32Array, o: number, placement: Placement, i: numb
   out[o + 9] = 2 * (y * z - w * x) * s;
   out[o + 10] = (1 - 2 * (x * x + y * y)) * s;
   out[o + 11] = 0;
-  out[o + 12] = placement.positions[i * 3] as number;
-  out[o + 13] = placement.positions[i * 3 + 1] as number;
-  out[o + 14] = placement.positions[i * 3 + 2] as number;
+  out[o + 12] = framePoses.positions[i * 3] as number;
+  out[o + 13] = framePoses.positions[i * 3 + 1] as number;
+  out[o + 14] = framePoses.positions[i * 3 + 2] as number;
   out[o + 15] = 1;
 }
 
-/** Three cylinders of length 1, coloured, as one geometry. */
+/** The axes x, y and z as one geometry: coloured cylinders of length 1. */
 export function axesGeometry(palette: Palette, radius = 0.055, plain = false): THREE.BufferGeometry {
   const parts = palette.axes.map((colour, axis) => {
     const part = new THREE.CylinderGeometry(radius, radius, 1, plain ? 4 : 8, 1, plain);
     part.translate(0, 0.5, 0);
     if (axis === 0) part.rotateZ(-Math.PI / 2);
     if (axis === 2) part.rotateX(Math.PI / 2);
-    const rgb = displayed(colour);
+    const rgb = srgb(colour);
     const colours = new Float32Array(part.getAttribute("position").count * 3);
     for (let k = 0; k < colours.length; k += 3) colours.set([rgb.x, rgb.y, rgb.z], k);
     part.setAttribute("color", new THREE.BufferAttribute(colours, 3));
@@ -185,7 +185,7 @@ export function axesGeometry(palette: Palette, radius = 0.055, plain = false): T
   return merged;
 }
 
-/** Flat colours with a little shape; a stale frame goes over into the background. */
+/** Colours with slight shading; stale frames fade into the background. */
 function axesMaterial(): THREE.ShaderMaterial {
   return new THREE.ShaderMaterial({
     vertexColors: true,
@@ -193,26 +193,26 @@ function axesMaterial(): THREE.ShaderMaterial {
     vertexShader: `
       attribute float fade;
       uniform vec3 background;
-      varying vec3 shown;
+      varying vec3 shaded;
       void main() {
         vec3 n = normalize(normalMatrix * mat3(instanceMatrix) * normal);
         float shade = 0.72 + 0.28 * abs(n.z) + 0.08 * n.y;
-        shown = mix(color * shade, background, fade);
+        shaded = mix(color * shade, background, fade);
         gl_Position = projectionMatrix * modelViewMatrix * instanceMatrix * vec4(position, 1.0);
       }`,
     fragmentShader: `
-      varying vec3 shown;
-      void main() { gl_FragColor = vec4(shown, 1.0); }`,
+      varying vec3 shaded;
+      void main() { gl_FragColor = vec4(shaded, 1.0); }`,
   });
 }
 
-/** A colour's numbers as they go to the screen, for shaders that write them unchanged. */
-export function displayed(colour: string): THREE.Vector3 {
+/** The sRGB components of a colour, for shaders that write them to the screen unchanged. */
+export function srgb(colour: string): THREE.Vector3 {
   const rgb = new THREE.Color(colour).getRGB({ r: 0, g: 0, b: 0 }, THREE.SRGBColorSpace);
   return new THREE.Vector3(rgb.r, rgb.g, rgb.b);
 }
 
-/** Bright at the child, dim at the parent: the line has a direction without an arrow's clutter. */
+/** Lines are bright at the child and dim at the parent, which shows the direction without arrow heads. */
 function edgeColours(count: number, palette: Palette): Float32Array {
   const ends = palette.edge.map((colour) => new THREE.Color(colour));
   const colours = new Float32Array(count * 6);

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Names beside frames: real elements, few of them, never one over another. */
+/** The names of frames: a limited number of HTML elements that do not overlap. */
 
 import * as THREE from "three";
 import { h, setText, shorten } from "../util/dom";
 
-const MOST = 120;
+const MAX_LABELS = 120;
 const ROW_PX = 15;
 const CHARACTER_PX = 6.7;
-const LONGEST = 32;
-/** Where a label may go when its own place is taken, in rows. */
-const NUDGES = [0, 1, -1, 2, -2, 3];
+const MAX_CHARACTERS = 32;
+/** Offsets in rows that are tried if the position of a label is occupied. */
+const ROW_OFFSETS = [0, 1, -1, 2, -2, 3];
 
 export interface Label {
   key: string;
   text: string;
   position: THREE.Vector3;
-  /** Lower is placed first. */
+  /** Labels with lower values are placed first. */
   priority: number;
   className: string;
 }
@@ -26,25 +26,25 @@ export class LabelLayer {
 
   constructor(private readonly parent: HTMLElement) {}
 
-  /** Places what fits; the rest is left out rather than drawn over. */
+  /** Places the labels that fit; labels that would overlap others are omitted. */
   draw(labels: Label[], camera: THREE.Camera, width: number, height: number): void {
-    const seen: { label: Label; x: number; y: number; rank: number }[] = [];
+    const visible: { label: Label; x: number; y: number; rank: number }[] = [];
     for (const label of labels) {
       const p = this.projected.copy(label.position).project(camera);
       if (p.z < -1 || p.z > 1 || Math.abs(p.x) > 1 || Math.abs(p.y) > 1) continue;
-      seen.push({
+      visible.push({
         label,
         x: ((p.x + 1) / 2) * width,
         y: ((1 - p.y) / 2) * height,
         rank: label.priority + p.z,
       });
     }
-    seen.sort((a, b) => a.rank - b.rank);
-    const taken: number[][] = [];
+    visible.sort((a, b) => a.rank - b.rank);
+    const occupied: number[][] = [];
     const used = new Set<string>();
-    for (const { label, x, y } of seen) {
-      if (used.size >= MOST) break;
-      const row = free(taken, x, y, Math.min(label.text.length, LONGEST) * CHARACTER_PX + 12);
+    for (const { label, x, y } of visible) {
+      if (used.size >= MAX_LABELS) break;
+      const row = reserveRow(occupied, x, y, Math.min(label.text.length, MAX_CHARACTERS) * CHARACTER_PX + 12);
       if (row === null) continue;
       this.place(label, x, row);
       used.add(label.key);
@@ -65,19 +65,19 @@ export class LabelLayer {
     }
     const className = `label ${label.className}`;
     if (element.className !== className) element.className = className;
-    setText(element, shorten(label.text, LONGEST));
+    setText(element, shorten(label.text, MAX_CHARACTERS));
     element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
   }
 }
 
-/** The first free place near (x, y) for a text of this width: its y, and the place is then taken. */
-function free(taken: number[][], x: number, y: number, width: number): number | null {
-  for (const nudge of NUDGES) {
-    const top = y + nudge * ROW_PX;
+/** Reserves a free row near (x, y) for a text of this width. Returns its y, or null if all rows are occupied. */
+function reserveRow(occupied: number[][], x: number, y: number, width: number): number | null {
+  for (const offset of ROW_OFFSETS) {
+    const top = y + offset * ROW_PX;
     const row = Math.round(top / ROW_PX);
     const rows = [row - 1, row, row + 1].filter((r) => r >= 0);
     const collides = rows.some((r) => {
-      const spans = taken[r];
+      const spans = occupied[r];
       if (!spans) return false;
       for (let k = 0; k < spans.length; k += 3)
         if (
@@ -89,7 +89,7 @@ function free(taken: number[][], x: number, y: number, width: number): number | 
       return false;
     });
     if (collides) continue;
-    if (row >= 0) (taken[row] ??= []).push(x, x + width, top);
+    if (row >= 0) (occupied[row] ??= []).push(x, x + width, top);
     return top;
   }
   return null;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The distance between two frames that the user points at. */
+/** Measures the distance between two frames that the user clicks. */
 
 import * as THREE from "three";
 import { shorten } from "../util/dom";
@@ -38,7 +38,7 @@ export class Measure {
     this.frames = [];
   }
 
-  /** The third click begins anew. */
+  /** Adds a frame; the third one starts a new measurement. */
   add(frame: string): void {
     if (this.frames.length >= 2) this.frames = [];
     if (this.frames[0] !== frame) this.frames.push(frame);
@@ -58,11 +58,11 @@ export class Measure {
     this.object.computeLineDistances();
   }
 
-  /** In words: what to do next, or the result along the fixed frame's axes. */
+  /** The next step for the user, or the result along the axes of the fixed frame. */
   text(): string {
     if (this.frames.length === 0) return "Measure: click the first frame";
     if (this.frames.length === 1) return `From ${shorten(this.frames[0] ?? "", 40)}: click the second frame`;
-    if (!this.object.visible) return "One of the two frames is not drawn now";
+    if (!this.object.visible) return "One of the two frames is not visible";
     const [a, b] = this.ends;
     const along = (["x", "y", "z"] as const).map((k) => `Δ${k} ${format.fixed(b[k] - a[k], 3)}`).join("  ");
     return `${format.metres(a.distanceTo(b))}   ${along}`;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Mesh files: fetched with a limit, parsed by their ending, shared by all who name them. */
+/** Loads mesh files. Their size is limited, and displays that use the same file share it. */
 
 import * as THREE from "three";
 import { ColladaLoader } from "three/examples/jsm/loaders/ColladaLoader.js";
@@ -8,16 +8,16 @@ import { MTLLoader } from "three/examples/jsm/loaders/MTLLoader.js";
 import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
 import { STLLoader } from "three/examples/jsm/loaders/STLLoader.js";
 
-const MOST_BYTES = 200e6;
-/** Text is parsed in one go, during which the page stands still. */
-const MOST_TEXT_BYTES = 60e6;
-const MOST_VERTICES = 6e6;
-/** For what must not be asked for: it fails at once. */
-export const NOTHING = "data:,";
+const MAX_BYTES = 200e6;
+/** The page blocks while a text file is parsed. */
+const MAX_TEXT_BYTES = 60e6;
+const MAX_VERTICES = 6e6;
+/** A URL that replaces forbidden ones; loading it fails immediately. */
+export const FORBIDDEN_URL = "data:,";
 
 export interface LoadedMesh {
   object: THREE.Object3D;
-  /** Whether the file brought its own colours: a DAE's and a GLB's are kept, an STL has none. */
+  /** Whether the file contains colours, as DAE and GLB files do; STL files do not. */
   coloured: boolean;
 }
 
@@ -27,9 +27,11 @@ export class Meshes {
   private readonly loading = new Map<string, Promise<LoadedMesh>>();
 
   /**
-   * @param url Where it is.
-   * @param name As the robot wrote it: its ending says what it is.
-   * @returns A copy that shares its geometry with all others of this file.
+   * Loads a mesh.
+   *
+   * @param url The URL of the file.
+   * @param name The name in the robot description; its extension determines the format.
+   * @returns A copy that shares its geometry with all other copies of this file.
    */
   async load(url: string, name: string): Promise<LoadedMesh> {
     let promise = this.loading.get(url);
@@ -50,31 +52,30 @@ async function fetchMesh(url: string, name: string): Promise<LoadedMesh> {
     part.userData.shared = true;
     vertices += (part as Partial<THREE.Mesh>).geometry?.getAttribute("position")?.count ?? 0;
   });
-  if (vertices > MOST_VERTICES) throw new MeshError(`${short(name)} has ${vertices} vertices, too many to draw`);
+  if (vertices > MAX_VERTICES)
+    throw new MeshError(`${short(name)} has ${vertices} vertices. At most ${MAX_VERTICES} can be drawn.`);
   loaded.object.position.set(0, 0, 0);
   loaded.object.quaternion.identity();
   return loaded;
 }
 
 async function fetchBytes(url: string, name: string): Promise<ArrayBuffer> {
-  if (!isOurs(url)) throw new MeshError(`${short(name)} is not served by this viewer`);
+  if (!isAllowed(url)) throw new MeshError(`${short(name)} is not served by this viewer.`);
   const stop = new AbortController();
   const response = await fetch(url, { signal: stop.signal });
   if (!response.ok) throw new MeshError(`${short(name)}: ${(await response.text()).slice(0, 200) || response.status}`);
   const tooLarge = (size: number): never => {
     stop.abort();
-    throw new MeshError(
-      `${short(name)} is larger than the ${MOST_BYTES / 1e6} MB that are drawn (${Math.round(size / 1e6)} MB)`,
-    );
+    throw new MeshError(`${short(name)} has ${Math.round(size / 1e6)} MB. At most ${MAX_BYTES / 1e6} MB can be drawn.`);
   };
-  const announced = Number(response.headers.get("Content-Length") ?? 0);
-  if (announced > MOST_BYTES) tooLarge(announced);
+  const declared = Number(response.headers.get("Content-Length") ?? 0);
+  if (declared > MAX_BYTES) tooLarge(declared);
   const parts: Uint8Array[] = [];
   let size = 0;
   const reader = response.body?.getReader();
   for (let part = await reader?.read(); part && !part.done; part = await reader?.read()) {
     size += part.value.length;
-    if (size > MOST_BYTES) tooLarge(size);
+    if (size > MAX_BYTES) tooLarge(size);
     parts.push(part.value);
   }
   const bytes = new Uint8Array(size);
@@ -88,16 +89,16 @@ async function fetchBytes(url: string, name: string): Promise<ArrayBuffer> {
 
 async function parse(bytes: ArrayBuffer, url: string, name: string): Promise<LoadedMesh> {
   const manager = new THREE.LoadingManager();
-  manager.setURLModifier((wanted) => (isOurs(wanted) ? wanted : NOTHING));
-  const textures = ending(manager);
-  const loaded = await parsed(bytes, url, name, manager);
-  await textures();
+  manager.setURLModifier((target) => (isAllowed(target) ? target : FORBIDDEN_URL));
+  const texturesLoaded = completion(manager);
+  const loaded = await parseFormat(bytes, url, name, manager);
+  await texturesLoaded();
   dropEmptyTextures(loaded.object);
   return loaded;
 }
 
-/** Waits until all that was asked for has come, or has failed to. */
-function ending(manager: THREE.LoadingManager): () => Promise<void> {
+/** Returns a function that waits until all requests of a manager have succeeded or failed. */
+function completion(manager: THREE.LoadingManager): () => Promise<void> {
   let busy = false;
   let end = (): void => {};
   manager.onStart = (): void => void (busy = true);
@@ -108,21 +109,21 @@ function ending(manager: THREE.LoadingManager): () => Promise<void> {
   return () => (busy ? new Promise((resolve) => (end = resolve)) : Promise.resolve());
 }
 
-async function parsed(
+async function parseFormat(
   bytes: ArrayBuffer,
   url: string,
   name: string,
   manager: THREE.LoadingManager,
 ): Promise<LoadedMesh> {
   const kind = /\.([a-z0-9]+)$/i.exec(name.split(/[?#]/)[0] ?? "")?.[1]?.toLowerCase() ?? "";
-  // What stands beside the file is served below its own address.
+  // The server provides files in the same folder below the URL of the mesh.
   const folder = url.startsWith("data:") ? "" : `${url}/`;
   switch (kind) {
     case "stl":
       return { object: new THREE.Mesh(parseStl(bytes, name)), coloured: false };
     case "dae": {
       const scene = new ColladaLoader(manager).parse(text(bytes, name), folder)?.scene;
-      if (!scene) throw new MeshError(`${short(name)} is no COLLADA file`);
+      if (!scene) throw new MeshError(`${short(name)} is not a COLLADA file.`);
       return { object: scene, coloured: true };
     }
     case "obj":
@@ -131,11 +132,11 @@ async function parsed(
     case "gltf":
       return { object: (await new GLTFLoader(manager).parseAsync(bytes, folder)).scene, coloured: true };
     default:
-      throw new MeshError(`${short(name)}: only STL, DAE, OBJ and GLB meshes can be drawn`);
+      throw new MeshError(`${short(name)} has an unsupported format. Supported formats: STL, DAE, OBJ, GLB and glTF.`);
   }
 }
 
-/** With the materials that stand beside it, if it names any and they are there. */
+/** Parses an OBJ file with its material library, if it exists. */
 async function parseObj(source: string, folder: string, manager: THREE.LoadingManager): Promise<LoadedMesh> {
   const loader = new OBJLoader(manager);
   const library = /^mtllib[ \t]+(.+?)\s*$/m.exec(source)?.[1];
@@ -157,24 +158,26 @@ function parseStl(bytes: ArrayBuffer, name: string): THREE.BufferGeometry {
   const binary = bytes.byteLength >= 84 && 84 + new DataView(bytes).getUint32(80, true) * 50 === bytes.byteLength;
   if (!binary) text(bytes, name);
   const geometry = new STLLoader().parse(bytes);
-  if (!geometry.getAttribute("position")?.count) throw new MeshError(`${short(name)} holds no triangles`);
-  // Exporters disagree on the normals; those of the triangles are always right.
+  if (!geometry.getAttribute("position")?.count) throw new MeshError(`${short(name)} contains no triangles.`);
+  // The normals in STL files are unreliable; those of the triangles are always correct.
   geometry.computeVertexNormals();
   return geometry;
 }
 
 function text(bytes: ArrayBuffer, name: string): string {
-  if (bytes.byteLength > MOST_TEXT_BYTES)
-    throw new MeshError(`${short(name)} is a text file of ${Math.round(bytes.byteLength / 1e6)} MB, too large to draw`);
+  if (bytes.byteLength > MAX_TEXT_BYTES)
+    throw new MeshError(
+      `${short(name)} is a text file of ${Math.round(bytes.byteLength / 1e6)} MB. At most ${MAX_TEXT_BYTES / 1e6} MB can be drawn.`,
+    );
   return new TextDecoder().decode(bytes);
 }
 
-/** A texture that could not be had would be drawn black. */
+/** Replaces textures that could not be loaded, and would be drawn black, by grey. */
 export function dropEmptyTextures(object: THREE.Object3D): void {
   object.traverse((part) => {
     for (const material of materialsOf(part)) {
       const textured = material as THREE.MeshPhongMaterial;
-      if (!textured.map || hasPicture(textured.map)) continue;
+      if (!textured.map || hasImage(textured.map)) continue;
       textured.map = null;
       textured.color.set("#b8bcc0");
       textured.needsUpdate = true;
@@ -182,7 +185,7 @@ export function dropEmptyTextures(object: THREE.Object3D): void {
   });
 }
 
-export function hasPicture(texture: THREE.Texture): boolean {
+export function hasImage(texture: THREE.Texture): boolean {
   return Boolean((texture.image as { width?: number } | undefined)?.width);
 }
 
@@ -191,8 +194,8 @@ export function materialsOf(object: THREE.Object3D): THREE.Material[] {
   return material ? (Array.isArray(material) ? material : [material]) : [];
 }
 
-/** Files may name anything; only this server and what is in the page itself are asked. */
-function isOurs(url: string): boolean {
+/** Mesh files can contain any URL. Only the server of this page and data inside the page are allowed. */
+function isAllowed(url: string): boolean {
   if (/^(data|blob):/.test(url)) return true;
   try {
     return new URL(url, location.href).origin === location.origin && location.protocol !== "file:";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The canvas: renderer, light, and a picture only when something changed. */
+/** Renders the scene to the canvas, only when something has changed. */
 
 import * as THREE from "three";
 import { Camera } from "./camera";
@@ -8,16 +8,16 @@ import type { Palette } from "../util/theme";
 
 const FPS_WINDOW_MS = 1000;
 
-export class Stage {
+export class SceneRenderer {
   readonly scene = new THREE.Scene();
   readonly camera: Camera;
-  readonly renderer: THREE.WebGLRenderer;
-  /** Whether pictures are made without a graphics card, which takes microseconds a point. */
+  readonly webgl: THREE.WebGLRenderer;
+  /** Whether the browser renders without a graphics card, which takes microseconds per point. */
   readonly software: boolean;
   width = 0;
   height = 0;
-  private requested = false;
-  private readonly drawn: number[] = [];
+  private scheduled = false;
+  private readonly drawTimes: number[] = [];
   private readonly light = new THREE.DirectionalLight(0xffffff, 1.6);
 
   constructor(
@@ -27,10 +27,10 @@ export class Stage {
     private readonly afterDraw: () => void,
   ) {
     THREE.Object3D.DEFAULT_UP.set(0, 0, 1);
-    this.renderer = new THREE.WebGLRenderer({ canvas, context: opaqueContext(canvas) });
-    // Asking how each program came out waits for the graphics card.
-    this.renderer.debug.checkShaderErrors = false;
-    this.software = isSoftware(this.renderer.getContext());
+    this.webgl = new THREE.WebGLRenderer({ canvas, context: opaqueContext(canvas) });
+    // Checking shader errors would wait for the graphics card.
+    this.webgl.debug.checkShaderErrors = false;
+    this.software = isSoftware(this.webgl.getContext());
     this.camera = new Camera(canvas, () => this.invalidate());
     this.scene.add(new THREE.HemisphereLight(0xffffff, 0x8a8f96, 1.7), this.light, this.light.target);
     this.setPalette(palette);
@@ -40,15 +40,15 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Has programs made for things that are about to be drawn, which goes on beside all else. */
-  announce(things: THREE.Object3D[]): void {
-    for (const thing of things) this.renderer.compile(thing, this.camera.current, this.scene);
+  /** Compiles the shaders of objects in advance, in the background. */
+  compile(objects: THREE.Object3D[]): void {
+    for (const object of objects) this.webgl.compile(object, this.camera.current, this.scene);
   }
 
   get fps(): number {
     const now = performance.now();
-    while (this.drawn.length && now - (this.drawn[0] as number) > FPS_WINDOW_MS) this.drawn.shift();
-    return this.drawn.length;
+    while (this.drawTimes.length && now - (this.drawTimes[0] as number) > FPS_WINDOW_MS) this.drawTimes.shift();
+    return this.drawTimes.length;
   }
 
   setPalette(palette: Palette): void {
@@ -56,20 +56,24 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Asks for a new picture; several askers get one. */
+  /** Schedules a redraw; several calls before it cause only one. */
   invalidate(): void {
-    if (this.requested) return;
-    this.requested = true;
+    if (this.scheduled) return;
+    this.scheduled = true;
     requestAnimationFrame(() => {
-      this.requested = false;
+      this.scheduled = false;
       this.draw();
     });
   }
 
-  picture(): Promise<Blob> {
+  /** Draws the scene and returns it as a PNG image. */
+  image(): Promise<Blob> {
     this.draw();
     return new Promise((resolve, reject) =>
-      this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/png"),
+      this.canvas.toBlob(
+        (blob) => (blob ? resolve(blob) : reject(new Error("The canvas cannot be read."))),
+        "image/png",
+      ),
     );
   }
 
@@ -79,18 +83,18 @@ export class Stage {
     const camera = this.camera.current;
     this.light.position.copy(camera.position).add(new THREE.Vector3(1, 1, 3));
     this.light.target.position.copy(this.camera.target);
-    this.renderer.render(this.scene, camera);
-    this.drawn.push(performance.now());
+    this.webgl.render(this.scene, camera);
+    this.drawTimes.push(performance.now());
     this.afterDraw();
   }
 
   private resize(): void {
-    const { canvas, renderer } = this;
+    const { canvas, webgl } = this;
     this.width = Math.max(1, canvas.clientWidth);
     this.height = Math.max(1, canvas.clientHeight);
     const { width, height } = drawingSize(canvas);
-    if (canvas.width !== width || canvas.height !== height || renderer.getPixelRatio() !== pixelRatio())
-      renderer.setDrawingBufferSize(this.width, this.height, pixelRatio());
+    if (canvas.width !== width || canvas.height !== height || webgl.getPixelRatio() !== pixelRatio())
+      webgl.setDrawingBufferSize(this.width, this.height, pixelRatio());
     this.camera.resize(this.width, this.height);
     this.invalidate();
   }

@@ -1,50 +1,53 @@
 // SPDX-License-Identifier: Apache-2.0
-/** The picture as a whole: frames, names, what is highlighted or measured, and which frame a click means. */
+/** The 3D view: frames, labels, highlights, measurements and clicks. */
 
 import * as THREE from "three";
 import { FramesView, type FrameOptions } from "./frames";
 import { LabelLayer, type Label } from "./labels";
 import { Measure } from "./measure";
 import type { Model } from "../model/model";
-import { Placement } from "./frame_poses";
-import type { Tick } from "../protocol/messages";
-import { Stage } from "./renderer";
+import { FramePoses } from "./frame_poses";
+import type { FrameUpdate } from "../protocol/messages";
+import { SceneRenderer } from "./renderer";
 import type { Theme } from "../util/theme";
 
 const PICK_PX = 18;
 const CLICK_PX = 5;
-/** Trees larger than this are looked through for frames that stand far away. */
-const FAR_APART_M = 300;
-const OUTLIER = 20;
-/** So far around the frames data is looked at, too. */
-const NEAR_M = 1;
-const FIT_AGAIN_MS = [1000, 3000];
+/** Frames far away from all others are ignored when fitting the camera, if the frames span more than this. */
+const OUTLIER_SPAN_M = 300;
+/** An outlier is this many times as far away as the median frame. */
+const OUTLIER_FACTOR = 20;
+/** The distance around the frames in which displayed data is included when fitting the camera. */
+const FIT_MARGIN_M = 1;
+const REFIT_MS = [1000, 3000];
 
 export interface TfOptions extends FrameOptions {
   names: boolean;
 }
 
 export class View {
-  readonly stage: Stage;
-  readonly placement = new Placement();
+  readonly renderer: SceneRenderer;
+  readonly framePoses = new FramePoses();
   readonly measure: Measure;
-  /** The tick whose poses are in the scene. */
-  shown: Tick | null = null;
-  /** Ticks drawn so far. */
-  ticks = 0;
+  /** The frame update whose poses are in the scene. */
+  shown: FrameUpdate | null = null;
+  /** The number of frame updates drawn. */
+  updates = 0;
   tf: TfOptions = { scale: 1, axes: true, arrows: true, names: true };
   tfShown = true;
   followed: string | null = null;
   private readonly frames: FramesView;
   private readonly labels: LabelLayer;
-  private pending: Tick | null = null;
-  private stale = true;
+  private pending: FrameUpdate | null = null;
+  private changed = true;
   private fitted = false;
+  /** Whether the user has moved the camera, so that it is not fitted again automatically. */
+  private cameraChosen = false;
   private readonly bounds: (() => THREE.Box3)[] = [];
   private chain: number[] = [];
-  private readonly placed: ((placement: Placement, tick: Tick) => void)[] = [];
-  private readonly taken: ((tick: Tick) => void)[] = [];
-  private readonly finished: ((tick: Tick | null) => void)[] = [];
+  private readonly posesListeners: ((framePoses: FramePoses, update: FrameUpdate) => void)[] = [];
+  private readonly beforeDrawListeners: ((update: FrameUpdate) => void)[] = [];
+  private readonly drawnListeners: ((update: FrameUpdate | null) => void)[] = [];
 
   constructor(
     private readonly model: Model,
@@ -56,17 +59,17 @@ export class View {
     this.frames = new FramesView(palette);
     this.labels = new LabelLayer(labels);
     this.measure = new Measure(palette);
-    this.stage = new Stage(
+    this.renderer = new SceneRenderer(
       canvas,
       palette,
       () => this.prepare(),
       () => this.finish(),
     );
-    this.stage.scene.add(this.frames.object, this.measure.object);
-    this.stage.announce(this.frames.usual);
+    this.renderer.scene.add(this.frames.object, this.measure.object);
+    this.renderer.compile(this.frames.alwaysDrawn);
     theme.onChange(() => this.recolour());
-    model.on("tick", (tick) => {
-      this.pending = tick;
+    model.on("frames", (update) => {
+      this.pending = update;
       this.refresh();
     });
     model.on("tree", () => this.refresh());
@@ -80,132 +83,132 @@ export class View {
     this.listenForClicks(canvas);
   }
 
-  /** Called with each tick's poses in place, before the picture is made. */
-  onPlaced(listener: (placement: Placement, tick: Tick) => void): void {
-    this.placed.push(listener);
+  /** Calls the listener after the poses of a frame update are set, before drawing. */
+  onPoses(listener: (framePoses: FramePoses, update: FrameUpdate) => void): void {
+    this.posesListeners.push(listener);
   }
 
-  /** Called when a tick is about to be drawn: the server may make the next one meanwhile. */
-  onTaken(listener: (tick: Tick) => void): void {
-    this.taken.push(listener);
+  /** Calls the listener before a frame update is drawn, so that the server can prepare the next one. */
+  onBeforeDraw(listener: (update: FrameUpdate) => void): void {
+    this.beforeDrawListeners.push(listener);
   }
 
-  /** Called after each picture, with the tick that it showed first, if it did. */
-  onDrawn(listener: (tick: Tick | null) => void): void {
-    this.finished.push(listener);
+  /** Calls the listener after each draw, with the frame update if it is a new one. */
+  onDrawn(listener: (update: FrameUpdate | null) => void): void {
+    this.drawnListeners.push(listener);
   }
 
-  /** Something other than the camera changed. */
+  /** Redraws the scene after a change of anything but the camera. */
   refresh(): void {
-    this.stale = true;
-    this.stage.invalidate();
+    this.changed = true;
+    this.renderer.invalidate();
   }
 
-  /** Looks at everything that is drawn. */
+  /** Moves the camera so that everything is visible. */
   fit(): void {
-    const { positions, drawn, count } = this.placement;
+    const { positions, drawn, count } = this.framePoses;
     const points: THREE.Vector3[] = [];
     for (let i = 0; i < count; i++) if (drawn[i]) points.push(new THREE.Vector3().fromArray(positions, i * 3));
     const box = new THREE.Box3().setFromPoints(withoutOutliers(points));
-    // Of a scan that reaches far, what is around the frames is seen; all of it where there are no frames.
-    const near = box.clone().expandByScalar(Math.max(NEAR_M, box.getSize(new THREE.Vector3()).length() / 3));
+    // Data far away from the frames, such as long scans, is ignored unless there are no frames.
+    const near = box.clone().expandByScalar(Math.max(FIT_MARGIN_M, box.getSize(new THREE.Vector3()).length() / 3));
     for (const bounds of this.bounds) {
       const own = bounds();
       box.union(near.isEmpty() ? own : own.intersect(near));
     }
-    if (!box.isEmpty()) this.stage.camera.fit(box.expandByScalar(0.1));
+    if (!box.isEmpty()) this.renderer.camera.fit(box.expandByScalar(0.1));
   }
 
-  /** Others whose things are to be seen when everything is looked at. */
-  onFit(bounds: () => THREE.Box3): void {
+  /** Registers further objects that `fit` makes visible. */
+  addBounds(bounds: () => THREE.Box3): void {
     this.bounds.push(bounds);
   }
 
-  /** The camera was set by somebody: do not move it when the first frames come. */
+  /** Prevents the camera from being fitted to the first frames, after a file has set it. */
   keepCamera(): void {
     this.fitted = true;
   }
 
   position(frame: string): THREE.Vector3 | null {
     const i = this.model.forest.index.get(frame) ?? -1;
-    if (i < 0 || i >= this.placement.count || !this.placement.drawn[i]) return null;
-    return new THREE.Vector3().fromArray(this.placement.positions, i * 3);
+    if (i < 0 || i >= this.framePoses.count || !this.framePoses.drawn[i]) return null;
+    return new THREE.Vector3().fromArray(this.framePoses.positions, i * 3);
   }
 
   setFollowed(frame: string | null): void {
     this.followed = frame;
-    this.stage.camera.follow(null);
+    if (frame !== null) this.cameraChosen = true;
+    this.renderer.camera.follow(null);
     this.refresh();
   }
 
   private prepare(): void {
-    const { model, placement } = this;
-    if (this.pending) for (const listener of this.taken) listener(this.pending);
-    if (!this.stale || !model.tick) return;
-    this.stale = false;
-    this.shown = model.tick;
-    const moved = placement.update(model, model.tick, performance.now());
-    if (moved) this.stage.camera.shift(moved);
+    const { model, framePoses } = this;
+    if (this.pending) for (const listener of this.beforeDrawListeners) listener(this.pending);
+    if (!this.changed || !model.frameUpdate) return;
+    this.changed = false;
+    this.shown = model.frameUpdate;
+    const moved = framePoses.update(model, model.frameUpdate, performance.now());
+    if (moved) this.renderer.camera.shift(moved);
     this.frames.object.visible = this.tfShown;
-    this.frames.update(placement, model.forest, this.tf);
-    this.frames.setChain(placement, model.selection.frame ? this.chain : []);
+    this.frames.update(framePoses, model.forest, this.tf);
+    this.frames.setChain(framePoses, model.selection.frame ? this.chain : []);
     this.measure.update((frame) => this.position(frame));
     if (this.followed) {
       const position = this.position(this.followed);
-      if (position) this.stage.camera.follow(position);
+      if (position) this.renderer.camera.follow(position);
     }
-    for (const listener of this.placed) listener(placement, model.tick);
-    if (!this.fitted && (placement.drawn.includes(1) || this.bounds.some((bounds) => !bounds().isEmpty()))) {
+    for (const listener of this.posesListeners) listener(framePoses, model.frameUpdate);
+    if (!this.fitted && (framePoses.drawn.includes(1) || this.bounds.some((bounds) => !bounds().isEmpty()))) {
       this.fitted = true;
       this.fit();
-      this.fitAgain();
+      this.refit();
     }
   }
 
-  /** Data comes a moment after the frames: look at that too, if nobody has touched the camera since. */
-  private fitAgain(): void {
-    const { canvas, camera } = this.stage;
-    let touched = false;
+  /** Fits again after data has arrived, unless the user has moved the camera or followed a frame. */
+  private refit(): void {
+    const { canvas, camera } = this.renderer;
     for (const event of ["pointerdown", "wheel"] as const)
-      canvas.addEventListener(event, () => (touched = true), { once: true, passive: true });
+      canvas.addEventListener(event, () => (this.cameraChosen = true), { once: true, passive: true });
     const mode = camera.mode;
-    for (const wait of FIT_AGAIN_MS)
+    for (const wait of REFIT_MS)
       setTimeout(() => {
-        if (!touched && camera.mode === mode && this.followed === null) this.fit();
+        if (!this.cameraChosen && camera.mode === mode) this.fit();
       }, wait);
   }
 
   private finish(): void {
-    this.labels.draw(this.collectLabels(), this.stage.camera.current, this.stage.width, this.stage.height);
-    const tick = this.pending;
+    this.labels.draw(this.collectLabels(), this.renderer.camera.current, this.renderer.width, this.renderer.height);
+    const update = this.pending;
     this.pending = null;
-    if (tick) this.ticks++;
-    for (const listener of this.finished) listener(tick);
+    if (update) this.updates++;
+    for (const listener of this.drawnListeners) listener(update);
   }
 
   private collectLabels(): Label[] {
     const { forest, selection } = this.model;
-    const { placement } = this;
+    const { framePoses } = this;
     const labels: Label[] = [];
     const chain = new Set(selection.frame ? this.chain : []);
     const several = forest.components.length > 1;
-    const own = forest.frames[forest.index.get(this.model.fixed) ?? -1]?.component;
-    for (let i = 0; i < placement.count; i++) {
-      if (!placement.drawn[i]) continue;
+    const fixedTree = forest.frames[forest.index.get(this.model.fixed) ?? -1]?.component;
+    for (let i = 0; i < framePoses.count; i++) {
+      if (!framePoses.drawn[i]) continue;
       const name = forest.name(i);
       const root = (forest.frames[i]?.parent ?? -1) < 0;
       const chosen = name === selection.frame || name === selection.reference;
-      const position = new THREE.Vector3().fromArray(placement.positions, i * 3);
-      if (root && several && forest.frames[i]?.component !== own)
+      const position = new THREE.Vector3().fromArray(framePoses.positions, i * 3);
+      if (root && several && forest.frames[i]?.component !== fixedTree)
         labels.push({
           key: `tree ${name}`,
-          text: `${name}: its own tree`,
+          text: `${name}: separate tree`,
           position,
           priority: -3,
           className: "caption",
         });
       if (!chosen && !(this.tf.names && this.tfShown)) continue;
-      const fade = (placement.fade[i] as number) > 0;
+      const fade = (framePoses.fade[i] as number) > 0;
       labels.push({
         key: name,
         text: name,
@@ -221,13 +224,13 @@ export class View {
 
   private recolour(): void {
     const palette = this.theme.palette();
-    this.stage.setPalette(palette);
+    this.renderer.setPalette(palette);
     this.frames.setPalette(palette);
     this.measure.setPalette(palette);
     this.refresh();
   }
 
-  /** A click is a press that did not become a drag; it means the nearest frame, if one is near. */
+  /** A press without a drag is a click and selects the nearest frame within PICK_PX. */
   private listenForClicks(canvas: HTMLCanvasElement): void {
     let down: { x: number; y: number } | null = null;
     canvas.addEventListener("pointerdown", (event) => {
@@ -245,17 +248,17 @@ export class View {
   }
 
   private pick(x: number, y: number): string | null {
-    const camera = this.stage.camera.current;
-    const { placement } = this;
+    const camera = this.renderer.camera.current;
+    const { framePoses } = this;
     const point = new THREE.Vector3();
     let best: { i: number; far: number } | null = null;
-    for (let i = 0; i < placement.count; i++) {
-      if (!placement.drawn[i]) continue;
-      point.fromArray(placement.positions, i * 3).project(camera);
+    for (let i = 0; i < framePoses.count; i++) {
+      if (!framePoses.drawn[i]) continue;
+      point.fromArray(framePoses.positions, i * 3).project(camera);
       if (point.z < -1 || point.z > 1) continue;
-      const px = ((point.x + 1) / 2) * this.stage.width;
-      const py = ((1 - point.y) / 2) * this.stage.height;
-      // Depth decides between frames at one place.
+      const px = ((point.x + 1) / 2) * this.renderer.width;
+      const py = ((1 - point.y) / 2) * this.renderer.height;
+      // Depth decides between frames at the same pixel.
       const far = Math.hypot(px - x, py - y) + point.z * 1e-3;
       if (far < PICK_PX && (!best || far < best.far)) best = { i, far };
     }
@@ -263,13 +266,13 @@ export class View {
   }
 }
 
-/** Where a few frames are kilometres away from all others, the others are what one wants to see. */
+/** Removes points that are far away from all others, so that `fit` shows the others. */
 function withoutOutliers(points: THREE.Vector3[]): THREE.Vector3[] {
-  if (new THREE.Box3().setFromPoints(points).getSize(new THREE.Vector3()).length() < FAR_APART_M) return points;
+  if (new THREE.Box3().setFromPoints(points).getSize(new THREE.Vector3()).length() < OUTLIER_SPAN_M) return points;
   const middle = (axis: "x" | "y" | "z"): number => median(points.map((point) => point[axis]));
   const centre = new THREE.Vector3(middle("x"), middle("y"), middle("z"));
-  const usual = Math.max(1, median(points.map((point) => point.distanceTo(centre))));
-  return points.filter((point) => point.distanceTo(centre) <= OUTLIER * usual);
+  const typical = Math.max(1, median(points.map((point) => point.distanceTo(centre))));
+  return points.filter((point) => point.distanceTo(centre) <= OUTLIER_FACTOR * typical);
 }
 
 function median(values: number[]): number {

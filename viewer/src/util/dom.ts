@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Elements made by hand. Text goes in as text nodes only, so no name from the network can become markup. */
+/** Creates HTML elements. Texts become text nodes only, so that no name from the network is interpreted as HTML. */
 
 type Child = Node | string | null | undefined;
 
@@ -45,11 +45,11 @@ export function h<K extends keyof HTMLElementTagNameMap>(
 
 export function byId(id: string): HTMLElement {
   const element = document.getElementById(id);
-  if (!element) throw new Error(`the page has no element #${id}`);
+  if (!element) throw new Error(`The page has no element #${id}.`);
   return element;
 }
 
-/** Changes the text only when it differs: most cells of a panel stay the same from second to second. */
+/** Sets the text if it differs. Most texts of a panel rarely change, and setting them causes a layout. */
 export function setText(element: Element, text: string): void {
   if (element.textContent !== text) element.textContent = text;
 }
@@ -122,16 +122,16 @@ export function fillSelect(
   element.value = value;
 }
 
-/** Line ends, and marks that turn the direction of writing, would let a name look like another or fall out of its row. */
-const UNSEEN = /[\p{Cc}\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]/gu;
+/** Control characters, such as line ends and direction marks, which could make one name look like another. */
+const INVISIBLE = /[\p{Cc}\u200b-\u200f\u2028-\u202e\u2060-\u206f\ufeff]/gu;
 
-/** A name as it is shown: nothing in it acts, and of a long one the middle is left out, since both ends tell frames apart. */
+/** A name for display, without control characters. The middle of a long name is omitted, because its ends identify it. */
 export function shorten(text: string, length: number): string {
   if (text.length > length) {
     const half = Math.floor((length - 1) / 2);
     return `${shorten(text.slice(0, half), half)}…${shorten(text.slice(text.length - half), half)}`;
   }
-  return text.replace(UNSEEN, "\ufffd");
+  return text.replace(INVISIBLE, "\ufffd");
 }
 
 export async function copyText(text: string): Promise<boolean> {
@@ -139,7 +139,7 @@ export async function copyText(text: string): Promise<boolean> {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    // Without permission, or on a page that is not from this machine: the old way.
+    // The Clipboard API needs a permission and a secure context; the older command does not.
     const area = h("textarea", { class: "offscreen" });
     area.value = text;
     document.body.append(area);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Who is interested in what: a typed list of listeners for each event. */
+/** Typed events with any number of listeners. */
 
 export class Emitter<Events extends object> {
   private readonly listeners = new Map<keyof Events, Set<(value: never) => void>>();
 
   on<K extends keyof Events>(event: K, listener: (value: Events[K]) => void): void {
-    const known = this.listeners.get(event) ?? new Set();
-    known.add(listener as (value: never) => void);
-    this.listeners.set(event, known);
+    const listeners = this.listeners.get(event) ?? new Set();
+    listeners.add(listener as (value: never) => void);
+    this.listeners.set(event, listeners);
   }
 
   emit<K extends keyof Events>(event: K, value: Events[K]): void {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Numbers and times as people read them. Fixed widths where they stand in columns. */
+/** Formats numbers and times for display. Values in columns have a fixed number of digits. */
 
 const MINUS = "−";
 
@@ -10,7 +10,7 @@ export function fixed(value: number, digits: number): string {
   return zero ? (0).toFixed(digits) : text.replace("-", MINUS);
 }
 
-/** For copying: plain ASCII, enough digits to come back as the same float. */
+/** Formats a number for the clipboard: ASCII, 12 significant digits. */
 export function plain(value: number): string {
   return Number.isFinite(value) ? String(Number(value.toPrecision(12))) : "nan";
 }
@@ -39,7 +39,7 @@ export function metres(value: number): string {
   return `${fixed(value * 1000, 1)} mm`;
 }
 
-/** The time of day, or seconds for clocks that start near zero, as a simulator's do. */
+/** The local time of day; seconds for clocks that start near zero, such as those of simulators. */
 export function stamp(origin: bigint, relative: number): string {
   if (!Number.isFinite(relative)) return "–";
   const ns = origin + BigInt(Math.round(relative));
@@ -68,7 +68,7 @@ export function count(n: number): string {
   return String(n).replace(/\B(?=(\d{3})+$)/g, " ");
 }
 
-/** Names as people look for them; the language's own order would take the browser a while to load. */
+/** Sorts names without regard to case. Collation by locale would take the browser a noticeable time to load. */
 export function sorted(names: string[]): string[] {
   const keys = new Map(names.map((name) => [name, name.toLowerCase()]));
   const order = (a: string, b: string): number => (a < b ? -1 : a > b ? 1 : 0);

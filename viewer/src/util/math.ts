@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Rigid poses in float64, as ROS writes them: quaternions x, y, z, w. */
+/** Rigid transforms in float64. Quaternions are x, y, z, w, as in ROS. */
 
-import type { Vector } from "../protocol/messages";
+export type Vector = [number, number, number];
 
 export type Quaternion = [number, number, number, number];
 
@@ -38,7 +38,7 @@ export function rotate(q: Quaternion, v: Vector): Vector {
   return [v[0] + w * tx + y * tz - z * ty, v[1] + w * ty + z * tx - x * tz, v[2] + w * tz + x * ty - y * tx];
 }
 
-/** a ∘ b: the pose b, given in the frame a, in a's parent. */
+/** a ∘ b: the pose b, which is expressed in frame a, expressed in the parent of a. */
 export function compose(a: Pose, b: Pose): Pose {
   const moved = rotate(a.quaternion, b.position);
   return {
@@ -53,20 +53,20 @@ export function inverse(a: Pose): Pose {
   return { position: [-back[0], -back[1], -back[2]], quaternion };
 }
 
-/** The pose a part of the way from one to another, on the straight line and the shorter turn. */
-export function between(a: Pose, b: Pose, part: number): Pose {
+/** Interpolates between two poses, along the shorter rotation. */
+export function interpolate(a: Pose, b: Pose, part: number): Pose {
   const mix = (x: number, y: number): number => x + (y - x) * part;
   const [p, q] = [a.position, b.position];
-  const same = a.quaternion.reduce((sum, value, k) => sum + value * (b.quaternion[k] as number), 0) < 0 ? -1 : 1;
-  // Between two pictures the turn is so small that a straight line through the ball is as good as the arc.
-  const turned = a.quaternion.map((value, k) => mix(value, same * (b.quaternion[k] as number)));
+  const sign = a.quaternion.reduce((sum, value, k) => sum + value * (b.quaternion[k] as number), 0) < 0 ? -1 : 1;
+  // Rotations between two samples are small, so normalized linear interpolation is close enough to slerp.
+  const rotation = a.quaternion.map((value, k) => mix(value, sign * (b.quaternion[k] as number)));
   return {
     position: [mix(p[0], q[0]), mix(p[1], q[1]), mix(p[2], q[2])],
-    quaternion: normalize(turned as Quaternion),
+    quaternion: normalize(rotation as Quaternion),
   };
 }
 
-/** The pose of `source` seen from `target`, both given in one frame. */
+/** The pose of `source` relative to `target`; both are expressed in the same frame. */
 export function relative(target: Pose, source: Pose): Pose {
   return compose(inverse(target), source);
 }
@@ -77,7 +77,7 @@ export function rpyDegrees(q: Quaternion): Vector {
   const sinPitch = Math.max(-1, Math.min(1, 2 * (w * y - z * x)));
   const degrees = 180 / Math.PI;
   if (Math.abs(sinPitch) > 1 - 1e-12) {
-    // Looking straight up or down only the sum of roll and yaw is known: all of it is called yaw.
+    // At pitch ±90° only the sum or difference of roll and yaw is defined. Roll is set to zero.
     const yaw = -2 * Math.sign(sinPitch) * Math.atan2(x, w);
     return [0, Math.sign(sinPitch) * 90, Math.atan2(Math.sin(yaw), Math.cos(yaw)) * degrees];
   }
@@ -89,8 +89,8 @@ export function rpyDegrees(q: Quaternion): Vector {
 }
 
 /**
- * The axes of an ellipsoid, as a rotation, and the variance along each, from a symmetric 3x3 matrix, row after row: by
- * Jacobi's method. An axis that nothing connects with the others stays as it is.
+ * The principal axes of a covariance as a rotation, and the variance along each axis, by Jacobi's method. The matrix is
+ * 3x3, symmetric and in row-major order. An axis that is not correlated with the others stays unchanged.
  */
 export function principalAxes(matrix: readonly number[]): { variances: Vector; quaternion: Quaternion } {
   const m = [...matrix];
@@ -115,24 +115,25 @@ export function principalAxes(matrix: readonly number[]): { variances: Vector; q
         m[p * 3 + k] = c * pk + s * qk;
         m[q * 3 + k] = c * qk - s * pk;
       }
-      const turn: Quaternion = [0, 0, 0, Math.cos(angle / 2)];
-      turn[r] = Math.sin(angle / 2);
-      axes = multiply(axes, turn);
+      const rotation: Quaternion = [0, 0, 0, Math.cos(angle / 2)];
+      rotation[r] = Math.sin(angle / 2);
+      axes = multiply(axes, rotation);
     }
   return { variances: [at(0, 0), at(1, 1), at(2, 2)], quaternion: normalize(axes) };
 }
 
-/** The 4x4 matrix, row after row. */
+/** The 4x4 matrix in row-major order. */
 export function matrix({ position, quaternion }: Pose): number[] {
   const x = rotate(quaternion, [1, 0, 0]);
   const y = rotate(quaternion, [0, 1, 0]);
   const z = rotate(quaternion, [0, 0, 1]);
+  // prettier-ignore
   return [
     x[0], y[0], z[0], position[0],
     x[1], y[1], z[1], position[1],
     x[2], y[2], z[2], position[2],
     0, 0, 0, 1,
-  ]; // prettier-ignore
+  ];
 }
 
 export function distance(a: Vector, b: Vector): number {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** What the page remembers between visits. A browser that forbids storage just forgets. */
+/** Settings that persist between sessions, if the browser permits storage. */
 
 const PREFIX = "coframe.";
 
@@ -18,6 +18,6 @@ export function remember(key: string, value: unknown): void {
   try {
     localStorage.setItem(PREFIX + key, JSON.stringify(value));
   } catch {
-    // Full or forbidden: nothing a user could do here.
+    // The storage is full or forbidden. The page works without it.
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/** Dark, light, and colours that colour-blind people can tell apart. */
+/** Dark and light themes, and a palette that is safe for colour-blind users. */
 
 import { remember, remembered } from "./storage";
 
@@ -13,14 +13,14 @@ export interface Palette {
 }
 
 const RED_GREEN_BLUE: [string, string, string] = ["#e5383b", "#34b53a", "#3f7bf5"];
-/** Okabe and Ito's vermilion, and a yellow and a blue that differ in brightness too. */
+/** Okabe and Ito's vermilion, with a yellow and a blue that also differ in brightness. */
 const DISTINCT_DARK: [string, string, string] = ["#e8681a", "#f0e442", "#56b4e9"];
 const DISTINCT_LIGHT: [string, string, string] = ["#c94e00", "#a38a00", "#0072b2"];
 
 export class Theme {
   dark: boolean;
   distinct: boolean;
-  /** From an .rviz file; it goes before the theme's own. */
+  /** The background of an .rviz file, which overrides that of the theme. */
   background: string | null = null;
   private readonly listeners: (() => void)[] = [];
 
@@ -76,7 +76,7 @@ export class Theme {
 
   private apply(): void {
     document.documentElement.dataset.theme = this.dark ? "dark" : "light";
-    document.documentElement.dataset.palette = this.distinct ? "distinct" : "usual";
+    document.documentElement.dataset.palette = this.distinct ? "distinct" : "default";
     for (const listener of this.listeners) listener();
   }
 }

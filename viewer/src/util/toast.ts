@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/** A sentence that comes up at the edge and goes by itself. */
+/** A notification at the edge of the page that disappears by itself. */
 
 import { byId, h, iconButton } from "./dom";
 
 const SHOWN_MS = 8000;
-const MOST = 4;
+const MAX_TOASTS = 4;
 
 export function toast(text: string, hint: string | null = null, kind: "problem" | "info" = "problem"): void {
   const box = byId("toasts");
   for (const old of [...box.children]) if (old.firstElementChild?.firstChild?.textContent === text) old.remove();
-  while (box.children.length >= MOST) box.firstElementChild?.remove();
+  while (box.children.length >= MAX_TOASTS) box.firstElementChild?.remove();
   const element: HTMLElement = h(
     "div",
     { class: `toast ${kind}` },

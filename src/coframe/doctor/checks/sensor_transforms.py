@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from coframe.analysis.missing_edges import BASE_FRAMES, estimator_advice, is_sensor_frame
 from coframe.analysis.static_command import static_command
 from coframe.doctor.finding import Finding, Severity
 from coframe.doctor.observation import NEVER
@@ -26,6 +27,8 @@ CODE = "TF014"
 _LONGEST_WAIT = 200 * MILLISECOND
 _TOO_MANY = 0.05
 _LEAST = 5
+_SIMILAR = 0.6
+_SIMILAR_TO_USUAL = 0.8
 
 
 def find(observation: Observation) -> Iterator[Finding]:
@@ -43,8 +46,10 @@ def find(observation: Observation) -> Iterator[Finding]:
 
 
 def _unknown(observation: Observation, frame: str, sensors: list[Sensor]) -> Finding:
-    similar = difflib.get_close_matches(frame, observation.frames, n=1)
-    root = next(iter(observation.trees))
+    is_estimated = frame.rpartition("/")[2] in {"odom", "map", *BASE_FRAMES}
+    cutoff = _SIMILAR_TO_USUAL if is_estimated else _SIMILAR
+    similar = difflib.get_close_matches(frame, observation.frames, n=1, cutoff=cutoff)
+    publishers = tuple(dict.fromkeys(sensor.publisher for sensor in sensors if sensor.publisher))
     messages = sum(len(sensor.stamp) for sensor in sensors)
     return Finding(
         code=CODE,
@@ -54,11 +59,35 @@ def _unknown(observation: Observation, frame: str, sensors: list[Sensor]) -> Fin
         f"tree" + (f"; did you mean {similar[0]!r}?" if similar else ""),
         fix=f"In the node of the sensor: msg.header.frame_id = {similar[0]!r}"
         if similar
-        else f"Publish the pose of the sensor: `{static_command(root, frame)}`.",
+        else _missing_frame(observation, frame, publishers),
         topic=sensors[0].topic,
         frames=frozenset({frame}),
         first_stamp=int(sensors[0].stamp[0]) if len(sensors[0].stamp) else None,
-        publishers=tuple(dict.fromkeys(sensor.publisher for sensor in sensors if sensor.publisher)),
+        publishers=publishers,
+    )
+
+
+def _missing_frame(observation: Observation, frame: str, publishers: tuple[str, ...]) -> str:
+    """Return what to do about a frame that no transform contains: only sensors are mounted by static transforms."""
+    prefix, slash, name = frame.rpartition("/")
+    root = next(iter(observation.trees))
+    known = [f"{prefix}{slash}{usual}" for usual in ("map", "odom", *BASE_FRAMES)]
+    known = [usual for usual in known if usual in observation.frames]
+    bases = [usual for usual in known if usual.rpartition("/")[2] in BASE_FRAMES]
+    if name in {"odom", "map"}:
+        below = [usual for usual in known if usual.rpartition("/")[2] == "odom"] if name == "map" else []
+        node = publishers[0] if name == "odom" and len(publishers) == 1 else ""
+        return estimator_advice(frame, next(iter([*below, *bases]), f"{prefix}{slash}base_link"), node)
+    if name in BASE_FRAMES:
+        above = next((usual for usual in reversed(known) if usual not in bases), "")
+        return estimator_advice(above, frame) or f"Start the node that publishes the transforms of {frame!r}."
+    if is_sensor_frame(frame):
+        # The mount is a pose on the robot, not in the world.
+        bases = bases or [other for other in observation.frames if other.rpartition("/")[2] in BASE_FRAMES]
+        return f"Publish the pose of the sensor: `{static_command(bases[-1] if bases else root, frame)}`."
+    return (
+        f"Start the node that publishes a transform with child_frame_id = {frame!r}, or correct msg.header.frame_id in "
+        "the node of these messages."
     )
 
 
@@ -72,6 +101,8 @@ def _late(observation: Observation, sensor: Sensor) -> Iterator[Finding]:
     longest = int(waits[missing][waits[missing] != NEVER].max()) if never < len(missing) else None
     root = observation.root(sensor.frame)
     edges = [edge for edge in observation.path(sensor.frame) if not edge.static]
+    if any(edge.is_unset for edge in edges):
+        return  # the stamps are the problem, which TF008 reports
     slowest = max(edges, key=lambda edge: edge.period)
     yield Finding(
         code=CODE,

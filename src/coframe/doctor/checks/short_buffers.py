@@ -34,7 +34,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         late = np.flatnonzero((behind > observation.cache) & (sensor.stamp != 0))
         if len(late) < _LEAST or sensor.topic not in observation.clocks:
             continue
-        if any(observation.clocks[edge.name] != observation.clocks[sensor.topic] for edge in moving):
+        if any(observation.clocks.get(edge.name) != observation.clocks[sensor.topic] for edge in moving):
             continue  # with stamps on another clock, no buffer is long enough
         need = int(np.ceil(behind.max() / SECOND)) + 1
         yield Finding(

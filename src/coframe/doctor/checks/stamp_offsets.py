@@ -29,8 +29,12 @@ _LEAST = 5
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield one finding per dynamic edge, and one per sensor whose stamps are not set."""
+    """Yield one finding per dynamic edge, and one per sensor whose stamps were never set."""
+    starts_at_zero = observation.clock is not None and bool((observation.clock.stamp == 0).any())
     for edge in observation.dynamic:
+        if edge.is_unset and not starts_at_zero:
+            yield _unset(edge)
+            continue
         lags = observation.lags(edge.stamp, edge.arrived)
         if lags is None or edge.count < _LEAST:
             continue
@@ -45,8 +49,8 @@ def find(observation: Observation) -> Iterator[Finding]:
             yield Finding(
                 code=CODE,
                 severity=Severity.WARNING,
-                text=f"{unset} of {len(sensor.stamp)} messages have the stamp 0, which means that it was not set",
-                fix="In the node of the sensor: msg.header.stamp = self.get_clock().now().to_msg()",
+                text=f"the stamp was never set: {unset} of {len(sensor.stamp)} messages have the stamp 0",
+                fix="In the node of the sensor, add the line: msg.header.stamp = self.get_clock().now().to_msg()",
                 harm="tf2 interprets time 0 as the latest: the data is transformed with the pose at the time of the "
                 "lookup, not of the measurement.",
                 topic=sensor.topic,
@@ -54,6 +58,21 @@ def find(observation: Observation) -> Iterator[Finding]:
                 first_stamp=0,
                 publishers=(sensor.publisher,) if sensor.publisher else (),
             )
+
+
+def _unset(edge: Edge) -> Finding:
+    return Finding(
+        code=CODE,
+        severity=Severity.WARNING,
+        text=f"the stamp was never set: {edge.unset} of {edge.count} transforms have the stamp 0",
+        fix="Add the line: t.header.stamp = self.get_clock().now().to_msg(). If it is there, the node has "
+        "use_sim_time:=true and no simulation publishes /clock, so that its time stays 0.",
+        harm="A transform with the stamp 0 belongs to the year 1970: lookups at now() or at the stamp of a sensor "
+        "message fail, however long they wait.",
+        edge=edge.key,
+        first_stamp=0,
+        publishers=edge.publishers,
+    )
 
 
 def _ahead(edge: Edge, lags: NDArray[np.int64]) -> Finding:

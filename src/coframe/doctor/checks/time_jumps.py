@@ -28,7 +28,7 @@ _RARE = 0.1
 
 def find(observation: Observation) -> Iterator[Finding]:
     """Yield one finding in all: a reset affects every edge."""
-    found = [(edge, jumps) for edge in observation.dynamic if len(jumps := _jumps(edge.stamp))]
+    found = [(edge, jumps) for edge in observation.dynamic if not edge.is_unset and len(jumps := _jumps(edge.stamp))]
     on_clock = _jumps(observation.clock.stamp) if observation.clock is not None else np.zeros(0, dtype=np.intp)
     if not found and not len(on_clock):
         return
@@ -44,7 +44,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         code=CODE,
         severity=Severity.WARNING,
         text=f"time jumped back {times(count)}, by up to {duration(back)}, on {names}: listeners clear their buffers, "
-        "or refuse the following transforms as too old",
+        "or reject the following transforms as too old",
         fix="Restart the listeners after a simulation was reset or a recording was restarted; replay a recording once, "
         "or with --clock and use_sim_time:=true, so that nodes detect the jump.",
         edge=found[0][0].key if found else None,

@@ -1,0 +1,1 @@
+"""Plots over time of poses, fields of messages, rates and delays."""

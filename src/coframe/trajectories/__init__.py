@@ -1,0 +1,34 @@
+"""Trajectory files (TUM, KITTI, EuRoC, CSV), and the comparison of an estimated trajectory with a reference."""
+
+from coframe.errors import TrajectoryError
+from coframe.trajectories.alignment import ALIGNMENTS, Alignment, align
+from coframe.trajectories.association import associate
+from coframe.trajectories.comparison import (
+    Comparison,
+    Delta,
+    PoseErrors,
+    Statistics,
+    compare_trajectories,
+    parse_delta,
+)
+from coframe.trajectories.formats import FORMATS, format_of, write_trajectory
+from coframe.trajectories.reading import READABLE_FORMATS, read_trajectory
+
+__all__ = [
+    "ALIGNMENTS",
+    "FORMATS",
+    "READABLE_FORMATS",
+    "Alignment",
+    "Comparison",
+    "Delta",
+    "PoseErrors",
+    "Statistics",
+    "TrajectoryError",
+    "align",
+    "associate",
+    "compare_trajectories",
+    "format_of",
+    "parse_delta",
+    "read_trajectory",
+    "write_trajectory",
+]

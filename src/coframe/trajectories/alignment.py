@@ -1,0 +1,79 @@
+"""Alignment of one trajectory with another by a rigid motion or a similarity (Umeyama, 1991)."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from coframe import quaternion
+from coframe.errors import TrajectoryError
+from coframe.transform import Transform
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["ALIGNMENTS", "Alignment", "align"]
+
+ALIGNMENTS = ("none", "se3", "sim3")
+
+
+class Alignment(NamedTuple):
+    """A motion with a scale that maps the poses of an estimate to those of a reference.
+
+    Attributes:
+        transform: The rotation and the translation in metres, from the frame of the estimate to that of the reference.
+        scale: Factor for the positions of the estimate, applied before the transform.
+    """
+
+    transform: Transform
+    scale: float
+
+    def apply(self, poses: Transform) -> Transform:
+        """Return the aligned poses: scaled, rotated and moved."""
+        scaled = Transform(
+            self.scale * poses.translation,
+            poses.quaternion,
+            target=poses.target,
+            source=poses.source,
+            stamp=poses.stamps,
+        )
+        return self.transform @ scaled
+
+
+def align(reference: Transform, estimate: Transform, *, with_scale: bool = False) -> Alignment:
+    """Return the alignment that minimises the squared distances between paired positions.
+
+    Args:
+        reference: A batch of shape (N,), as returned by :func:`associate`.
+        estimate: A batch of the same shape.
+        with_scale: Whether to estimate the scale as well, as for a monocular camera.
+
+    Raises:
+        TrajectoryError: The positions do not determine the rotation: fewer than three, or all on one line.
+        ValueError: The shapes differ.
+    """
+    if reference.shape != estimate.shape or len(reference.shape) != 1:
+        raise ValueError(f"The trajectories must have the same shape (N,), not {reference.shape} and {estimate.shape}.")
+    rotation, translation, scale = _umeyama(estimate.translation, reference.translation, with_scale)
+    q = quaternion.from_matrix(rotation)
+    return Alignment(Transform(translation, q, target=reference.target, source=estimate.target), scale)
+
+
+def _umeyama(
+    points: NDArray[np.float64], targets: NDArray[np.float64], with_scale: bool
+) -> tuple[NDArray[np.float64], NDArray[np.float64], float]:
+    """Return R, t and c that minimise the sum of |targets - (c R points + t)|^2."""
+    mean, target_mean = points.mean(axis=0), targets.mean(axis=0)
+    centred = points - mean
+    covariance = (targets - target_mean).T @ centred / len(points)
+    u, singular, vt = np.linalg.svd(covariance)
+    if np.count_nonzero(singular > np.finfo(np.float64).eps) < 2:
+        raise TrajectoryError(
+            f"The alignment is not determined: the {len(points)} paired positions are on one line or at one point",
+            hint="Compare without alignment, or use a trajectory with a turn.",
+        )
+    signs = np.array([1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(vt))])
+    rotation = (u * signs) @ vt
+    scale = float((singular * signs).sum() / (centred**2).sum(axis=1).mean()) if with_scale else 1.0
+    return rotation, target_mean - scale * rotation @ mean, scale
