@@ -190,7 +190,7 @@ class Buffer(_core.Buffer):
             True if the sample was stored; False if it was older than the cache.
 
         Raises:
-            InvalidArgumentException: tf2 refuses the transform (empty or equal frame names, NaN, ...), with tf2's
+            InvalidArgumentException: tf2 rejects the transform (empty or equal frame names, NaN, ...), with tf2's
                 text; or the transform is between other frames, or has no stamp, or the buffer is frozen.
             TypeError: ``transform`` is not a :class:`coframe.Transform`.
         """
@@ -255,7 +255,7 @@ class Buffer(_core.Buffer):
             The number of stored samples. Samples older than the cache are not stored.
 
         Raises:
-            InvalidArgumentException: tf2 refuses one of the samples, with tf2's text, or the buffer is frozen; then
+            InvalidArgumentException: tf2 rejects one of the samples, with tf2's text, or the buffer is frozen; then
                 no sample is stored.
             ValueError: The shapes do not match.
         """

@@ -233,7 +233,9 @@ def _run(reference: weakref.ref[Dispatcher], mailbox: _core.Mailbox) -> None:
         try:
             pause = dispatcher.turn() if dispatcher is not None else None
         except BaseException:  # noqa: BLE001 - sys.exit() in one callback must not end the thread of all callbacks
-            _log.exception("A callback of a buffer tried to end the thread of all callbacks")
+            _log.exception(
+                "A buffer callback raised an exception that would end the thread of all callbacks; it is ignored"
+            )
             pause = 0
         del dispatcher
         if pause is None:

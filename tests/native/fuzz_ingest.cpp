@@ -191,7 +191,7 @@ class Fuzzer {
     expect(!decode_tf_message(data, passed.size(), views).reason, "a relay's message is not good");
     for (const TransformView& view : views) {
       expect(check_names(view.parent, view.child) == 0 && check_values(view.values) == 0 && is_utf8(view.child),
-             "a relay passes on what a buffer refuses");
+             "a relay passes on what a buffer rejects");
     }
   }
 

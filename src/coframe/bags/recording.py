@@ -75,9 +75,11 @@ def open_bag(
 
     Example:
         >>> import coframe
-        >>> coframe.open_bag("nowhere.mcap")
-        Traceback (most recent call last):
-        coframe.RecordingError: nowhere.mcap cannot be read: No such file or directory
+        >>> try:
+        ...     coframe.open_bag("nowhere.mcap")
+        ... except coframe.RecordingError as error:
+        ...     print(error)
+        nowhere.mcap cannot be read: No such file or directory
     """
     keep = kept(keep)
     tf_topics = None if tf_topics is None else list(tf_topics)

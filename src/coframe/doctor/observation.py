@@ -1,6 +1,6 @@
 """Observation: the transforms and messages that were received or recorded, with the facts that several checks need.
 
-The rows are the transforms as published, including those that a buffer refuses. All times are int64 nanoseconds.
+The rows are the transforms as published, including those that a buffer rejects. All times are int64 nanoseconds.
 """
 
 from __future__ import annotations
