@@ -537,9 +537,9 @@ def deskew_fields(
     target: str,
     source: str,
     times: Any,
-    onward: Sequence[float],
+    result_from_target: Sequence[float],
     fields: Sequence[Sequence[Any]],
-    nan_for_none: bool,
+    nan_for_missing: bool,
     threads: int,
 ) -> tuple[int, int]:
     """Transform points from `source` to `target`, each at its own time, and then by a pose, in place.
@@ -549,9 +549,9 @@ def deskew_fields(
         target: The fixed frame.
         source: The sensor's frame.
         times: int64 nanoseconds, one per point; 0 is the latest, the smallest int64 means none.
-        onward: The pose of `target` relative to the frame of the result.
+        result_from_target: The pose of `target` relative to the frame of the result.
         fields: See transform_fields().
-        nan_for_none: Points without a transform become NaN; otherwise no point changes if one has no transform.
+        nan_for_missing: Points without a transform become NaN; otherwise no point changes if one has no transform.
         threads: Number of threads.
 
     Returns:
