@@ -184,13 +184,13 @@ class Buffer(_core.Buffer):
                 stamp of the transform. Static transforms need no stamp.
             static: Whether the transform is valid for all time. A frame that changes between static and dynamic loses
                 its earlier samples.
-            authority: Name of the publisher, as reports show it.
+            authority: Name of the publisher, as shown in reports.
 
         Returns:
             True if the sample was stored; False if it was older than the cache.
 
         Raises:
-            InvalidArgumentException: tf2 refuses the transform (empty or equal frame names, NaN, ...), with tf2's
+            InvalidArgumentException: tf2 rejects the transform (empty or equal frame names, NaN, ...), with tf2's
                 text; or the transform is between other frames, or has no stamp, or the buffer is frozen.
             TypeError: ``transform`` is not a :class:`coframe.Transform`.
         """
@@ -249,13 +249,13 @@ class Buffer(_core.Buffer):
                 stamps of the batch.
             poses: A batch of shape (N,), or an array of shape (N, 7): x, y, z in metres and qx, qy, qz, qw.
             static: Whether the transform is valid for all time; then the last sample is used.
-            authority: Name of the publisher, as reports show it.
+            authority: Name of the publisher, as shown in reports.
 
         Returns:
             The number of stored samples. Samples older than the cache are not stored.
 
         Raises:
-            InvalidArgumentException: tf2 refuses one of the samples, with tf2's text, or the buffer is frozen; then
+            InvalidArgumentException: tf2 rejects one of the samples, with tf2's text, or the buffer is frozen; then
                 no sample is stored.
             ValueError: The shapes do not match.
         """
@@ -573,7 +573,7 @@ class Buffer(_core.Buffer):
         return copy
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Save the buffer to a file that :func:`coframe.load` opens without reading it, whatever its size.
+        """Save the buffer to a file that :func:`coframe.load` opens without reading it first.
 
         A sample takes 72 bytes, and a moving frame up to 18 kB more. The file is complete or does not appear at all.
 
@@ -701,7 +701,7 @@ def _is_stale(
     if present is None:
         return None
     silence = present - newest
-    # The period is read only where it decides.
+    # The period is read only if the result depends on it.
     return is_stale(silence, 0.0) and is_stale(silence, buffered_period(buffer, parent, child, oldest, newest, samples))
 
 

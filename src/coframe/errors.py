@@ -6,7 +6,7 @@
         │   ├── LookupException                 a frame does not exist, or the tree contains a loop
         │   ├── ConnectivityException           the frames are in different trees
         │   ├── ExtrapolationException          no sample at the requested time
-        │   ├── InvalidArgumentException        a name or value that tf2 refuses
+        │   ├── InvalidArgumentException        a name or value that tf2 rejects
         │   │   └── FrameMismatchException      composing a<-b with c<-d where b is not c
         │   └── TimeoutException                the transform did not become available in time
         ├── WireError(RuntimeError)             the ROS graph could not be joined or used
@@ -86,7 +86,7 @@ class CoframeError(Exception):
         """The code of the doctor's page about this problem, such as ``"TF013"``; "" if there is none."""
         return ""
 
-    # The interpreter reads the notes only when it prints a traceback, so a hint that nobody sees is never computed.
+    # The interpreter reads the notes only when it prints a traceback, so other hints are never computed.
     @property
     def __notes__(self) -> list[str]:
         """The notes below the text in a traceback: the hint, and what ``add_note`` has added."""
@@ -252,7 +252,7 @@ class ExtrapolationException(TransformException):
 
 
 class InvalidArgumentException(TransformException):
-    """A frame name or a transform that tf2 refuses."""
+    """A frame name or a transform that tf2 rejects."""
 
 
 class FrameMismatchException(InvalidArgumentException):

@@ -160,9 +160,9 @@ def test_rejected_transforms_and_damaged_messages_are_removed(tmp_path):
     report = repair(source, tmp_path / "new")
     assert len(report.problems) == 3
     assert report.remaining == []
-    assert "/tf: 1 transform removed that tf2 refuses" in report.changes
-    assert "/tf: 1 damaged messages skipped" in report.changes
-    assert "/tf_static: 1 static transform removed of frames that also move" in report.changes
+    assert "/tf: 1 invalid transform removed, which tf2 rejects" in report.changes
+    assert "/tf: 1 damaged message skipped" in report.changes
+    assert "/tf_static: 1 static transform of moving frames removed" in report.changes
     with coframe.open_bag(tmp_path / "new") as bag:
         recordings.assert_same(bag.buffer)
 

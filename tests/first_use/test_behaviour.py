@@ -160,3 +160,17 @@ def test_recording_nothing_is_reported(tmp_path):
     assert code == 1
     assert "0 messages on 0 topics" in out
     assert "no messages were recorded" in error
+
+
+class TestSuggestions:
+    def test_a_misspelled_file(self, tmp_path):
+        recordings.write_mcap(tmp_path / "walk.mcap")
+        code, _, error = run("bag", "info", tmp_path / "wlak.mcap")
+        assert code == 1
+        assert f"Did you mean '{tmp_path / 'walk.mcap'}'?" in error
+
+    def test_a_misspelled_topic(self, tmp_path):
+        recording = coframe.open_bag(recordings.write_mcap(tmp_path / "a.mcap"))
+        with pytest.raises(coframe.RecordingError) as caught:
+            recording.messages("/tf_statik")
+        assert "Did you mean '/tf_static'?" in caught.value.hint

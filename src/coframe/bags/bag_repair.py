@@ -73,7 +73,7 @@ def repair(
     """Write a repaired copy of a recording; the original is not changed.
 
     The copy contains everything that can be read, with an index, metadata and the definitions of the types that coframe
-    knows. Leading slashes of frame names and transforms that tf2 refuses are removed. Static transforms come first.
+    supports. Leading slashes of frame names and transforms that tf2 rejects are removed. Static transforms come first.
     Messages of ROS 1 are converted to ROS 2.
 
     Args:
@@ -248,7 +248,7 @@ class _Repair:
         return message
 
     def _corrected(self, channel: Channel, route: _Route, message: bytes) -> bytes:
-        """Return a message of ROS 2 with new frame names and without the transforms that tf2 refuses."""
+        """Return a message of ROS 2 with new frame names and without the transforms that tf2 rejects."""
         if route.transforms:
             message = self._without_rejected(channel, message)
         if route.names is not None and (route.rename.has_prefix or b"/" in message):
@@ -258,16 +258,16 @@ class _Repair:
         return message
 
     def _without_rejected(self, channel: Channel, data: bytes) -> bytes:
-        """Return a TFMessage without transforms that tf2 refuses and without static ones of frames that also move."""
+        """Return a TFMessage without transforms that tf2 rejects and without static ones of frames that also move."""
         message = deserialize(data, find(_TF))
         good = [transform for transform in message.transforms if _is_accepted(transform)]
         if rejected := len(message.transforms) - len(good):
-            self._count(channel, "transforms removed that tf2 refuses", rejected)
+            self._count(channel, "invalid transforms removed, which tf2 rejects", rejected)
         if is_static(channel.topic):
             moving = self._moving.get(namespace_of(channel.topic), set())
             fixed = [transform for transform in good if transform.child_frame_id.lstrip("/") not in moving]
             if len(fixed) < len(good):
-                self._count(channel, "static transforms removed of frames that also move", len(good) - len(fixed))
+                self._count(channel, "static transforms of moving frames removed", len(good) - len(fixed))
             good = fixed
         return data if len(good) == len(message.transforms) else serialize(find(_TF)(transforms=good))
 

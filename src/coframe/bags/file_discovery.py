@@ -5,6 +5,7 @@ The first bytes of a file decide its format. Names and metadata.yaml only help t
 
 from __future__ import annotations
 
+import difflib
 import importlib
 import re
 import shutil
@@ -66,7 +67,8 @@ def open_files(path: Path, problems: Problems, closing: ExitStack) -> OpenedFile
         found = [storage for file in candidates if (storage := _open(file, problems, closing)) is not None]
     except OSError as error:
         raise RecordingError(
-            f"{path} cannot be read: {error.strerror or error}", hint="Check the path and the permission to read it."
+            f"{path} cannot be read: {error.strerror or error}",
+            hint=_similar_path(path) or "Check the path and the permission to read it.",
         ) from None
     if not found:
         reasons = problems.sentences()
@@ -88,6 +90,16 @@ def recording_stem(file: Path) -> str:
     stem = file.name.removesuffix(".zstd").rpartition(".")[0] or file.name
     bare, numbered, number = stem.rpartition("_")
     return _ROS1_DATE.sub("", bare) if numbered and number.isdigit() else stem
+
+
+def _similar_path(path: Path) -> str:
+    """Return a hint that names a file or folder with a similar name; "" if there is none, or if the path exists."""
+    try:
+        names = [] if path.exists() else [each.name for each in path.parent.iterdir()]
+    except OSError:
+        return ""
+    near = difflib.get_close_matches(path.name, names, n=1) or [name for name in names if Path(name).stem == path.name]
+    return f"Did you mean {str(path.with_name(near[0]))!r}?" if near else ""
 
 
 def _inner_recordings(folder: Path) -> str:

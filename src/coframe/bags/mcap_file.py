@@ -57,7 +57,7 @@ class McapStorage(ChunkedStorage):
                 progress(end)
             elif opcode in {_SCHEMA, _CHANNEL, _MESSAGE} and offset >= done:
                 if end - offset > LARGEST:
-                    self.add_problem(f"the record at byte {offset} has a stated size of {end - offset} bytes")
+                    self.add_problem(f"the record at byte {offset} claims to have {end - offset} bytes")
                     continue
                 data = self.bytes_at(offset, max(end - offset, _BLOCK))
                 done = offset + (yield from self._inner(data, offset))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from array import array
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -123,8 +124,10 @@ class MessageIndex:
         """
         name = topic if topic in self._tracks else f"/{topic}"
         if name not in self._tracks:
+            near = difflib.get_close_matches(name, self.topics(), n=1)
+            guess = f" Did you mean {near[0]!r}?" if near else ""
             raise RecordingError(
-                f"{self._path} has no topic {topic!r}", hint=f"Its topics: {', '.join(self.topics()) or 'none'}."
+                f"{self._path} has no topic {topic!r}", hint=f"Its topics: {', '.join(self.topics()) or 'none'}.{guess}"
             )
         return name
 

@@ -51,7 +51,7 @@ class Ros1Storage(ChunkedStorage):
                 yield from self._chunk_batches(offset)
                 progress(min(end, self.size))
             elif end - offset > LARGEST:
-                self.add_problem(f"the record at byte {offset} has a stated size of {end - offset} bytes")
+                self.add_problem(f"the record at byte {offset} claims to have {end - offset} bytes")
             elif opcode == _CONNECTION:
                 self._connect(header, self.bytes_at(start, end - start))
             elif opcode == _MESSAGE:

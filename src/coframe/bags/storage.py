@@ -147,7 +147,7 @@ class ChunkedStorage(Storage):
         if not 0 <= offset < self.size:
             return b""
         if size > LARGEST:
-            raise DamagedError(f"the stated size of a record is {size} bytes")
+            raise DamagedError(f"a record claims to have {size} bytes, more than the limit of {LARGEST}")
         with self._lock:
             self._file.seek(offset)
             return self._file.read(size)

@@ -145,7 +145,7 @@ def _duplicate_nodes(ros: coframe.Connection, nodes: Launcher) -> list[str]:
     duplicates = [name for name in nodes.names if counts[name] > 1]
     if not duplicates:
         return []
-    return [f"another {', '.join(duplicates)} in this domain: stop it, or choose another domain with --domain"]
+    return [f"already running in this domain: {', '.join(duplicates)}. Stop it, or choose another domain with --domain"]
 
 
 def _watch(buffer: coframe.Buffer, nodes: Launcher, start: float, duration: float | None, complete: list[str]) -> None:

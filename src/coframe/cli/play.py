@@ -64,7 +64,7 @@ def _is_number(following: list[str]) -> bool:
 def play(
     bag: BagArgument,
     topics: Annotated[
-        list[str] | None, typer.Option("--topics", metavar="TOPIC", help="Play only this topic; repeatable.")
+        list[str] | None, typer.Option("--topics", metavar="TOPIC", help="Replay only this topic; repeatable.")
     ] = None,
     remap: Annotated[
         list[str] | None,

@@ -68,6 +68,7 @@ def parse_time(option: str, text: str, recording: Recording) -> int:
             f"{option}: {text} is a time of day, but the stamps of the recording are simulation time, "
             f"from {seconds(first)} to {seconds(last)} s",
             f"Give a time in this range, or an offset from the start: {option} 0s to {seconds(last - first)}s.",
+            code=2,
         )
     return time_point
 

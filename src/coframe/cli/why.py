@@ -105,9 +105,9 @@ def why(
         ),
     ] = None,
     duration: Annotated[
-        str, typer.Option("--duration", "--timeout", metavar="DURATION", help="Time to listen.")
+        str, typer.Option("--duration", "--timeout", metavar="DURATION", help="Observation time.")
     ] = "2s",
-    watch: Annotated[bool, typer.Option("--watch", help="Keep listening, and update the answer every second.")] = False,
+    watch: Annotated[bool, typer.Option("--watch", help="Update the answer every second.")] = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one line of JSON per answer; times are in nanoseconds.")
     ] = False,
@@ -178,7 +178,7 @@ def _answer_live(graph: _LiveSource, target: str, source: str, at: str | None, w
         ) as observer,
     ):
         if Console(stderr=True).is_terminal:
-            typer.echo(f"listening for {window / SECOND:g} s ...", err=True)
+            typer.echo(f"observing for {window / SECOND:g} s ...", err=True)
         observer.listen(window / SECOND)
         seen = observer.observe()
         clock = int(seen.clock.stamp[-1]) if seen.clock is not None else None
