@@ -25,6 +25,9 @@ std::int64_t converted(const char* function, nb::handle given) {
   return to_int64(time_module.attr(function)(given));
 }
 
+// Whether coframe.time.duration_ns refuses the int: 2 is two nanoseconds, but its caller means two seconds.
+bool is_meant_as_seconds(std::int64_t nanoseconds) { return nanoseconds > 0 && nanoseconds < 1000; }
+
 std::int64_t text_duration(PyObject* text) {
   KnownDuration& known = known_durations[(reinterpret_cast<std::uintptr_t>(text) >> 4) % known_durations.size()];
   if (known.text == text) return known.nanoseconds;
@@ -75,7 +78,7 @@ Stamp to_stamp(nb::handle stamp) {
 std::int64_t to_duration(nb::handle duration) {
   if (duration.is_none()) return 0;
   std::int64_t nanoseconds;
-  if (quick_int64(duration.ptr(), nanoseconds)) return nanoseconds;
+  if (quick_int64(duration.ptr(), nanoseconds) && !is_meant_as_seconds(nanoseconds)) return nanoseconds;
   if (PyUnicode_CheckExact(duration.ptr())) return text_duration(duration.ptr());
   return converted("duration_ns", duration);
 }

@@ -507,6 +507,7 @@ Raises:
     ExtrapolationException: An edge has no sample at that time.
     InvalidArgumentException: A name is empty or has a leading slash.
     TypeError: A stamp or duration has a wrong type, such as a float of seconds.
+    ValueError: A duration is an int below one microsecond, such as 2, or is text without a unit.
 
 Example:
     >>> import coframe

@@ -88,11 +88,13 @@ def duration_ns(duration: DurationLike) -> int:
 
     Args:
         duration: Text such as ``"100ms"`` or ``"1.5s"`` (units ns, us, ms, s, min, h), int nanoseconds,
-            ``timedelta``, numpy.timedelta64, rclpy's Duration or a Duration message.
+            ``timedelta``, numpy.timedelta64, rclpy's Duration or a Duration message. An int from 1 to 999 is refused,
+            because its caller most likely means seconds; shorter durations than a microsecond have the other forms.
 
     Raises:
         TypeError: The duration has another type, such as a float of seconds.
-        ValueError: The text is not a number and a unit, or the duration is NaT or does not fit 64 bits.
+        ValueError: The text is not a number and a unit, or the duration is NaT or does not fit 64 bits, or is an int
+            from 1 to 999.
 
     Example:
         >>> duration_ns("1.5s")
@@ -106,9 +108,15 @@ def duration_ns(duration: DurationLike) -> int:
         if np.isnat(duration):
             raise ValueError("a duration must not be NaT")
         return int(duration.astype("timedelta64[ns]").astype(np.int64))
-    return _in_range(
-        _number_ns(duration, "a duration", 'text such as "100ms", int nanoseconds, timedelta or a Duration')
-    )
+    accepted = 'text such as "100ms", int nanoseconds, timedelta or a Duration'
+    nanoseconds = _in_range(_number_ns(duration, "a duration", accepted))
+    # The native core has the same limit (is_meant_as_seconds).
+    if 0 < nanoseconds < MICROSECOND and isinstance(duration, SupportsIndex):
+        raise ValueError(
+            f"the duration {nanoseconds} has no unit: an int is in nanoseconds. For seconds, write "
+            f'"{nanoseconds}s" or {nanoseconds * SECOND:_}; for nanoseconds, write "{nanoseconds}ns".'
+        )
+    return nanoseconds
 
 
 def _in_range(nanoseconds: int) -> int:
@@ -142,3 +150,7 @@ def _number_ns(value: Any, name: str, accepted: str) -> int:
         return int(value.nanoseconds)
     reason = ". A float of seconds cannot hold the current time to the nanosecond." if isinstance(value, float) else ""
     raise TypeError(f"{name} must be {accepted}, not {type(value).__name__}{reason}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -425,7 +425,7 @@ def test_invalid_arguments_are_refused_even_if_they_are_not_used(buffer, wrong):
 
 def test_hold_accepts_any_true_value(buffer):
     latest = buffer.lookup("odom", "base").stamp
-    assert buffer.lookup("odom", "base", latest + 5, extrapolate=10, hold=1).extrapolated == 5
+    assert buffer.lookup("odom", "base", latest + 5, extrapolate="10ns", hold=1).extrapolated == 5
 
 
 def test_the_error_names_the_first_of_several_nan_values():

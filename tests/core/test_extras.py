@@ -76,7 +76,7 @@ class TestExtrapolation:
     def test_a_single_sample_can_only_be_held(self):
         buffer = coframe.Buffer()
         buffer.set("odom", "base", coframe.Transform([1, 2, 3]), 10 * SECOND)
-        assert buffer.lookup("odom", "base", 10 * SECOND + 5, extrapolate=5).translation.tolist() == [1, 2, 3]
+        assert buffer.lookup("odom", "base", 10 * SECOND + 5, extrapolate="5ns").translation.tolist() == [1, 2, 3]
 
     def test_a_new_parent_resets_the_motion(self, buffer):
         buffer.set("map", "base", coframe.Transform([5, 0, 0]), 12 * SECOND)

@@ -1,8 +1,11 @@
+import asyncio
 import datetime
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+import coframe
 from coframe.time import duration_ns, stamp_ns
 
 
@@ -13,8 +16,14 @@ from coframe.time import duration_ns, stamp_ns
         ("1.5 s", 1_500_000_000),
         ("3us", 3_000),
         ("2min", 120_000_000_000),
-        (7, 7),
-        (np.int64(7), 7),
+        ("7ns", 7),
+        (0, 0),
+        (-7, -7),
+        (7_000, 7_000),
+        (np.int64(7_000), 7_000),
+        (np.timedelta64(7, "ns"), 7),
+        (SimpleNamespace(nanoseconds=7), 7),
+        (SimpleNamespace(sec=0, nanosec=7), 7),
         (datetime.timedelta(milliseconds=2), 2_000_000),
         (np.timedelta64(5, "ms"), 5_000_000),
     ],
@@ -32,6 +41,31 @@ def test_text_that_is_not_a_duration(written):
 def test_float_seconds_are_refused():
     with pytest.raises(TypeError, match="float of seconds"):
         duration_ns(0.1)
+
+
+@pytest.mark.parametrize("number", [1, 2, 999, np.int64(10)])
+def test_small_ints_are_refused_with_the_right_spellings(number):
+    with pytest.raises(ValueError, match="has no unit") as caught:
+        duration_ns(number)
+    assert f'"{number}s" or {int(number):_}_000_000_000' in str(caught.value)
+    assert f'"{number}ns"' in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda _: coframe.Buffer(cache=10),
+        lambda buffer: buffer.lookup("odom", "base", timeout=10),
+        lambda buffer: buffer.lookup("odom", "base", extrapolate=10),
+        lambda buffer: buffer.lookup_many("odom", "base", [5], extrapolate=10),
+        lambda buffer: buffer.can_transform("odom", "base", timeout=10),
+        lambda buffer: buffer.wait("odom", "base", timeout=10),
+        lambda buffer: asyncio.run(buffer.wait_async("odom", "base", timeout=10)),
+    ],
+)
+def test_the_buffer_refuses_small_ints_as_durations(call):
+    with pytest.raises(ValueError, match='"10s" or 10_000_000_000'):
+        call(coframe.Buffer())
 
 
 def test_stamps():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from datetime import datetime, timezone
 from pathlib import Path  # noqa: TC003 - typer reads the annotations
 from typing import TYPE_CHECKING, Annotated, Any
@@ -28,14 +29,19 @@ from coframe.cli.options import (
 )
 from coframe.cli.output import fail, printable, report_console
 from coframe.cli.progress import task_progress
-from coframe.cli.recordings import open_recording
-from coframe.formatting import count, seconds
+from coframe.cli.recordings import EARLIEST_WALL_TIME, open_recording
+from coframe.formatting import count, listed, seconds
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from coframe.bags import Summary
+    from coframe.bags.summary import SensorSummary
 
 __all__ = ["bag"]
+
+_NUMBER = re.compile(r"\d+(\.\d+)?")
 
 bag = typer.Typer(
     cls=PlainGroup,
@@ -126,12 +132,25 @@ def fix(
 def _print(summary: Summary) -> None:
     console = report_console()
     console.print(_text(summary.path, style="bold"))
-    console.print(f"received  {_when(summary.start)} to {_when(summary.end)}, {seconds(summary.end - summary.start)} s")
-    console.print(f"stamps    {seconds(summary.span[0])} to {seconds(summary.span[1])}")
+    storage = (
+        f"{summary.format}, compression {summary.compression}, {_size(summary.size)} in {count(summary.files, 'file')}"
+    )
+    console.print(_text(f"storage   {storage}"))
+    if any(topic.messages for topic in summary.topics):
+        console.print(
+            f"received  {_when(summary.start)} to {_when(summary.end)}, {seconds(summary.end - summary.start)} s"
+        )
+        note = ", simulation time" if summary.span[1] < EARLIEST_WALL_TIME <= summary.start else ""
+        console.print(f"stamps    {seconds(summary.span[0])} to {seconds(summary.span[1])}{note}")
+    else:
+        console.print("The recording contains no messages.")
     topics = _table("topic", "type", "messages", "Hz")
     for topic in summary.topics:
-        topics.add_row(_text(topic.name), _text(topic.type), str(topic.messages), f"{topic.rate:.1f}")
-    console.print(topics)
+        topics.add_row(
+            _text(topic.name), _text(topic.type), str(topic.messages), f"{topic.rate:.1f}" if topic.rate else "-"
+        )
+    if summary.topics:
+        console.print(topics)
     for tree in summary.trees:
         console.print(_text(f"tree with root {tree.root}: {count(tree.size, 'frame')}", style="bold"))
     edges = _table("parent", "child", "samples", "Hz", "longest gap", "from", "to")
@@ -139,13 +158,32 @@ def _print(summary: Summary) -> None:
         moving = (f"{edge.rate:.1f}", f"{edge.longest_gap / SECOND:.3f} s", seconds(edge.oldest), seconds(edge.newest))
         cells: tuple[Any, ...] = ("static", "", "", "") if edge.static else moving
         edges.add_row(_text(edge.parent), _text(edge.child), str(edge.samples), *cells)
-    console.print(edges)
-    sensors = _table("sensor", "frame", "transformable", "reason")
-    for sensor in summary.sensors:
-        share = f"{sensor.possible} of {sensor.messages} into {sensor.root}" if sensor.root else "none"
-        sensors.add_row(_text(sensor.topic), _text(sensor.frame), _text(share), _text(sensor.why_not))
+    if summary.edges:
+        console.print(edges)
     if summary.sensors:
-        console.print(sensors)
+        _print_sensors(summary.sensors, console)
+
+
+def _print_sensors(summaries: list[SensorSummary], console: Console) -> None:
+    """Print which sensor data can be transformed, and below it once each reason why not."""
+    sensors = _table("sensor", "frame", "transformable")
+    reasons: dict[str, list[tuple[str, str]]] = {}
+    for sensor in summaries:
+        share = f"{sensor.possible} of {sensor.messages} into {sensor.root}" if sensor.root else "none"
+        sensors.add_row(_text(sensor.topic), _text(sensor.frame), _text(share))
+        if sensor.why_not:
+            # The sentences about the topics of one frame differ only in the times.
+            reasons.setdefault(_NUMBER.sub("", sensor.why_not), []).append((sensor.topic, sensor.why_not))
+    console.print(sensors)
+    for group in reasons.values():
+        console.print(_text(f"{listed(topic for topic, _ in group)}: {group[0][1]}"), soft_wrap=True)
+
+
+def _size(size: int) -> str:
+    for unit, name in ((10**9, "GB"), (10**6, "MB"), (10**3, "kB")):
+        if size >= unit:
+            return f"{size / unit:.1f} {name}"
+    return f"{size} bytes"
 
 
 def _text(text: str, style: str = "") -> Text:

@@ -66,7 +66,8 @@ class BufferCore:
             **_ignored: Ignored, because tf2's native type silently ignores keyword arguments.
         """
         # Programs subclass BufferCore, so the prefix avoids collisions with their attributes.
-        self._coframe_buffer = coframe.Buffer(_convert.nanoseconds(cache_time, "duration"))
+        # A Duration, because coframe refuses an int of a few nanoseconds.
+        self._coframe_buffer = coframe.Buffer(Duration(nanoseconds=_convert.nanoseconds(cache_time, "duration")))
 
     def set_transform(self, transform: Any, authority: str, /) -> None:
         """Insert a dynamic transform. Rejected data are reported on stderr, as in tf2.

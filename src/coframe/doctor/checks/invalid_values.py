@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from coframe.doctor.finding import Finding, Severity
+from coframe.doctor.quaternion_causes import likely_cause
 from coframe.doctor.transforms import NORM_TOLERANCE
 
 if TYPE_CHECKING:
@@ -35,11 +36,13 @@ def find(observation: Observation) -> Iterator[Finding]:
         zero = transforms.finite & (transforms.squared_norms == 0.0)
         refused = transforms.finite & ~zero & (np.abs(transforms.squared_norms - 1.0) >= NORM_TOLERANCE)
         rounded = transforms.finite & ~zero & ~refused & (off > _ROUNDING)
+        # With the same mistake, the quaternions of a moving edge may be nearly normalized at some angles.
+        rounded &= ~np.isin(transforms.edge, transforms.edge[refused])
     yield from _kind(
         transforms,
         ~transforms.finite,
         Severity.ERROR,
-        "{count} of {all} transforms contain NaN or infinity; tf2 refuses them",
+        "{count} of {all} transforms contain NaN or infinity; tf2 rejects them",
         "Find the division by zero or the field that was not set, and check before publishing: "
         "if all(map(math.isfinite, values)): broadcaster.sendTransform(t)",
         off,
@@ -49,7 +52,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         zero,
         Severity.ERROR,
         "{count} of {all} transforms have the quaternion 0, 0, 0, 0, which means that the rotation was not set; tf2 "
-        "refuses them",
+        "rejects them",
         "Set it: t.transform.rotation.w = 1.0",
         off,
     )
@@ -57,16 +60,17 @@ def find(observation: Observation) -> Iterator[Finding]:
         transforms,
         refused,
         Severity.ERROR,
-        "{count} of {all} transforms have a quaternion that is not a rotation, its length is off by up to {off:.3g}; "
-        "tf2 refuses them",
+        "{count} of {all} transforms have a quaternion that is not normalized: its length is off by up to {off:.3g}; "
+        "tf2 rejects them",
         f"Check the order x, y, z, w, and {_NORMALIZE}.",
         off,
+        explained=True,
     )
     yield from _kind(
         transforms,
         rounded,
         Severity.NOTE,
-        "{count} of {all} quaternions are not exactly normalized, their length is off by up to {off:.2g}; tf2 accepts "
+        "{count} of {all} quaternions are not exactly normalized: their length is off by up to {off:.2g}; tf2 accepts "
         "them",
         f"Use more digits (0.70710678 instead of 0.707), or {_NORMALIZE}.",
         off,
@@ -82,17 +86,21 @@ def _kind(
     fix: str,
     off: NDArray[np.float64],
     harm: str = "",
+    *,
+    explained: bool = False,
 ) -> Iterator[Finding]:
     rows = np.flatnonzero(affected)
     for number in np.unique(transforms.edge[rows]).tolist():
         own = rows[transforms.edge[rows] == number]
         parent, child = transforms.pair(number)
+        cause = likely_cause(transforms.values[own, 3:]) if explained else None
         worst = float(off[own].max()) if np.isfinite(off[own]).all() else float("nan")
         yield Finding(
             code=CODE,
             severity=severity,
-            text=text.format(count=len(own), all=int(np.count_nonzero(transforms.edge == number)), off=worst),
-            fix=fix,
+            text=text.format(count=len(own), all=int(np.count_nonzero(transforms.edge == number)), off=worst)
+            + (f"; {cause.text}" if cause else ""),
+            fix=cause.fix if cause else fix,
             harm=harm,
             edge=(parent.lstrip("/"), child.lstrip("/")),
             first_stamp=int(transforms.stamp[own[0]]),
