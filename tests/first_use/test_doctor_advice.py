@@ -14,7 +14,9 @@ from typer.testing import CliRunner
 import coframe
 from coframe.analysis.missing_edges import MissingEdge
 from coframe.cli.app import app
-from coframe.doctor import codes, diagnose, observe_recording, page
+from coframe.doctor import Observation, codes, diagnose, observe_recording, page
+from coframe.doctor.observation import Endpoint, TopicFacts
+from coframe.doctor.transforms import Transforms
 from coframe.errors import PackageError
 from coframe.messages import find
 from coframe.robots import Packages
@@ -362,3 +364,33 @@ def test_rate_below_that_of_the_scans_that_need_it(findings, rate, scans, child,
         assert slow[0].edge == (parents[child], child)
         assert f"({rate} Hz) only, but /scan, which needs it, every" in slow[0].text
         assert "create_timer(0.05, self.broadcast)" in slow[0].fix
+
+
+# Topics without messages
+
+
+@pytest.mark.parametrize(
+    ("topic", "kind", "messages", "seconds", "latched", "found"),
+    [
+        ("/scan", "sensor_msgs/msg/LaserScan", 0, 8, False, True),
+        ("/imu", "sensor_msgs/msg/Imu", 0, 8, False, True),
+        ("/joint_states", "sensor_msgs/msg/JointState", 0, 8, False, True),
+        ("/tf", "tf2_msgs/msg/TFMessage", 0, 8, False, True),
+        ("/scan", "sensor_msgs/msg/LaserScan", 1, 8, False, False),
+        ("/scan", "sensor_msgs/msg/LaserScan", 0, 3, False, False),
+        ("/cloud", "sensor_msgs/msg/PointCloud2", 0, 8, True, False),
+        ("/joint_command", "sensor_msgs/msg/JointState", 0, 8, False, False),
+        ("/goal_pose", "geometry_msgs/msg/PoseStamped", 0, 8, False, False),
+        ("/tf_static", "tf2_msgs/msg/TFMessage", 0, 8, True, False),
+    ],
+)
+def test_topic_that_never_publishes(topic, kind, messages, seconds, latched, found):
+    publishers = (Endpoint("/driver", transient_local=latched),)
+    facts = TopicFacts(topic, kind, messages, publishers, observed=seconds * SECOND)
+    empty = Transforms.joined([], ())
+    report = diagnose(Observation(True, START, START + 10 * SECOND, empty, topics={topic: facts}))
+    assert [finding.code for finding in report.findings] == ["TF026"] * found
+    if found:
+        (finding,) = report.findings
+        assert (finding.topic, finding.publishers) == (topic, ("/driver",))
+        assert "no message was received in 8 s" in finding.text

@@ -47,6 +47,7 @@ CAUSES: tuple[tuple[str, str, bool], ...] = (
     ("TF022", "TF001", True),  # joints without states have no transform
     ("TF022", "TF014", True),
     ("TF021", "TF023", True),
+    ("TF026", "TF022", False),  # joints whose states are never published
 )
 
 
