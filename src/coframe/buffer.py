@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
 
-from coframe import _core, errors, frozen_file, time
+from coframe import _core, errors, frozen_file, html_tables, time
 from coframe.analysis.clocks import present_for
 from coframe.analysis.liveness import buffered_period, is_stale
 from coframe.dispatcher import Dispatcher
 from coframe.errors import InvalidArgumentException, TimeoutException, TransformException
-from coframe.formatting import duration
+from coframe.formatting import duration, seconds
 from coframe.resampling import StepLimits
 from coframe.transform import batch_of, stamps_of
 
@@ -184,7 +184,7 @@ class Buffer(_core.Buffer):
                 stamp of the transform. Static transforms need no stamp.
             static: Whether the transform is valid for all time. A frame that changes between static and dynamic loses
                 its earlier samples.
-            authority: Name of the publisher, as reports show it.
+            authority: Name of the publisher, as shown in reports.
 
         Returns:
             True if the sample was stored; False if it was older than the cache.
@@ -249,7 +249,7 @@ class Buffer(_core.Buffer):
                 stamps of the batch.
             poses: A batch of shape (N,), or an array of shape (N, 7): x, y, z in metres and qx, qy, qz, qw.
             static: Whether the transform is valid for all time; then the last sample is used.
-            authority: Name of the publisher, as reports show it.
+            authority: Name of the publisher, as shown in reports.
 
         Returns:
             The number of stored samples. Samples older than the cache are not stored.
@@ -573,7 +573,7 @@ class Buffer(_core.Buffer):
         return copy
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Save the buffer to a file that :func:`coframe.load` opens without reading it, whatever its size.
+        """Save the buffer to a file that :func:`coframe.load` opens without reading it first.
 
         A sample takes 72 bytes, and a moving frame up to 18 kB more. The file is complete or does not appear at all.
 
@@ -621,6 +621,26 @@ class Buffer(_core.Buffer):
     def __repr__(self) -> str:
         cache = "everything" if self.cache_ns < 0 else f"{self.cache_ns / time.SECOND:g}s"
         return f"Buffer(cache={cache}, frames={len(self.frame_names())})"
+
+    def _repr_html_(self) -> str:
+        children = [frame.name for frame in self.frames() if frame.parent]
+        edges = self.edges(children[: html_tables.MOST_ROWS])
+        rows = [
+            (edge.parent, edge.child, edge.samples, "static", "", "", edge.authority)
+            if edge.static
+            else (
+                edge.parent,
+                edge.child,
+                edge.samples,
+                f"{edge.rate:.3g} Hz",
+                seconds(edge.oldest),
+                seconds(edge.newest),
+                edge.authority,
+            )
+            for edge in edges
+        ]
+        columns = ("parent", "child", "samples", "rate", "oldest [s]", "newest [s]", "publisher")
+        return html_tables.section(repr(self), html_tables.table(columns, rows, len(children), "edge"))
 
 
 _core.register_buffer_class(Buffer)
@@ -681,7 +701,7 @@ def _is_stale(
     if present is None:
         return None
     silence = present - newest
-    # The period is read only where it decides.
+    # The period is read only if the result depends on it.
     return is_stale(silence, 0.0) and is_stale(silence, buffered_period(buffer, parent, child, oldest, newest, samples))
 
 

@@ -149,7 +149,7 @@ class Dispatcher:
                 raise
 
     def _remove_old_deadlines(self) -> None:
-        """Remove the deadlines of finished waits when there are many; they may lie far in the future."""
+        """Remove the deadlines of finished waits when there are many; they may be far in the future."""
         if len(self._deadlines) <= 2 * len(self._entries) + _SPARE_DEADLINES:
             return
         old, self._deadlines = self._deadlines, []

@@ -86,7 +86,7 @@ class CoframeError(Exception):
         """The code of the doctor's page about this problem, such as ``"TF013"``; "" if there is none."""
         return ""
 
-    # The interpreter reads the notes only when it prints a traceback, so a hint that nobody sees is never computed.
+    # The interpreter reads the notes only when it prints a traceback, so other hints are never computed.
     @property
     def __notes__(self) -> list[str]:
         """The notes below the text in a traceback: the hint, and what ``add_note`` has added."""

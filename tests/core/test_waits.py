@@ -189,7 +189,7 @@ def random_lookup(rng, names):
 @pytest.mark.parametrize("seed", range(40))
 def test_no_wait_is_missed(seed):
     rng = random.Random(seed)
-    buffer = coframe.Buffer(cache=rng.choice([3, 10, 30, None]))
+    buffer = coframe.Buffer(cache=rng.choice(["3ns", "10ns", "30ns", None]))
     names = [f"frame{i}" for i in range(rng.choice([3, 5, 8, 12]))]
     ordered = rng.random() < 0.5
     mailbox = _core.Mailbox()

@@ -73,7 +73,7 @@ def repair(
     """Write a repaired copy of a recording; the original is not changed.
 
     The copy contains everything that can be read, with an index, metadata and the definitions of the types that coframe
-    knows. Leading slashes of frame names and transforms that tf2 rejects are removed. Static transforms come first.
+    supports. Leading slashes of frame names and transforms that tf2 rejects are removed. Static transforms come first.
     Messages of ROS 1 are converted to ROS 2.
 
     Args:

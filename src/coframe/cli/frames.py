@@ -1,4 +1,4 @@
-"""``coframe frames``: shows the transform trees with their figures, or writes a diagram, like view_frames."""
+"""``coframe frames``: shows the transform trees with edge statistics, or writes a diagram, like view_frames."""
 
 from __future__ import annotations
 

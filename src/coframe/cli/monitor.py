@@ -1,4 +1,4 @@
-"""``coframe monitor``: shows the figures of tf2_monitor for each edge and publisher."""
+"""``coframe monitor``: shows the statistics of tf2_monitor for each edge and publisher."""
 
 from __future__ import annotations
 

@@ -173,10 +173,10 @@ def _pose_from_fixed(
 
 
 def _deskew_fields(buffer: _core.Buffer, fixed: str, source: str, arguments: tuple[Any, ...]) -> None:
-    stamps, *_, nan_for_none, _ = arguments
+    stamps, *_, nan_for_missing, _ = arguments
     for _ in range(_MAX_ATTEMPTS):
         missing, first = _core.deskew_fields(buffer, fixed, source, *arguments)
-        if missing == 0 or (nan_for_none and missing < len(stamps)):
+        if missing == 0 or (nan_for_missing and missing < len(stamps)):
             return
         try:
             # This raises the reason, unless the missing transform was inserted in the meantime.
