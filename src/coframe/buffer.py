@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
 
-from coframe import _core, errors, frozen_file, time
+from coframe import _core, errors, frozen_file, html_tables, time
 from coframe.analysis.clocks import present_for
 from coframe.analysis.liveness import buffered_period, is_stale
 from coframe.dispatcher import Dispatcher
 from coframe.errors import InvalidArgumentException, TimeoutException, TransformException
-from coframe.formatting import duration
+from coframe.formatting import duration, seconds
 from coframe.resampling import StepLimits
 from coframe.transform import batch_of, stamps_of
 
@@ -621,6 +621,26 @@ class Buffer(_core.Buffer):
     def __repr__(self) -> str:
         cache = "everything" if self.cache_ns < 0 else f"{self.cache_ns / time.SECOND:g}s"
         return f"Buffer(cache={cache}, frames={len(self.frame_names())})"
+
+    def _repr_html_(self) -> str:
+        children = [frame.name for frame in self.frames() if frame.parent]
+        edges = self.edges(children[: html_tables.MOST_ROWS])
+        rows = [
+            (edge.parent, edge.child, edge.samples, "static", "", "", edge.authority)
+            if edge.static
+            else (
+                edge.parent,
+                edge.child,
+                edge.samples,
+                f"{edge.rate:.3g} Hz",
+                seconds(edge.oldest),
+                seconds(edge.newest),
+                edge.authority,
+            )
+            for edge in edges
+        ]
+        columns = ("parent", "child", "samples", "rate", "oldest [s]", "newest [s]", "publisher")
+        return html_tables.section(repr(self), html_tables.table(columns, rows, len(children), "edge"))
 
 
 _core.register_buffer_class(Buffer)

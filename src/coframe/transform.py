@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from coframe import _core, quaternion
+from coframe import _core, html_tables, quaternion
 from coframe.covariance import transform_covariance
 from coframe.errors import FrameMismatchException, InvalidArgumentException
 from coframe.time import stamp_ns
@@ -445,6 +445,20 @@ class Transform(_core.Transform):
             return f"Transform({frames}batch {self.shape})"
         stamp = "" if self.stamp is None else f", stamp={self.stamp}"
         return f"Transform({frames}translation={_numbers(self.translation)}, rpy={_numbers(self.rpy)}{stamp})"
+
+    def _repr_html_(self) -> str:
+        total = int(np.prod(self.shape))
+        first = min(total, html_tables.MOST_ROWS)
+        lengths, angles = self.translation.reshape(-1, 3)[:first], self.rpy.reshape(-1, 3)[:first]
+        stamps = self.stamps if self.shape else None if self.stamp is None else np.array([self.stamp])
+        times = [""] * first if stamps is None else stamps.reshape(-1)[:first].tolist()
+        rows = [
+            (stamp, *(f"{value:.6g}" for value in (*xyz, *rpy)))
+            for stamp, xyz, rpy in zip(times, lengths.tolist(), angles.tolist(), strict=True)
+        ]
+        title = f"Transform {_arrow(self)}" + (f", batch {self.shape}" if self.shape else "")
+        columns = ("stamp [ns]", "x [m]", "y [m]", "z [m]", "roll [rad]", "pitch [rad]", "yaw [rad]")
+        return html_tables.section(title, html_tables.table(columns, rows, total, "transform"))
 
     def __reduce__(self) -> tuple[object, ...]:
         return _rebuild, (self.values, self.target, self.source, self.stamp, self._batch, self._beyond)

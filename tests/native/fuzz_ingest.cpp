@@ -172,7 +172,8 @@ class Fuzzer {
     expect(damaged || (!failure.reason && stored <= transforms), "a valid message is rejected");
     if (failure.reason) {
       expect(stored == 0 && failure.offset <= bytes.size(), "a rejected message changed the buffer");
-      expect(after.refused == before.refused && after.old == before.old, "transforms of a rejected message are counted");
+      expect(after.refused == before.refused && after.old == before.old,
+             "transforms of a rejected message are counted");
     } else {
       const std::uint64_t counted =
           after.stored + after.refused + after.old - before.stored - before.refused - before.old;

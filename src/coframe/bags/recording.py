@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe import time
+from coframe import html_tables, time
 from coframe.bags.decoding import decoder
 from coframe.bags.file_discovery import open_files, recording_stem
 from coframe.bags.message_index import MessageIndex, largest_track, reread
@@ -21,7 +21,7 @@ from coframe.bags.recorded_message import RecordedMessage, Topic
 from coframe.bags.table import edge_table
 from coframe.bags.transforms import ingest_for
 from coframe.errors import RecordingError
-from coframe.formatting import listed
+from coframe.formatting import count, listed
 from coframe.frame_names import absolute, kept, renaming
 
 if TYPE_CHECKING:
@@ -313,6 +313,14 @@ class Recording:
         """
         return self._index.received(self._index.find_topic(topic))
 
+    def to_ros_time(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Convert times of receipt to the clock of ``/clock``; unchanged if that was not recorded.
+
+        Args:
+            received: (N,) nanoseconds, as returned by :meth:`received`.
+        """
+        return self._index.to_ros_time(received)
+
     def message_at(self, topic: str, stamp: StampLike) -> RecordedMessage | None:
         """Return the newest message of a topic at a time; None before the first one.
 
@@ -374,6 +382,16 @@ class Recording:
     def __repr__(self) -> str:
         seconds = self.duration / time.SECOND
         return f"Recording({str(self.path)!r}, {len(self.topics)} topics, {seconds:.1f} s)"
+
+    def _repr_html_(self) -> str:
+        rows = ((topic.name, topic.type, topic.messages, f"{topic.rate:.3g} Hz") for topic in self.topics.values())
+        problems = ((sentence,) for sentence in self.problems)
+        return html_tables.section(
+            repr(self),
+            html_tables.table(("topic", "type", "messages", "rate"), rows, len(self.topics), "topic"),
+            html_tables.paragraph(f"The buffer has {count(len(self.buffer.frame_names()), 'frame')}."),
+            html_tables.table(("problems",), problems, len(self.problems), "problem"),
+        )
 
 
 def _rate(received: NDArray[np.int64], span: tuple[int, int] | None) -> float:

@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
+import inspect
 import json
 import re
 from datetime import datetime, timezone
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.table import Table
 from rich.text import Text
 
-from coframe.bags import COMPRESSIONS, repair, summarize
+from coframe.bags import COMPRESSIONS, parse_time_point, repair, summarize
+from coframe.bags.copying import copy_recordings
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
+    TIMES,
     BagArgument,
     KeepOption,
     NamespaceOption,
@@ -27,25 +30,29 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import fail, printable, report_console
+from coframe.cli.output import fail, printable, report_console, warn
+from coframe.cli.play import PlayCommand, play
 from coframe.cli.progress import task_progress
-from coframe.cli.recordings import EARLIEST_WALL_TIME, open_recording
+from coframe.cli.record import record
+from coframe.cli.recordings import EARLIEST_WALL_TIME, grouped_by_topic, open_recording
 from coframe.formatting import count, listed, seconds
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from coframe.bags import Summary
+    from coframe.bags import Recording, Summary
     from coframe.bags.summary import SensorSummary
 
 __all__ = ["bag"]
 
 _NUMBER = re.compile(r"\d+(\.\d+)?")
 
+OutputArgument = Annotated[Path, typer.Argument(metavar="OUT", help="Folder of the copy; it must not exist yet.")]
+CompressionOption = Annotated[str, typer.Option(metavar="METHOD", help="Compression of the copy: none, zstd or lz4.")]
 bag = typer.Typer(
     cls=PlainGroup,
-    help="Inspect and repair recordings.\n\nExample: coframe bag info run.mcap",
+    help="Record, play, inspect, repair, convert and cut recordings.\n\nExample: coframe bag info run.mcap",
     no_args_is_help=True,
     rich_markup_mode=None,
 )
@@ -54,6 +61,16 @@ bag = typer.Typer(
 @bag.callback()
 def _bag() -> None:
     pass
+
+
+# The short forms `coframe record` and `coframe play` are the same commands.
+for _function, _class, _line in (
+    (record, PlainCommand, "Record topics; short form: coframe record."),
+    (play, PlayCommand, "Replay a recording; short form: coframe play."),
+):
+    _name = _function.__name__
+    _help = (inspect.getdoc(_function) or "").replace(f"Example: coframe {_name}", f"Example: coframe bag {_name}")
+    bag.command(_name, cls=_class, short_help=_line, help=_help)(_function)
 
 
 @bag.command(cls=PlainCommand, short_help="Show topics, transform trees and gaps of a recording.")
@@ -83,7 +100,7 @@ def info(
 @bag.command(cls=PlainCommand, short_help="Write a repaired copy of a recording.")
 def fix(
     bag: BagArgument,
-    output: Annotated[Path, typer.Argument(metavar="OUT", help="Folder of the copy; it must not exist yet.")],
+    output: OutputArgument,
     statics: Annotated[
         Path | None,
         typer.Option(metavar="OTHER", help="Other recording, whose static transforms are added where BAG has none."),
@@ -92,9 +109,7 @@ def fix(
     tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
-    compression: Annotated[
-        str, typer.Option(metavar="METHOD", help="Compression of the copy: none, zstd or lz4.")
-    ] = "zstd",
+    compression: CompressionOption = "zstd",
 ) -> None:
     """Write a repaired copy of the recording BAG to the folder OUT, and list what was repaired.
 
@@ -104,8 +119,7 @@ def fix(
 
     Example: coframe bag fix broken.mcap repaired
     """
-    if compression not in COMPRESSIONS:
-        fail(f"--compression: unknown method {compression!r}. Methods: {', '.join(COMPRESSIONS)}", code=2)
+    _check_compression(compression)
     with run_to_completion():
         robot: dict[str, str] = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
         with task_progress() as progress:
@@ -127,6 +141,85 @@ def fix(
             for sentence in sentences:
                 print(printable(f"{title}: {sentence}"))
         print(f"{report.path}: {count(report.messages, 'message')}")
+
+
+@bag.command(cls=PlainCommand, short_help="Convert a recording to rosbag2's MCAP, or change its compression.")
+def convert(
+    bag: BagArgument,
+    output: OutputArgument,
+    compression: CompressionOption = "zstd",
+) -> None:
+    """Convert the recording BAG, of ROS 1 or in SQLite, to MCAP in rosbag2's layout, or change its compression.
+
+    Example: coframe bag convert run.bag run --compression lz4
+    """
+    _copy([bag], output, compression)
+
+
+@bag.command(cls=PlainCommand, short_help="Merge several recordings into one, in the order of time.")
+def merge(
+    bags: Annotated[list[Path], typer.Argument(metavar="BAG...", help="Recordings to merge.")],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="FOLDER", help="Folder of the new recording; it must not exist.")
+    ],
+    compression: CompressionOption = "zstd",
+) -> None:
+    """Merge several recordings into one, with the messages in the order in which they were received.
+
+    Example: coframe bag merge robot.mcap camera.mcap -o both
+    """
+    _copy(bags, output, compression)
+
+
+@bag.command("slice", cls=PlainCommand, short_help="Copy a time span or some topics of a recording.")
+def slice_(
+    bag: BagArgument,
+    output: OutputArgument,
+    start: Annotated[
+        str | None, typer.Option(metavar="TIME", help=f"First time of receipt: {TIMES}. [default: start]")
+    ] = None,
+    end: Annotated[str | None, typer.Option(metavar="TIME", help="Last time of receipt, written like --start.")] = None,
+    topics: Annotated[
+        list[str] | None, typer.Option("--topics", metavar="TOPIC", help="Copy only this topic; repeatable.")
+    ] = None,
+    compression: CompressionOption = "zstd",
+) -> None:
+    """Copy the messages of the recording BAG that were received in a time span, or those of some topics.
+
+    Static transforms that were received before the start are included.
+
+    Example: coframe bag slice run.mcap part --start 10s --end 1min
+    """
+
+    def span(recording: Recording) -> tuple[int | None, int | None]:
+        first, last = (_receipt_time(name, text, recording) for name, text in (("--start", start), ("--end", end)))
+        if first is not None and last is not None and first > last:
+            fail(f"--start {start} is after --end {end}", code=2)
+        return first, None if last is None else last + 1
+
+    _copy([bag], output, compression, topics=topics or None, span=span)
+
+
+def _receipt_time(option: str, text: str | None, recording: Recording) -> int | None:
+    try:
+        return None if text is None else parse_time_point(text, (recording.start, recording.end))
+    except ValueError as error:
+        fail(f"{option}: {error}", code=2)
+
+
+def _copy(sources: list[Path], output: Path, compression: str, **selection: Any) -> None:
+    _check_compression(compression)
+    with run_to_completion():
+        with task_progress() as progress:
+            report = copy_recordings(sources, output, compression=compression, progress=progress, **selection)
+        for problem in grouped_by_topic(report.problems):
+            warn(problem)
+        print(printable(f"{report.path}: {count(report.messages, 'message')}"))
+
+
+def _check_compression(compression: str) -> None:
+    if compression not in COMPRESSIONS:
+        fail(f"--compression: unknown method {compression!r}. Methods: {', '.join(COMPRESSIONS)}", code=2)
 
 
 def _print(summary: Summary) -> None:

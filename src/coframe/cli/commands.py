@@ -36,9 +36,11 @@ COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
     "relay": ("Merge the transforms of several robots, or split them.", {}),
     "record": ("Record topics as MCAP files in rosbag2's layout.", {}),
     "play": ("Replay a recording.", {"cls": "PlayCommand"}),
-    "bag": ("Inspect and repair recordings.", {}),
+    "bag": ("Record, play, inspect, repair, convert and cut recordings.", {}),
     "lookup": ("Print a transform once, live or from a recording.", {}),
     "trajectory": ("Write the trajectory of a frame from a recording.", {}),
+    "compare": ("Compare two trajectories: absolute and relative pose errors.", {}),
+    "plot": ("Plot poses, fields, rates and delays over time.", {}),
     "cloud": ("Write point clouds or scans from a recording in one frame.", {}),
     "batch": ("Write trajectories from many recordings as one dataset.", {}),
 }
