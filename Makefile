@@ -7,7 +7,7 @@ DEMO_STAMP := $(VENV)/.demo_ready
 NATIVE := $(shell find native -name '*.cpp' -o -name '*.hpp' -o -name '*.inc') CMakeLists.txt
 
 .DEFAULT_GOAL := help
-.PHONY: help setup build demo test test-slow test-long sanitize lint typecheck format conformance bench generate page page-check clean
+.PHONY: help setup build build-split demo test test-slow test-long sanitize lint typecheck format conformance bench generate page page-check clean
 
 help: ## list the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -28,6 +28,10 @@ setup: $(STAMP) ## create the virtual environment with everything in it, and bui
 build: ## rebuild the native core
 	$(BIN)/python -m pip install --quiet --no-build-isolation --no-deps --editable .
 	@touch $(DEMO_STAMP) $(STAMP)
+
+build-split: $(STAMP) ## compile each source file of the native core separately, which reveals missing includes
+	$(BIN)/python -m pip wheel --quiet --no-build-isolation --no-deps --wheel-dir build/split/wheel \
+		--config-settings=build-dir=build/split --config-settings=cmake.define.COFRAME_UNITY=OFF .
 
 demo: $(DEMO_STAMP) ## show the lab's moving transform tree, live in the browser and the terminal
 	@$(BIN)/coframe demo $(ARGS)

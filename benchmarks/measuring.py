@@ -131,7 +131,7 @@ class Result:
     Attributes:
         row: The row.
         ours: Samples of coframe.
-        theirs: Samples of the other contender, each taken right after one of coframe.
+        theirs: Samples of the other contender, each round_number right after one of coframe.
         missing: What to install for the other contender; "" if it is installed.
         error: The error; "" if there was none.
     """
@@ -200,8 +200,8 @@ def measure(row: Row, effort: Effort) -> Result:
 def _take_turns(result: Result, ours: Contender, theirs: Contender | None, effort: Effort) -> None:
     least = result.row.least if effort.least is None else effort.least
     end = time.monotonic() + effort.seconds
-    for taken in range(max(effort.rounds, least)):
-        if taken >= least and time.monotonic() > end:
+    for round_number in range(max(effort.rounds, least)):
+        if round_number >= least and time.monotonic() > end:
             break
         result.ours.append(ours.sample())
         if theirs:

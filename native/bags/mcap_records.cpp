@@ -8,12 +8,12 @@ namespace coframe {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "MCAP is little endian, and is read as it is");
+static_assert(std::endian::native == std::endian::little, "MCAP is little-endian and is read without conversion");
 
 constexpr std::uint8_t kSchema = 0x03, kChannel = 0x04, kMessage = 0x05;
 constexpr std::uint8_t kPrivate = 0x80;   // records from here on are private extensions and are skipped
-constexpr std::size_t kHead = 9;          // opcode, length
-constexpr std::size_t kMessageHead = 22;  // channel, sequence, log time, publish time
+constexpr std::size_t kHead = 9;          // opcode and length
+constexpr std::size_t kMessageHead = 22;  // channel, sequence number, log time, publish time
 
 template <class T>
 T number_at(const std::uint8_t* data) {

@@ -17,7 +17,8 @@ namespace {
 
 namespace nb = nanobind;
 
-constexpr auto kPatience = std::chrono::seconds(1);
+// How long the end of the interpreter waits for threads that are entering Python.
+constexpr auto kMaxWait = std::chrono::seconds(1);
 
 std::atomic<bool> ending = false;
 std::atomic<int> crossing = 0;  // threads that are entering Python, or called from C++ inside it
@@ -42,7 +43,7 @@ void end() {
   last_thread = std::this_thread::get_id();
   ending.store(true);
   PyThreadState* thread = PyEval_SaveThread();
-  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  const auto deadline = std::chrono::steady_clock::now() + kMaxWait;
   while (crossing.load() > 0 && std::chrono::steady_clock::now() < deadline) {
     std::this_thread::sleep_for(std::chrono::microseconds(50));
   }

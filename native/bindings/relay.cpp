@@ -42,8 +42,8 @@ nb::list edges(const Relay& self) {
   nb::list list;
   for (const Relay::Edge& edge : self.edges()) {
     const Relay::Claim& claim = self.claim(edge);
-    if (edge.passed == 0 && claim.rival == Relay::kNobody) continue;
-    const bool contested = claim.rival != Relay::kNobody;
+    if (edge.passed == 0 && claim.rival == Relay::kNoSource) continue;
+    const bool contested = claim.rival != Relay::kNoSource;
     list.append(nb::make_tuple(to_str(edge.parent), to_str(claim.child), claim.source, edge.writer,
                                contested ? nb::int_(claim.rival) : nb::object(nb::none()), claim.contested, edge.passed,
                                edge.thinned, edge.newest, edge.received_at));

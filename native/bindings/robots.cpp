@@ -22,9 +22,9 @@ namespace {
 constexpr std::size_t kManyPoses = 500'000;
 
 JointKind kind_of(std::string_view type) {
-  if (type == "fixed") return JointKind::still;
-  if (type == "revolute" || type == "continuous") return JointKind::turning;
-  if (type == "prismatic") return JointKind::sliding;
+  if (type == "fixed") return JointKind::fixed;
+  if (type == "revolute" || type == "continuous") return JointKind::rotating;
+  if (type == "prismatic") return JointKind::prismatic;
   if (type == "planar") return JointKind::planar;
   if (type == "floating") return JointKind::floating;
   throw nb::value_error("unknown joint type");
@@ -138,7 +138,7 @@ class JointTreeObject {
     std::ranges::copy(numbers<3>(joint[5]), found.axis);
     const nb::object mimic = joint[6];
     if (!mimic.is_none()) {
-      found.leader = nb::cast<std::ptrdiff_t>(nb::object(rows_[nb::object(mimic[0])]));
+      found.mimicked = nb::cast<std::ptrdiff_t>(nb::object(rows_[nb::object(mimic[0])]));
       found.multiplier = nb::cast<double>(nb::object(mimic[1]));
       found.offset = nb::cast<double>(nb::object(mimic[2]));
     }

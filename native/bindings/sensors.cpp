@@ -111,21 +111,22 @@ void py_transform(const std::vector<double>& pose, nb::sequence triples, unsigne
 }
 
 nb::tuple py_deskew(BufferObject& buffer, nb::handle target, nb::handle source, nb::handle times,
-                    const std::vector<double>& onward, nb::sequence triples, bool nan_for_none, unsigned threads) {
+                    const std::vector<double>& result_from_target, nb::sequence triples, bool nan_for_missing,
+                    unsigned threads) {
   const Fields fields(triples);
   const Memory stamps(times, PyBUF_C_CONTIGUOUS);
   const std::size_t count = fields.grid().count();
   if (stamps.size() != count * sizeof(Stamp)) throw nb::value_error("there must be as many times as points");
-  const Deskewing how{buffer.frame(target.ptr()),
-                      buffer.frame(source.ptr()),
-                      pose_of(onward),
-                      stamps.data<const Stamp>(),
-                      nan_for_none,
-                      threads};
+  const DeskewRequest request{buffer.frame(target.ptr()),
+                              buffer.frame(source.ptr()),
+                              pose_of(result_from_target),
+                              stamps.data<const Stamp>(),
+                              nan_for_missing,
+                              threads};
   const std::shared_ptr<Buffer> core = buffer.core;
   Missing missing;
   without_gil_if(threads > 1 || count > kManyTimes,
-                 [&] { missing = deskew(*core, how, fields.grid(), fields.coordinates()); });
+                 [&] { missing = deskew(*core, request, fields.grid(), fields.coordinates()); });
   return nb::make_tuple(missing.count, missing.first);
 }
 
@@ -143,8 +144,8 @@ void define_sensors(nb::module_& module) {
   module.attr("CPU_LEVELS") = level_names();
   module.def("transform_fields", &py_transform, arg("pose"), arg("fields"), arg("threads"),
              "Transform points by a pose, in place.");
-  module.def("deskew_fields", &py_deskew, arg("buffer"), arg("target"), arg("source"), arg("times"), arg("onward"),
-             arg("fields"), arg("nan_for_none"), arg("threads"),
+  module.def("deskew_fields", &py_deskew, arg("buffer"), arg("target"), arg("source"), arg("times"),
+             arg("result_from_target"), arg("fields"), arg("nan_for_missing"), arg("threads"),
              "Transform points, each at its own time, in place; return how many have no transform, and the first.");
 }
 

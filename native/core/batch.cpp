@@ -10,8 +10,8 @@ namespace coframe {
 
 namespace {
 
-void add_step(const PathCache::Step& link, const Pose& step, Pose& pose) {
-  if (link.down) {
+void add_step(const PathCache::Step& edge, const Pose& step, Pose& pose) {
+  if (edge.down) {
     compose_inverse(step, pose);
   } else {
     compose(step, pose);
@@ -87,10 +87,10 @@ class Finder {
     return length == 0 || length >> 63 ? 0 : length - 1;
   }
 
-  void put(const Interval& found, double share, double per_nanosecond, std::size_t row) {
+  void put(const Interval& found, double fraction, double per_nanosecond, std::size_t row) {
     rows_.older[row] = found.older->numbers();
     rows_.newer[row] = found.newer->numbers();
-    rows_.share[row] = share;
+    rows_.fraction[row] = fraction;
     if constexpr (kBoth) rows_.per_second[row] = 1e9 * per_nanosecond;
   }
 
@@ -121,20 +121,20 @@ class Finder {
 };
 
 // Kernels process whole groups, so the last one is padded.
-void fill_up(std::size_t count, Between& rows) {
-  for (std::size_t row = count; row % kMostLanes != 0; ++row) {
-    rows.share[row] = rows.per_second[row] = 0.0;
+void pad(std::size_t count, Between& rows) {
+  for (std::size_t row = count; row % kMaxLanes != 0; ++row) {
+    rows.fraction[row] = rows.per_second[row] = 0.0;
     rows.older[row] = rows.older[count - 1];
     rows.newer[row] = rows.newer[count - 1];
   }
 }
 
 // Applies one edge of the path to all rows; `first` starts a new path.
-void follow_edge(const PathCache::Step& link, bool first, RowBlock& rows) {
+void compose_edge(const PathCache::Step& edge, bool first, RowBlock& rows) {
   const Kernels& kernels = coframe::kernels();
-  const History::View history = link.history->view();
+  const History::View history = edge.history->view();
   // All visible samples have that parent: a writer clears the flag before it stores a sample with another one.
-  const bool known = !history.empty() && link.history->one_parent() && history.parent() == link.parent;
+  const bool known = !history.empty() && edge.history->one_parent() && history.parent() == edge.parent;
   if (!known) std::fill_n(rows.ok, rows.count, false);
   if (history.is_static() || history.size() < 2) {
     for (std::size_t row = 0; row < rows.count; ++row) {
@@ -144,21 +144,21 @@ void follow_edge(const PathCache::Step& link, bool first, RowBlock& rows) {
     }
     const Pose step = history.empty() ? Pose{} : history.sample(0).pose;
     if (rows.with_twists) {
-      kernels.follow_moving_still(step, link.down, first, rows.count, rows.poses, rows.twists);
+      kernels.compose_constant_with_twists(step, edge.down, first, rows.count, rows.poses, rows.twists);
     } else {
-      kernels.follow_still(step, link.down, first, rows.count, rows.poses);
+      kernels.compose_constant(step, edge.down, first, rows.count, rows.poses);
     }
     return;
   }
   Between between;
   if (rows.with_twists) {
     Finder<true>(history, between, rows.ok).find(rows.stamps, rows.count, rows.in_order);
-    fill_up(rows.count, between);
-    kernels.follow_moving_rows(between, link.down, first, rows.count, rows.poses, rows.twists);
+    pad(rows.count, between);
+    kernels.compose_rows_with_twists(between, edge.down, first, rows.count, rows.poses, rows.twists);
   } else {
     Finder<false>(history, between, rows.ok).find(rows.stamps, rows.count, rows.in_order);
-    fill_up(rows.count, between);
-    kernels.follow_rows(between, link.down, first, rows.count, rows.poses);
+    pad(rows.count, between);
+    kernels.compose_rows(between, edge.down, first, rows.count, rows.poses);
   }
 }
 
@@ -227,8 +227,8 @@ void subtract_rate(const Pose& step, const Twist& rate, const Pose& pose, Twist&
 void follow_block(const PathCache::Path& path, RowBlock& rows) {
   for (std::size_t row = 0; row < rows.count; ++row) rows.ok[row] = rows.stamps[row] != 0;
   bool first = true;
-  for (const PathCache::Step& link : path.steps) {
-    follow_edge(link, first, rows);
+  for (const PathCache::Step& edge : path.steps) {
+    compose_edge(edge, first, rows);
     first = false;
   }
 }
@@ -267,18 +267,18 @@ std::vector<std::uint32_t> order_by_time(const Stamp* stamps, std::size_t count)
 bool follow_moving(const PathCache::Path& path, Stamp stamp, Pose& pose, Twist& twist) {
   pose = Pose{};
   twist = Twist{};
-  for (const PathCache::Step& link : path.steps) {
-    const History::View history = link.history->view();
+  for (const PathCache::Step& edge : path.steps) {
+    const History::View history = edge.history->view();
     Pose step;
     FrameId parent;
-    if (history.at(stamp, step, parent) != Found::ok || parent != link.parent) return false;
+    if (history.at(stamp, step, parent) != Found::ok || parent != edge.parent) return false;
     const Twist rate = rate_at(history, stamp);
-    if (link.down) {
+    if (edge.down) {
       subtract_rate(step, rate, pose, twist);
     } else {
       add_rate(step, rate, pose, twist);
     }
-    add_step(link, step, pose);
+    add_step(edge, step, pose);
   }
   canonicalise(pose.q);
   return true;
@@ -288,8 +288,8 @@ bool common_span(const PathCache::Path& path, Stamp& first, Stamp& last) {
   constexpr Stamp kFirst = std::numeric_limits<Stamp>::min(), kLast = std::numeric_limits<Stamp>::max();
   first = kFirst;
   last = kLast;
-  for (const PathCache::Step& link : path.steps) {
-    const History::View history = link.history->view();
+  for (const PathCache::Step& edge : path.steps) {
+    const History::View history = edge.history->view();
     if (history.empty()) return false;
     if (history.is_static()) continue;
     first = std::max(first, history.oldest());

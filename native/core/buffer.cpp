@@ -53,7 +53,7 @@ TransformValues values_of(const double* row) { return {{row[0], row[1], row[2]},
 // Returns why the first invalid row is rejected; 0, with `row` past the last one, if all are valid.
 unsigned track_refusals(const Track& track, unsigned refused_names, std::size_t& row) {
   for (row = 0; row < track.count; ++row) {
-    if (refused_names == 0) row += kernels().plain_rows(track.poses + 7 * row, track.count - row);
+    if (refused_names == 0) row += kernels().count_valid_rows(track.poses + 7 * row, track.count - row);
     if (row == track.count) break;
     if (const unsigned refusals = refused_names | check_values(values_of(track.poses + 7 * row))) return refusals;
   }
@@ -531,8 +531,8 @@ bool Buffer::stamps_between(LookupQuery& query, Stamp first, Stamp last, std::ve
   if (!path.usable && !lookup_by_name(query, ignored, failure)) return false;
   return read([&](const Tree&) {
     stamps.clear();
-    for (const PathCache::Step& link : path.steps) {
-      const History::View history = link.history->view();
+    for (const PathCache::Step& edge : path.steps) {
+      const History::View history = edge.history->view();
       if (history.is_static()) continue;
       for (std::size_t i = history.first_after(first - 1); i < history.size() && history.time(i) <= last; ++i) {
         stamps.push_back(history.time(i));

@@ -19,7 +19,7 @@ std::string fixed(double value, int decimals) {
 double span(const History::View& history) { return seconds(history.newest()) - seconds(history.oldest()); }
 
 template <class Visit>
-void for_each_link(const Tree& tree, Visit&& visit) {
+void for_each_edge(const Tree& tree, Visit&& visit) {
   for (FrameId id = 1; id < tree.frame_count(); ++id) {
     const History::View history = tree.history(id);
     if (!history.empty()) visit(id, history);
@@ -86,7 +86,7 @@ std::string frames_as_string(const Tree& tree) {
 
 std::string frames_as_yaml(const Tree& tree) {
   std::string text;
-  for_each_link(tree, [&](FrameId id, const History::View& history) {
+  for_each_edge(tree, [&](FrameId id, const History::View& history) {
     text += yaml_key(tree.name(id)) + ": \n";
     text += "  parent: " + yaml_value(tree.name(history.parent())) + "\n";
     text += "  broadcaster: " + yaml_value(tree.authority_name(tree.frame(id).authority)) + "\n";
@@ -101,7 +101,7 @@ std::string frames_as_yaml(const Tree& tree) {
 std::string frames_as_dot(const Tree& tree, Stamp now) {
   std::string text = "digraph G {\n";
   if (tree.frame_count() == 1) return text + "\"no tf data recieved\"}";
-  for_each_link(tree, [&](FrameId id, const History::View& history) {
+  for_each_edge(tree, [&](FrameId id, const History::View& history) {
     text += dot_id(tree.name(history.parent())) + " -> " + dot_id(tree.name(id)) + "[label=\"";
     text += "Broadcaster: " + tree.authority_name(tree.frame(id).authority) + "\\n";
     text += "Average rate: " + fixed(average_rate(history), 3) + " Hz\\n";

@@ -231,14 +231,14 @@ class History {
   // Finds the samples and the fraction for the pose at `stamp` if both are relative to `parent`. Returns false if
   // View::at() has to find out why not. `hint` stores the position of the caller's last lookup, because the next one is
   // usually close in time.
-  bool locate(Stamp stamp, FrameId parent, std::uint64_t& hint, Link& link) const {
+  bool locate(Stamp stamp, FrameId parent, std::uint64_t& hint, Edge& edge) const {
     const View samples = view();
     Pair pair;
     if (!samples.surrounded(stamp, hint, pair) && !find_elsewhere(samples, stamp, hint, pair)) return false;
     if (pair.older->parent() != parent || pair.newer->parent() != parent) return false;
-    link.older = pair.older->numbers();
-    link.newer = pair.newer->numbers();
-    link.share = pair.part / pair.whole;
+    edge.older = pair.older->numbers();
+    edge.newer = pair.newer->numbers();
+    edge.fraction = pair.part / pair.whole;
     return true;
   }
   // Returns whether a sample is relative to that frame.

@@ -120,18 +120,18 @@ bool walk_pose(const Tree& tree, Method& method, FrameId target, FrameId source,
 // Computes the pose along a cached path from the target to the source. Returns false if an edge has no sample or a
 // sample with another parent; the slow walk then finds out why.
 bool path_pose(std::vector<PathCache::Step>& steps, Stamp stamp, Pose& pose) {
-  constexpr std::size_t kLinks = 32;
-  std::array<Link, kLinks> links;
+  constexpr std::size_t kEdges = 32;
+  std::array<Edge, kEdges> edges;
   std::size_t left = steps.size();
   for (bool first = true; left > 0; first = false) {
-    const std::size_t count = std::min(left, kLinks);
+    const std::size_t count = std::min(left, kEdges);
     for (std::size_t i = 0; i < count; ++i) {
       PathCache::Step& step = steps[--left];
-      links[i].down = step.down;
-      if (!step.history->locate(stamp, step.parent, step.hint, links[i])) return false;
+      edges[i].down = step.down;
+      if (!step.history->locate(stamp, step.parent, step.hint, edges[i])) return false;
     }
     Pose end;
-    kernels().chain(links.data(), count, &end);
+    kernels().chain(edges.data(), count, &end);
     if (!first) compose(pose, end);
     pose = end;
   }
@@ -145,7 +145,7 @@ void keep_earlier(Stamp stamp, Stamp& common) {
 
 Stamp path_common_time(const std::vector<PathCache::Step>& steps) {
   Stamp common = kNoTime;
-  for (const PathCache::Step& link : steps) keep_earlier(link.history->span().last, common);
+  for (const PathCache::Step& edge : steps) keep_earlier(edge.history->span().last, common);
   return common == kNoTime ? 0 : common;
 }
 
@@ -195,11 +195,11 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
     stamp = tree.history(source).newest();
     return true;
   }
-  struct Link {
+  struct Edge {
     Stamp newest;
     FrameId parent;
   };
-  std::vector<Link> links;  // from the source up
+  std::vector<Edge> edges;  // from the source up
   Stamp common = kNoTime;
   const auto finish = [&] {
     stamp = common == kNoTime ? 0 : common;
@@ -211,11 +211,11 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
     if (history.empty()) break;
     keep_earlier(history.newest(), common);
     frame = history.parent();
-    links.push_back({history.newest(), frame});
+    edges.push_back({history.newest(), frame});
     if (frame == target) return finish();
     if (++depth > kMaxDepth) return fail_loop(target, source, 0, 0, failure);
   }
-  const FrameId source_root = links.empty() ? source : links.back().parent;
+  const FrameId source_root = edges.empty() ? source : edges.back().parent;
   common = kNoTime;
   depth = 0;
   for (FrameId frame = target;;) {
@@ -226,9 +226,10 @@ bool latest_common_time(const Tree& tree, FrameId target, FrameId source, Stamp&
     }
     keep_earlier(history.newest(), common);
     frame = history.parent();
-    const auto meeting = std::find_if(links.begin(), links.end(), [&](const Link& l) { return l.parent == frame; });
-    if (meeting != links.end()) {
-      for (auto link = links.begin(); link <= meeting; ++link) keep_earlier(link->newest, common);
+    const auto meeting =
+        std::find_if(edges.begin(), edges.end(), [&](const Edge& edge) { return edge.parent == frame; });
+    if (meeting != edges.end()) {
+      for (auto edge = edges.begin(); edge <= meeting; ++edge) keep_earlier(edge->newest, common);
       return finish();
     }
     if (frame == source) return finish();

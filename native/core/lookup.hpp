@@ -26,9 +26,9 @@ inline bool check_path_in_tree(const Tree& tree, PathCache& paths, FrameId targe
   const PathCache::Path* path = paths.find(tree, target, source);
   if (!path) return false;
   Stamp begin = kFirstStamp, end = kLastStamp;
-  for (const PathCache::Step& link : path->steps) {
-    const History::Span span = link.history->span();
-    if (span.parent != link.parent) return false;
+  for (const PathCache::Step& edge : path->steps) {
+    const History::Span span = edge.history->span();
+    if (span.parent != edge.parent) return false;
     begin = std::max(begin, span.first);
     end = std::min(end, span.last);
   }

@@ -44,11 +44,11 @@ class PathCache {
   // A new path replaces another one: a program may look up every pair of a thousand frames.
   static constexpr std::size_t kEntries = 2048;
 
-  struct Link {
+  struct Edge {
     FrameId frame, parent;
   };
   static void walk(const Tree& tree, FrameId target, FrameId source, Path& path);
-  static void join(const Tree& tree, std::vector<Link>& up, std::vector<Link>& down, Path& path);
+  static void join(const Tree& tree, std::vector<Edge>& up, std::vector<Edge>& down, Path& path);
 
   static std::uint64_t key_of(FrameId target, FrameId source) {
     return (static_cast<std::uint64_t>(target) << 32) | source;

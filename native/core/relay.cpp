@@ -51,7 +51,7 @@ void Relay::add(SourceId source, WriterId writer, const std::uint8_t* data, std:
       ++from.refused;
       continue;
     }
-    if (!is_listened_to(place - 1, source, view, now)) continue;
+    if (!claim_edge(place - 1, source, view, now)) continue;
     Edge& edge = edges_[place - 1];
     is_news_ |= edge.passed == 0 || !same(edge.values, view.values);
     edge.writer = writer;
@@ -116,7 +116,7 @@ std::uint32_t Relay::find_or_add(const std::string& parent, const std::string& c
   if (const auto known = edge_of_.find(key); known != edge_of_.end()) return known->second + 1;
   if (edges_.size() >= kMaxEdges) return 0;
   const auto [claim, is_new] = claim_of_.try_emplace(child, static_cast<std::uint32_t>(claims_.size()));
-  if (is_new) claims_.push_back({.child = child, .source = kNobody});
+  if (is_new) claims_.push_back({.child = child, .source = kNoSource});
   const auto place = static_cast<std::uint32_t>(edges_.size());
   edges_.push_back({.claim = claim->second, .parent = parent});
   edge_of_.emplace(key, place);
@@ -125,9 +125,9 @@ std::uint32_t Relay::find_or_add(const std::string& parent, const std::string& c
 
 // A source keeps the frames that it published first until it stops publishing: two sources at once would make a frame
 // jump, and a loop through another program would never end.
-bool Relay::is_listened_to(std::uint32_t place, SourceId source, const TransformView& view, std::int64_t now) {
+bool Relay::claim_edge(std::uint32_t place, SourceId source, const TransformView& view, std::int64_t now) {
   Claim& claim = claims_[edges_[place].claim];
-  const bool is_free = claim.source == kNobody || (!is_static_ && now - claim.received_at > kPatience);
+  const bool is_free = claim.source == kNoSource || (!is_static_ && now - claim.received_at > kOwnershipTimeout);
   if (claim.source != source && !is_free) {
     const bool agrees = is_static_ && claim.edge == place && same(edges_[place].values, view.values);
     if (!agrees) {

@@ -21,7 +21,7 @@ class Relay {
  public:
   using SourceId = std::uint32_t;
   using WriterId = std::uint64_t;
-  static constexpr SourceId kNobody = 0xffffffff;
+  static constexpr SourceId kNoSource = 0xffffffff;
   // Limits, because publishers may use any number of names.
   static constexpr std::size_t kMaxEdges = 65536;
   static constexpr std::size_t kMaxWriters = 1024;
@@ -35,7 +35,7 @@ class Relay {
   struct Claim {
     std::string child;            // as it is written
     SourceId source;              // the first source
-    SourceId rival = kNobody;     // another source that publishes something different
+    SourceId rival = kNoSource;   // another source that publishes something different
     std::uint64_t contested = 0;  // transforms of other sources, which are dropped
     std::int64_t received_at = 0;
     std::uint32_t edge = 0;  // index of the newest edge
@@ -81,7 +81,7 @@ class Relay {
 
  private:
   // A source that has not published for this long loses its edges to other sources that publish them.
-  static constexpr std::int64_t kPatience = 2'000'000'000;
+  static constexpr std::int64_t kOwnershipTimeout = 2'000'000'000;
   static constexpr std::size_t kMaxRemembered = 1024;  // transforms of one message
 
   struct Source {
@@ -93,7 +93,7 @@ class Relay {
   Writer& writer_of(Source& source, WriterId writer);
   std::uint32_t place_of(const Source& source, Writer& writer, std::size_t index, const TransformView& view);
   std::uint32_t find_or_add(const std::string& parent, const std::string& child);
-  bool is_listened_to(std::uint32_t place, SourceId source, const TransformView& view, std::int64_t now);
+  bool claim_edge(std::uint32_t place, SourceId source, const TransformView& view, std::int64_t now);
   bool is_due(Edge& edge, std::int64_t now) const;
   void write(const Edge& edge);
 

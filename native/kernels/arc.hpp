@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way from one rotation to another, and what is between.
+// Spherical linear interpolation (slerp) between two unit quaternions.
 #pragma once
 
 #include "kernels/lanes.hpp"
@@ -22,7 +22,7 @@ COFRAME_INLINE T weight_series(const T& t2, const Angle& y) {
   }
 }
 
-// theta / sin(theta) in the same way.
+// The same kind of series for theta / sin(theta).
 template <int K, int J = 1, class T>
 COFRAME_INLINE T angle_series(const T& y) {
   const T term = y * (-J / (2.0 * J + 1.0));
@@ -33,8 +33,9 @@ COFRAME_INLINE T angle_series(const T& y) {
   }
 }
 
-// By the cosine of the angle between two quaternions, which is not negative: what slerp weighs one of them by, and the
-// angle by its sine. The further they are apart, the more it takes; each way is good to 1e-16 down to `kLeast`.
+// Computes the weight of one end for slerp, and theta / sin(theta), from the cosine of the angle theta between two
+// quaternions, which is not negative. Larger angles need more terms. Each class below is exact to 1e-16 for cosines
+// from `kMinCosine` to 1.
 template <int K>
 struct Series {
   template <class T, class Angle>
@@ -49,7 +50,7 @@ struct Series {
     return angle_series<K>(y);
   }
 
-  // The same weight for many shares of one angle: the terms, multiplied out once to a polynomial in t^2.
+  // The same weight for many fractions of one angle: the series is expanded once into a polynomial in t^2.
   class WeightAt {
    public:
     COFRAME_INLINE explicit WeightAt(double cosine) {
@@ -74,17 +75,17 @@ struct Series {
     double factors_[K + 1];
   };
 };
-struct Nearest : Series<2> {
-  static constexpr double kLeast = 1.0 - 1.7e-5;
+struct TinyAngle : Series<2> {
+  static constexpr double kMinCosine = 1.0 - 1.7e-5;
 };
-struct Near : Series<4> {
-  static constexpr double kLeast = 1.0 - 1.9e-3;
+struct SmallAngle : Series<4> {
+  static constexpr double kMinCosine = 1.0 - 1.9e-3;
 };
-struct Middle : Series<8> {
-  static constexpr double kLeast = 1.0 - 4.3e-2;
+struct MediumAngle : Series<8> {
+  static constexpr double kMinCosine = 1.0 - 4.3e-2;
 };
-// By way of half the angle: sin(2 t phi) / sin(2 phi) = sin(t phi) / sin(phi) * cos(t phi) / cos(phi).
-struct Far {
+// Computed from half the angle: sin(2 t phi) / sin(2 phi) = sin(t phi) / sin(phi) * cos(t phi) / cos(phi).
+struct LargeAngle {
   template <class T>
   COFRAME_INLINE static T weight(const T& t, const T& cosine) {
     const T half = root(T(0.5 + 0.5 * cosine));
@@ -110,42 +111,42 @@ struct Far {
   };
 };
 
-// Calls `loop` with the shortest way that is good for all of these cosines.
+// Calls `loop` with the cheapest class that is exact for all of these cosines.
 template <class T, class Loop>
-COFRAME_INLINE void choose_way(const T& cosine, Loop&& loop) {
-  if (all_above(cosine, Nearest::kLeast)) return loop(Nearest());
-  if (all_above(cosine, Near::kLeast)) return loop(Near());
-  if (all_above(cosine, Middle::kLeast)) return loop(Middle());
-  loop(Far());
+COFRAME_INLINE void choose_slerp(const T& cosine, Loop&& loop) {
+  if (all_above(cosine, TinyAngle::kMinCosine)) return loop(TinyAngle());
+  if (all_above(cosine, SmallAngle::kMinCosine)) return loop(SmallAngle());
+  if (all_above(cosine, MediumAngle::kMinCosine)) return loop(MediumAngle());
+  loop(LargeAngle());
 }
 
-// What slerp weighs both ends by at the share t, and with kAngle the angle by its sine.
+// The slerp weights of both ends at the fraction t, and with kAngle also theta / sin(theta).
 template <class T>
 struct Weights {
   T first, second, angle_by_sine;
 };
 
-template <bool kAngle, class Way, class T>
+template <bool kAngle, class Slerp, class T>
 COFRAME_INLINE Weights<T> weights_by(const T& t, const T& cosine) {
   const T rest = 1.0 - t;
-  Weights<T> weights{Way::weight(rest, cosine), Way::weight(t, cosine), cosine};
-  if constexpr (kAngle) weights.angle_by_sine = Way::angle_by_sine(cosine);
+  Weights<T> weights{Slerp::weight(rest, cosine), Slerp::weight(t, cosine), cosine};
+  if constexpr (kAngle) weights.angle_by_sine = Slerp::angle_by_sine(cosine);
   return weights;
 }
 
 template <bool kAngle, class T>
 COFRAME_INLINE Weights<T> weights_at(const T& t, const T& cosine) {
-  if (all_above(cosine, Nearest::kLeast)) return weights_by<kAngle, Nearest>(t, cosine);
-  if (all_above(cosine, Near::kLeast)) return weights_by<kAngle, Near>(t, cosine);
-  if (all_above(cosine, Middle::kLeast)) return weights_by<kAngle, Middle>(t, cosine);
-  return weights_by<kAngle, Far>(t, cosine);
+  if (all_above(cosine, TinyAngle::kMinCosine)) return weights_by<kAngle, TinyAngle>(t, cosine);
+  if (all_above(cosine, SmallAngle::kMinCosine)) return weights_by<kAngle, SmallAngle>(t, cosine);
+  if (all_above(cosine, MediumAngle::kMinCosine)) return weights_by<kAngle, MediumAngle>(t, cosine);
+  return weights_by<kAngle, LargeAngle>(t, cosine);
 }
 
 struct Arc {
   double cosine, sign;
 };
 
-// The shorter of the two arcs between two quaternions: `sign` is that of the second one on it.
+// Returns the shorter of the two arcs between two quaternions. On it, the second quaternion has the sign `sign`.
 COFRAME_INLINE Arc arc(const double* a, const double* b) {
   const double cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
   const double sign = cosine < 0.0 ? -1.0 : 1.0;

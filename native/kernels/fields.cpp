@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers as they lie in clouds.
+// Reads, writes and transforms the numbers in the memory of point clouds.
 #include <cstring>
 
 #include "kernels/level.hpp"
@@ -17,9 +17,9 @@ COFRAME_INLINE std::uint64_t swapped(std::uint64_t v) {
          swapped(static_cast<std::uint32_t>(v >> 32));
 }
 
-// How a number is kept: T, as it is or with its bytes the other way round.
+// The format of a number in memory: T, in native or in swapped byte order.
 template <class T, class Bits, bool kSwapped>
-struct Kept {
+struct Stored {
   COFRAME_INLINE static double load(const char* data) {
     Bits bits;
     std::memcpy(&bits, data, sizeof(bits));
@@ -38,32 +38,32 @@ struct Kept {
 };
 
 template <class Loop>
-void choose_kept(Number number, Loop&& loop) {
+void choose_number(Number number, Loop&& loop) {
   switch (number) {
-    case Number::float32: return loop(Kept<float, std::uint32_t, false>());
-    case Number::float64: return loop(Kept<double, std::uint64_t, false>());
-    case Number::float32_swapped: return loop(Kept<float, std::uint32_t, true>());
-    case Number::float64_swapped: return loop(Kept<double, std::uint64_t, true>());
+    case Number::float32: return loop(Stored<float, std::uint32_t, false>());
+    case Number::float64: return loop(Stored<double, std::uint64_t, false>());
+    case Number::float32_swapped: return loop(Stored<float, std::uint32_t, true>());
+    case Number::float64_swapped: return loop(Stored<double, std::uint64_t, true>());
   }
 }
 
 void load_column(const Column& from, std::size_t begin, std::size_t end, double* __restrict out) {
-  choose_kept(from.number, [&](auto kept) {
+  choose_number(from.number, [&](auto stored) {
     const char* const data = from.data;
     const std::ptrdiff_t step = from.step;
-    for (std::size_t i = begin; i < end; ++i) out[i] = kept.load(data + static_cast<std::ptrdiff_t>(i) * step);
+    for (std::size_t i = begin; i < end; ++i) out[i] = stored.load(data + static_cast<std::ptrdiff_t>(i) * step);
   });
 }
 
 void store_column(const Column& to, std::size_t begin, std::size_t end, const double* __restrict in) {
-  choose_kept(to.number, [&](auto kept) {
+  choose_number(to.number, [&](auto stored) {
     char* const data = to.data;
     const std::ptrdiff_t step = to.step;
-    for (std::size_t i = begin; i < end; ++i) kept.store(data + static_cast<std::ptrdiff_t>(i) * step, in[i]);
+    for (std::size_t i = begin; i < end; ++i) stored.store(data + static_cast<std::ptrdiff_t>(i) * step, in[i]);
   });
 }
 
-// Of packed points all but the last few.
+// Loads packed points except the last few; returns how many were loaded.
 std::size_t load_packed([[maybe_unused]] const Columns& from, [[maybe_unused]] std::size_t n,
                         [[maybe_unused]] const Points& out) {
   std::size_t i = 0;
@@ -96,18 +96,18 @@ std::size_t store_packed([[maybe_unused]] const Columns& to, [[maybe_unused]] st
   return i;
 }
 
-// Packed points without a stop on the way.
+// Transforms packed points in registers, without intermediate arrays; returns how many were transformed.
 std::size_t transform_packed([[maybe_unused]] const Affine& affine, [[maybe_unused]] std::size_t n,
                              [[maybe_unused]] const Columns& columns) {
   std::size_t i = 0;
 #if COFRAME_LANES > 1
   if (!are_packed(columns)) return 0;
-  double m[3][4];  // known not to change as points are stored
+  double m[3][4];  // a copy: the compiler can assume that stores of points do not change it
   std::memcpy(m, affine.m, sizeof(m));
   for (; i + 4 < n; i += 4) {
     char* const data = columns.x.data + static_cast<std::ptrdiff_t>(i) * columns.x.step;
     const Vector<FourDoubles> p = load_four(data, columns.x.step);
-    // From the offset on, each product and sum is one instruction.
+    // Beginning with the offset, each product and sum becomes one fused instruction.
     const Vector<FourDoubles> moved{m[0][3] + m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z,
                                     m[1][3] + m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z,
                                     m[2][3] + m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Four numbers that are worked on together: a quaternion, or a vector and a number beside it. A register where the
-// processor has such (AVX2); what a compiler makes of shorter ones is slower than plain numbers.
+// Four numbers that are processed together: a quaternion, or a vector and one more number. They are one register if the
+// processor has AVX2. With shorter registers, compilers generate code that is slower than with plain numbers.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace {
 using Four = double __attribute__((vector_size(32)));
 using Two = double __attribute__((vector_size(16)));
 
-// The numbers of `v` at these places.
+// Returns the numbers of `v` at these indices.
 template <int A, int B, int C, int D>
 COFRAME_INLINE Four ordered(const Four& v) {
 #if defined(__clang__) || __GNUC__ >= 12
@@ -63,13 +63,13 @@ COFRAME_INLINE Two operator*(const Two& a, const Two& b) { return {a[0] * b[0], 
 
 #endif
 
-// One of the numbers, four times.
+// Returns one of the numbers four times.
 template <int I>
 COFRAME_INLINE Four spread(const Four& v) {
   return ordered<I, I, I, I>(v);
 }
 
-// Of a sample that another thread may be writing: see lanes.hpp for why that may be.
+// Loads part of a sample that another thread may be writing; lanes.hpp explains why this is safe.
 COFRAME_INLINE Four load_shared(const double* numbers) {
   Four v;
 #if defined(COFRAME_CHECKS_THREADS)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forward kinematics, joint by joint: many configurations in the registers' lanes.
+// Forward kinematics, joint by joint, for several configurations per register.
 #include "kernels/lanes.hpp"
 #include "kernels/level.hpp"
 #include "kernels/pose_rows.hpp"
@@ -12,41 +12,42 @@ namespace {
 
 using Positions = const double (*)[kRowBlock];
 
-COFRAME_INLINE Quaternion<Lanes> turned(const JointMotion& joint, const Lanes& angle) {
+COFRAME_INLINE Quaternion<Lanes> rotated_about_axis(const JointMotion& joint, const Lanes& angle) {
   Lanes s, c;
   sine_and_cosine(0.5 * angle, s, c);
-  const double *rest = joint.origin.q, *turn = joint.turn;
+  const double *rest = joint.origin.q, *turn = joint.half_turn;
   return {c * rest[0] + s * turn[0], c * rest[1] + s * turn[1], c * rest[2] + s * turn[2], c * rest[3] + s * turn[3]};
 }
 
-COFRAME_INLINE Vector<Lanes> slid(const Vector<Lanes>& from, const double* way, const Lanes& metres) {
-  return {from.x + metres * way[0], from.y + metres * way[1], from.z + metres * way[2]};
+COFRAME_INLINE Vector<Lanes> translated(const Vector<Lanes>& from, const double* direction, const Lanes& distance) {
+  return {from.x + distance * direction[0], from.y + distance * direction[1], from.z + distance * direction[2]};
 }
 
-// The position of configurations from `i` on; `odd` becomes NaN where one is not finite.
+// Computes the motion of the joint for the configurations from `i` on. `not_finite` becomes NaN if a position is not
+// finite.
 template <JointKind kKind>
-COFRAME_INLINE PoseLanes step_at(const JointMotion& joint, Positions positions, std::size_t i, Lanes& odd) {
+COFRAME_INLINE PoseLanes step_at(const JointMotion& joint, Positions positions, std::size_t i, Lanes& not_finite) {
   const auto position = [&](int column) {
     const Lanes lanes = load_lanes(positions[column] + i);
-    odd = odd + (lanes - lanes);
+    not_finite = not_finite + (lanes - lanes);
     return lanes;
   };
   PoseLanes step = splat(joint.origin);
-  if constexpr (kKind == JointKind::turning) {
-    step.q = turned(joint, position(0));
-  } else if constexpr (kKind == JointKind::sliding) {
-    step.p = slid(step.p, joint.slide[0], position(0));
+  if constexpr (kKind == JointKind::rotating) {
+    step.q = rotated_about_axis(joint, position(0));
+  } else if constexpr (kKind == JointKind::prismatic) {
+    step.p = translated(step.p, joint.directions[0], position(0));
   } else if constexpr (kKind == JointKind::planar) {
-    step.p = slid(slid(step.p, joint.slide[0], position(0)), joint.slide[1], position(1));
-    step.q = turned(joint, position(2));
+    step.p = translated(translated(step.p, joint.directions[0], position(0)), joint.directions[1], position(1));
+    step.q = rotated_about_axis(joint, position(2));
   } else if constexpr (kKind == JointKind::floating) {
     const PoseLanes pose{{position(3), position(4), position(5), position(6)}, {position(0), position(1), position(2)}};
-    step = seen<false>(step, pose);
+    step = transformed<false>(step, pose);
   }
   return step;
 }
 
-// As x, y, z, qx, qy, qz, qw, row after row.
+// Writes rows of x, y, z, qx, qy, qz, qw.
 COFRAME_INLINE void write(const PoseLanes& pose, double* rows) {
   store_fours(pose.p.x, pose.p.y, pose.p.z, pose.q.x, rows, 7);
   store_fours(pose.q.x, pose.q.y, pose.q.z, pose.q.w, rows + 3, 7);
@@ -55,10 +56,10 @@ COFRAME_INLINE void write(const PoseLanes& pose, double* rows) {
 template <JointKind kKind>
 bool follow(const JointMotion& joint, Positions positions, std::size_t n, const PoseRows* parents, PoseRows* poses,
             double* out) {
-  Lanes odd = splat(0.0);
+  Lanes not_finite = splat(0.0);
   for (std::size_t i = 0; i < n; i += kLanes) {
-    PoseLanes pose = step_at<kKind>(joint, positions, i, odd);
-    if (parents) pose = seen<false>(load(*parents, i), pose);
+    PoseLanes pose = step_at<kKind>(joint, positions, i, not_finite);
+    if (parents) pose = transformed<false>(load(*parents, i), pose);
     if (poses) store(pose, *poses, i);
     if (i + kLanes <= n) {
       write(pose, out + 7 * i);
@@ -68,21 +69,21 @@ bool follow(const JointMotion& joint, Positions positions, std::size_t n, const 
       std::memcpy(out + 7 * i, rows, (n - i) * 7 * sizeof(double));
     }
   }
-  return all_above(odd, -1.0);
+  return all_above(not_finite, -1.0);
 }
 
 }  // namespace
 
-bool follow_joint(const JointMotion& joint, Positions positions, std::size_t n, const PoseRows* parents,
-                  PoseRows* poses, double* out) {
+bool compute_joint_poses(const JointMotion& joint, Positions positions, std::size_t n, const PoseRows* parents,
+                         PoseRows* poses, double* out) {
   switch (joint.kind) {
-    case JointKind::turning: return follow<JointKind::turning>(joint, positions, n, parents, poses, out);
-    case JointKind::sliding: return follow<JointKind::sliding>(joint, positions, n, parents, poses, out);
+    case JointKind::rotating: return follow<JointKind::rotating>(joint, positions, n, parents, poses, out);
+    case JointKind::prismatic: return follow<JointKind::prismatic>(joint, positions, n, parents, poses, out);
     case JointKind::planar: return follow<JointKind::planar>(joint, positions, n, parents, poses, out);
     case JointKind::floating: return follow<JointKind::floating>(joint, positions, n, parents, poses, out);
-    case JointKind::still: break;
+    case JointKind::fixed: break;
   }
-  return follow<JointKind::still>(joint, positions, n, parents, poses, out);
+  return follow<JointKind::fixed>(joint, positions, n, parents, poses, out);
 }
 
 }  // namespace coframe::COFRAME_LEVEL

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inner loops over many poses and points, compiled once for every level of the processor; the best one that this
-// processor has is chosen when it is first asked for. All levels give the same results within 1e-15 of what goes in.
+// Inner loops over many poses and points, compiled once for each processor level. The best level that this processor
+// supports is chosen on first use. The results of all levels agree within 1e-15 of the size of the input.
 #pragma once
 
 #include <cstddef>
@@ -12,77 +12,80 @@ namespace coframe {
 
 enum class Number : std::uint8_t { float32, float64, float32_swapped, float64_swapped };
 
-// One number of every point: `step` bytes apart, at any address.
+// One number of every point, `step` bytes apart, without alignment.
 struct Column {
   char* data;
   std::ptrdiff_t step;
   Number number;
 };
 
-// The coordinates of points as they are kept.
+// The coordinates of points in the memory of a cloud.
 struct Columns {
   Column x, y, z;
 };
 
-// A rotation matrix and a translation beside it, row by row.
+// A rotation matrix and a translation in the fourth column, row by row.
 struct Affine {
   double m[3][4];
 };
 
-// The coordinates of points at work.
+// The coordinates of points as doubles, for computations.
 struct Points {
   double *x, *y, *z;
 };
 
-// The motion of a link between two neighbouring samples: straight and along the shortest arc, as interpolate() has it.
+// The motion of an edge between two neighbouring samples, interpolated like interpolate() does: on a straight line and
+// along the shortest arc.
 struct Motion {
   Pose older, newer;
   bool inverse;  // from parent to child
 };
 
-// So many rows are worked on together: what they need fits the first cache.
+// The number of rows that are processed together; their data fits the first-level cache.
 inline constexpr std::size_t kRowBlock = 128;
-// Rows are worked on in groups of up to so many: what is beyond the last row, up to a whole group, is read too.
-inline constexpr std::size_t kMostLanes = 8;
+// The largest number of rows in a register. Kernels process whole groups, so they also read up to a whole group beyond
+// the last row.
+inline constexpr std::size_t kMaxLanes = 8;
 
-// Many poses side by side, number by number.
+// Many poses, with one array per number.
 struct alignas(64) PoseRows {
   double q[4][kRowBlock];
   double p[3][kRowBlock];
 };
 
-// Velocities side by side, in metres and radians per second.
+// Many velocities in metres and radians per second, with one array per number.
 struct alignas(64) TwistRows {
   double linear[3][kRowBlock];
   double angular[3][kRowBlock];
 };
 
-// Where rows lie between two samples: `older` and `newer` are 8 numbers each, q, p and one that is not a pose's.
+// The two samples around each row and the fraction between them. `older` and `newer` point to 8 numbers each: q, p and
+// one that is not part of the pose.
 struct alignas(64) Between {
-  double share[kRowBlock];
-  double per_second[kRowBlock];  // one by the time between both
+  double fraction[kRowBlock];
+  double per_second[kRowBlock];  // 1 / (time between both samples)
   const double* older[kRowBlock];
   const double* newer[kRowBlock];
 };
 
-// A link of a chain. Its pose lies between two records of eight numbers: x, y, z, w of the quaternion, x, y, z of the
-// translation, and one that says nothing. `share` of the way from one to the other; there is only one where both are
-// the same.
-struct Link {
+// An edge of a chain at one time. Its pose is interpolated between two samples of eight numbers: x, y, z, w of the
+// quaternion, x, y, z of the translation, and one that is not part of the pose. `fraction` is the position between
+// them; it is ignored if both pointers are equal.
+struct Edge {
   const double *older, *newer;
-  double share;
+  double fraction;
   bool down;  // from parent to child
 };
 
-// What a joint does with the link behind it.
-enum class JointKind : std::uint8_t { still, turning, sliding, planar, floating };
+// How a joint moves its child link. `rotating` is revolute or continuous.
+enum class JointKind : std::uint8_t { fixed, rotating, prismatic, planar, floating };
 
-// The motion of a joint's child link relative to its parent link; at position 0 it is at `origin`.
+// The motion of a joint's child link relative to its parent link. At position 0 the child link is at `origin`.
 struct JointMotion {
-  JointKind kind = JointKind::still;
+  JointKind kind = JointKind::fixed;
   Pose origin;
-  double turn[4];      // the origin's quaternion times the axis, of what turns
-  double slide[2][3];  // where a metre takes it, of what slides: in a plane there are two ways
+  double half_turn[4];      // joints that rotate: the origin's quaternion times half a turn about the axis
+  double directions[2][3];  // joints that translate: the displacement per metre; planar joints have two directions
 };
 
 struct Span {
@@ -96,7 +99,8 @@ struct Kernels {
 #undef COFRAME_KERNEL
 };
 
-// std::runtime_error if the environment variable COFRAME_CPU_LEVEL names a level that is not there.
+// Returns the kernels of the chosen level. Throws std::runtime_error if the environment variable COFRAME_CPU_LEVEL
+// names a level that this processor does not support.
 const Kernels& kernels();
 
 }  // namespace coframe

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several doubles at a time: as many as the level's registers hold. Samples and rows have their numbers one behind the
-// other; on the way to lanes and back they are turned over.
+// Several doubles that are processed together: as many as a register of the level holds. The numbers of a sample or row
+// are adjacent in memory; loads and stores transpose them, so that each register holds the same number of several rows.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <immintrin.h>
 #endif
 
-// Compilers without vectors of their own, as MSVC, take one number after the other.
+// Compilers without vector extensions, such as MSVC, process one number at a time.
 #if !defined(__has_builtin)
 #define COFRAME_LANES 1
 #elif !__has_builtin(__builtin_shufflevector)
@@ -38,7 +38,7 @@ namespace coframe::COFRAME_LEVEL {
 namespace {
 
 constexpr std::size_t kLanes = COFRAME_LANES;
-static_assert(kMostLanes % kLanes == 0);
+static_assert(kMaxLanes % kLanes == 0);
 
 #if COFRAME_LANES > 1
 typedef double Lanes __attribute__((vector_size(8 * COFRAME_LANES)));
@@ -46,14 +46,14 @@ typedef std::int64_t LaneBits __attribute__((vector_size(8 * COFRAME_LANES)));
 typedef double Pair __attribute__((vector_size(16)));
 
 COFRAME_INLINE Lanes splat(double value) { return value - Lanes{}; }
-// Of something that need not be a number.
+// The same for bits that are not necessarily a number.
 COFRAME_INLINE Lanes splat_bits(double value) {
   std::int64_t bits;
   std::memcpy(&bits, &value, sizeof(bits));
   return (Lanes)(bits - LaneBits{});
 }
 
-// The sign of each number, for with_sign().
+// Returns the sign of each number for with_sign(), which multiplies by it.
 COFRAME_INLINE Lanes sign_of(const Lanes& numbers) { return (Lanes)((LaneBits)numbers & INT64_MIN); }
 COFRAME_INLINE Lanes with_sign(const Lanes& numbers, const Lanes& sign) {
   return (Lanes)((LaneBits)numbers ^ (LaneBits)sign);
@@ -75,7 +75,7 @@ COFRAME_INLINE Pair load_pair(const double* numbers) {
   return pair;
 }
 
-// Two numbers of every second row side by side.
+// Loads two adjacent numbers of every second row.
 COFRAME_INLINE Lanes load_pairs(const double* const* rows, std::size_t offset) {
 #if COFRAME_LANES == 2
   return load_pair(rows[0] + offset);
@@ -91,7 +91,7 @@ COFRAME_INLINE Lanes load_pairs(const double* const* rows, std::size_t offset) {
 #endif
 }
 
-// Numbers `offset` and `offset` + 1 of kLanes rows, each number for itself.
+// Loads the numbers `offset` and `offset` + 1 of kLanes rows into `first` and `second`.
 COFRAME_INLINE void load_columns(const double* const* rows, std::size_t offset, Lanes& first, Lanes& second) {
   const Lanes even = load_pairs(rows, offset), odd = load_pairs(rows + 1, offset);
   first = __builtin_shufflevector(even, odd, COFRAME_EVEN);
@@ -138,7 +138,7 @@ COFRAME_INLINE Lanes sign_of(Lanes number) { return number < 0.0 ? -1.0 : 1.0; }
 COFRAME_INLINE Lanes with_sign(Lanes number, Lanes sign) { return number * sign; }
 
 COFRAME_INLINE void load_columns(const double* const* rows, std::size_t offset, Lanes& first, Lanes& second) {
-  const volatile double* const numbers = rows[0] + offset;  // they may be written meanwhile; see above
+  const volatile double* const numbers = rows[0] + offset;  // another thread may be writing them; see above
   first = numbers[0];
   second = numbers[1];
 }
@@ -154,7 +154,7 @@ COFRAME_INLINE void store_shared_columns(Lanes first, Lanes second, double* cons
 }
 #endif
 
-// Four numbers of kLanes rows, which lie `step` numbers apart.
+// Stores four numbers of each of kLanes rows; the rows begin `step` numbers apart.
 COFRAME_INLINE void store_fours(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d, double* row,
                                 std::size_t step) {
 #if COFRAME_LANES == 4

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is compiled once for each level of the processor, as COFRAME_LEVEL, with the name COFRAME_LEVEL_NAME: without
-// both for the least that the compiler is asked for, as `plain`. A family of kernels a file; entries.inc lists them
-// all.
+// Declares the kernels of one processor level. Each source file of the kernels is compiled once per level, with the
+// namespace COFRAME_LEVEL and the name COFRAME_LEVEL_NAME; without these macros, as level `plain`, for the processor
+// that the compiler targets by default. entries.inc lists all kernels.
 //
-// Either plain loops over short arrays, which compilers turn into vector instructions, or Lanes. Products and sums may
-// be contracted (-ffp-contract=fast), where the processor can do both at once: results of levels then differ in the
-// last bits. And nothing here may come from a header but plain data and libm: of an inline function the linker keeps
-// one copy for the whole program, and it could be this one, with instructions that not every processor has. What
-// headers of kernels define has no name outside of the file and is always inlined.
+// Kernels are either plain loops over short arrays, which compilers vectorise, or use Lanes. Products and sums may be
+// contracted (-ffp-contract=fast) if the processor has fused multiply-add: results of levels then differ in the last
+// bits. Kernels may use nothing from other headers except plain data and libm: the linker keeps one copy of an inline
+// function for the whole program, and that copy could contain instructions that not every processor has. For the same
+// reason, everything in the headers of the kernels is in an anonymous namespace and always inlined.
 #pragma once
 
 #include "kernels/kernels.hpp"
@@ -18,13 +18,12 @@
 #endif
 
 #if defined(__GNUC__)
-#define COFRAME_INLINE \
-  [[gnu::always_inline]] inline  // a call in a loop would keep it from becoming vector instructions
+#define COFRAME_INLINE [[gnu::always_inline]] inline  // a call inside a loop would prevent vectorisation
 #else
 #define COFRAME_INLINE inline
 #endif
 
-// ThreadSanitizer watches: see lanes.hpp.
+// Defined when compiling with ThreadSanitizer; see lanes.hpp.
 #if defined(__SANITIZE_THREAD__)
 #define COFRAME_CHECKS_THREADS
 #elif defined(__has_feature)

@@ -13,7 +13,7 @@ extern const Kernels table;
 }
 
 #ifdef COFRAME_X86_LEVELS
-// The features that CMakeLists.txt compiles them with.
+// Each level checks the features that CMakeLists.txt compiles it with.
 namespace x86_64_v3 {
 extern const Kernels table;
 bool is_here() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points with float32 x, y and z side by side, as most clouds have them, four at a time.
+// Loads and stores four points at a time whose float32 x, y and z are adjacent, as in most clouds.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ COFRAME_INLINE FourFloats load_floats(const char* data) {
   return floats;
 }
 
-// What GCC makes of __builtin_convertvector with AVX goes by way of memory.
+// With AVX, GCC compiles __builtin_convertvector to code that goes through memory.
 COFRAME_INLINE void convert(const FourFloats& from, FourDoubles& to) {
 #if defined(__AVX__)
   to = (FourDoubles)_mm256_cvtps_pd((__m128)from);
@@ -45,7 +45,7 @@ COFRAME_INLINE void convert(const FourDoubles& from, FourFloats& to) {
 #endif
 }
 
-// Also reads the four bytes behind each point, which must be there: not for the last one.
+// Also reads the four bytes after each point, so these must exist: not for the last point of a cloud.
 COFRAME_INLINE Vector<FourDoubles> load_four(const char* data, std::ptrdiff_t step) {
   const FourFloats a = load_floats(data), b = load_floats(data + step), c = load_floats(data + 2 * step),
                    d = load_floats(data + 3 * step);
@@ -60,13 +60,13 @@ COFRAME_INLINE Vector<FourDoubles> load_four(const char* data, std::ptrdiff_t st
   return points;
 }
 
-// Nothing but the twelve bytes of each point: what is behind may be another thread's.
+// Writes only the twelve bytes of each point: the bytes after it may belong to another thread.
 COFRAME_INLINE void store_four(const Vector<FourDoubles>& points, char* data, std::ptrdiff_t step) {
   FourFloats x, y, z;
   convert(points.x, x);
   convert(points.y, y);
   convert(points.z, z);
-  // x and y of a point are moved as one number of eight bytes.
+  // x and y of a point are written as one number of eight bytes.
   const Pair low = (Pair)__builtin_shufflevector(x, y, 0, 4, 1, 5);
   const Pair high = (Pair)__builtin_shufflevector(x, y, 2, 6, 3, 7);
   const double xy[4] = {low[0], low[1], high[0], high[1]};

@@ -12,8 +12,8 @@ struct Point {
   double x, y, z;
 };
 
-// v + 2 w (u x v) + 2 u x (u x v), u the vector part. Sums are in such an order that each product is added by the same
-// instruction that makes it; so below.
+// Returns v + 2 w (u x v) + 2 u x (u x v), where u is the vector part of q. Sums are ordered so that each product and
+// its addition can be one fused instruction, here and below.
 COFRAME_INLINE Point rotated(double qx, double qy, double qz, double qw, const Point& v) {
   const double tx = 2.0 * (qy * v.z - qz * v.y);
   const double ty = 2.0 * (qz * v.x - qx * v.z);
@@ -21,22 +21,23 @@ COFRAME_INLINE Point rotated(double qx, double qy, double qz, double qw, const P
   return {v.x + qw * tx + qy * tz - qz * ty, v.y + qw * ty + qz * tx - qx * tz, v.z + qw * tz + qx * ty - qy * tx};
 }
 
-// Where a frame is, and where it is on the way between two places.
+// The translation of a frame: constant, or interpolated between two translations.
 struct FixedOffset {
   const double* p;
   COFRAME_INLINE double add_to(double number, int k) const { return number + p[k]; }
   COFRAME_INLINE double take_from(double number, int k) const { return number - p[k]; }
 };
 struct MovingOffset {
-  double first, second;  // what each is weighed by
+  double first, second;  // the weights of both
   const double *ap, *bp;
   COFRAME_INLINE double add_to(double number, int k) const { return number + first * ap[k] + second * bp[k]; }
   COFRAME_INLINE double take_from(double number, int k) const { return number - first * ap[k] - second * bp[k]; }
 };
 
-// One point seen from the other end of a link that is turned by q.
+// Transforms one point from the child to the parent of an edge with the rotation q, or with kInverse from the parent to
+// the child.
 template <bool kInverse, class Offset>
-COFRAME_INLINE Point seen(double qx, double qy, double qz, double qw, const Offset& offset, const Point& v) {
+COFRAME_INLINE Point transformed(double qx, double qy, double qz, double qw, const Offset& offset, const Point& v) {
   if constexpr (kInverse) {
     return rotated(-qx, -qy, -qz, qw, {offset.take_from(v.x, 0), offset.take_from(v.y, 1), offset.take_from(v.z, 2)});
   }
@@ -44,21 +45,22 @@ COFRAME_INLINE Point seen(double qx, double qy, double qz, double qw, const Offs
   return {offset.add_to(turned.x, 0), offset.add_to(turned.y, 1), offset.add_to(turned.z, 2)};
 }
 
-template <bool kInverse, class Way>
-void transform_moving_by(const Motion& motion, const Arc& between, const double* __restrict shares, std::size_t n,
+template <bool kInverse, class Slerp>
+void transform_moving_by(const Motion& motion, const Arc& between, const double* __restrict fractions, std::size_t n,
                          const Points& points) {
   double aq[4], bq[4], ap[3], bp[3];
   std::memcpy(aq, motion.older.q, sizeof(aq));
   std::memcpy(ap, motion.older.p, sizeof(ap));
   std::memcpy(bp, motion.newer.p, sizeof(bp));
   for (int k = 0; k < 4; ++k) bq[k] = between.sign * motion.newer.q[k];
-  const typename Way::WeightAt weight(between.cosine);
+  const typename Slerp::WeightAt weight(between.cosine);
   double* __restrict xs = points.x, * __restrict ys = points.y, * __restrict zs = points.z;
   for (std::size_t i = 0; i < n; ++i) {
-    const double t = shares[i], rest = 1.0 - t;
+    const double t = fractions[i], rest = 1.0 - t;
     const double a = weight(rest), b = weight(t);
-    const Point point = seen<kInverse>(a * aq[0] + b * bq[0], a * aq[1] + b * bq[1], a * aq[2] + b * bq[2],
-                                       a * aq[3] + b * bq[3], MovingOffset{rest, t, ap, bp}, {xs[i], ys[i], zs[i]});
+    const Point point =
+        transformed<kInverse>(a * aq[0] + b * bq[0], a * aq[1] + b * bq[1], a * aq[2] + b * bq[2],
+                              a * aq[3] + b * bq[3], MovingOffset{rest, t, ap, bp}, {xs[i], ys[i], zs[i]});
     xs[i] = point.x;
     ys[i] = point.y;
     zs[i] = point.z;
@@ -70,7 +72,7 @@ void transform_each_by(const Pose* poses, std::size_t n, const Points& points) {
   double* __restrict xs = points.x, * __restrict ys = points.y, * __restrict zs = points.z;
   for (std::size_t i = 0; i < n; ++i) {
     const double* q = poses[i].q;
-    const Point point = seen<kInverse>(q[0], q[1], q[2], q[3], FixedOffset{poses[i].p}, {xs[i], ys[i], zs[i]});
+    const Point point = transformed<kInverse>(q[0], q[1], q[2], q[3], FixedOffset{poses[i].p}, {xs[i], ys[i], zs[i]});
     xs[i] = point.x;
     ys[i] = point.y;
     zs[i] = point.z;
@@ -91,14 +93,14 @@ void transform(const Affine& affine, std::size_t n, Points points) {
   }
 }
 
-void transform_moving(const Motion& motion, const double* shares, std::size_t n, Points points) {
+void transform_moving(const Motion& motion, const double* fractions, std::size_t n, Points points) {
   const Arc between = arc(motion.older.q, motion.newer.q);
-  choose_way(between.cosine, [&](auto way) {
-    using Way = decltype(way);
+  choose_slerp(between.cosine, [&](auto slerp) {
+    using Slerp = decltype(slerp);
     if (motion.inverse) {
-      transform_moving_by<true, Way>(motion, between, shares, n, points);
+      transform_moving_by<true, Slerp>(motion, between, fractions, n, points);
     } else {
-      transform_moving_by<false, Way>(motion, between, shares, n, points);
+      transform_moving_by<false, Slerp>(motion, between, fractions, n, points);
     }
   });
 }

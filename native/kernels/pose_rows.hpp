@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows of poses as lanes, and back.
+// Loads and stores several rows of poses at a time.
 #pragma once
 
 #include "kernels/lanes.hpp"

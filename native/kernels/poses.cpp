@@ -6,14 +6,14 @@ namespace coframe::COFRAME_LEVEL {
 
 namespace {
 
-// So many values at a time stay in the first cache.
+// The number of poses that are processed together; their data fits the first-level cache.
 constexpr std::size_t kBlock = 64;
 
 std::size_t block_size(std::size_t left) { return left < kBlock ? left : kBlock; }
 
 }  // namespace
 
-void interpolate_many(const Pose* older, const Pose* newer, const double* shares, std::size_t n, Pose* out) {
+void interpolate_many(const Pose* older, const Pose* newer, const double* fractions, std::size_t n, Pose* out) {
   double cosines[kBlock], signs[kBlock];
   for (std::size_t done = 0; done < n; done += kBlock) {
     const std::size_t count = block_size(n - done);
@@ -25,15 +25,15 @@ void interpolate_many(const Pose* older, const Pose* newer, const double* shares
       signs[i] = between.sign;
       least = between.cosine < least ? between.cosine : least;
     }
-    choose_way(least, [&](auto way) {
+    choose_slerp(least, [&](auto slerp) {
       double firsts[kBlock], seconds[kBlock];
       for (std::size_t i = 0; i < count; ++i) {
-        const double t = shares[done + i];
-        firsts[i] = decltype(way)::weight(1.0 - t, cosines[i]);
-        seconds[i] = signs[i] * decltype(way)::weight(t, cosines[i]);
+        const double t = fractions[done + i];
+        firsts[i] = decltype(slerp)::weight(1.0 - t, cosines[i]);
+        seconds[i] = signs[i] * decltype(slerp)::weight(t, cosines[i]);
       }
       for (std::size_t i = 0; i < count; ++i) {
-        const double t = shares[done + i];
+        const double t = fractions[done + i];
         Pose& result = out[done + i];
         for (int k = 0; k < 4; ++k) result.q[k] = firsts[i] * a[i].q[k] + seconds[i] * b[i].q[k];
         for (int k = 0; k < 3; ++k) result.p[k] = (1.0 - t) * a[i].p[k] + t * b[i].p[k];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The algebra of core/pose.hpp for one number or many at a time: T is a double or Lanes.
+// The quaternion algebra of core/pose.hpp for one or several poses at a time: T is a double or Lanes.
 #pragma once
 
 #include "kernels/lanes.hpp"
@@ -50,7 +50,7 @@ COFRAME_INLINE Quaternion<T> operator*(const Quaternion<T>& a, const Quaternion<
           a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
-// v + 2 w (u x v) + 2 u x (u x v), u the vector part of the unit quaternion q.
+// Returns v + 2 w (u x v) + 2 u x (u x v), where u is the vector part of the unit quaternion q.
 template <class T>
 COFRAME_INLINE Vector<T> rotated(const Quaternion<T>& q, const Vector<T>& v) {
   const Vector<T> half = cross({q.x, q.y, q.z}, v);
@@ -67,17 +67,18 @@ struct Step {
 
 // Transforms a vector across a step: from the child to the parent, or with kDown from the parent to the child.
 template <bool kDown, class T>
-COFRAME_INLINE Vector<T> seen(const Step<T>& step, const Vector<T>& v) {
+COFRAME_INLINE Vector<T> transformed(const Step<T>& step, const Vector<T>& v) {
   if constexpr (kDown) return rotated(conjugate(step.q), v - step.p);
   return rotated(step.q, v) + step.p;
 }
 template <bool kDown, class T>
-COFRAME_INLINE Step<T> seen(const Step<T>& step, const Step<T>& pose) {
-  if constexpr (kDown) return {conjugate(step.q) * pose.q, seen<kDown>(step, pose.p)};
-  return {step.q * pose.q, seen<kDown>(step, pose.p)};
+COFRAME_INLINE Step<T> transformed(const Step<T>& step, const Step<T>& pose) {
+  if constexpr (kDown) return {conjugate(step.q) * pose.q, transformed<kDown>(step, pose.p)};
+  return {step.q * pose.q, transformed<kDown>(step, pose.p)};
 }
 
-// canonicalise() of core/pose.hpp for what has a length and is not too small or large for its square.
+// The same as canonicalise() of core/pose.hpp, for quaternions that are not zero and whose squared length is a normal
+// number.
 COFRAME_INLINE Quaternion<Lanes> canonical(const Quaternion<Lanes>& q) {
   const Lanes x2 = q.x * q.x, y2 = q.y * q.y, z2 = q.z * q.z, length2 = x2 + y2 + z2 + q.w * q.w;
   const Lanes larger = x2 < y2 ? q.y : q.x, larger2 = x2 < y2 ? y2 : x2;

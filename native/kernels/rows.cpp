@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many lookups along one path: poses in vector registers, samples and rows as they are stored.
+// Many lookups along one path: poses are in vector registers, samples and rows in the order of the buffer and the
+// result.
 #include "kernels/arc.hpp"
 #include "kernels/lanes.hpp"
 #include "kernels/level.hpp"
@@ -43,11 +44,11 @@ COFRAME_INLINE void store(const TwistLanes& twist, TwistRows& rows, std::size_t 
   store_lanes(twist.angular.z, rows.angular[2] + i);
 }
 
-// From the child of the step to its parent, which also observes the motion of the step; or from the parent to the
-// child, which does not observe its own motion. `pose` is still relative to the start.
+// Transforms velocities across a step: from the child to the parent, which also observes the motion of the step, or
+// with kDown from the parent to the child, which does not observe its own motion. `pose` is the pose before this step.
 template <bool kDown>
-COFRAME_INLINE TwistLanes seen(const PoseLanes& step, const TwistLanes& rate, const PoseLanes& pose,
-                               const TwistLanes& twist) {
+COFRAME_INLINE TwistLanes transformed(const PoseLanes& step, const TwistLanes& rate, const PoseLanes& pose,
+                                      const TwistLanes& twist) {
   if constexpr (kDown) {
     const Quaternion<Lanes> back = conjugate(step.q);
     return {rotated(back, twist.linear - rate.linear - cross(rate.angular, pose.p - step.p)),
@@ -64,23 +65,23 @@ COFRAME_INLINE void add_step(const PoseLanes& step, const TwistLanes& rate, bool
   const PoseLanes pose = first ? PoseLanes{{zero, zero, zero, one}, {zero, zero, zero}} : load(poses, i);
   if constexpr (kMoving) {
     const TwistLanes twist = first ? TwistLanes{{zero, zero, zero}, {zero, zero, zero}} : load(*twists, i);
-    store(seen<kDown>(step, rate, pose, twist), *twists, i);
+    store(transformed<kDown>(step, rate, pose, twist), *twists, i);
   }
-  store(first && !kDown ? step : seen<kDown>(step, pose), poses, i);
+  store(first && !kDown ? step : transformed<kDown>(step, pose), poses, i);
 }
 
-// The step of the rows from `i` on: interpolate() of core/pose.hpp, and with kMoving its rate of change: straight for
-// the translation, about one axis for the rotation, expressed in the parent's axes.
+// Computes the pose of the edge for the rows from `i` on like interpolate() of core/pose.hpp does, and with kMoving its
+// rate of change in the parent's axes: constant along a line for the translation, about one axis for the rotation.
 template <bool kMoving>
-COFRAME_INLINE PoseLanes step_at(const Between& link, std::size_t i, TwistLanes& rate) {
-  const Lanes t = load_lanes(link.share + i);
-  const Quaternion<Lanes> a = load_rotations(link.older + i), b = load_rotations(link.newer + i);
+COFRAME_INLINE PoseLanes step_at(const Between& edge, std::size_t i, TwistLanes& rate) {
+  const Lanes t = load_lanes(edge.fraction + i);
+  const Quaternion<Lanes> a = load_rotations(edge.older + i), b = load_rotations(edge.newer + i);
   const Lanes product = dot(a, b), sign = sign_of(product);
   const Weights<Lanes> weights = weights_at<kMoving>(t, with_sign(product, sign));
   const Lanes first = weights.first, second = with_sign(weights.second, sign);
-  const Vector<Lanes> from = load_translations(link.older + i), to = load_translations(link.newer + i);
+  const Vector<Lanes> from = load_translations(edge.older + i), to = load_translations(edge.newer + i);
   if constexpr (kMoving) {
-    const Lanes per_second = load_lanes(link.per_second + i);
+    const Lanes per_second = load_lanes(edge.per_second + i);
     const Quaternion<Lanes> turn = b * conjugate(a);
     const Lanes scale = with_sign(2.0 * per_second * weights.angle_by_sine, sign);
     rate = {per_second * (to - from), scale * Vector<Lanes>{turn.x, turn.y, turn.z}};
@@ -90,70 +91,72 @@ COFRAME_INLINE PoseLanes step_at(const Between& link, std::size_t i, TwistLanes&
       (1.0 - t) * from + t * to};
 }
 
-// Where a link stands still.
+// The same for an edge with a constant pose.
 template <bool kMoving>
-COFRAME_INLINE PoseLanes step_at(const Pose& link, std::size_t, TwistLanes& rate) {
+COFRAME_INLINE PoseLanes step_at(const Pose& edge, std::size_t, TwistLanes& rate) {
   rate = {{Lanes{}, Lanes{}, Lanes{}}, {Lanes{}, Lanes{}, Lanes{}}};
-  return splat(link);
+  return splat(edge);
 }
 
-template <bool kDown, bool kMoving, class Link>
-void follow(const Link& link, bool first, std::size_t n, PoseRows& poses, TwistRows* twists) {
+template <bool kDown, bool kMoving, class Edge>
+void follow(const Edge& edge, bool first, std::size_t n, PoseRows& poses, TwistRows* twists) {
   for (std::size_t i = 0; i < n; i += kLanes) {
     TwistLanes rate;
-    const PoseLanes step = step_at<kMoving>(link, i, rate);
+    const PoseLanes step = step_at<kMoving>(edge, i, rate);
     add_step<kDown, kMoving>(step, rate, first, i, poses, twists);
   }
 }
 
-// Where the numbers of kLanes rows from `i` on go; those beyond the last row go `nowhere`.
+// Finds the destinations of kLanes rows from `i` on. Rows beyond the last one are written to `discarded`.
 template <std::size_t kWidth>
-COFRAME_INLINE void find_places(std::size_t i, std::size_t n, const std::size_t* at, double* out, double* nowhere,
-                                double** places) {
-  for (std::size_t k = 0; k < kLanes; ++k) places[k] = i + k < n ? out + kWidth * at[i + k] : nowhere;
+COFRAME_INLINE void find_destinations(std::size_t i, std::size_t n, const std::size_t* at, double* out,
+                                      double* discarded, double** destinations) {
+  for (std::size_t k = 0; k < kLanes; ++k) destinations[k] = i + k < n ? out + kWidth * at[i + k] : discarded;
 }
 
 }  // namespace
 
-void follow_rows(const Between& link, bool down, bool first, std::size_t n, PoseRows& poses) {
-  (down ? &follow<true, false, Between> : &follow<false, false, Between>)(link, first, n, poses, nullptr);
+void compose_rows(const Between& edge, bool down, bool first, std::size_t n, PoseRows& poses) {
+  (down ? &follow<true, false, Between> : &follow<false, false, Between>)(edge, first, n, poses, nullptr);
 }
 
-void follow_still(const Pose& link, bool down, bool first, std::size_t n, PoseRows& poses) {
-  (down ? &follow<true, false, Pose> : &follow<false, false, Pose>)(link, first, n, poses, nullptr);
+void compose_constant(const Pose& edge, bool down, bool first, std::size_t n, PoseRows& poses) {
+  (down ? &follow<true, false, Pose> : &follow<false, false, Pose>)(edge, first, n, poses, nullptr);
 }
 
-void follow_moving_rows(const Between& link, bool down, bool first, std::size_t n, PoseRows& poses, TwistRows& twists) {
-  (down ? &follow<true, true, Between> : &follow<false, true, Between>)(link, first, n, poses, &twists);
+void compose_rows_with_twists(const Between& edge, bool down, bool first, std::size_t n, PoseRows& poses,
+                              TwistRows& twists) {
+  (down ? &follow<true, true, Between> : &follow<false, true, Between>)(edge, first, n, poses, &twists);
 }
 
-void follow_moving_still(const Pose& link, bool down, bool first, std::size_t n, PoseRows& poses, TwistRows& twists) {
-  (down ? &follow<true, true, Pose> : &follow<false, true, Pose>)(link, first, n, poses, &twists);
+void compose_constant_with_twists(const Pose& edge, bool down, bool first, std::size_t n, PoseRows& poses,
+                                  TwistRows& twists) {
+  (down ? &follow<true, true, Pose> : &follow<false, true, Pose>)(edge, first, n, poses, &twists);
 }
 
 void write_poses(const PoseRows& poses, std::size_t n, const std::size_t* at, double* out) {
-  double nowhere[7];
-  double* places[kLanes];
+  double discarded[7];
+  double* destinations[kLanes];
   for (std::size_t i = 0; i < n; i += kLanes) {
-    find_places<7>(i, n, at, out, nowhere, places);
+    find_destinations<7>(i, n, at, out, discarded, destinations);
     const PoseLanes pose = load(poses, i);
     const Quaternion<Lanes> q = canonical(pose.q);
-    store_columns(pose.p.x, pose.p.y, places, 0);
-    store_columns(pose.p.z, q.x, places, 2);
-    store_columns(q.y, q.z, places, 4);
-    store_columns(q.z, q.w, places, 5);
+    store_columns(pose.p.x, pose.p.y, destinations, 0);
+    store_columns(pose.p.z, q.x, destinations, 2);
+    store_columns(q.y, q.z, destinations, 4);
+    store_columns(q.z, q.w, destinations, 5);
   }
 }
 
 void write_twists(const TwistRows& twists, std::size_t n, const std::size_t* at, double* out) {
-  double nowhere[6];
-  double* places[kLanes];
+  double discarded[6];
+  double* destinations[kLanes];
   for (std::size_t i = 0; i < n; i += kLanes) {
-    find_places<6>(i, n, at, out, nowhere, places);
+    find_destinations<6>(i, n, at, out, discarded, destinations);
     const TwistLanes twist = load(twists, i);
-    store_columns(twist.linear.x, twist.linear.y, places, 0);
-    store_columns(twist.linear.z, twist.angular.x, places, 2);
-    store_columns(twist.angular.y, twist.angular.z, places, 4);
+    store_columns(twist.linear.x, twist.linear.y, destinations, 0);
+    store_columns(twist.linear.z, twist.angular.x, destinations, 2);
+    store_columns(twist.angular.y, twist.angular.z, destinations, 4);
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many samples of one frame as they are stored. Compiled without contraction of products and sums: what is stored is
-// the same to the last bit, whether it came alone or among others, and on whatever processor.
+// Converts many samples of one frame to the format of the buffer. Compiled without contraction of products and sums, so
+// that stored samples are bit-identical on every processor, whether they are inserted one at a time or many at once.
 #include "kernels/lanes.hpp"
 #include "kernels/level.hpp"
 #include "kernels/rotation.hpp"
@@ -13,7 +13,7 @@ struct Addresses {
   const double* rows[kLanes];
 };
 
-// Of kLanes rows of 7; those beyond the last one are the last one again.
+// Returns the addresses of kLanes rows of 7 numbers. The last row is repeated for rows beyond it.
 COFRAME_INLINE Addresses addresses(const double* rows, std::size_t i, std::size_t n) {
   Addresses at;
   for (std::size_t k = 0; k < kLanes; ++k) at.rows[k] = rows + 7 * (i + k < n ? i + k : n - 1);
@@ -31,14 +31,14 @@ COFRAME_INLINE Step<Lanes> load(const Addresses& at) {
 
 }  // namespace
 
-std::size_t plain_rows(const double* rows, std::size_t n) {
-  constexpr double kLeast = 1e-300, kMost = 1e300;
+std::size_t count_valid_rows(const double* rows, std::size_t n) {
+  constexpr double kMin = 1e-300, kMax = 1e300;
   for (std::size_t i = 0; i < n; i += kLanes) {
     const Step<Lanes> pose = load(addresses(rows, i, n));
     const Lanes length2 = dot(pose.q, pose.q), sum = pose.p.x + pose.p.y + pose.p.z;
-    // Infinite or no number at all: the difference of the sum with itself is no number either.
-    const bool plain = all_above(length2, kLeast) && all_above(-length2, -kMost) && all_above(sum - sum, -1.0);
-    if (!plain) return i;
+    // If a coordinate is infinite or NaN, the sum minus itself is NaN.
+    const bool is_valid = all_above(length2, kMin) && all_above(-length2, -kMax) && all_above(sum - sum, -1.0);
+    if (!is_valid) return i;
   }
   return n;
 }
@@ -48,16 +48,16 @@ void store_samples(const double* rows, std::size_t n, std::uint32_t parent, doub
   double bits;
   std::memcpy(&bits, words, sizeof(bits));
   const Lanes last = splat_bits(bits);
-  alignas(64) double nowhere[8];
+  alignas(64) double discarded[8];
   for (std::size_t i = 0; i < n; i += kLanes) {
     const Step<Lanes> pose = load(addresses(rows, i, n));
     const Quaternion<Lanes> q = canonical(pose.q);
-    double* places[kLanes];
-    for (std::size_t k = 0; k < kLanes; ++k) places[k] = i + k < n ? samples + 8 * (i + k) : nowhere;
-    store_shared_columns(q.x, q.y, places, 0);
-    store_shared_columns(q.z, q.w, places, 2);
-    store_shared_columns(pose.p.x, pose.p.y, places, 4);
-    store_shared_columns(pose.p.z, last, places, 6);
+    double* destinations[kLanes];
+    for (std::size_t k = 0; k < kLanes; ++k) destinations[k] = i + k < n ? samples + 8 * (i + k) : discarded;
+    store_shared_columns(q.x, q.y, destinations, 0);
+    store_shared_columns(q.z, q.w, destinations, 2);
+    store_shared_columns(pose.p.x, pose.p.y, destinations, 4);
+    store_shared_columns(pose.p.z, last, destinations, 6);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sine and cosine of several angles at a time, both at once; within 2e-16 of the true ones.
+// Sine and cosine of several angles at a time, within 2e-16 of the exact values.
 #pragma once
 
 #include <cmath>
@@ -17,8 +17,8 @@ COFRAME_INLINE void sine_and_cosine(double angle, double& sine, double& cosine) 
 }
 
 #if COFRAME_LANES > 1
-// The series of fdlibm (k_sin.c, k_cos.c) around the nearest multiple of a quarter turn, which is taken off in three
-// parts: the first two have 33 bits, so that their products with up to 2^20 are exact.
+// The series of fdlibm (k_sin.c, k_cos.c) around the nearest multiple of a quarter turn. The multiple is subtracted in
+// three parts; the first two have 33 bits, so that their products with numbers up to 2^20 are exact.
 COFRAME_INLINE void sine_and_cosine(const Lanes& angle, Lanes& sine, Lanes& cosine) {
   constexpr double kLargest = 1e5;
   if (!all_above(kLargest - with_sign(angle, sign_of(angle)), 0.0)) {
@@ -30,7 +30,7 @@ COFRAME_INLINE void sine_and_cosine(const Lanes& angle, Lanes& sine, Lanes& cosi
     }
     return;
   }
-  constexpr double kToInteger = 6755399441055744.0;  // 1.5 * 2^52: the sum's last bits are the nearest integer
+  constexpr double kToInteger = 6755399441055744.0;  // 1.5 * 2^52: the last bits of the sum are the nearest integer
   const Lanes shifted = angle * 0.63661977236758134308 + kToInteger;
   const Lanes quarters = shifted - kToInteger;
   const Lanes r = ((angle - quarters * 1.57079632673412561417e+00) - quarters * 6.07710050630396597660e-11) -

@@ -14,13 +14,13 @@ Span span(const std::int64_t* times, std::size_t n) {
   return {first, last};
 }
 
-std::size_t changes(const std::int64_t* times, std::size_t n) {
+std::size_t count_changes(const std::int64_t* times, std::size_t n) {
   std::size_t count = 0;
   for (std::size_t i = 1; i < n; ++i) count += times[i] != times[i - 1] ? 1 : 0;
   return count;
 }
 
-std::size_t leading(const std::int64_t* times, std::size_t n, std::int64_t start, std::uint64_t length) {
+std::size_t count_leading(const std::int64_t* times, std::size_t n, std::int64_t start, std::uint64_t length) {
   const auto origin = static_cast<std::uint64_t>(start);
   constexpr std::size_t kTogether = 16;
   std::size_t i = 0;
@@ -33,7 +33,7 @@ std::size_t leading(const std::int64_t* times, std::size_t n, std::int64_t start
   return i;
 }
 
-void shares(const std::int64_t* times, std::int64_t start, std::int64_t end, std::size_t n, double* out) {
+void fractions(const std::int64_t* times, std::int64_t start, std::int64_t end, std::size_t n, double* out) {
   const auto origin = static_cast<std::uint64_t>(start);
   const std::uint64_t whole = static_cast<std::uint64_t>(end) - origin;
   const double scale = 1.0 / static_cast<double>(whole);
@@ -44,7 +44,8 @@ void shares(const std::int64_t* times, std::int64_t start, std::int64_t end, std
     }
     return;
   }
-  // An integer below 2^52 in the fraction of 2^52: few processors convert 64-bit integers many at a time.
+  // Puts an integer below 2^52 into the mantissa of 2^52, because few processors have vector instructions that convert
+  // 64-bit integers.
   constexpr std::uint64_t kBits = 0x4330000000000000;
   constexpr double kValue = 4503599627370496.0;
   for (std::size_t i = 0; i < n; ++i) {

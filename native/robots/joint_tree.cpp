@@ -14,15 +14,16 @@ namespace coframe {
 
 namespace {
 
-// So many configurations are worked on together: with what is kept of the links above, they fit the first cache.
+// The number of configurations that are processed together. With the rows of the parent links, they fit the first-level
+// cache.
 constexpr std::size_t kBlock = 64;
 static_assert(kBlock <= kRowBlock);
 
-// Two ways across an axis, as the shortest turn from z to the axis takes x and y.
-void ways_across(const double* axis, double* x, double* y) {
+// Computes two axes of the plane that is normal to `axis`: the shortest rotation from z to `axis`, applied to x and y.
+void plane_axes(const double* axis, double* x, double* y) {
   const double half[4] = {-axis[1], axis[0], 0.0, 1.0 + axis[2]};
   const double length = std::sqrt(dot(half, half));
-  double upright[4] = {1.0, 0.0, 0.0, 0.0};  // straight down there is no shortest one
+  double upright[4] = {1.0, 0.0, 0.0, 0.0};  // for -z there is no shortest rotation
   if (length > 1e-12) std::transform(half, half + 4, upright, [length](double value) { return value / length; });
   const double along_x[3] = {1.0, 0.0, 0.0}, along_y[3] = {0.0, 1.0, 0.0};
   rotate(upright, along_x, x);
@@ -32,14 +33,14 @@ void ways_across(const double* axis, double* x, double* y) {
 JointMotion motion_of(const JointDescription& joint) {
   JointMotion motion{joint.kind, joint.origin, {}, {}};
   const double turn[4] = {joint.axis[0], joint.axis[1], joint.axis[2], 0.0};
-  multiply(joint.origin.q, turn, motion.turn);
-  double ways[2][3] = {{joint.axis[0], joint.axis[1], joint.axis[2]}, {0.0, 0.0, 0.0}};
-  if (joint.kind == JointKind::planar) ways_across(joint.axis, ways[0], ways[1]);
-  for (int i = 0; i < 2; ++i) rotate(joint.origin.q, ways[i], motion.slide[i]);
+  multiply(joint.origin.q, turn, motion.half_turn);
+  double directions[2][3] = {{joint.axis[0], joint.axis[1], joint.axis[2]}, {0.0, 0.0, 0.0}};
+  if (joint.kind == JointKind::planar) plane_axes(joint.axis, directions[0], directions[1]);
+  for (int i = 0; i < 2; ++i) rotate(joint.origin.q, directions[i], motion.directions[i]);
   return motion;
 }
 
-// Numbers that lie so many bytes apart.
+// Copies numbers that are `step` bytes apart.
 void gather(const char* data, std::ptrdiff_t step, std::size_t n, double* out) {
   if (step == sizeof(double)) {
     std::memcpy(out, data, n * sizeof(double));
@@ -49,7 +50,7 @@ void gather(const char* data, std::ptrdiff_t step, std::size_t n, double* out) {
     std::memcpy(out + i, data + static_cast<std::ptrdiff_t>(i) * step, sizeof(double));
 }
 
-// Quaternions to unit length; false where one is zero.
+// Normalises quaternions; returns false if one is zero.
 bool normalise(double (*columns)[kRowBlock], std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     double largest = 0.0, squares = 0.0;
@@ -69,7 +70,7 @@ bool normalise(double (*columns)[kRowBlock], std::size_t n) {
 
 std::size_t position_size(JointKind kind) {
   switch (kind) {
-    case JointKind::still: return 0;
+    case JointKind::fixed: return 0;
     case JointKind::planar: return 3;
     case JointKind::floating: return 7;
     default: return 1;
@@ -79,84 +80,89 @@ std::size_t position_size(JointKind kind) {
 JointTree::JointTree(const std::vector<JointDescription>& joints) {
   for (const JointDescription& joint : joints) {
     const auto before = static_cast<std::ptrdiff_t>(nodes_.size());
-    if (joint.parent < -1 || joint.parent >= before) throw std::invalid_argument("parents must stand before children");
-    nodes_.push_back({motion_of(joint), joint.parent, joint.leader, joint.multiplier, joint.offset, false, 0});
+    if (joint.parent < -1 || joint.parent >= before) {
+      throw std::invalid_argument("A joint comes before the joint of its parent link. Sort them from the root link.");
+    }
+    nodes_.push_back({motion_of(joint), joint.parent, joint.mimicked, joint.multiplier, joint.offset, false, 0});
   }
-  check_leaders();
+  check_mimicked();
   order_depth_first();
 }
 
-void JointTree::check_leaders() const {
+void JointTree::check_mimicked() const {
   const auto count = static_cast<std::ptrdiff_t>(size());
   for (const Node& node : nodes_) {
     std::ptrdiff_t steps = 0;
-    for (const Node* at = &node; at->leader != -1; at = &nodes_[static_cast<std::size_t>(at->leader)]) {
-      if (at->leader < 0 || at->leader >= count) throw std::invalid_argument("a joint follows one that is not there");
-      if (++steps > count) throw std::invalid_argument("joints follow each other in a circle");
-      const Node& leader = nodes_[static_cast<std::size_t>(at->leader)];
-      if (position_size(at->motion.kind) != 1 || position_size(leader.motion.kind) != 1) {
-        throw std::invalid_argument("only joints with one position follow each other");
+    for (const Node* at = &node; at->mimicked != -1; at = &nodes_[static_cast<std::size_t>(at->mimicked)]) {
+      if (at->mimicked < 0 || at->mimicked >= count) {
+        throw std::invalid_argument("A joint mimics a joint that does not exist.");
+      }
+      if (++steps > count) throw std::invalid_argument("Joints mimic each other in a circle.");
+      const Node& mimicked = nodes_[static_cast<std::size_t>(at->mimicked)];
+      if (position_size(at->motion.kind) != 1 || position_size(mimicked.motion.kind) != 1) {
+        throw std::invalid_argument("A joint mimics another one, but not both have exactly one position value.");
       }
     }
   }
 }
 
-// Depth first, and the rows of a link are given up with its last child.
+// Orders the joints depth first. The rows of a link are reused after its last child has been computed.
 void JointTree::order_depth_first() {
   std::vector<std::vector<std::size_t>> children(size() + 1);
   for (std::size_t j = size(); j-- > 0;) children[static_cast<std::size_t>(nodes_[j].parent + 1)].push_back(j);
-  std::vector<std::size_t> waiting = children[0], left(size()), free_places;
-  for (std::size_t j = 0; j < size(); ++j) left[j] = children[j + 1].size();
-  while (!waiting.empty()) {
-    const std::size_t joint = waiting.back();
-    waiting.pop_back();
+  std::vector<std::size_t> pending = children[0], children_left(size()), free_slots;
+  for (std::size_t j = 0; j < size(); ++j) children_left[j] = children[j + 1].size();
+  while (!pending.empty()) {
+    const std::size_t joint = pending.back();
+    pending.pop_back();
     order_.push_back(joint);
     const std::ptrdiff_t parent = nodes_[joint].parent;
-    if (parent >= 0 && --left[static_cast<std::size_t>(parent)] == 0) {
-      free_places.push_back(nodes_[static_cast<std::size_t>(parent)].place);
+    if (parent >= 0 && --children_left[static_cast<std::size_t>(parent)] == 0) {
+      free_slots.push_back(nodes_[static_cast<std::size_t>(parent)].slot);
     }
-    nodes_[joint].is_parent = left[joint] > 0;
+    nodes_[joint].is_parent = children_left[joint] > 0;
     if (nodes_[joint].is_parent) {
-      if (free_places.empty()) free_places.push_back(places_++);
-      nodes_[joint].place = free_places.back();
-      free_places.pop_back();
+      if (free_slots.empty()) free_slots.push_back(slot_count_++);
+      nodes_[joint].slot = free_slots.back();
+      free_slots.pop_back();
     }
-    waiting.insert(waiting.end(), children[joint + 1].begin(), children[joint + 1].end());
+    pending.insert(pending.end(), children[joint + 1].begin(), children[joint + 1].end());
   }
 }
 
-JointTree::Drive JointTree::drive(std::size_t joint, const std::vector<JointPositions>& given) const {
-  Drive found{nullptr, 1.0, 0.0};
+JointTree::PositionSource JointTree::position_source(std::size_t joint,
+                                                     const std::vector<JointPositions>& given) const {
+  PositionSource found{nullptr, 1.0, 0.0};
   for (;;) {
     if (given[joint].data) found.from = &given[joint];
-    if (found.from || nodes_[joint].leader < 0) return found;
+    if (found.from || nodes_[joint].mimicked < 0) return found;
     found.offset += found.multiplier * nodes_[joint].offset;
     found.multiplier *= nodes_[joint].multiplier;
-    joint = static_cast<std::size_t>(nodes_[joint].leader);
+    joint = static_cast<std::size_t>(nodes_[joint].mimicked);
   }
 }
 
-// The position of configurations from `first` on as columns; what is beyond the last one, up to a whole group of lanes,
-// is set to 0.
+// Reads the positions of configurations from `first` on into columns. Values beyond the last configuration, up to a
+// whole group of lanes, are set to 0. Returns false if a quaternion is zero.
 bool JointTree::read(std::size_t joint, const std::vector<JointPositions>& given, std::size_t first, std::size_t n,
                      double (*columns)[kRowBlock]) const {
   const JointKind kind = nodes_[joint].motion.kind;
   const std::size_t size = position_size(kind);
   if (size == 0) return true;
-  const std::size_t end = std::min(kRowBlock, n + kMostLanes);
-  const Drive drive = this->drive(joint, given);
+  const std::size_t end = std::min(kRowBlock, n + kMaxLanes);
+  const PositionSource source = position_source(joint, given);
   for (std::size_t k = 0; k < size; ++k) {
-    std::fill(columns[k] + (drive.from ? n : 0), columns[k] + end, 0.0);
-    if (!drive.from) continue;
-    const char* start = drive.from->data + static_cast<std::ptrdiff_t>(k) * drive.from->number_step;
-    gather(start + static_cast<std::ptrdiff_t>(first) * drive.from->step, drive.from->step, n, columns[k]);
+    std::fill(columns[k] + (source.from ? n : 0), columns[k] + end, 0.0);
+    if (!source.from) continue;
+    const char* start = source.from->data + static_cast<std::ptrdiff_t>(k) * source.from->number_step;
+    gather(start + static_cast<std::ptrdiff_t>(first) * source.from->step, source.from->step, n, columns[k]);
   }
   if (kind == JointKind::floating) {
-    if (!drive.from) std::fill(columns[6], columns[6] + end, 1.0);
+    if (!source.from) std::fill(columns[6], columns[6] + end, 1.0);
     return normalise(columns + 3, n);
   }
-  if (size == 1 && (drive.multiplier != 1.0 || drive.offset != 0.0)) {
-    for (std::size_t i = 0; i < end; ++i) columns[0][i] = drive.multiplier * columns[0][i] + drive.offset;
+  if (size == 1 && (source.multiplier != 1.0 || source.offset != 0.0)) {
+    for (std::size_t i = 0; i < end; ++i) columns[0][i] = source.multiplier * columns[0][i] + source.offset;
   }
   return true;
 }
@@ -164,16 +170,16 @@ bool JointTree::read(std::size_t joint, const std::vector<JointPositions>& given
 std::size_t JointTree::poses(const std::vector<JointPositions>& given, std::size_t n, bool in_root, unsigned threads,
                              double* out) const {
   const Work work{given, n, in_root, out};
-  std::atomic<std::size_t> bad = size();
+  std::atomic<std::size_t> invalid = size();
   in_parts(n, kBlock, threads, [&](std::size_t first, std::size_t last) {
     const std::size_t found = poses_of_part(work, first, last);
-    if (found != size()) bad = found;
+    if (found != size()) invalid = found;
   });
-  return bad;
+  return invalid;
 }
 
 std::size_t JointTree::poses_of_part(const Work& work, std::size_t first, std::size_t last) const {
-  const std::unique_ptr<PoseRows[]> rows(new PoseRows[places_]);
+  const std::unique_ptr<PoseRows[]> rows(new PoseRows[slot_count_]);
   alignas(64) double columns[7][kRowBlock];
   const Kernels& kernel = kernels();
   for (; first < last; first += kBlock) {
@@ -181,11 +187,11 @@ std::size_t JointTree::poses_of_part(const Work& work, std::size_t first, std::s
     for (const std::size_t joint : order_) {
       const Node& node = nodes_[joint];
       const PoseRows* parents =
-          work.in_root && node.parent >= 0 ? &rows[nodes_[static_cast<std::size_t>(node.parent)].place] : nullptr;
-      PoseRows* poses = work.in_root && node.is_parent ? &rows[node.place] : nullptr;
+          work.in_root && node.parent >= 0 ? &rows[nodes_[static_cast<std::size_t>(node.parent)].slot] : nullptr;
+      PoseRows* poses = work.in_root && node.is_parent ? &rows[node.slot] : nullptr;
       double* out = work.out + 7 * (joint * work.n + first);
       if (!read(joint, work.given, first, count, columns) ||
-          !kernel.follow_joint(node.motion, columns, count, parents, poses, out)) {
+          !kernel.compute_joint_poses(node.motion, columns, count, parents, poses, out)) {
         return joint;
       }
     }

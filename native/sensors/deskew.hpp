@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points that were measured one after the other while the sensor moved, seen from one frame: each by where the sensor
-// was at the point's own time.
+// Deskewing: points that were measured one after the other while the sensor moved are transformed to one frame, each
+// with the transform at its own time.
 #pragma once
 
 #include <limits>
@@ -11,24 +11,24 @@
 
 namespace coframe {
 
-// The time of points that have none.
+// The time of a point without a valid time.
 inline constexpr Stamp kNoTime = std::numeric_limits<Stamp>::min();
 
-struct Deskewing {
+struct DeskewRequest {
   FrameId target, source;
-  Pose onward;         // of the target, relative to the frame of the result
-  const Stamp* times;  // of each point; 0 is the latest, kNoTime none
-  bool nan_for_none;   // points without a transform become NaN; otherwise no point changes if one has none
+  Pose result_from_target;  // the pose of the target in the frame of the result
+  const Stamp* times;       // of each point; 0: the latest common time, kNoTime: none
+  bool nan_for_missing;     // points without a transform become NaN; if false, no point changes if one has none
   unsigned threads;
 };
 
 struct Missing {
   std::size_t count = 0;  // points without a transform
-  std::size_t first = 0;  // the first of them
+  std::size_t first = 0;  // index of the first of them
 };
 
-// In place. Nothing is touched where no point has a transform.
-Missing deskew(const Buffer& buffer, const Deskewing& how, const Grid& grid,
+// Transforms the points in place and returns which have no transform. Changes nothing if no point has a transform.
+Missing deskew(const Buffer& buffer, const DeskewRequest& request, const Grid& grid,
                const std::vector<Coordinates>& coordinates);
 
 }  // namespace coframe

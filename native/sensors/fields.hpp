@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the coordinates of points lie, and a block of them at work.
+// The memory layout of the coordinates of points, and a block of coordinates for computations.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace coframe {
 
-// Points in rows, as in an organised cloud; their number runs through all rows.
+// Points in rows, as in an organised cloud. Points are numbered row by row.
 struct Grid {
   std::size_t rows, width;
   std::size_t count() const { return rows * width; }
@@ -21,15 +21,15 @@ struct Field {
   Number number;
 };
 
-// Three fields that go together.
+// Three fields that form a vector.
 struct Coordinates {
   Field x, y, z;
-  bool is_direction;  // turned and not moved: normals, velocities
+  bool is_direction;  // rotated but not translated: normals, velocities
 };
 
 inline constexpr std::size_t kPointBlock = 128;
 
-// Calls each(columns, n, done) for the points from `first` on, row by row: n points, behind `done` others.
+// Calls each(columns, n, done) row by row for `count` points from `first` on: n points, after `done` previous ones.
 template <class Each>
 void for_each_piece(const Coordinates& at, const Grid& grid, std::size_t first, std::size_t count, Each&& each) {
   std::size_t row = grid.rows == 1 ? 0 : first / grid.width, column = first - row * grid.width;
@@ -45,7 +45,7 @@ void for_each_piece(const Coordinates& at, const Grid& grid, std::size_t first, 
   }
 }
 
-// The coordinates of some points that follow each other.
+// The coordinates of up to kPointBlock consecutive points.
 class PointBlock {
  public:
   Points points() { return {x_, y_, z_}; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A copy of a buffer's data for one frame relative to another over a span of time. Many lookups on it see one state of
-// the tree, without waiting for other threads.
+// A copy of a buffer's samples between two frames over a span of time. All lookups on it see the same state of the tree
+// and do not wait for other threads.
 #pragma once
 
 #include <cstddef>
@@ -14,44 +14,45 @@ namespace coframe {
 
 class Trajectory {
  public:
-  // Between the frames on the way, from the source on. Without stamps it stands still: one pose, not inverse.
-  struct Link {
+  // An edge of the chain, from the source to the target. Without stamps it is constant: it has one pose and is not
+  // inverse.
+  struct Edge {
     std::vector<Stamp> stamps;
     std::vector<Pose> poses;
-    double per_nanosecond = 0.0;  // samples, on average
+    double per_nanosecond = 0.0;  // samples per nanosecond, on average
     bool inverse = false;
 
-    bool stands_still() const { return stamps.empty(); }
+    bool is_constant() const { return stamps.empty(); }
     // Returns i with stamps[i] <= stamp <= stamps[i + 1], chosen like a lookup does. `guess` is the likely result.
     std::size_t interval(Stamp stamp, std::size_t guess) const;
-    // The first stamp for which interval() is this one; all up to the stamp at its end follow.
+    // Returns the first stamp for which interval() returns this interval. The last one precedes the sample at its end.
     Stamp start(std::size_t interval) const;
-    // Where stamps of one interval lie between its ends.
-    void shares(const Kernels& kernels, std::size_t interval, const Stamp* stamps, std::size_t n, double* out) const;
+    // Computes the positions of stamps in one interval, from 0 at its start to 1 at its end.
+    void fractions(const Kernels& kernels, std::size_t interval, const Stamp* stamps, std::size_t n, double* out) const;
   };
 
-  // The intervals of all links that were asked for last; each thread has its own.
+  // The most recently used interval of each edge. Each thread has its own.
   using Hints = std::vector<std::size_t>;
 
-  // Records two different frames. Returns false if every time must be looked up: there is no path, or a frame on it has
-  // changed its parent.
+  // Copies the samples between two different frames. Returns false if there is no chain, or if a frame in it has
+  // changed its parent: then every time must be looked up.
   bool record(const Buffer& buffer, FrameId target, FrameId source, Stamp first, Stamp last);
-  // Makes the poses relative to another frame, in which the target has this pose.
-  void continue_to(const Pose& pose);
+  // Appends a constant edge: poses become relative to the frame in which the target has this pose.
+  void append(const Pose& pose);
 
-  // When all links have data, and so at() an answer.
+  // The span of time in which all edges have samples, so that at() is valid.
   Stamp earliest() const { return earliest_; }
   Stamp latest() const { return latest_; }
-  const std::vector<Link>& links() const { return links_; }
-  Hints hints() const { return Hints(links_.size()); }
+  const std::vector<Edge>& edges() const { return edges_; }
+  Hints hints() const { return Hints(edges_.size()); }
   Pose at(const Kernels& kernels, Stamp stamp, Hints& hints) const;
 
  private:
   bool copy(const PathCache::Path& path, Stamp first, Stamp last);
-  void copy_link(const PathCache::Step& step, const History::View& samples, Stamp first, Stamp last);
-  void append_still(Pose pose, bool inverse);
+  void copy_edge(const PathCache::Step& step, const History::View& samples, Stamp first, Stamp last);
+  void append_constant(Pose pose, bool inverse);
 
-  std::vector<Link> links_;
+  std::vector<Edge> edges_;
   Stamp earliest_ = std::numeric_limits<Stamp>::min(), latest_ = std::numeric_limits<Stamp>::max();
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All points of a cloud, seen from another frame at one time.
+// Transforms all points of a cloud by one pose.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace coframe {
 
-// In place.
+// Transforms the points in place.
 void transform_points(const Pose& pose, const Grid& grid, const std::vector<Coordinates>& coordinates,
                       unsigned threads);
 

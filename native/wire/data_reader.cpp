@@ -6,11 +6,12 @@ namespace coframe {
 DataReader::DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data,
                        void* argument) {
   const dds::Functions& f = dds::functions();
-  // Not passed to dds_create_reader: a callback during the creation of the reader could not take samples yet.
+  // The listener is not passed to dds_create_reader, because a callback that runs before that returns could not yet
+  // take samples.
   entity_ = dds::check(f.dds_create_reader(participant, topic, qos, nullptr), "create a reader");
   dds::Listener* listener = f.dds_create_listener(argument);
   f.dds_lset_data_available(listener, on_data);
-  const dds::Code attached = f.dds_set_listener(entity_, listener);  // copies it
+  const dds::Code attached = f.dds_set_listener(entity_, listener);  // copies the listener
   f.dds_delete_listener(listener);
   if (attached < 0) {
     close();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A DDS reader with a data listener: the common part of all readers here.
+// A DDS reader with a data listener; the common part of all readers in this folder.
 #pragma once
 
 #include <atomic>
@@ -10,7 +10,7 @@
 namespace coframe {
 
 // Calls `on_data(entity, argument)` on DDS threads, one call at a time, from before the constructor returns until
-// `close` returns. Samples may already be waiting when the listener is attached, so the owner checks once itself.
+// `close` returns. Samples may arrive before the listener is attached, so the owner must check once itself.
 class DataReader {
  public:
   DataReader(dds::Entity participant, dds::Entity topic, const dds::Qos* qos, dds::DataCallback on_data,
@@ -19,7 +19,7 @@ class DataReader {
   DataReader(const DataReader&) = delete;
   DataReader& operator=(const DataReader&) = delete;
 
-  // Waits for a running callback; none runs afterwards. Not to be called from the callback.
+  // Waits for a running callback; none runs afterwards. Must not be called from the callback.
   void close() noexcept;
 
   dds::Entity entity() const { return entity_; }  // 0 after close

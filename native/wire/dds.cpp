@@ -33,8 +33,8 @@ template <class Function>
 void find(void* library, const char* name, const std::string& path, Function& function) {
   function = reinterpret_cast<Function>(find_symbol(library, name));
   if (function == nullptr) {
-    throw std::runtime_error("the DDS library " + path + " has no function " + name +
-                             "; coframe is written for cyclonedds 11");
+    throw std::runtime_error("The DDS library " + path + " has no function " + name +
+                             ". coframe requires cyclonedds 11. Install it with: pip install cyclonedds==11.*");
   }
 }
 
@@ -46,7 +46,7 @@ Error::Error(const std::string& what, Code code)
 void load(const std::string& path) {
   if (is_loaded) return;
   void* library = open_library(path);
-  if (library == nullptr) throw std::runtime_error("the DDS library " + path + " could not be loaded");
+  if (library == nullptr) throw std::runtime_error("Could not load the DDS library " + path);
   Functions found;
 #define COFRAME_FIND(result, name, arguments) find(library, #name, path, found.name);
   COFRAME_DDS_FUNCTIONS(COFRAME_FIND)
@@ -59,8 +59,10 @@ void load(const std::string& path) {
 }
 
 const Functions& functions() {
-  if (!is_loaded) throw std::logic_error("the DDS library is not loaded");
-  if (is_forked) throw std::logic_error("DDS does not survive that this process was forked from one that had joined");
+  if (!is_loaded) throw std::logic_error("The DDS library is not loaded.");
+  if (is_forked)
+    throw std::logic_error(
+        "This process was forked while its parent used DDS, so it cannot use DDS. Start processes with 'spawn'.");
   return loaded;
 }
 
@@ -74,7 +76,8 @@ Code check(Code code, const char* what) {
 }
 
 Entity create_unchecked_topic(Entity participant, const std::string& name, const std::string& type) {
-  // One octet and no type description: it matches by name alone, with or without type information on the other side.
+  // One octet and no type description: the type matches by name only, with or without type information on the other
+  // side.
   constexpr std::uint32_t kOctetAtOffset = 0x01010000, kEnd = 0;
   constexpr std::uint32_t instructions[] = {kOctetAtOffset, 0, kEnd};
   const TypeDescriptor descriptor{.size = 1,

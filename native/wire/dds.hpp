@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions of Cyclone DDS that the wire calls, found at run time in the library of the `cyclonedds` wheel.
-// The wheel brings no headers: the few structures that cross the boundary are declared here as Cyclone 11 has them.
+// The functions of Cyclone DDS that the wire uses, loaded at run time from the library of the `cyclonedds` wheel. The
+// wheel contains no headers, so the few structures that are passed to it are declared here as in Cyclone DDS 11.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ struct SampleInfo {
   std::int32_t sample_state;
   std::int32_t view_state;
   std::int32_t instance_state;
-  bool valid_data;  // false: an instance or a writer has ended, the payload is a stub
+  bool valid_data;  // false: an instance or a writer has ended, and there is no payload
   std::int64_t source_timestamp;
   Handle instance_handle;
   Handle publication_handle;
@@ -75,7 +75,7 @@ struct IoVector {
 #endif
 };
 
-// The sample that topics of the wheel write.
+// The sample format of the topics that the wheel creates.
 struct SampleContainer {
   const void* data;
   std::size_t size;
@@ -110,12 +110,12 @@ enum IgnoreLocal : std::int32_t { kIgnoreNothing = 0, kIgnoreParticipant = 1 };
 inline constexpr std::int32_t kAliveInstance = 16;
 inline constexpr std::int32_t kUnlimited = -1;
 inline constexpr std::int16_t kXcdr1 = 0;
-inline constexpr std::int32_t kData = 2;  // SDK_DATA: a whole sample, not its key alone
+inline constexpr std::int32_t kData = 2;  // SDK_DATA: a complete sample, not only its key
 inline constexpr Code kBadParameter = -3;
 inline constexpr Code kTimeout = -10;
 inline constexpr Code kPreconditionNotMet = -4;
 
-// X(return type, name, arguments): every function called, once.
+// X(return type, name, arguments) for every function that is used.
 #define COFRAME_DDS_FUNCTIONS(X)                                                                          \
   X(Entity, dds_create_domain, (std::uint32_t id, const char* config))                                    \
   X(Entity, dds_create_participant, (std::uint32_t domain, const Qos*, const Listener*))                  \
@@ -181,31 +181,31 @@ class Error : public std::runtime_error {
   Code code_;
 };
 
-// Loads the library at `path` and finds every function; throws std::runtime_error naming what is missing.
-// The library stays loaded: its threads may outlive any of our objects.
+// Loads the library at `path` and finds every function. Throws std::runtime_error that names what is missing. The
+// library stays loaded, because its threads may outlive all objects of this module.
 void load(const std::string& path);
 
-// The functions. Throws std::logic_error before `load` and if `forked`.
+// Returns the functions. Throws std::logic_error before load() and if forked().
 const Functions& functions();
 
-// True in a child process that was forked while its parent used DDS: the DDS threads do not exist there, and locks may
-// be held.
+// Returns true in a child process that was forked while its parent used DDS: the DDS threads do not exist there, and
+// locks may be held.
 bool forked() noexcept;
-// Counts participants: opened (1) or closed (-1).
+// Adds `change` to the number of participants: 1 when one is opened, -1 when one is closed.
 void count_participants(int change) noexcept;
 
 // Returns `code`, or throws Error "could not <what>: <DDS's text>" if it is negative.
 Code check(Code code, const char* what);
 
 // Creates a topic whose readers receive all bytes that arrive under the type's name and check them themselves. With the
-// real type, Cyclone drops invalid messages with a line on stderr each, which cannot be counted, and its check of sent
-// messages takes three times as long as the rest of sending.
+// real type, Cyclone DDS drops invalid messages with a line on stderr each, which cannot be counted, and its check of
+// sent messages takes three times as long as the rest of sending.
 Entity create_unchecked_topic(Entity participant, const std::string& name, const std::string& type);
 
-// The handles that `get`, dds_get_matched_*, gives for `entity`.
+// Returns all handles of `entity` from `get`, one of the functions dds_get_matched_*.
 std::vector<Handle> matched_handles(Code (*get)(Entity, Handle*, std::size_t), Entity entity);
 
-// One taken sample, returned to DDS at the end of its scope.
+// One taken sample; it is returned to DDS at the end of its scope.
 class Sample {
  public:
   Sample(Serdata* data, const SampleInfo& info) noexcept;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The endpoints found by DDS discovery, own and foreign: publications or subscriptions as they appear and disappear.
+// The endpoints found by DDS discovery, including those of this process: publications or subscriptions as they appear
+// and disappear.
 #pragma once
 
 #include <memory>
@@ -28,6 +29,7 @@ class EndpointReader {
   // `topic` is dds::kPublicationTopic or dds::kSubscriptionTopic. `on_change` is set whenever something has changed.
   EndpointReader(dds::Entity participant, dds::Entity topic, std::shared_ptr<Event> on_change);
   void close() noexcept { reader_.close(); }
+  // Returns the changes since the last call.
   std::vector<EndpointChange> take();
 
  private:

@@ -12,7 +12,8 @@ class Event {
  public:
   void set();
   void clear();
-  // Waits until set or for `timeout_ns` (negative: for ever). True when it was set, which also clears it.
+  // Waits until the event is set or `timeout_ns` has passed (negative: no limit). If it was set, clears it and returns
+  // true.
   bool wait(std::int64_t timeout_ns);
 
  private:

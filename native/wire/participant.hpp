@@ -11,20 +11,20 @@ namespace coframe {
 
 class DomainParticipant {
  public:
-  // `config` is Cyclone's XML; other participants can read `user_data`. A domain that this process has already opened
-  // elsewhere is shared, with its configuration.
+  // `config` is the XML configuration of Cyclone DDS. Other participants can read `user_data`. If this process has
+  // already opened the domain, it is shared, and `config` has no effect.
   DomainParticipant(std::uint32_t domain, const std::string& config, const std::string& user_data);
   ~DomainParticipant() { close(); }
   DomainParticipant(const DomainParticipant&) = delete;
   DomainParticipant& operator=(const DomainParticipant&) = delete;
 
-  // Deletes the participant with everything in it; returns when DDS's threads have ended.
+  // Deletes the participant with all its entities. Returns after the threads of DDS have ended.
   void close() noexcept;
   dds::Entity entity() const { return participant_; }
   dds::Guid guid() const;
 
  private:
-  dds::Entity domain_ = 0;  // 0: owned elsewhere
+  dds::Entity domain_ = 0;  // 0: opened by another part of the process
   std::atomic<dds::Entity> participant_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quality of service: the four policies ROS programs set, and the DDS object made of them.
+// Quality of service: the four policies that ROS programs set, and the DDS object that is created from them.
 #pragma once
 
 #include <memory>

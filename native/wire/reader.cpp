@@ -25,12 +25,12 @@ std::vector<dds::Sample> Reader::take(std::uint32_t limit) {
   pending_ = false;
   while (left > 0) {
     samples.reserve(samples.size() + std::min(left, dds::kBatch));
-    const std::uint32_t asked = std::min(left, dds::kBatch);
+    const std::uint32_t requested = std::min(left, dds::kBatch);
     const std::size_t before = samples.size();
     const std::uint32_t taken =
-        dds::take(reader_.entity(), asked, [&](dds::Sample&& sample) { samples.push_back(std::move(sample)); });
+        dds::take(reader_.entity(), requested, [&](dds::Sample&& sample) { samples.push_back(std::move(sample)); });
     left -= static_cast<std::uint32_t>(samples.size() - before);
-    if (taken < asked) return samples;
+    if (taken < requested) return samples;
   }
   pending_ = true;
   return samples;

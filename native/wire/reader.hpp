@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// DDS -> serialised messages of any type, taken by the thread that waits for the event.
+// Receives serialised messages of any type. The thread that waits for the event takes them.
 #pragma once
 
 #include <atomic>
@@ -20,7 +20,7 @@ class Reader {
          std::shared_ptr<Event> on_data);
   void close() noexcept { reader_.close(); }
 
-  // Up to `limit` messages, oldest first.
+  // Returns up to `limit` messages, oldest first.
   std::vector<dds::Sample> take(std::uint32_t limit);
   // Returns whether samples may be waiting; false positives are possible, false negatives are not.
   bool pending() const { return pending_; }

@@ -23,7 +23,7 @@ Tap::Tap(dds::Entity participant, dds::Entity topic, const QosProfile& profile, 
   on_data(reader_.entity(), this);  // samples that arrived before the listener was attached
 }
 
-// An exception must not reach DDS, which is C: out of memory, a message is lost.
+// DDS is written in C, so no exception may reach it. If memory runs out, a message is lost.
 void Tap::on_data(dds::Entity reader, void* self) noexcept {
   try {
     static_cast<Tap*>(self)->drain(reader);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// DDS -> serialised messages with their arrival times, taken by polling.
+// Receives serialised messages with their arrival times. The user polls for them.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ namespace coframe {
 
 class Tap {
  public:
-  // Messages, the oldest first: arrival time by the system clock, send time by the writer's clock (both in nanoseconds
-  // since 1970), the writer, and where the stored bytes of each end.
+  // Messages, oldest first: arrival time by the system clock, send time by the writer's clock (both in nanoseconds
+  // since 1970), the writer, and the end of the stored bytes of each.
   struct Messages {
     std::vector<std::int64_t> arrived, sent;
     std::vector<dds::Handle> writers;
@@ -24,14 +24,14 @@ class Tap {
     std::string bytes;
   };
 
-  // Keeps the first `head` bytes of each message and at most `capacity` messages; further messages are only counted.
+  // Keeps the first `head` bytes of each message, and at most `capacity` messages; further ones are only counted.
   Tap(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
       std::size_t head, std::size_t capacity);
   void close() noexcept { reader_.close(); }
 
   // Returns the messages since the last call.
   Messages take();
-  // Returns how many messages arrived while it was full.
+  // Returns how many messages were dropped because `capacity` was reached.
   std::uint64_t missed();
 
   const DataReader& reader() const { return reader_; }
@@ -41,7 +41,7 @@ class Tap {
   void drain(dds::Entity reader);
 
   const std::size_t head_, capacity_;
-  std::mutex mutex_;  // of the two below
+  std::mutex mutex_;  // protects the two members below
   Messages messages_;
   std::uint64_t missed_ = 0;
   DataReader reader_;  // last: its callback uses the members above

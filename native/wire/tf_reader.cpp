@@ -8,7 +8,7 @@
 namespace coframe {
 namespace {
 
-// Limits the number of remembered publishers: DDS does not report the end of every one.
+// The maximum number of publishers in memory, because DDS does not report the end of every publisher.
 constexpr std::size_t kMaxSources = 1024;
 
 template <class Clock>
@@ -51,7 +51,7 @@ std::vector<TfReader::WriterStatistics> TfReader::writers() const {
   return all;
 }
 
-// An exception must not reach DDS, which is C: out of memory, a message is lost.
+// DDS is written in C, so no exception may reach it. If memory runs out, a message is lost.
 void TfReader::on_data(dds::Entity reader, void* self) noexcept {
   try {
     static_cast<TfReader*>(self)->drain(reader);

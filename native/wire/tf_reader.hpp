@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// DDS -> buffer: transforms are stored on DDS's own thread, without the GIL.
+// Receives transforms and stores them in a buffer, in the thread of DDS and without the GIL.
 #pragma once
 
 #include <atomic>
@@ -26,7 +26,7 @@ class TfReader {
     std::uint64_t messages;
     std::int64_t received_at;  // nanoseconds of the steady clock
     ArrivalPeriod period;
-    StampDelay delay;  // of its stamps behind the system clock; dynamic transforms only
+    StampDelay delay;  // from its stamps to their arrival by the system clock; dynamic transforms only
     NameProblems name_problems;
   };
 
@@ -39,13 +39,13 @@ class TfReader {
 
   // Stores `authority` as the source of this writer's past and future transforms.
   void name_writer(dds::Handle writer, const std::string& authority);
-  // Forget a writer that has disappeared.
+  // Forgets a writer that has disappeared.
   void forget_writer(dds::Handle writer);
 
   // Returns the statistics of all writers.
   std::vector<WriterStatistics> writers() const;
 
-  // When the transforms of the newest message were stored, in nanoseconds of the steady clock; 0: never.
+  // Returns when transforms were last stored, in nanoseconds of the steady clock; 0: never.
   std::int64_t stored_at() const { return stored_at_; }
 
   const DataReader& reader() const { return reader_; }
@@ -69,7 +69,7 @@ class TfReader {
   const bool is_static_;
   const std::string authority_;
   const std::shared_ptr<const Renaming> renaming_;
-  mutable std::mutex mutex_;                         // of the sources
+  mutable std::mutex mutex_;                         // protects the sources
   std::unordered_map<dds::Handle, Source> sources_;  // by writer
   std::atomic<std::int64_t> stored_at_ = 0;
   DataReader reader_;  // last: its callback uses the members above

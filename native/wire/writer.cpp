@@ -9,7 +9,8 @@ namespace coframe {
 namespace {
 
 void check_encapsulation(std::size_t size) {
-  if (size < 4) throw std::invalid_argument("a serialised message begins with 4 bytes of encapsulation");
+  if (size < 4)
+    throw std::invalid_argument("The message is too short: a serialised message begins with 4 bytes of encapsulation.");
 }
 
 }  // namespace
@@ -46,7 +47,7 @@ dds::Code Writer::pass_on(const void* data, std::size_t size) const {
   whole.data = const_cast<void*>(data);
   whole.size = static_cast<decltype(whole.size)>(size);
   dds::Serdata* sample = f.ddsi_serdata_from_ser_iov(type, dds::kData, 1, &whole, size);  // copies the bytes
-  return sample ? f.dds_writecdr(entity_, sample) : dds::kBadParameter;                   // takes the sample
+  return sample ? f.dds_writecdr(entity_, sample) : dds::kBadParameter;                   // releases the sample
 }
 
 void Writer::close() noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Serialised messages -> DDS.
+// Publishes serialised messages.
 #pragma once
 
 #include <atomic>
@@ -14,16 +14,17 @@ namespace coframe {
 
 class Writer {
  public:
-  // `unchecked`: the topic is a dds::create_unchecked_topic() of transforms, and this checks what is written.
+  // `unchecked`: the topic was created by dds::create_unchecked_topic() for transforms, so this class checks messages
+  // before it sends them.
   Writer(dds::Entity participant, dds::Entity topic, const QosProfile& profile, const std::string& user_data,
          bool unchecked);
   ~Writer() { close(); }
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  // Sends one message: 4 bytes of encapsulation, then CDR. Throws std::invalid_argument for less than that.
+  // Sends one message: 4 bytes of encapsulation, then CDR. Throws std::invalid_argument for less than 4 bytes.
   void write(const void* data, std::size_t size) const;
-  // The same on an unchecked topic, for a message of any type, without a check of its bytes.
+  // Sends one message of any type on an unchecked topic without checking its bytes.
   void forward(const void* data, std::size_t size) const;
   void close() noexcept;
 
@@ -37,7 +38,7 @@ class Writer {
   dds::Code pass_on(const void* data, std::size_t size) const;
 
   const bool unchecked_;
-  mutable std::mutex closing_;  // held while the topic's type, which ends with the entity, is used
+  mutable std::mutex closing_;  // held while the type of the topic is used, because close() deletes it
   std::atomic<dds::Entity> entity_ = 0;
 };
 

@@ -4,34 +4,33 @@ import importlib
 import warnings
 from typing import TYPE_CHECKING, Any
 
-from coframe.buffer import Buffer, CallbackHandle, EdgeInfo, FrameInfo
-from coframe.connection import Connection, connect
-from coframe.errors import (
-    CoframeError,
-    ConnectivityException,
-    DecodeError,
-    ExtrapolationException,
-    FrameMismatchException,
-    FrozenFileError,
-    InvalidArgumentException,
-    LookupException,
-    PackageError,
-    PlotError,
-    RecordingError,
-    RobotDescriptionError,
-    TimeoutException,
-    TrajectoryError,
-    TransformException,
-    ViewerError,
-    WireError,
-)
-from coframe.transform import Transform
-
 if TYPE_CHECKING:
     from coframe.bags import open_bag
+    from coframe.buffer import Buffer, CallbackHandle, EdgeInfo, FrameInfo
+    from coframe.connection import Connection, connect
+    from coframe.errors import (
+        CoframeError,
+        ConnectivityException,
+        DecodeError,
+        ExtrapolationException,
+        FrameMismatchException,
+        FrozenFileError,
+        InvalidArgumentException,
+        LookupException,
+        PackageError,
+        PlotError,
+        RecordingError,
+        RobotDescriptionError,
+        TimeoutException,
+        TrajectoryError,
+        TransformException,
+        ViewerError,
+        WireError,
+    )
     from coframe.frozen import load
     from coframe.recorder import play, record
     from coframe.tf_relay import relay
+    from coframe.transform import Transform
     from coframe.viewer.show import show
 
 __version__ = "0.1.0"
@@ -97,25 +96,33 @@ _PUBLIC_MODULES = {
 _RENAMED = {"Subscription": "CallbackHandle"}
 
 
+# The other names are imported together on first use: the command line shows its help without NumPy.
+_CORE = ("coframe.buffer", "coframe.connection", "coframe.errors", "coframe.transform")
+
+
 def _publish(name: str, value: Any) -> Any:
     """Let a public class or function report `coframe` as its module, as users import it from there."""
-    if name != "__version__":
-        value.__module__ = __name__
+    value.__module__ = __name__
+    globals()[name] = value
     return value
 
 
-for _name in __all__:
-    if _name not in _LAZY:
-        _publish(_name, globals()[_name])
+def _import_core() -> None:
+    modules = [importlib.import_module(name) for name in _CORE]
+    for name in __all__:
+        if name not in _LAZY and name != "__version__":
+            _publish(name, next(getattr(module, name) for module in modules if hasattr(module, name)))
 
 
 def __getattr__(name: str) -> Any:
     """Import a function or module of the public interface on first use."""
+    if name in __all__ or name in _RENAMED:
+        _import_core()
     if name in _LAZY:
-        value = _publish(name, getattr(importlib.import_module(_LAZY[name]), name))
-        globals()[name] = value
-        return value
-    if name in _PUBLIC_MODULES:
+        return _publish(name, getattr(importlib.import_module(_LAZY[name]), name))
+    if name in globals():
+        return globals()[name]
+    if name in _PUBLIC_MODULES or f"coframe.{name}" in _CORE:
         return importlib.import_module(f"coframe.{name}")
     if name in _RENAMED:
         new = _RENAMED[name]

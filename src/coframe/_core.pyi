@@ -391,7 +391,7 @@ def watch(buffer: Buffer, mailbox: Mailbox, token: int, child: str) -> Watch:
     """Put the token into the mailbox when the edge from `child` to its parent changes; "": any edge."""
 
 class Event:
-    """A flag that DDS threads and Python set and that one thread waits for without the GIL."""
+    """A flag that DDS threads and Python set, and for which one thread waits without the GIL."""
 
     def __init__(self) -> None: ...
     def set(self) -> None:
@@ -537,9 +537,9 @@ def deskew_fields(
     target: str,
     source: str,
     times: Any,
-    onward: Sequence[float],
+    result_from_target: Sequence[float],
     fields: Sequence[Sequence[Any]],
-    nan_for_none: bool,
+    nan_for_missing: bool,
     threads: int,
 ) -> tuple[int, int]:
     """Transform points from `source` to `target`, each at its own time, and then by a pose, in place.
@@ -549,9 +549,9 @@ def deskew_fields(
         target: The fixed frame.
         source: The sensor's frame.
         times: int64 nanoseconds, one per point; 0 is the latest, the smallest int64 means none.
-        onward: The pose of `target` relative to the frame of the result.
+        result_from_target: The pose of `target` relative to the frame of the result.
         fields: See transform_fields().
-        nan_for_none: Points without a transform become NaN; otherwise no point changes if one has no transform.
+        nan_for_missing: Points without a transform become NaN; otherwise no point changes if one has no transform.
         threads: Number of threads.
 
     Returns:
@@ -696,13 +696,13 @@ class DomainParticipant:
         """End the participant and DDS's threads."""
 
 class Writer:
-    """A DDS writer of serialised messages."""
+    """A DDS writer of serialized messages."""
 
     def __init__(
         self, participant: int, topic: int, qos: QosProfile, user_data: str, unchecked: bool = False
     ) -> None: ...
     def write(self, message: bytes) -> None:
-        """Send one serialised message without the GIL."""
+        """Send one serialized message without the GIL."""
 
     def forward(self, message: bytes) -> None:
         """Send a message of any type on an unchecked topic, without a check of its bytes."""
@@ -723,7 +723,7 @@ class Writer:
     def close(self) -> None: ...
 
 class Reader:
-    """A DDS reader of serialised messages; the event is set whenever some arrive."""
+    """A DDS reader of serialized messages; the event is set whenever some arrive."""
 
     def __init__(
         self, participant: int, topic: int, qos: QosProfile, user_data: str, on_data: Event | None
@@ -804,9 +804,9 @@ class TfReader:
         """Return the statistics of each writer.
 
         Returns:
-            The writer's handle; how many messages; when the last one came, in nanoseconds of the steady clock; by how
-            much its stamps were behind the system clock, the lower quartile of its last messages, or None; examples of
-            names that begin with a slash, have the prefix already, and have not.
+            The writer's handle; the number of messages; the arrival time of the last one, in nanoseconds of the steady
+            clock; the lower quartile of the delays of its last messages relative to the system clock, or None; examples
+            of names that begin with a slash, that already have the prefix, and that do not.
         """
 
     def forget_writer(self, writer: int) -> None:

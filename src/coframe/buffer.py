@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Literal, NamedTuple, TypeAlias, overload
 
 import numpy as np
 
-from coframe import _core, errors, frozen_file, time
+from coframe import _core, errors, frozen_file, html_tables, time
 from coframe.analysis.clocks import present_for
 from coframe.analysis.liveness import buffered_period, is_stale
 from coframe.dispatcher import Dispatcher
 from coframe.errors import InvalidArgumentException, TimeoutException, TransformException
-from coframe.formatting import duration
+from coframe.formatting import duration, seconds
 from coframe.resampling import StepLimits
 from coframe.transform import batch_of, stamps_of
 
@@ -76,7 +76,8 @@ class EdgeInfo(NamedTuple):
         samples: Number of samples in the buffer.
         oldest: Stamp of the oldest sample.
         newest: Stamp of the newest sample.
-        age: Age of the newest sample; negative if it is ahead of the clock, None if static or without data.
+        age: Age of the newest sample; negative if it is ahead of the clock, None if static or without data, and in
+            recordings and snapshots if no time was given.
         rate: Samples per second, from the mean interval between the stamps in the buffer.
         jitter: Standard deviation of these intervals.
         longest_gap: The longest of these intervals.
@@ -183,13 +184,13 @@ class Buffer(_core.Buffer):
                 stamp of the transform. Static transforms need no stamp.
             static: Whether the transform is valid for all time. A frame that changes between static and dynamic loses
                 its earlier samples.
-            authority: Name of the publisher, as reports show it.
+            authority: Name of the publisher, as shown in reports.
 
         Returns:
             True if the sample was stored; False if it was older than the cache.
 
         Raises:
-            InvalidArgumentException: tf2 refuses the transform (empty or equal frame names, NaN, ...), with tf2's
+            InvalidArgumentException: tf2 rejects the transform (empty or equal frame names, NaN, ...), with tf2's
                 text; or the transform is between other frames, or has no stamp, or the buffer is frozen.
             TypeError: ``transform`` is not a :class:`coframe.Transform`.
         """
@@ -248,13 +249,13 @@ class Buffer(_core.Buffer):
                 stamps of the batch.
             poses: A batch of shape (N,), or an array of shape (N, 7): x, y, z in metres and qx, qy, qz, qw.
             static: Whether the transform is valid for all time; then the last sample is used.
-            authority: Name of the publisher, as reports show it.
+            authority: Name of the publisher, as shown in reports.
 
         Returns:
             The number of stored samples. Samples older than the cache are not stored.
 
         Raises:
-            InvalidArgumentException: tf2 refuses one of the samples, with tf2's text, or the buffer is frozen; then
+            InvalidArgumentException: tf2 rejects one of the samples, with tf2's text, or the buffer is frozen; then
                 no sample is stored.
             ValueError: The shapes do not match.
         """
@@ -572,7 +573,7 @@ class Buffer(_core.Buffer):
         return copy
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Save the buffer to a file that :func:`coframe.load` opens without reading it, whatever its size.
+        """Save the buffer to a file that :func:`coframe.load` opens without reading it first.
 
         A sample takes 72 bytes, and a moving frame up to 18 kB more. The file is complete or does not appear at all.
 
@@ -589,8 +590,8 @@ class Buffer(_core.Buffer):
 
         Args:
             children: Child frames of the edges to return; None returns all edges.
-            now: Current time in nanoseconds, from which ages are computed; by default the system time. Pass the time
-                of the clock for recordings and simulations.
+            now: Current time in nanoseconds, from which ages are computed; by default the system time, and no age for
+                recordings. Pass the time of the clock for simulations.
         """
         given = now is not None or self.frozen or self.cache_ns < 0
         wall = system_time.time_ns() if now is None else now
@@ -598,7 +599,7 @@ class Buffer(_core.Buffer):
         for facts in self._edge_tuples(children):
             newest = facts[0][5]
             present = now if given else present_for(newest, wall)
-            edges.append(_edge_info(self, *facts, wall, present))
+            edges.append(_edge_info(self, *facts, None if now is None and given else wall, present))
         return edges
 
     def frames(self) -> list[FrameInfo]:
@@ -620,6 +621,26 @@ class Buffer(_core.Buffer):
     def __repr__(self) -> str:
         cache = "everything" if self.cache_ns < 0 else f"{self.cache_ns / time.SECOND:g}s"
         return f"Buffer(cache={cache}, frames={len(self.frame_names())})"
+
+    def _repr_html_(self) -> str:
+        children = [frame.name for frame in self.frames() if frame.parent]
+        edges = self.edges(children[: html_tables.MOST_ROWS])
+        rows = [
+            (edge.parent, edge.child, edge.samples, "static", "", "", edge.authority)
+            if edge.static
+            else (
+                edge.parent,
+                edge.child,
+                edge.samples,
+                f"{edge.rate:.3g} Hz",
+                seconds(edge.oldest),
+                seconds(edge.newest),
+                edge.authority,
+            )
+            for edge in edges
+        ]
+        columns = ("parent", "child", "samples", "rate", "oldest [s]", "newest [s]", "publisher")
+        return html_tables.section(repr(self), html_tables.table(columns, rows, len(children), "edge"))
 
 
 _core.register_buffer_class(Buffer)
@@ -645,7 +666,7 @@ def _edge_info(
     frame: tuple[str, str, bool, int, int, int, float, str],
     intervals: tuple[float, float, float],
     counts: tuple[int, int, int, int, int, int, int],
-    now: int,
+    now: int | None,
     present: int | None,
 ) -> EdgeInfo:
     child, parent, static, samples, oldest, newest, _, authority = frame
@@ -659,7 +680,7 @@ def _edge_info(
         samples=samples,
         oldest=oldest,
         newest=newest,
-        age=None if static or not samples else now - newest,
+        age=None if static or not samples or now is None else now - newest,
         rate=time.SECOND / mean if mean else 0.0,
         jitter=deviation,
         longest_gap=round(longest),
@@ -680,7 +701,7 @@ def _is_stale(
     if present is None:
         return None
     silence = present - newest
-    # The period is read only where it decides.
+    # The period is read only if the result depends on it.
     return is_stale(silence, 0.0) and is_stale(silence, buffered_period(buffer, parent, child, oldest, newest, samples))
 
 

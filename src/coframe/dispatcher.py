@@ -149,7 +149,7 @@ class Dispatcher:
                 raise
 
     def _remove_old_deadlines(self) -> None:
-        """Remove the deadlines of finished waits when there are many; they may lie far in the future."""
+        """Remove the deadlines of finished waits when there are many; they may be far in the future."""
         if len(self._deadlines) <= 2 * len(self._entries) + _SPARE_DEADLINES:
             return
         old, self._deadlines = self._deadlines, []
@@ -233,7 +233,9 @@ def _run(reference: weakref.ref[Dispatcher], mailbox: _core.Mailbox) -> None:
         try:
             pause = dispatcher.turn() if dispatcher is not None else None
         except BaseException:  # noqa: BLE001 - sys.exit() in one callback must not end the thread of all callbacks
-            _log.exception("A callback of a buffer tried to end the thread of all callbacks")
+            _log.exception(
+                "A buffer callback raised an exception that would end the thread of all callbacks; it is ignored"
+            )
             pause = 0
         del dispatcher
         if pause is None:

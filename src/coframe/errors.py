@@ -6,7 +6,7 @@
         │   ├── LookupException                 a frame does not exist, or the tree contains a loop
         │   ├── ConnectivityException           the frames are in different trees
         │   ├── ExtrapolationException          no sample at the requested time
-        │   ├── InvalidArgumentException        a name or value that tf2 refuses
+        │   ├── InvalidArgumentException        a name or value that tf2 rejects
         │   │   └── FrameMismatchException      composing a<-b with c<-d where b is not c
         │   └── TimeoutException                the transform did not become available in time
         ├── WireError(RuntimeError)             the ROS graph could not be joined or used
@@ -22,13 +22,16 @@
 Wrong arguments of Python calls (a wrong type, shape or unit) raise TypeError and ValueError as usual.
 
 The names of the transform exceptions are tf2's, and so are their texts (``str(error)``). Every exception also has a
-``hint``, which says what to do next, and a ``doctor_code``, which names the doctor's page about the problem.
+``hint``, which says what to do next, and a ``doctor_code``, which names the doctor's page about the problem. Tracebacks
+show the hint below the text, in Python from 3.11 on and in IPython.
 Transform exceptions carry the facts behind their text as well.
 """
 
 from __future__ import annotations
 
 import difflib
+import sys
+import traceback
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe import _core
@@ -63,6 +66,10 @@ __all__ = [
 ]
 
 
+# What a traceback shows in front of a hint.
+_HINT = "Hint: "
+
+
 class CoframeError(Exception):
     """Base class of all exceptions that coframe raises by itself."""
 
@@ -78,6 +85,30 @@ class CoframeError(Exception):
     def doctor_code(self) -> str:
         """The code of the doctor's page about this problem, such as ``"TF013"``; "" if there is none."""
         return ""
+
+    # The interpreter reads the notes only when it prints a traceback, so other hints are never computed.
+    @property
+    def __notes__(self) -> list[str]:
+        """The notes below the text in a traceback: the hint, and what ``add_note`` has added."""
+        notes: list[str] | None = self.__dict__.get("__notes__")
+        if notes is None:
+            notes = self.__dict__["__notes__"] = [f"{_HINT}{self.hint}"] if self.hint else []
+        return notes
+
+    @__notes__.setter
+    def __notes__(self, notes: list[str]) -> None:
+        self.__dict__["__notes__"] = notes
+
+    def _render_traceback_(self) -> list[str]:
+        """Return the traceback for IPython, which calls this method; only its newer versions show notes."""
+        ipython = sys.modules.get("IPython")
+        shell = ipython.get_ipython() if ipython else None
+        if shell is None:
+            lines = traceback.format_exception(type(self), self, self.__traceback__)
+        else:
+            lines = list(shell.InteractiveTB.structured_traceback(type(self), self, self.__traceback__))
+        note = f"{_HINT}{self.hint}"
+        return lines if not self.hint or note in "\n".join(lines) else [*lines, note]
 
 
 class _Facts(NamedTuple):
@@ -203,7 +234,9 @@ class TransformException(CoframeError):  # noqa: N818 - tf2's name
         kind = type(self)
         # Pickle by name: tf2_py sets the module of these classes to `tf2`, as tf2 does, where pickle cannot find them.
         is_ours = globals().get(kind.__name__) is kind
-        return _restore, (kind.__name__ if is_ours else kind, str(self), facts)
+        arguments = (kind.__name__ if is_ours else kind, str(self), facts)
+        notes = self.__dict__.get("__notes__")
+        return (_restore, arguments) if notes is None else (_restore, arguments, {"__notes__": notes})
 
 
 class LookupException(TransformException):
@@ -219,7 +252,7 @@ class ExtrapolationException(TransformException):
 
 
 class InvalidArgumentException(TransformException):
-    """A frame name or a transform that tf2 refuses."""
+    """A frame name or a transform that tf2 rejects."""
 
 
 class FrameMismatchException(InvalidArgumentException):

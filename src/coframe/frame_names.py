@@ -129,3 +129,7 @@ def naming_problems(origin: str, slashed: str, prefixed: str, plain: str) -> lis
             "are two trees; give the prefix to all of its nodes, or to none"
         )
     return problems
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -22,7 +22,9 @@ _HINTS = {
     ),
     "in_seconds": _Hint("", "Stamps are in nanoseconds: {requested} s is {requested}_000_000_000."),
     "leading_slash": _Hint("TF006", "Remove the leading slash: {bare!r}."),
-    "loop": _Hint("TF004", "Two broadcasters publish different parents for a frame. Let each frame have one parent."),
+    "loop": _Hint(
+        "TF004", "Two broadcasters publish different parents for a frame. Publish each frame with one parent only."
+    ),
     "no_common_time": _Hint(
         "TF013",
         "The samples of {limit} end before those of {parent} -> {child} begin, so the two have no common time. Is the "

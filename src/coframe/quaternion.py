@@ -100,3 +100,7 @@ def to_rpy(q: Array) -> Array:
     roll = np.where(locked, np.arctan2(-m[..., 1, 2], m[..., 1, 1]), np.arctan2(m[..., 2, 1], m[..., 2, 2]))
     yaw = np.where(locked, 0.0, np.arctan2(m[..., 1, 0], m[..., 0, 0]))
     return np.stack((roll, pitch, yaw), axis=-1) + 0.0  # Adding 0 turns -0 into 0.
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -150,3 +150,7 @@ def _number_ns(value: Any, name: str, accepted: str) -> int:
         return int(value.nanoseconds)
     reason = ". A float of seconds cannot hold the current time to the nanosecond." if isinstance(value, float) else ""
     raise TypeError(f"{name} must be {accepted}, not {type(value).__name__}{reason}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

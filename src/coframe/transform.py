@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from coframe import _core, quaternion
+from coframe import _core, html_tables, quaternion
 from coframe.covariance import transform_covariance
 from coframe.errors import FrameMismatchException, InvalidArgumentException
 from coframe.time import stamp_ns
@@ -37,7 +37,7 @@ class Transform(_core.Transform):
 
     Args:
         translation: Position of the origin of ``source`` in ``target``, in metres, shape (..., 3).
-        quaternion: Rotation as x, y, z, w, shape (..., 4); it is normalised.
+        quaternion: Rotation as x, y, z, w, shape (..., 4); it is normalized.
         target: The frame of the transformed coordinates.
         source: The frame of the coordinates to transform.
         stamp: Nanoseconds, or anything that :func:`coframe.time.stamp_ns` takes; for a batch also an int64 array of
@@ -89,8 +89,11 @@ class Transform(_core.Transform):
     def from_rpy(
         cls,
         translation: ArrayLike = (0.0, 0.0, 0.0),
-        rpy: ArrayLike = (0.0, 0.0, 0.0),
+        rpy: ArrayLike | None = None,
         *,
+        roll: ArrayLike | None = None,
+        pitch: ArrayLike | None = None,
+        yaw: ArrayLike | None = None,
         target: str | None = None,
         source: str | None = None,
         stamp: StampLike | None = None,
@@ -99,15 +102,30 @@ class Transform(_core.Transform):
 
         Args:
             translation: Position in metres, shape (..., 3).
-            rpy: Roll, pitch, yaw in radians, shape (..., 3).
+            rpy: Roll, pitch, yaw in radians, shape (..., 3); alternatively, pass the angles by name.
+            roll: Rotation about x in radians, shape (...); 0 if not given.
+            pitch: Rotation about y in radians, shape (...); 0 if not given.
+            yaw: Rotation about z in radians, shape (...); 0 if not given.
             target: The target frame.
             source: The source frame.
             stamp: Time, as in :class:`Transform`.
 
         Raises:
             InvalidArgumentException: A value is not finite.
+            TypeError: ``rpy`` was given together with an angle by name.
             ValueError: ``translation`` or ``rpy`` has another shape.
+
+        Example:
+            >>> import coframe
+            >>> coframe.Transform.from_rpy([1.0, 2.0, 0.0], yaw=0.5)
+            Transform(translation=[1, 2, 0], rpy=[0, 0, 0.5])
         """
+        named = (roll, pitch, yaw)
+        if rpy is None:
+            angles = [np.asarray(0.0 if angle is None else angle, dtype=np.float64) for angle in named]
+            rpy = np.stack(np.broadcast_arrays(*angles), axis=-1)
+        elif any(angle is not None for angle in named):
+            raise TypeError("from_rpy() takes either rpy or the angles roll, pitch and yaw by name, not both")
         q = quaternion.from_rpy(_vectors(rpy, 3, "rpy"))
         return cls(translation, q, target=target, source=source, stamp=stamp)
 
@@ -146,6 +164,51 @@ class Transform(_core.Transform):
             raise ValueError("the last row of the matrix must be 0 0 0 1")
         q = quaternion.from_matrix(rotation)
         return cls(m[..., :3, 3], q, target=target, source=source, stamp=stamp)
+
+    @classmethod
+    def from_scipy(
+        cls,
+        rotation: Any,
+        translation: ArrayLike = (0.0, 0.0, 0.0),
+        *,
+        target: str | None = None,
+        source: str | None = None,
+        stamp: StampLike | None = None,
+    ) -> Transform:
+        """Create a transform from a rotation of SciPy.
+
+        Args:
+            rotation: A ``scipy.spatial.transform.Rotation``, single or with batch axes.
+            translation: Position in metres, shape (..., 3).
+            target: The target frame.
+            source: The source frame.
+            stamp: Time, as in :class:`Transform`.
+
+        Raises:
+            InvalidArgumentException: A value is not finite.
+            TypeError: ``rotation`` is not a rotation of SciPy.
+            ValueError: ``translation`` has another shape.
+        """
+        if not hasattr(rotation, "as_quat"):
+            raise TypeError(f"rotation must be a scipy.spatial.transform.Rotation, not {type(rotation).__name__}")
+        return cls(translation, rotation.as_quat(), target=target, source=source, stamp=stamp)
+
+    def as_scipy(self) -> tuple[Any, Array]:
+        """Return the rotation as SciPy's class, and the translation.
+
+        Returns:
+            A ``scipy.spatial.transform.Rotation`` and the translation in metres, shape (..., 3): the arguments of
+            :meth:`from_scipy`.
+
+        Raises:
+            ModuleNotFoundError: SciPy is not installed.
+        """
+        try:
+            from scipy.spatial.transform import Rotation  # noqa: PLC0415 - coframe itself does not need SciPy
+        except ModuleNotFoundError as error:
+            text = "as_scipy() needs SciPy, which is not installed. Install it with: pip install scipy"
+            raise ModuleNotFoundError(text, name=error.name) from None
+        return Rotation.from_quat(self.quaternion), self.translation.copy()
 
     @property
     def translation(self) -> Array:
@@ -189,6 +252,39 @@ class Transform(_core.Transform):
     def rpy(self) -> Array:
         """Roll, pitch and yaw about the fixed axes x, y, z, in radians; shape (3,), for a batch (..., 3)."""
         return quaternion.to_rpy(self.quaternion)
+
+    @property
+    def x(self) -> Any:
+        """Position along x in metres, as a float; for a batch an array of shape ``self.shape``."""
+        return self._component(self.translation, 0)
+
+    @property
+    def y(self) -> Any:
+        """Position along y in metres, as a float; for a batch an array of shape ``self.shape``."""
+        return self._component(self.translation, 1)
+
+    @property
+    def z(self) -> Any:
+        """Position along z in metres, as a float; for a batch an array of shape ``self.shape``."""
+        return self._component(self.translation, 2)
+
+    @property
+    def roll(self) -> Any:
+        """Rotation about the fixed axis x in radians, as a float; for a batch an array of shape ``self.shape``."""
+        return self._component(self.rpy, 0)
+
+    @property
+    def pitch(self) -> Any:
+        """Rotation about the fixed axis y in radians, as a float; for a batch an array of shape ``self.shape``."""
+        return self._component(self.rpy, 1)
+
+    @property
+    def yaw(self) -> Any:
+        """Rotation about the fixed axis z in radians, as a float; for a batch an array of shape ``self.shape``."""
+        return self._component(self.rpy, 2)
+
+    def _component(self, values: Array, axis: int) -> Any:
+        return values[..., axis] if self.shape else float(values[axis])
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -247,6 +343,31 @@ class Transform(_core.Transform):
             other.source,
             _common_stamp(mine, others),
         )
+
+    def transform_point(self, point: Any) -> Array:
+        """Transform points from ``source`` to ``target``, like ``self @ point``.
+
+        Args:
+            point: Points in metres, shape (..., 3), or an object with the attributes x, y and z, such as a
+                geometry_msgs/Point.
+
+        Returns:
+            The points expressed in ``target``, in metres, shape (..., 3).
+
+        Raises:
+            TypeError: ``point`` is a transform.
+            ValueError: The points have another shape.
+
+        Example:
+            >>> import coframe
+            >>> coframe.Transform([1.0, 0.0, 0.0]).transform_point([0.0, 2.0, 0.0]).tolist()
+            [1.0, 2.0, 0.0]
+        """
+        if isinstance(point, _core.Transform):
+            raise TypeError("transform_point() takes points, not a Transform. Use `a @ b` to compose two transforms.")
+        if all(hasattr(point, axis) for axis in "xyz"):
+            point = (point.x, point.y, point.z)
+        return self @ np.asarray(point, dtype=np.float64)
 
     def transform_pose(
         self, pose: Transform, covariance: ArrayLike, *, own_covariance: ArrayLike | None = None
@@ -324,6 +445,20 @@ class Transform(_core.Transform):
             return f"Transform({frames}batch {self.shape})"
         stamp = "" if self.stamp is None else f", stamp={self.stamp}"
         return f"Transform({frames}translation={_numbers(self.translation)}, rpy={_numbers(self.rpy)}{stamp})"
+
+    def _repr_html_(self) -> str:
+        total = int(np.prod(self.shape))
+        first = min(total, html_tables.MOST_ROWS)
+        lengths, angles = self.translation.reshape(-1, 3)[:first], self.rpy.reshape(-1, 3)[:first]
+        stamps = self.stamps if self.shape else None if self.stamp is None else np.array([self.stamp])
+        times = [""] * first if stamps is None else stamps.reshape(-1)[:first].tolist()
+        rows = [
+            (stamp, *(f"{value:.6g}" for value in (*xyz, *rpy)))
+            for stamp, xyz, rpy in zip(times, lengths.tolist(), angles.tolist(), strict=True)
+        ]
+        title = f"Transform {_arrow(self)}" + (f", batch {self.shape}" if self.shape else "")
+        columns = ("stamp [ns]", "x [m]", "y [m]", "z [m]", "roll [rad]", "pitch [rad]", "yaw [rad]")
+        return html_tables.section(title, html_tables.table(columns, rows, total, "transform"))
 
     def __reduce__(self) -> tuple[object, ...]:
         return _rebuild, (self.values, self.target, self.source, self.stamp, self._batch, self._beyond)

@@ -137,7 +137,7 @@ def test_statics_are_added_to_one_robot(tmp_path):
     code, output = fix(run.write(tmp_path), tmp_path / "new", "--statics", plain.write(tmp_path / "plain"), *robot1)
     assert code == 0
     assert "fixed: /robot1/tf_static: 1 static transforms added" in output
-    assert "1 static transforms not added because the recording contains their frames" in output
+    assert "1 static transform not added because the recording contains their frames" in output
     with coframe.open_bag(tmp_path / "new") as bag:
         assert bag.buffers["/robot1"].can_transform("robot1/odom", "robot1/lidar")
         assert [(edge.parent, edge.child) for edge in bag.buffers[""].edges() if edge.parent] == [("base", "lidar")]
@@ -160,9 +160,9 @@ def test_rejected_transforms_and_damaged_messages_are_removed(tmp_path):
     report = repair(source, tmp_path / "new")
     assert len(report.problems) == 3
     assert report.remaining == []
-    assert "/tf: 1 transforms removed that tf2 refuses" in report.changes
-    assert "/tf: 1 damaged messages skipped" in report.changes
-    assert "/tf_static: 1 static transforms removed of frames that also move" in report.changes
+    assert "/tf: 1 invalid transform removed, which tf2 rejects" in report.changes
+    assert "/tf: 1 damaged message skipped" in report.changes
+    assert "/tf_static: 1 static transform of moving frames removed" in report.changes
     with coframe.open_bag(tmp_path / "new") as bag:
         recordings.assert_same(bag.buffer)
 

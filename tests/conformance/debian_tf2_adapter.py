@@ -1,6 +1,6 @@
 """An adapter from the JSON lines of the conformance cases to Debian's real tf2 (ROS 1); runs in Debian's Python.
 
-Every insertion tells what it has made of the log.
+The answer to every insertion contains the lines that it added to the log.
 """
 
 import json

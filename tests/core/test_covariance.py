@@ -28,7 +28,7 @@ def errors_between(disturbed, exact):
 
 
 @pytest.mark.parametrize("seed", range(2))
-def test_sampled_poses_scatter_as_told(seed):
+def test_sampled_poses_have_the_computed_covariance(seed):
     rng = np.random.default_rng(seed)
     transform, pose = random_transform(rng), random_transform(rng)
     of_pose, of_transform = random_covariance(rng, 1e-3), random_covariance(rng, 1e-3)

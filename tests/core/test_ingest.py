@@ -28,7 +28,7 @@ def test_bytes_of_a_real_ros_stack_are_ingested(shared):
     assert base.values == pytest.approx((1, 2, 3, 0, 0, 0.5**0.5, 0.5**0.5))
     names = coframe.Buffer()
     assert names.ingest(bytes.fromhex((samples / "humble_utf8_and_negative.hex").read_text())) == 0
-    assert names.statistics["refused"] == 1  # a NaN, as tf2 refuses it
+    assert names.statistics["refused"] == 1  # a NaN, as tf2 rejects it
 
 
 def test_encoded_bytes_equal_those_of_a_real_ros_stack(shared):

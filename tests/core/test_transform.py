@@ -2,6 +2,8 @@
 
 import copy
 import pickle
+import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -121,6 +123,62 @@ def test_values_are_kept_by_pickle_and_copy(rng):
     assert copy.copy(guess).extrapolated == pickle.loads(pickle.dumps(guess)).extrapolated == 3
     error = pickle.loads(pickle.dumps(coframe.LookupException.with_details("text", target="a", hint="do")))
     assert (str(error), error.target, error.hint) == ("text", "a", "do")
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_components_are_floats_or_arrays(rng, shape):
+    a = random_transform(rng, shape)
+    for axis, (length, angle) in enumerate([(a.x, a.roll), (a.y, a.pitch), (a.z, a.yaw)]):
+        np.testing.assert_array_equal(length, a.translation[..., axis])
+        np.testing.assert_array_equal(angle, a.rpy[..., axis])
+        assert (type(length), type(angle)) == ((float, float) if shape == () else (np.ndarray, np.ndarray))
+
+
+def test_angles_by_name():
+    assert Transform.from_rpy(yaw=0.5) == Transform.from_rpy(rpy=[0, 0, 0.5])
+    whole = Transform.from_rpy([1, 2, 3], roll=0.1, pitch=0.2, yaw=0.3, target="a", source="b", stamp=7)
+    assert whole == Transform.from_rpy([1, 2, 3], [0.1, 0.2, 0.3], target="a", source="b", stamp=7)
+    batch = Transform.from_rpy(roll=0.1, yaw=[0.0, 0.5])
+    assert batch.shape == (2,)
+    np.testing.assert_allclose(batch.rpy, [[0.1, 0, 0], [0.1, 0, 0.5]], atol=1e-15)
+    with pytest.raises(TypeError, match="not both"):
+        Transform.from_rpy(rpy=[0, 0, 1], yaw=0.0)
+    with pytest.raises(coframe.InvalidArgumentException, match="must be finite"):
+        Transform.from_rpy(yaw=np.nan)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_points_are_transformed_by_name(rng, shape):
+    a = random_transform(rng, shape)
+    points = rng.normal(size=(*shape, 3))
+    np.testing.assert_array_equal(a.transform_point(points), a @ points)
+    message = SimpleNamespace(x=1.0, y=2.0, z=3.0)
+    np.testing.assert_array_equal(a.transform_point(message), a @ [1.0, 2.0, 3.0])
+    with pytest.raises(TypeError, match="a @ b"):
+        a.transform_point(a)
+    with pytest.raises(ValueError, match="shape"):
+        a.transform_point([1.0, 2.0])
+
+
+@pytest.mark.parametrize("shape", SHAPES[:3])
+def test_scipy_round_trip(rng, shape):
+    a = random_transform(rng, shape)
+    rotation, translation = a.as_scipy()
+    assert isinstance(rotation, Rotation)
+    np.testing.assert_allclose(rotation.as_matrix(), a.rotation, atol=1e-12)
+    assert Transform.from_scipy(rotation, translation).is_close(a, translation=0, rotation=1e-12)
+    named = Transform.from_scipy(rotation, target="a", source="b")
+    assert (named.target, named.source) == ("a", "b")
+    with pytest.raises(TypeError, match=r"must be a scipy.spatial.transform.Rotation, not list"):
+        Transform.from_scipy([0, 0, 0, 1])
+
+
+def test_missing_scipy_is_one_sentence(monkeypatch):
+    for name in ("scipy", "scipy.spatial", "scipy.spatial.transform"):
+        monkeypatch.setitem(sys.modules, name, None)
+    with pytest.raises(ModuleNotFoundError, match="needs SciPy, which is not installed") as caught:
+        Transform().as_scipy()
+    assert caught.value.__suppress_context__
 
 
 @pytest.mark.parametrize("size", [1e-320, 1e-200, 1.0, 1e200, 1e308])

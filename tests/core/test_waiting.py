@@ -17,7 +17,7 @@ import pytest
 import coframe
 from coframe import _core
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="only Linux tells which threads sleep")
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="only Linux reports which threads sleep")
 
 SECOND = 1_000_000_000
 EDGES = 100

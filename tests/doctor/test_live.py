@@ -40,10 +40,11 @@ int clock_gettime(clockid_t which, struct timespec *time) {
 def only(inside):
     """Return the only finding, as soon as the processes have started."""
 
-    def only(code):
+    def only(*options):
+        *durations, code = options
         findings = []
         for _ in range(5):
-            findings = inside.doctor("--duration", "2s")["findings"]
+            findings = inside.doctor("--duration", *(durations or ["2s"]))["findings"]
             if [finding["code"] for finding in findings] == [code]:
                 return findings[0]
         pytest.fail(f"not {code} alone: {findings}")
@@ -62,6 +63,25 @@ def test_two_publishers_of_one_edge_are_named(start, only):
     assert sorted(finding["publishers"]) == ["/filter", "/wheel_odometry"]
     assert "Stop /" in finding["fix"]
     assert finding["severity"] == "error"
+
+
+def test_topic_without_messages_is_named_with_its_publisher(start, only):
+    start("robot", ROBOT)
+    start(
+        "lidar_driver",
+        """
+from nav_msgs.msg import OccupancyGrid
+from sensor_msgs.msg import JointState, LaserScan
+scans, points = node.create_publisher(LaserScan, "/scan", 10), node.create_publisher(LaserScan, "/rear/scan", 10)
+commands, grid = node.create_publisher(JointState, "/arm", 10), node.create_publisher(OccupancyGrid, "/grid", 1)
+""",
+    )
+    finding = only("6s", "TF026")
+    assert finding["publishers"] == ["/lidar_driver"]
+    assert "no message was received in" in finding["text"]
+    assert "/rear/scan" in finding["text"]
+    assert "/scan" in finding["text"]
+    assert "Look at the output of /lidar_driver" in finding["fix"]
 
 
 def test_departed_publisher_is_removed_with_its_transforms(domain_id, eventually):

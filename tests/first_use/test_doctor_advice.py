@@ -14,7 +14,9 @@ from typer.testing import CliRunner
 import coframe
 from coframe.analysis.missing_edges import MissingEdge
 from coframe.cli.app import app
-from coframe.doctor import codes, diagnose, observe_recording, page
+from coframe.doctor import Observation, codes, diagnose, observe_recording, page
+from coframe.doctor.observation import Endpoint, TopicFacts
+from coframe.doctor.transforms import Transforms
 from coframe.errors import PackageError
 from coframe.messages import find
 from coframe.robots import Packages
@@ -289,3 +291,106 @@ def test_other_quaternions_get_no_false_cause(findings, turn):
     run.tf("base_link", "arm", START, (0.1, 0, 0), turn, static=True)
     (finding,) = findings(run)
     assert finding.fix.startswith("Check the order x, y, z, w, and normalize it")
+
+
+# Mounts and rates
+
+URDF = """<robot name="r"><link name="base_link"/><link name="plate"/><link name="lidar"/>
+<joint name="stand" type="fixed"><parent link="base_link"/><child link="plate"/><origin xyz="0 0 0.2"/></joint>
+<joint name="mount" type="fixed"><parent link="plate"/><child link="lidar"/>
+<origin xyz="0.1 0 0.15" rpy="0 0 1.5708"/></joint>
+</robot>"""
+
+
+def describe(run, text):
+    message = find("std_msgs/msg/String")(data=text)
+    run.message("/robot_description", "std_msgs/msg/String", message, START)
+
+
+def test_static_mount_that_differs_from_the_description_shows_both_poses(findings):
+    run = Run.healthy(skip={"static"})
+    describe(run, URDF)
+    run.tf("base_link", "plate", START, (0, 0, 0.2), static=True)
+    run.tf("plate", "lidar", START, (0.1, 0, 0.1), static=True)
+    (finding,) = findings(run)
+    assert (finding.code, finding.edge) == ("TF023", ("plate", "lidar"))
+    assert "differs from fixed joint 'mount' of the robot description by 0.05 m and 90 degrees" in finding.text
+    assert "published x 0.1, y 0, z 0.1 m, roll 0, pitch 0, yaw 0 degrees" in finding.text
+    assert "described x 0.1, y 0, z 0.15 m, roll 0, pitch 0, yaw 90 degrees" in finding.text
+    assert 'xyz="0.1 0 0.1" rpy="0 0 0"' in finding.fix
+
+
+def test_static_mount_across_several_fixed_joints_is_compared(findings):
+    run = Run.healthy()  # with base_link -> lidar at z = 0.3 m, without rotation
+    describe(run, URDF)
+    (finding,) = findings(run)
+    assert (finding.code, finding.edge) == ("TF023", ("base_link", "lidar"))
+    assert "described x 0.1, y 0, z 0.35 m, roll 0, pitch 0, yaw 90 degrees" in finding.text
+
+
+def test_static_mount_that_agrees_with_several_fixed_joints_is_no_finding(findings):
+    run = Run.healthy()
+    describe(run, URDF.replace("0.15", "0.1").replace("1.5708", "0"))
+    assert findings(run) == []
+
+
+@pytest.mark.parametrize(
+    ("rate", "scans", "child", "found"),
+    [
+        (8, 10, "base_link", True),
+        (5, 20, "base_link", True),
+        (10, 40, "base_link", False),
+        (8, 8, "base_link", False),
+        (8, 20, "turret", True),
+        (8, 10, "turret", False),
+        (5, 20, "odom", False),
+    ],
+)
+def test_rate_below_that_of_the_scans_that_need_it(findings, rate, scans, child, found):
+    run = Run.healthy(skip={"odom", "scan", "static"})
+    run.tf("base_link", "lidar", START, (0.1, 0.0, 0.3), static=True)
+    parents = {"base_link": "odom", "turret": "base_link", "odom": "map"}
+    if child != "base_link":
+        for i in range(600):
+            run.drive(START + i * SECOND // 50)
+    frame = "turret" if child == "turret" else "lidar"
+    for i in range(12 * rate):
+        run.drive(START + i * SECOND // rate, parents[child], child)
+    for i in range(12 * scans):
+        run.scan(START + i * SECOND // scans, frame)
+    slow = [finding for finding in findings(run) if finding.code == "TF013"]
+    assert bool(slow) is found
+    if found:
+        assert slow[0].edge == (parents[child], child)
+        assert f"({rate} Hz) only, but /scan, which needs it, every" in slow[0].text
+        assert "create_timer(0.05, self.broadcast)" in slow[0].fix
+
+
+# Topics without messages
+
+
+@pytest.mark.parametrize(
+    ("topic", "kind", "messages", "seconds", "latched", "found"),
+    [
+        ("/scan", "sensor_msgs/msg/LaserScan", 0, 8, False, True),
+        ("/imu", "sensor_msgs/msg/Imu", 0, 8, False, True),
+        ("/joint_states", "sensor_msgs/msg/JointState", 0, 8, False, True),
+        ("/tf", "tf2_msgs/msg/TFMessage", 0, 8, False, True),
+        ("/scan", "sensor_msgs/msg/LaserScan", 1, 8, False, False),
+        ("/scan", "sensor_msgs/msg/LaserScan", 0, 3, False, False),
+        ("/cloud", "sensor_msgs/msg/PointCloud2", 0, 8, True, False),
+        ("/joint_command", "sensor_msgs/msg/JointState", 0, 8, False, False),
+        ("/goal_pose", "geometry_msgs/msg/PoseStamped", 0, 8, False, False),
+        ("/tf_static", "tf2_msgs/msg/TFMessage", 0, 8, True, False),
+    ],
+)
+def test_topic_that_never_publishes(topic, kind, messages, seconds, latched, found):
+    publishers = (Endpoint("/driver", transient_local=latched),)
+    facts = TopicFacts(topic, kind, messages, publishers, observed=seconds * SECOND)
+    empty = Transforms.joined([], ())
+    report = diagnose(Observation(True, START, START + 10 * SECOND, empty, topics={topic: facts}))
+    assert [finding.code for finding in report.findings] == ["TF026"] * found
+    if found:
+        (finding,) = report.findings
+        assert (finding.topic, finding.publishers) == (topic, ("/driver",))
+        assert "no message was received in 8 s" in finding.text

@@ -74,7 +74,7 @@ def test_types_that_begin_with_a_header_are_known():
     assert opens_with_header("sensor_msgs/msg/LaserScan")
     assert not opens_with_header("std_msgs/msg/String")
     assert not opens_with_header("tf2_msgs/msg/TFMessage")
-    assert not opens_with_header("somebody_msgs/msg/Unknown")
+    assert not opens_with_header("custom_msgs/msg/Unknown")
     assert not opens_with_header("no type at all")
 
 
@@ -107,7 +107,7 @@ def test_messages_of_ros_1_have_a_sequence_number_and_unsigned_seconds():
 
 def test_an_unknown_type_is_read_by_its_definition():
     def reader(definition: bytes):
-        return stamp_reader("somebody_msgs/msg/Unknown", "cdr", definition)
+        return stamp_reader("custom_msgs/msg/Unknown", "cdr", definition)
 
     message = big_endian_header(12, 34, b"laser\0")
     assert stamps(reader(b"# a comment\nuint8 A = 1\nstd_msgs/Header header\n"), message) == [STAMP]

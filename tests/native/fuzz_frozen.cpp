@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frozen buffers whose table and samples are damaged, opened and asked, for a sanitizer to watch. The same every time.
+// Opens frozen buffers with damaged tables and samples and looks up transforms in them under a sanitizer.
+// Deterministic.
 
 #include <algorithm>
 #include <array>
@@ -24,11 +25,11 @@ constexpr Stamp kSecond = 1'000'000'000;
 
 void expect(bool holds, const char* what) {
   if (holds) return;
-  std::fprintf(stderr, "broken: %s\n", what);
+  std::fprintf(stderr, "Failed: %s\n", what);
   std::_Exit(1);
 }
 
-// Exactly as many bytes: what is read beyond is seen.
+// A buffer of the exact size, so that the sanitizer detects every access beyond its end.
 struct Exact {
   explicit Exact(const std::string& bytes)
       : data(static_cast<std::uint8_t*>(::operator new(std::max<std::size_t>(bytes.size(), 1), kAlignment))),
@@ -46,16 +47,16 @@ struct Exact {
 
 std::shared_ptr<Buffer> filled() {
   Buffer buffer(kKeepAll);
-  const AuthorityId who = buffer.authority("fuzzer");
+  const AuthorityId authority = buffer.authority("fuzzer");
   for (int i = 1; i <= 600; ++i) {
     const TransformValues values{{0.01 * i, 0, 1}, {0, 0, 0.1, 1}};
     for (const char* child : {"a", "b", "c"}) {
       const char parent[] = {static_cast<char>(*child - 1), 0};
-      buffer.insert(*child == 'a' ? "root" : parent, child, i * kSecond / 50, values, false, who);
+      buffer.insert(*child == 'a' ? "root" : parent, child, i * kSecond / 50, values, false, authority);
     }
-    if (i % 200 == 0) buffer.insert(i == 200 ? "a" : "root", "wanderer", i * kSecond / 50, values, false, who);
+    if (i % 200 == 0) buffer.insert(i == 200 ? "a" : "root", "reparented", i * kSecond / 50, values, false, authority);
   }
-  buffer.insert("c", "tool", 0, {{1, 2, 3}, {0, 0, 0, 1}}, true, who);
+  buffer.insert("c", "tool", 0, {{1, 2, 3}, {0, 0, 0, 1}}, true, authority);
   return buffer.snapshot();
 }
 
@@ -71,7 +72,7 @@ class Fuzzer {
 
   void run(int cases) {
     open(table_, chunks_);
-    expect(opened_ == 1, "a good one is refused");
+    expect(opened_ == 1, "an undamaged buffer is refused");
     for (int i = 0; i < cases; ++i) {
       std::string table = table_, chunks = chunks_;
       for (unsigned n = rng_() % 4; n > 0; --n) damage(table);
@@ -81,14 +82,14 @@ class Fuzzer {
       open(table, chunks);
     }
     std::printf("%d cases, %d of them opened\n", cases, opened_ - 1);
-    expect(opened_ > cases / 10 && opened_ < cases, "a kind is missing");
+    expect(opened_ > cases / 10 && opened_ < cases, "the cases do not cover both outcomes");
   }
 
  private:
   void damage(std::string& bytes) {
-    static const std::array<std::uint64_t, 8> name_problems{0,          1,          0xff,  0x7fffffff,
-                                                            0xffffffff, 1ull << 63, ~0ull, ~0ull >> 1};
-    const std::uint64_t number = rng_() % 2 == 0 ? name_problems[rng_() % name_problems.size()] : rng_();
+    static const std::array<std::uint64_t, 8> edge_cases{0,          1,          0xff,  0x7fffffff,
+                                                         0xffffffff, 1ull << 63, ~0ull, ~0ull >> 1};
+    const std::uint64_t number = rng_() % 2 == 0 ? edge_cases[rng_() % edge_cases.size()] : rng_();
     const std::size_t size = std::size_t{1} << rng_() % 4, at = rng_() % (bytes.size() - size);
     std::memcpy(&bytes[at], &number, size);
   }
@@ -101,21 +102,22 @@ class Fuzzer {
         Buffer::restored(kKeepAll, {head.data, head.size}, {samples->data, samples->size}, samples, reason);
     if (!buffer) return;
     ++opened_;
-    ask(*buffer);
-    ask(*buffer->snapshot());
+    look_up_some(*buffer);
+    look_up_some(*buffer->snapshot());
   }
 
-  void ask(Buffer& buffer) {
+  void look_up_some(Buffer& buffer) {
     const std::vector<std::string> names = buffer.frame_names();
     for (std::size_t i = 0; i < std::min<std::size_t>(names.size(), 3); ++i) {
       const FrameId target = buffer.find(names[i]), source = buffer.find(names[names.size() - 1 - i]);
       if (target == 0 || source == 0) continue;
-      for (const Stamp asked : {Stamp{0}, kSecond, 5 * kSecond, static_cast<Stamp>(rng_())}) {
-        Stamp stamp = asked;
+      for (const Stamp requested : {Stamp{0}, kSecond, 5 * kSecond, static_cast<Stamp>(rng_())}) {
+        Stamp stamp = requested;
         Pose pose;
         Failure failure;
         if (buffer.lookup_by_id(target, source, stamp, pose, failure)) continue;
-        expect(!buffer.read([&](const Tree& tree) { return lookup_text(failure, tree); }).empty(), "no words");
+        expect(!buffer.read([&](const Tree& tree) { return lookup_text(failure, tree); }).empty(),
+               "a failure has no text");
       }
       many(buffer, names[i], names[names.size() - 1 - i]);
     }

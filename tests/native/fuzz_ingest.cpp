@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// TFMessages as bytes, most of them malformed, ingested by a buffer and by relays under a sanitizer. Deterministic.
+// Serialised TFMessages, most of them malformed, are ingested by a buffer and by relays under a sanitizer.
+// Deterministic.
 
 #include <algorithm>
 #include <array>
@@ -26,13 +27,14 @@ constexpr std::size_t kHeader = 4;
 
 void expect(bool holds, const char* what) {
   if (holds) return;
-  std::fprintf(stderr, "broken: %s\n", what);
+  std::fprintf(stderr, "Failed: %s\n", what);
   std::_Exit(1);
 }
 
 enum class Kind { cdr_little, cdr_big, ros1 };
 
-// CDR in either byte order, or as ROS 1 has it; written from the standards and not from the code under test.
+// A message in CDR, in either byte order, or in the format of ROS 1. Written from the standards, not from the code
+// under test.
 class Message {
  public:
   explicit Message(Kind kind) : kind_(kind) {
@@ -83,18 +85,19 @@ class Fuzzer {
       Bytes bytes = message(kind, transforms);
       const bool damaged = rng_() % 4 != 0;
       for (unsigned n = damaged ? 1 + rng_() % 4 : 0; n > 0; --n) damage(bytes);
-      ingest_without_notify(kind, bytes, transforms, damaged);
+      ingest(kind, bytes, transforms, damaged);
       relay(bytes);
-      if (i % 16 == 0) ask();
+      if (i % 16 == 0) look_up_some();
       if (i % 5000 == 0) buffer_.clear();
     }
     const Counts counts = buffer_.counts();
-    expect(counts.messages == static_cast<std::uint64_t>(messages), "messages that were not counted");
+    expect(counts.messages == static_cast<std::uint64_t>(messages), "some messages were not counted");
     std::printf("%d messages, %llu malformed; %llu transforms stored, %llu refused, %llu old; %zu frames\n", messages,
                 static_cast<unsigned long long>(counts.malformed), static_cast<unsigned long long>(counts.stored),
                 static_cast<unsigned long long>(counts.refused), static_cast<unsigned long long>(counts.old),
                 buffer_.frame_names().size());
-    expect(counts.malformed > 0 && counts.stored > 0 && counts.refused > 0 && counts.old > 0, "a kind is missing");
+    expect(counts.malformed > 0 && counts.stored > 0 && counts.refused > 0 && counts.old > 0,
+           "the messages do not cover all outcomes");
   }
 
  private:
@@ -106,24 +109,24 @@ class Fuzzer {
   }
 
   std::string name() {
-    static const std::array<std::string, 8> name_problems{"",      "/",         "//",  "/a",
-                                                          "größe", "NO_PARENT", "a b", std::string(300, 'x')};
-    return rng_() % 8 == 0 ? one_of(name_problems) : "frame" + std::to_string(rng_() % 20);
+    static const std::array<std::string, 8> edge_cases{"",      "/",         "//",  "/a",
+                                                       "größe", "NO_PARENT", "a b", std::string(300, 'x')};
+    return rng_() % 8 == 0 ? one_of(edge_cases) : "frame" + std::to_string(rng_() % 20);
   }
 
   double value() {
-    static const std::array<double, 8> name_problems{0.0, -0.0, 1e308, -1e308, 1e-308, NAN, INFINITY, -INFINITY};
-    return rng_() % 50 == 0 ? one_of(name_problems) : std::uniform_real_distribution<double>(-10, 10)(rng_);
+    static const std::array<double, 8> edge_cases{0.0, -0.0, 1e308, -1e308, 1e-308, NAN, INFINITY, -INFINITY};
+    return rng_() % 50 == 0 ? one_of(edge_cases) : std::uniform_real_distribution<double>(-10, 10)(rng_);
   }
 
   Bytes message(Kind kind, std::size_t& transforms) {
-    static const std::array<std::int32_t, 4> odd_seconds{0, -1, 0x7fffffff, -0x7fffffff - 1};
+    static const std::array<std::int32_t, 4> edge_seconds{0, -1, 0x7fffffff, -0x7fffffff - 1};
     Message made(kind);
     transforms = rng_() % 3 == 0 ? 0 : rng_() % 20;
     made.number(static_cast<std::uint32_t>(transforms));
     for (std::size_t i = 0; i < transforms; ++i) {
-      if (kind == Kind::ros1) made.number(static_cast<std::uint32_t>(rng_()));  // of its header
-      made.number(rng_() % 200 == 0 ? one_of(odd_seconds) : static_cast<std::int32_t>(1000 + rng_() % 20));
+      if (kind == Kind::ros1) made.number(static_cast<std::uint32_t>(rng_()));  // the sequence number of the header
+      made.number(rng_() % 200 == 0 ? one_of(edge_seconds) : static_cast<std::int32_t>(1000 + rng_() % 20));
       made.number(static_cast<std::uint32_t>(rng_() % 100 == 0 ? rng_() : rng_() % 1'000'000'000));
       made.text(name());
       made.text(name());
@@ -142,22 +145,22 @@ class Fuzzer {
       case 3: bytes[at] ^= static_cast<std::uint8_t>(1u << rng_() % 8); break;
       case 4: bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(at)); break;
       case 5: bytes[std::min(at, kHeader - 1)] ^= static_cast<std::uint8_t>(rng_() % 3); break;
-      case 6: {  // something like the length of a string or of the sequence
+      case 6: {  // a number similar to the length of a string or of the sequence
         const std::size_t aligned = at / 4 * 4;
         const auto nearly = static_cast<std::uint32_t>(rng_() % (2 * size));
         const std::uint32_t length = rng_() % 2 == 0 ? one_of(lengths) : nearly;
         if (aligned + sizeof length <= size) std::memcpy(&bytes[aligned], &length, sizeof length);
         break;
       }
-      default: {  // a piece of it once more, elsewhere
+      default: {  // a copy of a part in another place
         const std::size_t from = rng_() % size, count = std::min(size - std::max(at, from), std::size_t{64});
         std::memmove(&bytes[at], &bytes[from], count);
       }
     }
   }
 
-  void ingest_without_notify(Kind kind, const Bytes& bytes, std::size_t transforms, bool damaged) {
-    // Not a byte more: what is read beyond is seen.
+  void ingest(Kind kind, const Bytes& bytes, std::size_t transforms, bool damaged) {
+    // The exact size, so that the sanitizer detects every access beyond the end.
     const std::unique_ptr<std::uint8_t[]> exact(new std::uint8_t[bytes.size()]);
     std::copy(bytes.begin(), bytes.end(), exact.get());
     const Counts before = buffer_.counts();
@@ -165,15 +168,16 @@ class Fuzzer {
     TransformStream& stream = streams_[rng_() % kCdrStreams + (kind == Kind::ros1 ? kCdrStreams : 0)];
     const DecodeFailure failure = buffer_.ingest(stream, exact.get(), bytes.size(), stored);
     const Counts after = buffer_.counts();
-    expect(after.stored - before.stored == stored, "another number than was counted");
-    expect(damaged || (!failure.reason && stored <= transforms), "a good message is refused");
+    expect(after.stored - before.stored == stored, "the result differs from the count of stored transforms");
+    expect(damaged || (!failure.reason && stored <= transforms), "a valid message is rejected");
     if (failure.reason) {
-      expect(stored == 0 && failure.offset <= bytes.size(), "a refused message leaves traces");
-      expect(after.refused == before.refused && after.old == before.old, "parts of a refused message are counted");
+      expect(stored == 0 && failure.offset <= bytes.size(), "a rejected message changed the buffer");
+      expect(after.refused == before.refused && after.old == before.old,
+             "transforms of a rejected message are counted");
     } else {
       const std::uint64_t counted =
           after.stored + after.refused + after.old - before.stored - before.refused - before.old;
-      expect(damaged || counted == transforms, "transforms that were not counted");
+      expect(damaged || counted == transforms, "some transforms were not counted");
     }
   }
 
@@ -184,18 +188,18 @@ class Fuzzer {
     now_ += static_cast<std::int64_t>(rng_() % 10'000'000);
     relay.add(rng_() % 2, rng_() % 1500, exact.get(), bytes.size(), now_, now_);
     if (rng_() % 2 == 0) return;
-    const std::string passed = relay.take();
-    if (passed.empty()) return;
+    const std::string relayed = relay.take();
+    if (relayed.empty()) return;
     std::vector<TransformView> views;
-    const auto* data = reinterpret_cast<const std::uint8_t*>(passed.data());
-    expect(!decode_tf_message(data, passed.size(), views).reason, "a relay's message is not good");
+    const auto* data = reinterpret_cast<const std::uint8_t*>(relayed.data());
+    expect(!decode_tf_message(data, relayed.size(), views).reason, "a message of the relay is malformed");
     for (const TransformView& view : views) {
       expect(check_names(view.parent, view.child) == 0 && check_values(view.values) == 0 && is_utf8(view.child),
-             "a relay passes on what a buffer refuses");
+             "the relay forwards a transform that a buffer rejects");
     }
   }
 
-  void ask() {
+  void look_up_some() {
     const std::vector<std::string> names = buffer_.frame_names();
     if (names.empty()) return;
     const FrameId target = buffer_.find(names[rng_() % names.size()]), source = buffer_.find(names.back());
@@ -203,13 +207,14 @@ class Fuzzer {
     Pose pose;
     Failure failure;
     if (target != 0 && source != 0 && !buffer_.lookup_by_id(target, source, stamp, pose, failure)) {
-      expect(!buffer_.read([&](const Tree& tree) { return lookup_text(failure, tree); }).empty(), "no words");
+      expect(!buffer_.read([&](const Tree& tree) { return lookup_text(failure, tree); }).empty(),
+             "a failure has no text");
     }
     for (const bool is_static : {false, true}) {
       const std::string bytes = buffer_.encode(is_static);
       std::vector<TransformView> views;
       const auto* data = reinterpret_cast<const std::uint8_t*>(bytes.data());
-      expect(!decode_tf_message(data, bytes.size(), views).reason, "its own message is not good");
+      expect(!decode_tf_message(data, bytes.size(), views).reason, "a message of the buffer is malformed");
     }
   }
 

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Runs a program that was built with a sanitizer; it ends with the first thing that the sanitizer finds.
+# Runs a program that was built with a sanitizer. The program ends at the first error that the sanitizer reports.
 #
 #   sanitized.sh PROGRAM ARGUMENTS...
 set -eu
@@ -7,7 +7,7 @@ export TSAN_OPTIONS="halt_on_error=1 second_deadlock_stack=1"
 export ASAN_OPTIONS="halt_on_error=1 detect_leaks=1"
 export UBSAN_OPTIONS="halt_on_error=1 print_stacktrace=1"
 
-# Kernels that spread addresses widely (vm.mmap_rnd_bits) are too much for some ThreadSanitizers.
+# Some versions of ThreadSanitizer do not support Linux kernels with much address randomisation (vm.mmap_rnd_bits).
 if "$1" 0 2>&1 | grep -q "unexpected memory mapping"; then
     exec setarch -R "$@"
 fi

@@ -1,6 +1,6 @@
-"""The native core by itself under sanitizers: readers and writers at once, and damaged messages.
+"""Tests of the native core under sanitizers: concurrent readers and writers, and damaged messages.
 
-`make sanitize` runs the same for longer. What is built stays in build/sanitize.
+`make sanitize` runs the same programs. The results of the build stay in build/sanitize.
 """
 
 import fcntl
@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-pytestmark = pytest.mark.timeout(600)  # where nothing is built yet
+pytestmark = pytest.mark.timeout(600)  # includes the first build
 
 FOLDER = Path(__file__).parent
 BUILD = FOLDER.parents[1] / "build" / "sanitize"
@@ -42,30 +42,30 @@ def run(kind, program, amount):
 
 
 @pytest.mark.slow
-def test_threads_meet_without_a_race(tmp_path):
+def test_concurrent_readers_and_writers_have_no_data_race(tmp_path):
     build("thread", tmp_path)
     run("thread", "stress", 60)
 
 
 @pytest.mark.slow
-def test_threads_leave_memory_in_order(tmp_path):
+def test_concurrent_readers_and_writers_have_no_memory_error(tmp_path):
     build("address", tmp_path)
     run("address", "stress", 20)
 
 
 @pytest.mark.slow
-def test_the_latest_is_there_however_fast_samples_are_dropped(tmp_path):
+def test_latest_transform_is_available_while_samples_are_dropped(tmp_path):
     build("address", tmp_path)
     run("address", "latest", 10)
 
 
 @pytest.mark.slow
-def test_damaged_messages_do_no_harm(tmp_path):
+def test_damaged_messages_cause_no_memory_error(tmp_path):
     build("address", tmp_path)
     run("address", "fuzz_ingest", 200_000)
 
 
 @pytest.mark.slow
-def test_damaged_frozen_buffers_do_no_harm(tmp_path):
+def test_damaged_frozen_buffers_cause_no_memory_error(tmp_path):
     build("address", tmp_path)
     run("address", "fuzz_frozen", 3000)

@@ -14,8 +14,8 @@ def test_messages_are_taken_in_the_order_of_arrival():
     queue = MessageQueue(1 << 20)
     for i, source in enumerate([TF, STATIC, STATIC, TF, STATIC, TF]):
         queue.put(message(source, i))
-    assert [taken.received for taken in queue.take(0.0, 2500)] == [0, 1, 2]
-    assert [taken.received for taken in queue.take(0.0, 1 << 20)] == [3, 4, 5]
+    assert [entry.received for entry in queue.take(0.0, 2500)] == [0, 1, 2]
+    assert [entry.received for entry in queue.take(0.0, 1 << 20)] == [3, 4, 5]
     assert queue.size == 0
     assert queue.take(0.01, 1 << 20) == []
 
@@ -26,7 +26,7 @@ def test_a_full_queue_drops_the_oldest_messages_that_are_not_latched():
     for i in range(1, 20):
         queue.put(message(TF, i))
     assert queue.size <= 5000
-    assert [taken.received for taken in queue.take(0.0, 1 << 20)] == [0, 16, 17, 18, 19]
+    assert [entry.received for entry in queue.take(0.0, 1 << 20)] == [0, 16, 17, 18, 19]
     assert queue.dropped == {"/tf": 15}
 
 
@@ -34,7 +34,7 @@ def test_a_full_queue_of_latched_messages_drops_the_oldest():
     queue = MessageQueue(5000)
     for i in range(20):
         queue.put(message(STATIC, i))
-    assert [taken.received for taken in queue.take(0.0, 1 << 20)] == [15, 16, 17, 18, 19]
+    assert [entry.received for entry in queue.take(0.0, 1 << 20)] == [15, 16, 17, 18, 19]
     assert queue.dropped == {"/tf_static": 15}
 
 

@@ -29,7 +29,7 @@ def times_of(kind, motion, random):
         random.shuffle(times)
     elif kind == "few":
         times = np.repeat(times[::50], 50)[:COUNT]
-    elif kind == "rows":  # as a spinning lidar with several rings tells them
+    elif kind == "rows":  # as a spinning lidar with several rings publishes them
         times = np.concatenate([times[i::7] for i in range(7)])
     elif kind == "backwards":
         times = times[::-1].copy()

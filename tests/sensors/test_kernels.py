@@ -12,7 +12,7 @@ import coframe
 from coframe import _core
 from coframe.sensors import deskew
 
-# Between neighbouring samples, in radians: from none to half a turn, and on both sides of where the way changes.
+# Between neighbouring samples, in radians: from none to half a turn, on both sides of where the slerp series changes.
 TURNS = [0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 5e-3, 0.0116, 0.0118, 0.1, 0.123, 0.124, 0.5, 0.58, 0.6, 1.0, 2.0, 3.0]
 TURNS += [np.pi - 1e-3, np.pi - 1e-6, np.pi - 1e-9, np.pi]
 SHARES = 33
@@ -33,7 +33,7 @@ for i in range(200):
 ordered = np.sort(random.integers(1, 199_000_000, 5003))
 """
 
-# Every way through the kernels: the same time for many points, many times between the same samples, any order.
+# All code paths of the kernels: the same time for many points, many times between the same samples, any order.
 MOVED = (
     BUFFER
     + """

@@ -78,7 +78,7 @@ def test_changes(plant):
     run = moving(moving(moving(Run(), "odom", "base", 4), "base", "arm", 4), "odom", "new", 4)
     after = plant(run)
     assert [change.text for change in changes(before, after)] == [
-        "arm moved: below base, before below odom",
+        "arm moved: now below base, previously below odom",
         "new is new: below odom",
         "old is gone; it was below odom",
     ]

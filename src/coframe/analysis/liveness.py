@@ -34,9 +34,9 @@ __all__ = [
 ]
 
 STALE_AFTER = SECOND
-"""An edge is never stale before it has been silent for this long, in nanoseconds."""
+"""An edge is stale only if no transform was received for longer than this, in nanoseconds."""
 STALE_PERIODS = 5
-"""An edge is never stale before it has been silent for this many of its usual periods."""
+"""An edge is stale only if no transform was received for more than this many of its usual periods."""
 
 _SHORTEST_GAP = 500 * MILLISECOND
 _GAP_PERIODS = 10
@@ -211,7 +211,7 @@ class LivenessTracker:
         if now <= self._next_check:
             return np.zeros(len(self._frames), bool)
         late = now - self._received > self._limits
-        # Periods are read only for the few edges that are silent for longer than STALE_AFTER.
+        # Periods are read only for the few edges without a transform for longer than STALE_AFTER.
         unknown = np.flatnonzero(late & ~self._known).tolist()
         if unknown:
             for row in unknown:

@@ -64,3 +64,7 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     warnings.warn(f"coframe.bags.{name} is now coframe.bags.{_OLD_NAMES[name]}", DeprecationWarning, stacklevel=2)
     return globals()[_OLD_NAMES[name]]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from collections import Counter
 from functools import partial
@@ -19,6 +20,7 @@ from coframe.bags.transforms import is_static
 from coframe.bags.writer import Writer
 from coframe.buffer import Buffer
 from coframe.errors import RecordingError
+from coframe.formatting import count
 from coframe.frame_names import absolute, belongs, renaming
 from coframe.messages import deserialize, find, serialize
 from coframe.messages.conversions import to_transform_stamped
@@ -33,6 +35,7 @@ if TYPE_CHECKING:
 __all__ = ["RepairReport", "repair"]
 
 _TF = "tf2_msgs/msg/TFMessage"
+_PLURAL = re.compile(r"\b(messages|transforms|names)\b")  # the nouns of the counted sentences
 _PROGRESS_STEP = 1000  # messages between two calls of the progress function
 _STATIC_QOS = OfferedQos(1, transient_local=True)
 
@@ -70,7 +73,7 @@ def repair(
     """Write a repaired copy of a recording; the original is not changed.
 
     The copy contains everything that can be read, with an index, metadata and the definitions of the types that coframe
-    knows. Leading slashes of frame names and transforms that tf2 refuses are removed. Static transforms come first.
+    supports. Leading slashes of frame names and transforms that tf2 rejects are removed. Static transforms come first.
     Messages of ROS 1 are converted to ROS 2.
 
     Args:
@@ -192,11 +195,12 @@ class _Repair:
     def changes(self) -> list[str]:
         """Return the differences from the original, one sentence each."""
         topics = len({channel.topic for channel, route in self._routes.items() if route is not None})
-        copied = f"{self._copied} messages on {topics} topics copied, with an index and metadata.yaml"
-        return [copied, *(sentence.format(count) for sentence, count in self._counts.items())]
+        amounts = f"{count(self._copied, 'message')} on {count(topics, 'topic')}"
+        copied = f"{amounts} copied, with an index and metadata.yaml"
+        return [copied, *(_counted(sentence, number) for sentence, number in self._counts.items())]
 
-    def _count(self, channel: Channel, what: str, count: int = 1) -> None:
-        self._counts[f"{channel.topic}: {{}} {what}"] += count
+    def _count(self, channel: Channel, what: str, number: int = 1) -> None:
+        self._counts[f"{channel.topic}: {{}} {what}"] += number
 
     def _route(self, channel: Channel) -> _Route | None:
         if channel not in self._routes:
@@ -244,7 +248,7 @@ class _Repair:
         return message
 
     def _corrected(self, channel: Channel, route: _Route, message: bytes) -> bytes:
-        """Return a message of ROS 2 with new frame names and without the transforms that tf2 refuses."""
+        """Return a message of ROS 2 with new frame names and without the transforms that tf2 rejects."""
         if route.transforms:
             message = self._without_rejected(channel, message)
         if route.names is not None and (route.rename.has_prefix or b"/" in message):
@@ -254,16 +258,16 @@ class _Repair:
         return message
 
     def _without_rejected(self, channel: Channel, data: bytes) -> bytes:
-        """Return a TFMessage without transforms that tf2 refuses and without static ones of frames that also move."""
+        """Return a TFMessage without transforms that tf2 rejects and without static ones of frames that also move."""
         message = deserialize(data, find(_TF))
         good = [transform for transform in message.transforms if _is_accepted(transform)]
         if rejected := len(message.transforms) - len(good):
-            self._count(channel, "transforms removed that tf2 refuses", rejected)
+            self._count(channel, "invalid transforms removed, which tf2 rejects", rejected)
         if is_static(channel.topic):
             moving = self._moving.get(namespace_of(channel.topic), set())
             fixed = [transform for transform in good if transform.child_frame_id.lstrip("/") not in moving]
             if len(fixed) < len(good):
-                self._count(channel, "static transforms removed of frames that also move", len(good) - len(fixed))
+                self._count(channel, "static transforms of moving frames removed", len(good) - len(fixed))
             good = fixed
         return data if len(good) == len(message.transforms) else serialize(find(_TF)(transforms=good))
 
@@ -326,6 +330,12 @@ def _statics_of(path: str | os.PathLike[str]) -> list[TransformStamped]:
     if not transforms:
         raise RecordingError(f"{path} has no static transforms to add", hint="Give a recording with /tf_static.")
     return [to_transform_stamped(parent, child, transform, 0) for parent, child, transform in transforms]
+
+
+def _counted(sentence: str, number: int) -> str:
+    """Return a sentence with its number, and with the noun in the singular if the number is 1."""
+    text = sentence.format(number)
+    return _PLURAL.sub(lambda match: match[0].removesuffix("s"), text, count=1) if number == 1 else text
 
 
 def _is_accepted(transform: TransformStamped) -> bool:

@@ -23,8 +23,14 @@ class UnpackedMessages(Storage):
 
     def __init__(self, packed: Storage, compression: str) -> None:
         super().__init__(packed.path, packed.problems)
+        self.format = packed.format  # type: ignore[misc]
+        self.compressions = {f"{compression} (each message)"}
         self._packed = packed
         self._compression = compression
+
+    def channels(self) -> list[Channel]:
+        """Return the channels of the wrapped storage."""
+        return self._packed.channels()
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield the batches of the wrapped storage with unpacked messages."""

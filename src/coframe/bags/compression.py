@@ -37,9 +37,9 @@ def unpack(compression: str, data: bytes | memoryview, size: int) -> bytes:
     if compression in {"", "none"}:
         return bytes(data)
     if compression not in _OPENERS:
-        raise DamagedError(f"unknown compression {compression[:20]!r}, known are {', '.join(_OPENERS)}")
+        raise DamagedError(f"unknown compression {compression[:20]!r}; known: {', '.join(_OPENERS)}")
     if size > LARGEST:
-        raise DamagedError(f"the stated size of a chunk is {size} bytes")
+        raise DamagedError(f"a chunk claims to have {size} bytes, more than the limit of {LARGEST}")
     open_ = _OPENERS[compression]()
     try:
         unpacked: bytes = open_(data).read(size)

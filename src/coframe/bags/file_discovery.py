@@ -5,25 +5,29 @@ The first bytes of a file decide its format. Names and metadata.yaml only help t
 
 from __future__ import annotations
 
+import difflib
 import importlib
 import re
 import shutil
 import tempfile
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from coframe.bags import mcap_file, ros1_file, sqlite_file
 from coframe.bags.compressed_messages import UnpackedMessages
+from coframe.bags.storage import Channel
 from coframe.errors import RecordingError
+from coframe.formatting import listed
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from contextlib import ExitStack
 
     from coframe.bags.problems import Problems
     from coframe.bags.storage import Storage
 
-__all__ = ["open_files"]
+__all__ = ["OpenedFiles", "open_files", "recording_stem"]
 
 _ZSTD = b"\x28\xb5\x2f\xfd"
 _READERS: dict[bytes, type[Storage]] = {
@@ -34,9 +38,17 @@ _READERS: dict[bytes, type[Storage]] = {
 _SUFFIXES = (".mcap", ".db3", ".bag")
 _METADATA = "metadata.yaml"
 _LARGEST_METADATA = 64 << 20
+_ROS1_DATE = re.compile(r"[_-]?\d{4}(-\d\d){5}$", re.ASCII)
 
 
-def open_files(path: Path, problems: Problems, closing: ExitStack) -> list[Storage]:
+class OpenedFiles(NamedTuple):
+    """The opened files of a recording, and the topics that its metadata lists."""
+
+    storages: list[Storage]
+    listed_topics: list[Channel]
+
+
+def open_files(path: Path, problems: Problems, closing: ExitStack) -> OpenedFiles:
     """Open the files of a recording, in order.
 
     Args:
@@ -55,18 +67,48 @@ def open_files(path: Path, problems: Problems, closing: ExitStack) -> list[Stora
         found = [storage for file in candidates if (storage := _open(file, problems, closing)) is not None]
     except OSError as error:
         raise RecordingError(
-            f"{path} cannot be read: {error.strerror or error}", hint="Check the path and the permission to read it."
+            f"{path} cannot be read: {error.strerror or error}",
+            hint=_similar_path(path) or "Check the path and the permission to read it.",
         ) from None
     if not found:
         reasons = problems.sentences()
         raise RecordingError(
             f"{path} is not a recording" + (f": {reasons[0].removeprefix(f'{path}: ')}" if reasons else ""),
-            hint="Give a .mcap, .db3 or .bag file, or the folder that contains such files.",
+            hint=_inner_recordings(path) or "Give a .mcap, .db3 or .bag file, or the folder that contains such files.",
         )
     if str(metadata.get("compression_mode", "")).lower() == "message":
         compression = str(metadata.get("compression_format", ""))
-        return [UnpackedMessages(storage, compression) for storage in found]
-    return found
+        found = [UnpackedMessages(storage, compression) for storage in found]
+    return OpenedFiles(found, list(_listed_topics(metadata)))
+
+
+def recording_stem(file: Path) -> str:
+    """Return what the names of the files of one recording have in common: `run` for `run_0.mcap` and `run_1.mcap`.
+
+    The files of a split ROS 1 bag also have their own start time in the name, as in `2024-05-01-10-00-00_0.bag`.
+    """
+    stem = file.name.removesuffix(".zstd").rpartition(".")[0] or file.name
+    bare, numbered, number = stem.rpartition("_")
+    return _ROS1_DATE.sub("", bare) if numbered and number.isdigit() else stem
+
+
+def _similar_path(path: Path) -> str:
+    """Return a hint that names a file or folder with a similar name; "" if there is none, or if the path exists."""
+    try:
+        names = [] if path.exists() else [each.name for each in path.parent.iterdir()]
+    except OSError:
+        return ""
+    near = difflib.get_close_matches(path.name, names, n=1) or [name for name in names if Path(name).stem == path.name]
+    return f"Did you mean {str(path.with_name(near[0]))!r}?" if near else ""
+
+
+def _inner_recordings(folder: Path) -> str:
+    """Return a hint that names the recordings inside a folder; "" if there are none."""
+    try:
+        inner = [each.name for each in sorted(folder.iterdir()) if each.is_dir() and (each / _METADATA).is_file()]
+    except OSError:
+        return ""
+    return f"Give one of the recordings in this folder: {listed(inner)}." if inner else ""
 
 
 def _candidates(folder: Path, metadata: dict[str, Any], problems: Problems) -> list[Path]:
@@ -162,6 +204,21 @@ def _metadata(file: Path, problems: Problems) -> dict[str, Any]:
         problems.add(f"{_METADATA} is damaged ({reason}); the files were read without it")
         found = {}
     return found
+
+
+def _listed_topics(metadata: dict[str, Any]) -> Iterator[Channel]:
+    """Yield the topics in the metadata, which also lists those without messages."""
+    entries = metadata.get("topics_with_message_count")
+    for entry in entries if isinstance(entries, list) else []:
+        topic = entry.get("topic_metadata") if isinstance(entry, dict) else None
+        if isinstance(topic, dict) and isinstance(topic.get("name"), str) and isinstance(topic.get("type"), str):
+            offered = topic.get("offered_qos_profiles")
+            yield Channel(
+                topic["name"],
+                topic["type"],
+                str(topic.get("serialization_format", "cdr")),
+                offered_qos=offered if isinstance(offered, str) else "",
+            )
 
 
 def _listed(metadata: dict[str, Any]) -> list[str]:

@@ -36,10 +36,16 @@ _CRC_AND_MAGIC = 4 + len(MAGIC)  # bytes at the end of the file that the CRC of 
 class McapStorage(ChunkedStorage):
     """An MCAP file."""
 
+    format = "MCAP"
+
     def __init__(self, path: Path, problems: Problems) -> None:
         super().__init__(path, problems)
         self._schemas: dict[int, tuple[str, str, bytes]] = {}
         self._channels: dict[int, Channel] = {}
+
+    def channels(self) -> list[Channel]:
+        """Return the channels found so far."""
+        return list(self._channels.values())
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield all messages in file order; the bytes of unwanted ones are included because chunks contain both."""
@@ -51,7 +57,7 @@ class McapStorage(ChunkedStorage):
                 progress(end)
             elif opcode in {_SCHEMA, _CHANNEL, _MESSAGE} and offset >= done:
                 if end - offset > LARGEST:
-                    self.add_problem(f"the record at byte {offset} has a stated size of {end - offset} bytes")
+                    self.add_problem(f"the record at byte {offset} claims to have {end - offset} bytes")
                     continue
                 data = self.bytes_at(offset, max(end - offset, _BLOCK))
                 done = offset + (yield from self._inner(data, offset))
@@ -122,6 +128,7 @@ class McapStorage(ChunkedStorage):
             compression, start = _text(chunk, _CHUNK_HEAD.size)
         except (struct.error, ValueError):
             raise DamagedError("its header is damaged or truncated") from None
+        self.compressions.add(compression or "none")
         packed = chunk[start + 8 :]
         data = unpack(compression, packed, size)
         if crc and zlib.crc32(data) != crc:

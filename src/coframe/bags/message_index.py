@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from array import array
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -102,6 +103,15 @@ class MessageIndex:
         """Return the names of all topics, sorted."""
         return sorted(self._tracks)
 
+    def span(self, storage: Storage | None = None) -> tuple[int, int] | None:
+        """Return the first and last time of receipt, of one file or of all; None if there are no messages."""
+        parts = [
+            received
+            for track in self.tracks()
+            if (storage is None or track.storage is storage) and len(received := _int64(track.received))
+        ]
+        return (min(int(part.min()) for part in parts), max(int(part.max()) for part in parts)) if parts else None
+
     def tracks(self, topic: str | None = None) -> list[Track]:
         """Return the tracks of a topic, or of all topics."""
         return [track for name in (self._tracks if topic is None else (topic,)) for track in self._tracks[name]]
@@ -114,8 +124,10 @@ class MessageIndex:
         """
         name = topic if topic in self._tracks else f"/{topic}"
         if name not in self._tracks:
+            near = difflib.get_close_matches(name, self.topics(), n=1)
+            guess = f" Did you mean {near[0]!r}?" if near else ""
             raise RecordingError(
-                f"{self._path} has no topic {topic!r}", hint=f"Its topics: {', '.join(self.topics()) or 'none'}."
+                f"{self._path} has no topic {topic!r}", hint=f"Its topics: {', '.join(self.topics()) or 'none'}.{guess}"
             )
         return name
 
@@ -201,14 +213,14 @@ class MessageIndex:
     def _track_stamps(self, track: Track) -> NDArray[np.int64]:
         received = _int64(track.received)
         if track.stamp_reader is None:
-            return self._on_ros_clock(received)
+            return self.to_ros_time(received)
         if len(track.stamps) == len(track.received):
             return _int64(track.stamps)
         self._check_open()
         heads = Slices.join([track.first_bytes(position) for position in track.positions])
         return track.stamp_reader.stamps(heads, received)
 
-    def _on_ros_clock(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
+    def to_ros_time(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
         """Convert times of receipt to the ROS clock, if /clock was recorded."""
         if self._clock is None:
             return received

@@ -120,7 +120,7 @@ class TransformCollector:
             rejected = transforms.dynamic.statistics["refused"] + transforms.static.statistics["refused"]
             if rejected:
                 self._problems.add(
-                    "transforms that tf2 refuses: NaN, an invalid rotation, an empty name, or the same frame twice",
+                    "transforms that tf2 rejects: NaN, an invalid rotation, an empty name, or equal frame names",
                     rejected,
                 )
         return {name: self._namespaces[name].merge(self._problems) for name in sorted(self._namespaces)}

@@ -17,7 +17,7 @@ class Topic(NamedTuple):
         name: Name of the topic.
         type: Type of its messages, such as ``sensor_msgs/msg/Imu``; as recorded if it is not a type of ROS.
         messages: Number of messages.
-        rate: Messages per second between the first and the last one; 0 for fewer than two.
+        rate: Messages per second between the first and the last one; 0 for fewer than two and for a single burst.
         encoding: Encoding of the messages: ``cdr``, ``ros1``, ``protobuf``, ``json``, ...
     """
 
@@ -36,7 +36,7 @@ class RecordedMessage:
         type: Name of its type.
         stamp: The stamp of its header; the time of receipt if it has none.
         received: The time of receipt.
-        data: The serialised message.
+        data: The serialized message.
     """
 
     __slots__ = ("_decode", "_message", "data", "received", "stamp", "topic", "type")

@@ -5,14 +5,15 @@ from __future__ import annotations
 import weakref
 from contextlib import ExitStack
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from coframe import time
+from coframe import html_tables, time
 from coframe.bags.decoding import decoder
-from coframe.bags.file_discovery import open_files
+from coframe.bags.file_discovery import open_files, recording_stem
 from coframe.bags.message_index import MessageIndex, largest_track, reread
 from coframe.bags.namespaces import TopicFilter, TransformCollector, main_span, report_mixed_clocks
 from coframe.bags.problems import Problems
@@ -20,6 +21,7 @@ from coframe.bags.recorded_message import RecordedMessage, Topic
 from coframe.bags.table import edge_table
 from coframe.bags.transforms import ingest_for
 from coframe.errors import RecordingError
+from coframe.formatting import count, listed
 from coframe.frame_names import absolute, kept, renaming
 
 if TYPE_CHECKING:
@@ -37,6 +39,9 @@ if TYPE_CHECKING:
     from coframe.time import StampLike
 
 __all__ = ["RecordedMessage", "Recording", "Topic", "open_bag"]
+
+_MOST_APART = 60 * time.SECOND  # between the files of one recording that do not have the same name
+_BURST_SHARE = 0.01  # of the recording's duration
 
 
 def open_bag(
@@ -70,9 +75,11 @@ def open_bag(
 
     Example:
         >>> import coframe
-        >>> coframe.open_bag("nowhere.mcap")
-        Traceback (most recent call last):
-        coframe.RecordingError: nowhere.mcap cannot be read: No such file or directory
+        >>> try:
+        ...     coframe.open_bag("nowhere.mcap")
+        ... except coframe.RecordingError as error:
+        ...     print(error)
+        nowhere.mcap cannot be read: No such file or directory
     """
     keep = kept(keep)
     tf_topics = None if tf_topics is None else list(tf_topics)
@@ -97,13 +104,19 @@ class Recording:
         buffer: All transforms, with unlimited history. If several namespaces contain the same frame names, only the
             transforms of the first one; see ``buffers``.
         buffers: The transforms by namespace: ``""`` for ``/tf``, ``/robot1`` for ``/robot1/tf``.
-        topics: The topics by name.
+        topics: The topics by name, including those without messages.
+        files: The path and the size in bytes of each file.
+        format: The file format: ``MCAP``, ``SQLite`` or ``ROS 1 bag``.
+        compression: The compression of chunks or messages: ``zstd``, ``lz4``, ``bz2`` or ``none``.
         options: The arguments of :func:`open_bag` about namespace, topics and names, to open the recording again.
     """
 
     buffer: Buffer
     buffers: dict[str, Buffer]
     topics: dict[str, Topic]
+    files: list[tuple[Path, int]]
+    format: str
+    compression: str
     options: dict[str, Any]
 
     def __init__(self, path: Path) -> None:
@@ -121,14 +134,22 @@ class Recording:
         progress: Callable[[int, int], object],
         on_transforms: Callable[[Channel, NDArray[np.int64], Slices], object] | None,
     ) -> None:
-        storages = open_files(self.path, self._problems, self._closing)
+        storages, listed_topics = open_files(self.path, self._problems, self._closing)
         total = sum(storage.size for storage in storages)
         done = 0
         collected = TransformCollector(self._problems, wanted, self._renaming, on_transforms)
         for storage in storages:
             self._scan_file(storage, collected, lambda bytes_, before=done: progress(before + bytes_, total))  # type: ignore[misc]
             done += storage.size
-        self.topics = {name: self._topic(name) for name in self._index.topics()}
+        for channel in listed_topics:
+            if channel.topic not in self._index.topics():
+                self._index.add_track(storages[0], channel)
+        self.files = [(storage.path, storage.size) for storage in storages]
+        self.format = ", ".join(dict.fromkeys(storage.format for storage in storages))
+        self.compression = ", ".join(sorted(set().union(*(storage.compressions for storage in storages)))) or "none"
+        self._check_related(storages)
+        span = self._index.span()
+        self.topics = {name: self._topic(name, span) for name in self._index.topics()}
         self.buffers = collected.buffers()
         with_transforms = [track for track in self._index.tracks() if _has_transforms(track.channel)]
         self.buffer = collected.common_buffer(self.buffers, lambda: reread(with_transforms))
@@ -144,6 +165,28 @@ class Recording:
             track.add(batch)
             if batch.messages is not None and ingest is not None:
                 ingest(batch.received, batch.messages)
+        for channel in storage.channels():
+            if channel not in tracks:
+                self._index.add_track(storage, channel)
+
+    def _check_related(self, storages: list[Storage]) -> None:
+        """Raise an error if the folder contains files of several recordings that were made at different times."""
+        groups: dict[str, list[Storage]] = {}
+        for storage in storages:
+            groups.setdefault(recording_stem(storage.path), []).append(storage)
+        spans = []
+        for group in groups.values():
+            parts = [span for storage in group if (span := self._index.span(storage)) is not None]
+            if parts:
+                spans.append((min(first for first, _ in parts), max(last for _, last in parts)))
+        spans.sort()
+        apart = any(later[0] - earlier[1] > _MOST_APART for earlier, later in pairwise(spans))
+        if len(groups) > 1 and apart:
+            names = listed(group[0].path.name for group in groups.values())
+            raise RecordingError(
+                f"{self.path} contains {len(groups)} recordings that were made at different times: {names}",
+                hint="Give the path of one of them.",
+            )
 
     def _check_tf_topics(self, chosen: list[str]) -> None:
         """Raise an error for a misspelled topic, which would look like a healthy recording; /tf may be missing."""
@@ -154,15 +197,14 @@ class Recording:
             hint = f"Topics with transforms: {', '.join(existing) or 'none'}."
             raise RecordingError(f"{self.path} has no topic {', '.join(sorted(missing))}", hint=hint)
 
-    def _topic(self, name: str) -> Topic:
+    def _topic(self, name: str, span: tuple[int, int] | None) -> Topic:
         tracks = self._index.tracks(name)
         main = largest_track(tracks)
         types = {track.channel.type for track in tracks}
         if len(types) > 1:
             self._problems.add(f"{name} has messages of several types: {', '.join(sorted(types))}")
         received = self._index.received(name)
-        seconds = (int(received[-1]) - int(received[0])) / time.SECOND if len(received) else 0.0
-        rate = (len(received) - 1) / seconds if seconds > 0 else 0.0
+        rate = _rate(received, span)
         return Topic(name, main.channel.type, len(received), rate, main.channel.encoding)
 
     def frame(self, name: str) -> str:
@@ -177,12 +219,14 @@ class Recording:
     @cached_property
     def start(self) -> int:
         """Time of receipt of the first message, in nanoseconds; 0 if there is none."""
-        return min((int(self._index.received(name)[0]) for name in self.topics), default=0)
+        span = self._index.span()
+        return 0 if span is None else span[0]
 
     @cached_property
     def end(self) -> int:
         """Time of receipt of the last message, in nanoseconds; 0 if there is none."""
-        return max((int(self._index.received(name)[-1]) for name in self.topics), default=0)
+        span = self._index.span()
+        return 0 if span is None else span[1]
 
     @property
     def duration(self) -> int:
@@ -269,6 +313,14 @@ class Recording:
         """
         return self._index.received(self._index.find_topic(topic))
 
+    def to_ros_time(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Convert times of receipt to the clock of ``/clock``; unchanged if that was not recorded.
+
+        Args:
+            received: (N,) nanoseconds, as returned by :meth:`received`.
+        """
+        return self._index.to_ros_time(received)
+
     def message_at(self, topic: str, stamp: StampLike) -> RecordedMessage | None:
         """Return the newest message of a topic at a time; None before the first one.
 
@@ -330,6 +382,25 @@ class Recording:
     def __repr__(self) -> str:
         seconds = self.duration / time.SECOND
         return f"Recording({str(self.path)!r}, {len(self.topics)} topics, {seconds:.1f} s)"
+
+    def _repr_html_(self) -> str:
+        rows = ((topic.name, topic.type, topic.messages, f"{topic.rate:.3g} Hz") for topic in self.topics.values())
+        problems = ((sentence,) for sentence in self.problems)
+        return html_tables.section(
+            repr(self),
+            html_tables.table(("topic", "type", "messages", "rate"), rows, len(self.topics), "topic"),
+            html_tables.paragraph(f"The buffer has {count(len(self.buffer.frame_names()), 'frame')}."),
+            html_tables.table(("problems",), problems, len(self.problems), "problem"),
+        )
+
+
+def _rate(received: NDArray[np.int64], span: tuple[int, int] | None) -> float:
+    """Return the rate of messages in Hz; 0 for a single burst, such as the static transforms at the start."""
+    elapsed = int(received[-1]) - int(received[0]) if len(received) else 0
+    if span is None or elapsed <= 0:
+        return 0.0
+    is_burst = elapsed < time.SECOND and (len(received) == 2 or elapsed < _BURST_SHARE * (span[1] - span[0]))
+    return 0.0 if is_burst else (len(received) - 1) * time.SECOND / elapsed
 
 
 def _has_transforms(channel: Channel) -> bool:

@@ -33,9 +33,15 @@ _LONGEST_HEADER = 1 << 20
 class Ros1Storage(ChunkedStorage):
     """A bag of ROS 1."""
 
+    format = "ROS 1 bag"
+
     def __init__(self, path: Path, problems: Problems) -> None:
         super().__init__(path, problems)
         self._channels: dict[int, Channel] = {}
+
+    def channels(self) -> list[Channel]:
+        """Return the channels found so far."""
+        return list(self._channels.values())
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield all messages in file order; the bytes of unwanted ones are included because chunks contain both."""
@@ -45,7 +51,7 @@ class Ros1Storage(ChunkedStorage):
                 yield from self._chunk_batches(offset)
                 progress(min(end, self.size))
             elif end - offset > LARGEST:
-                self.add_problem(f"the record at byte {offset} has a stated size of {end - offset} bytes")
+                self.add_problem(f"the record at byte {offset} claims to have {end - offset} bytes")
             elif opcode == _CONNECTION:
                 self._connect(header, self.bytes_at(start, end - start))
             elif opcode == _MESSAGE:
@@ -119,6 +125,7 @@ class Ros1Storage(ChunkedStorage):
         """Return the records of the chunk at an offset of the file."""
         header, start, end = self._record(offset)
         compression = header.get(b"compression", b"none").decode("ascii", "replace")
+        self.compressions.add(compression)
         size = int.from_bytes(header.get(b"size", b"")[:4], "little")
         data = unpack(compression, self.bytes_at(start, min(end, self.size) - start), size)
         if end > self.size:

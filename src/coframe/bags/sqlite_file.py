@@ -30,6 +30,8 @@ _BATCH_SIZE = 2000  # rows
 class SqliteStorage(Storage):
     """A ``.db3`` file; the position of a message is the id of its row."""
 
+    format = "SQLite"
+
     def __init__(self, path: Path, problems: Problems) -> None:
         super().__init__(path, problems)
         self._lock = threading.Lock()
@@ -51,6 +53,10 @@ class SqliteStorage(Storage):
                 return recovered
         uri = f"{self.path.absolute().as_uri()}?mode=ro&immutable=1"
         return sqlite3.connect(uri, uri=True, check_same_thread=False)
+
+    def channels(self) -> list[Channel]:
+        """Return the channels found so far."""
+        return list(self._channels.values())
 
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
         """Yield the messages of the wanted channels with their bytes, then the others without."""

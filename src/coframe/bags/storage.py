@@ -6,7 +6,7 @@ import threading
 from abc import ABC, abstractmethod
 from collections import OrderedDict
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, BinaryIO, NamedTuple
+from typing import TYPE_CHECKING, BinaryIO, ClassVar, NamedTuple
 
 from coframe.bags.compression import LARGEST, DamagedError
 
@@ -63,10 +63,17 @@ class Batch(NamedTuple):
 class Storage(ABC):
     """A file of a recording. Reading is thread-safe."""
 
+    format: ClassVar[str] = ""  # name of the file format
+
     def __init__(self, path: Path, problems: Problems) -> None:
         self.path = path
         self.problems = problems
         self.size = path.stat().st_size  # bytes
+        self.compressions: set[str] = set()  # the methods found so far
+
+    @abstractmethod
+    def channels(self) -> list[Channel]:
+        """Return the channels found so far; after :meth:`batches` all of them, including those without messages."""
 
     @abstractmethod
     def batches(self, wanted: Callable[[Channel], bool], progress: Callable[[int], object]) -> Iterator[Batch]:
@@ -140,7 +147,7 @@ class ChunkedStorage(Storage):
         if not 0 <= offset < self.size:
             return b""
         if size > LARGEST:
-            raise DamagedError(f"the stated size of a record is {size} bytes")
+            raise DamagedError(f"a record claims to have {size} bytes, more than the limit of {LARGEST}")
         with self._lock:
             self._file.seek(offset)
             return self._file.read(size)

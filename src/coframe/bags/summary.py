@@ -66,9 +66,13 @@ class Summary(NamedTuple):
         span: First and last stamp of the transforms.
         topics: All topics.
         trees: All trees, the largest first.
-        edges: All edges.
+        edges: All edges in tree order: each below that of its parent.
         sensors: The topics whose messages have a header with a frame, except transforms.
         problems: Problems of the recording, one sentence each.
+        size: Size of all files in bytes.
+        files: Number of files.
+        format: File format: ``MCAP``, ``SQLite`` or ``ROS 1 bag``.
+        compression: Compression of chunks or messages: ``zstd``, ``lz4``, ``bz2`` or ``none``.
     """
 
     path: str
@@ -80,12 +84,17 @@ class Summary(NamedTuple):
     edges: list[EdgeSummary]
     sensors: list[SensorSummary]
     problems: list[str]
+    size: int
+    files: int
+    format: str
+    compression: str
 
 
 def summarize(recording: Recording) -> Summary:
     """Summarize a recording: topics, trees, edges with their gaps, and which sensor data can be transformed."""
     edges = [edge for edge in recording.buffer.edges() if edge.parent]
     trees = FrameTrees.from_parents({edge.child: edge.parent for edge in edges})
+    position = {trees.names[number]: place for place, number in enumerate(trees.order)}
     sensors = [_sensor(recording, topic, trees) for topic in recording.topics.values()]
     sizes = [TreeSummary(trees.root(members[0]), len(members)) for members in trees.members]
     return Summary(
@@ -95,9 +104,13 @@ def summarize(recording: Recording) -> Summary:
         span=recording.span,
         topics=list(recording.topics.values()),
         trees=sorted(sizes, key=lambda tree: (-tree.size, tree.root)),
-        edges=[_edge(edge) for edge in edges],
+        edges=[_edge(edge) for edge in sorted(edges, key=lambda edge: position[edge.child])],
         sensors=[sensor for sensor in sensors if sensor is not None],
         problems=recording.problems,
+        size=sum(size for _, size in recording.files),
+        files=len(recording.files),
+        format=recording.format,
+        compression=recording.compression,
     )
 
 

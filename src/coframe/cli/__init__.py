@@ -15,6 +15,7 @@ _INTERRUPTED = 130  # exit code: 128 + SIGINT, as shells have it
 _EXTRAS = {
     "cyclonedds": "dds",
     "lz4": "bags",
+    "matplotlib": "plot",
     "mcap": "bags",
     "pyarrow": "parquet",
     "pydyf": "pdf",
@@ -37,10 +38,10 @@ def main() -> None:
 
 
 def _app(name: str) -> typer.Typer:
-    """Return the app with the named command only, which starts twice as fast, or with all commands."""
+    """Return the app in which only the named command can run: the help and the other commands start faster."""
     from coframe.cli.commands import COMMANDS, build_app  # noqa: PLC0415 - main() reports a missing typer
 
-    return build_app([name] if name in COMMANDS else COMMANDS)
+    return build_app([name] if name in COMMANDS else [])
 
 
 def _what_to_install(error: ModuleNotFoundError) -> str:

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import inspect
 import json
+import re
 from datetime import datetime, timezone
-from pathlib import Path  # noqa: TC003 - typer reads the annotations
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.table import Table
 from rich.text import Text
 
-from coframe.bags import COMPRESSIONS, repair, summarize
+from coframe.bags import COMPRESSIONS, parse_time_point, repair, summarize
+from coframe.bags.copying import copy_recordings
 from coframe.cli.help_format import PlainCommand, PlainGroup
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
+    TIMES,
     BagArgument,
     KeepOption,
     NamespaceOption,
@@ -26,20 +30,29 @@ from coframe.cli.options import (
     TfStaticTopicOption,
     TfTopicOption,
 )
-from coframe.cli.output import fail, printable, report_console
+from coframe.cli.output import fail, printable, report_console, warn
+from coframe.cli.play import PlayCommand, play
 from coframe.cli.progress import task_progress
-from coframe.cli.recordings import open_recording
-from coframe.formatting import count, seconds
+from coframe.cli.record import record
+from coframe.cli.recordings import EARLIEST_WALL_TIME, grouped_by_topic, open_recording
+from coframe.formatting import count, listed, seconds
 from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
-    from coframe.bags import Summary
+    from rich.console import Console
+
+    from coframe.bags import Recording, Summary
+    from coframe.bags.summary import SensorSummary
 
 __all__ = ["bag"]
 
+_NUMBER = re.compile(r"\d+(\.\d+)?")
+
+OutputArgument = Annotated[Path, typer.Argument(metavar="OUT", help="Folder of the copy; it must not exist yet.")]
+CompressionOption = Annotated[str, typer.Option(metavar="METHOD", help="Compression of the copy: none, zstd or lz4.")]
 bag = typer.Typer(
     cls=PlainGroup,
-    help="Inspect and repair recordings.\n\nExample: coframe bag info run.mcap",
+    help="Record, play, inspect, repair, convert and cut recordings.\n\nExample: coframe bag info run.mcap",
     no_args_is_help=True,
     rich_markup_mode=None,
 )
@@ -48,6 +61,16 @@ bag = typer.Typer(
 @bag.callback()
 def _bag() -> None:
     pass
+
+
+# The short forms `coframe record` and `coframe play` are the same commands.
+for _function, _class, _line in (
+    (record, PlainCommand, "Record topics; short form: coframe record."),
+    (play, PlayCommand, "Replay a recording; short form: coframe play."),
+):
+    _name = _function.__name__
+    _help = (inspect.getdoc(_function) or "").replace(f"Example: coframe {_name}", f"Example: coframe bag {_name}")
+    bag.command(_name, cls=_class, short_help=_line, help=_help)(_function)
 
 
 @bag.command(cls=PlainCommand, short_help="Show topics, transform trees and gaps of a recording.")
@@ -77,7 +100,7 @@ def info(
 @bag.command(cls=PlainCommand, short_help="Write a repaired copy of a recording.")
 def fix(
     bag: BagArgument,
-    output: Annotated[Path, typer.Argument(metavar="OUT", help="Folder of the copy; it must not exist yet.")],
+    output: OutputArgument,
     statics: Annotated[
         Path | None,
         typer.Option(metavar="OTHER", help="Other recording, whose static transforms are added where BAG has none."),
@@ -86,9 +109,7 @@ def fix(
     tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
     prefix: PrefixOption = "",
     keep: KeepOption = "",
-    compression: Annotated[
-        str, typer.Option(metavar="METHOD", help="Compression of the copy: none, zstd or lz4.")
-    ] = "zstd",
+    compression: CompressionOption = "zstd",
 ) -> None:
     """Write a repaired copy of the recording BAG to the folder OUT, and list what was repaired.
 
@@ -98,8 +119,7 @@ def fix(
 
     Example: coframe bag fix broken.mcap repaired
     """
-    if compression not in COMPRESSIONS:
-        fail(f"--compression: unknown method {compression!r}. Methods: {', '.join(COMPRESSIONS)}", code=2)
+    _check_compression(compression)
     with run_to_completion():
         robot: dict[str, str] = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic}
         with task_progress() as progress:
@@ -123,15 +143,107 @@ def fix(
         print(f"{report.path}: {count(report.messages, 'message')}")
 
 
+@bag.command(cls=PlainCommand, short_help="Convert a recording to rosbag2's MCAP, or change its compression.")
+def convert(
+    bag: BagArgument,
+    output: OutputArgument,
+    compression: CompressionOption = "zstd",
+) -> None:
+    """Convert the recording BAG, of ROS 1 or in SQLite, to MCAP in rosbag2's layout, or change its compression.
+
+    Example: coframe bag convert run.bag run --compression lz4
+    """
+    _copy([bag], output, compression)
+
+
+@bag.command(cls=PlainCommand, short_help="Merge several recordings into one, in the order of time.")
+def merge(
+    bags: Annotated[list[Path], typer.Argument(metavar="BAG...", help="Recordings to merge.")],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="FOLDER", help="Folder of the new recording; it must not exist.")
+    ],
+    compression: CompressionOption = "zstd",
+) -> None:
+    """Merge several recordings into one, with the messages in the order in which they were received.
+
+    Example: coframe bag merge robot.mcap camera.mcap -o both
+    """
+    _copy(bags, output, compression)
+
+
+@bag.command("slice", cls=PlainCommand, short_help="Copy a time span or some topics of a recording.")
+def slice_(
+    bag: BagArgument,
+    output: OutputArgument,
+    start: Annotated[
+        str | None, typer.Option(metavar="TIME", help=f"First time of receipt: {TIMES}. [default: start]")
+    ] = None,
+    end: Annotated[str | None, typer.Option(metavar="TIME", help="Last time of receipt, written like --start.")] = None,
+    topics: Annotated[
+        list[str] | None, typer.Option("--topics", metavar="TOPIC", help="Copy only this topic; repeatable.")
+    ] = None,
+    compression: CompressionOption = "zstd",
+) -> None:
+    """Copy the messages of the recording BAG that were received in a time span, or those of some topics.
+
+    Static transforms that were received before the start are included.
+
+    Example: coframe bag slice run.mcap part --start 10s --end 1min
+    """
+
+    def span(recording: Recording) -> tuple[int | None, int | None]:
+        first, last = (_receipt_time(name, text, recording) for name, text in (("--start", start), ("--end", end)))
+        if first is not None and last is not None and first > last:
+            fail(f"--start {start} is after --end {end}", code=2)
+        return first, None if last is None else last + 1
+
+    _copy([bag], output, compression, topics=topics or None, span=span)
+
+
+def _receipt_time(option: str, text: str | None, recording: Recording) -> int | None:
+    try:
+        return None if text is None else parse_time_point(text, (recording.start, recording.end))
+    except ValueError as error:
+        fail(f"{option}: {error}", code=2)
+
+
+def _copy(sources: list[Path], output: Path, compression: str, **selection: Any) -> None:
+    _check_compression(compression)
+    with run_to_completion():
+        with task_progress() as progress:
+            report = copy_recordings(sources, output, compression=compression, progress=progress, **selection)
+        for problem in grouped_by_topic(report.problems):
+            warn(problem)
+        print(printable(f"{report.path}: {count(report.messages, 'message')}"))
+
+
+def _check_compression(compression: str) -> None:
+    if compression not in COMPRESSIONS:
+        fail(f"--compression: unknown method {compression!r}. Methods: {', '.join(COMPRESSIONS)}", code=2)
+
+
 def _print(summary: Summary) -> None:
     console = report_console()
     console.print(_text(summary.path, style="bold"))
-    console.print(f"received  {_when(summary.start)} to {_when(summary.end)}, {seconds(summary.end - summary.start)} s")
-    console.print(f"stamps    {seconds(summary.span[0])} to {seconds(summary.span[1])}")
+    storage = (
+        f"{summary.format}, compression {summary.compression}, {_size(summary.size)} in {count(summary.files, 'file')}"
+    )
+    console.print(_text(f"storage   {storage}"))
+    if any(topic.messages for topic in summary.topics):
+        console.print(
+            f"received  {_when(summary.start)} to {_when(summary.end)}, {seconds(summary.end - summary.start)} s"
+        )
+        note = ", simulation time" if summary.span[1] < EARLIEST_WALL_TIME <= summary.start else ""
+        console.print(f"stamps    {seconds(summary.span[0])} to {seconds(summary.span[1])}{note}")
+    else:
+        console.print("The recording contains no messages.")
     topics = _table("topic", "type", "messages", "Hz")
     for topic in summary.topics:
-        topics.add_row(_text(topic.name), _text(topic.type), str(topic.messages), f"{topic.rate:.1f}")
-    console.print(topics)
+        topics.add_row(
+            _text(topic.name), _text(topic.type), str(topic.messages), f"{topic.rate:.1f}" if topic.rate else "-"
+        )
+    if summary.topics:
+        console.print(topics)
     for tree in summary.trees:
         console.print(_text(f"tree with root {tree.root}: {count(tree.size, 'frame')}", style="bold"))
     edges = _table("parent", "child", "samples", "Hz", "longest gap", "from", "to")
@@ -139,13 +251,32 @@ def _print(summary: Summary) -> None:
         moving = (f"{edge.rate:.1f}", f"{edge.longest_gap / SECOND:.3f} s", seconds(edge.oldest), seconds(edge.newest))
         cells: tuple[Any, ...] = ("static", "", "", "") if edge.static else moving
         edges.add_row(_text(edge.parent), _text(edge.child), str(edge.samples), *cells)
-    console.print(edges)
-    sensors = _table("sensor", "frame", "transformable", "reason")
-    for sensor in summary.sensors:
-        share = f"{sensor.possible} of {sensor.messages} into {sensor.root}" if sensor.root else "none"
-        sensors.add_row(_text(sensor.topic), _text(sensor.frame), _text(share), _text(sensor.why_not))
+    if summary.edges:
+        console.print(edges)
     if summary.sensors:
-        console.print(sensors)
+        _print_sensors(summary.sensors, console)
+
+
+def _print_sensors(summaries: list[SensorSummary], console: Console) -> None:
+    """Print which sensor data can be transformed, and below it once each reason why not."""
+    sensors = _table("sensor", "frame", "transformable")
+    reasons: dict[str, list[tuple[str, str]]] = {}
+    for sensor in summaries:
+        share = f"{sensor.possible} of {sensor.messages} into {sensor.root}" if sensor.root else "none"
+        sensors.add_row(_text(sensor.topic), _text(sensor.frame), _text(share))
+        if sensor.why_not:
+            # The sentences about the topics of one frame differ only in the times.
+            reasons.setdefault(_NUMBER.sub("", sensor.why_not), []).append((sensor.topic, sensor.why_not))
+    console.print(sensors)
+    for group in reasons.values():
+        console.print(_text(f"{listed(topic for topic, _ in group)}: {group[0][1]}"), soft_wrap=True)
+
+
+def _size(size: int) -> str:
+    for unit, name in ((10**9, "GB"), (10**6, "MB"), (10**3, "kB")):
+        if size >= unit:
+            return f"{size / unit:.1f} {name}"
+    return f"{size} bytes"
 
 
 def _text(text: str, style: str = "") -> Text:

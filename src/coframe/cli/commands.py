@@ -36,16 +36,18 @@ COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
     "relay": ("Merge the transforms of several robots, or split them.", {}),
     "record": ("Record topics as MCAP files in rosbag2's layout.", {}),
     "play": ("Replay a recording.", {"cls": "PlayCommand"}),
-    "bag": ("Inspect and repair recordings.", {}),
-    "lookup": ("Print a transform from a recording.", {}),
+    "bag": ("Record, play, inspect, repair, convert and cut recordings.", {}),
+    "lookup": ("Print a transform once, live or from a recording.", {}),
     "trajectory": ("Write the trajectory of a frame from a recording.", {}),
+    "compare": ("Compare two trajectories: absolute and relative pose errors.", {}),
+    "plot": ("Plot poses, fields, rates and delays over time.", {}),
     "cloud": ("Write point clouds or scans from a recording in one frame.", {}),
     "batch": ("Write trajectories from many recordings as one dataset.", {}),
 }
 
 
 def build_app(names: Iterable[str]) -> typer.Typer:
-    """Return the command line with these commands; only their modules are imported."""
+    """Return the command line; only the modules of the named commands are imported, and only these can run."""
     app = typer.Typer(
         name="coframe",
         cls=PlainGroup,
@@ -60,9 +62,12 @@ def build_app(names: Iterable[str]) -> typer.Typer:
         rich_markup_mode=None,
     )
     app.callback()(_main)
-    for name in names:
+    imported = set(names)
+    for name, (line, registration) in COMMANDS.items():
+        if name not in imported:
+            app.command(name, cls=PlainCommand, short_help=line)(_not_imported)
+            continue
         module = importlib.import_module(f"coframe.cli.{name}")
-        line, registration = COMMANDS[name]
         command = getattr(module, name)
         if isinstance(command, typer.Typer):
             app.add_typer(command, name=name, cls=PlainGroup, short_help=line)
@@ -70,6 +75,10 @@ def build_app(names: Iterable[str]) -> typer.Typer:
             cls = getattr(module, registration["cls"]) if "cls" in registration else PlainCommand
             app.command(**{**registration, "cls": cls, "short_help": line})(command)
     return app
+
+
+def _not_imported() -> None:
+    """Stand for a command whose line in the help is known without its module."""
 
 
 def _print_version(requested: bool) -> None:

@@ -19,10 +19,12 @@ from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
+    DurationOption,
     KeepOption,
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
+    duration_in_seconds,
 )
 from coframe.cli.output import fail
 from coframe.cli.robots_demo import show_robots
@@ -76,9 +78,7 @@ def demo(
             help="With --robots: each robot publishes on its own topics, e.g. /robot1/tf; a relay merges them.",
         ),
     ] = False,
-    duration: Annotated[
-        float | None, typer.Option(metavar="SECONDS", min=0.0, help="Stop after this time. [default: on Ctrl-C]")
-    ] = None,
+    duration: DurationOption = None,
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Do not open a browser.")] = False,
     port: PortOption = None,
     domain: DomainOption = None,
@@ -95,13 +95,14 @@ def demo(
     Example: coframe demo --duration 10
     """
     console = Console()
+    seconds = duration_in_seconds("--duration", duration)
     listener_options = {"tf_topic": tf_topic, "tf_static_topic": tf_static_topic, "prefix": prefix, "keep": keep}
     if robots is not None:
         if urdf:
             fail("--robots cannot be combined with --urdf", "Several robots are simulated without a URDF.", code=2)
         show_robots(
             robots,
-            duration,
+            seconds,
             own_topics=own_topics,
             port=port,
             browser=not no_browser,
@@ -135,7 +136,7 @@ def demo(
             )
 
         with Live(get_renderable=screen, console=console, refresh_per_second=1 / REFRESH, transient=False):
-            _watch(ros.buffer, nodes, start, duration, [name(frame) for frame in COMPLETE])
+            _watch(ros.buffer, nodes, start, seconds, [name(frame) for frame in COMPLETE])
 
 
 def _duplicate_nodes(ros: coframe.Connection, nodes: Launcher) -> list[str]:
@@ -144,7 +145,7 @@ def _duplicate_nodes(ros: coframe.Connection, nodes: Launcher) -> list[str]:
     duplicates = [name for name in nodes.names if counts[name] > 1]
     if not duplicates:
         return []
-    return [f"another {', '.join(duplicates)} in this domain: stop it, or choose another domain with --domain"]
+    return [f"already running in this domain: {', '.join(duplicates)}. Stop it, or choose another domain with --domain"]
 
 
 def _watch(buffer: coframe.Buffer, nodes: Launcher, start: float, duration: float | None, complete: list[str]) -> None:

@@ -51,7 +51,7 @@ def doctor(
         Path | None,
         typer.Argument(metavar="[BAG]", help="Recording; without it, the live ROS graph.", show_default=False),
     ] = None,
-    watch: Annotated[bool, typer.Option("--watch", help="Keep listening, and update the findings.")] = False,
+    watch: Annotated[bool, typer.Option("--watch", help="Update the findings continuously.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON; times are in nanoseconds.")] = False,
     sarif: Annotated[bool, typer.Option("--sarif", help="Print SARIF 2.1.0.")] = False,
     ignore: Annotated[
@@ -64,7 +64,7 @@ def doctor(
         bool, typer.Option("--list", help="List all codes with their titles and exit; with --json, as JSON.")
     ] = False,
     duration: Annotated[
-        str, typer.Option(metavar="DURATION", help="Time to listen; with --watch, the window of the findings.")
+        str, typer.Option(metavar="DURATION", help="Observation time; with --watch, the time window of the findings.")
     ] = "10s",
     cache: Annotated[
         str, typer.Option(metavar="DURATION", help="Cache length of the nodes that use the transforms.")
@@ -114,7 +114,7 @@ def doctor(
                 _watch(observer, ignored, as_json)
                 return
             if Console(stderr=True).is_terminal:
-                typer.echo(f"listening for {duration} ...", err=True)
+                typer.echo(f"observing for {duration} ...", err=True)
             observer.listen(window / SECOND)
             report = diagnose(observer.observe(), ignore=ignored)
         _print_and_exit({"": report}, as_json, sarif, None)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import math
 import time
+from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
@@ -19,12 +21,15 @@ from coframe.cli.options import (
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
+    parse_duration,
 )
 from coframe.cli.output import fail, log, with_doctor_command
 from coframe.errors import TransformException
 from coframe.time import MICROSECOND, SECOND
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from coframe import Buffer, Transform
 
 __all__ = ["echo"]
@@ -50,20 +55,27 @@ def echo(
         float | None, typer.Option("--rate", "-r", metavar="HZ", help="The same as RATE.", show_default=False)
     ] = None,
     cache_time: Annotated[
-        float, typer.Option("--cache-time", "-c", metavar="SECONDS", help="How long transforms are kept.")
-    ] = 10.0,
+        str, typer.Option("--cache-time", "-c", metavar="DURATION", help="How long transforms are kept.")
+    ] = "10s",
     offset: Annotated[
-        float | None,
-        typer.Option("--offset", "-o", metavar="SECONDS", help="Look up at the current time plus this offset."),
+        str | None,
+        typer.Option("--offset", metavar="DURATION", help="Look up at the current time plus this offset, e.g. -1s."),
+    ] = None,
+    upstream_offset: Annotated[
+        str | None,
+        typer.Option("-o", metavar="DURATION", hidden=True),
     ] = None,
     at: Annotated[
         float | None,
-        typer.Option("--time", "-t", metavar="SECONDS", help="Look up at this fixed time; overrides --offset."),
+        typer.Option("--at", "-t", "--time", metavar="SECONDS", help="Look up at this fixed time; overrides --offset."),
     ] = None,
     limit: Annotated[int | None, typer.Option("--limit", "-l", metavar="N", help="Exit after N transforms.")] = None,
     precision: Annotated[
         int, typer.Option("--precision", "-p", metavar="DIGITS", help="Digits after the decimal point.")
     ] = 3,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one line of JSON per transform, in full precision.")
+    ] = False,
     domain: DomainOption = None,
     tf_topic: TfTopicOption = TF_TOPIC,
     tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,
@@ -72,16 +84,20 @@ def echo(
 ) -> None:
     """Print the pose of TARGET_FRAME relative to SOURCE_FRAME repeatedly, like ROS 2's tf2_echo.
 
-    The latest transform is printed, unless --offset or --time is given.
+    The latest transform is printed, unless --offset or --at is given. The frames are in the order of tf2_echo, which is
+    also the order of TARGET and SOURCE in coframe lookup: the pose of the second frame relative to the first.
 
     Example: coframe echo base_link camera_link 2
     """
     hertz = _positive("Rate", rate if rate is not None else _positional_rate(echo_rate), MAX_RATE)
     _positive("Period", 1.0 / hertz, MAX_SECONDS)
-    _positive("Cache time", cache_time, MAX_SECONDS)
+    # The texts and exit codes for values out of range are tf2_echo's.
+    cache = _positive("Cache time", parse_duration("--cache-time", cache_time) / SECOND, MAX_SECONDS)
+    given = offset if offset is not None else upstream_offset
+    ahead = None if given is None else parse_duration("--offset", given) / SECOND
     _positive("Limit", 1 if limit is None else limit)
     _positive("Precision", precision, MAX_DIGITS)
-    for option, value in (("--time", at), ("--offset", offset)):
+    for option, value in (("--at", at), ("--offset", ahead)):
         if value is not None and not abs(value) <= MAX_SECONDS:
             fail(f"{option} must be a number of seconds from {-MAX_SECONDS:.0e} to {MAX_SECONDS:.0e}, not {value}")
     with (
@@ -91,17 +107,18 @@ def echo(
             domain=domain,
             tf_topic=tf_topic,
             tf_static_topic=tf_static_topic,
-            cache=round(cache_time * SECOND),
+            cache=round(cache * SECOND),
             prefix=prefix,
             keep=keep,
         ) as ros,
     ):
         period = round(SECOND / hertz)
+        write = as_json_line if as_json else partial(format_transform, precision=precision)
         _wait_until_possible(ros.buffer, source_frame, target_frame, period)
         due = time.monotonic_ns()
         answers = 0
         while limit is None or answers < limit:
-            answers += _print_answer(ros.buffer, source_frame, target_frame, _lookup_time(at, offset), precision)
+            answers += _print_answer(ros.buffer, source_frame, target_frame, _lookup_time(at, ahead), write)
             due += period
             time.sleep(max(0, due - time.monotonic_ns()) / SECOND)
 
@@ -150,7 +167,7 @@ def _wait_until_possible(buffer: Buffer, source: str, target: str, period: int) 
             return
 
 
-def _print_answer(buffer: Buffer, source: str, target: str, stamp: int, precision: int) -> int:
+def _print_answer(buffer: Buffer, source: str, target: str, stamp: int, write: Callable[[Transform], str]) -> int:
     """Print the transform and return 1, or print why there is none and return 0."""
     try:
         transform = buffer.lookup(source, target, stamp)
@@ -159,8 +176,21 @@ def _print_answer(buffer: Buffer, source: str, target: str, stamp: int, precisio
         print(f"Exception thrown:{error}")
         print(f"The current list of frames is:\n{buffer.all_frames_as_string()}", flush=True)
         return 0
-    print(format_transform(transform, precision), flush=True)
+    print(write(transform), flush=True)
     return 1
+
+
+def as_json_line(transform: Transform) -> str:
+    """Return a transform as one line of JSON in full precision."""
+    return json.dumps(
+        {
+            "target": transform.target,
+            "source": transform.source,
+            "stamp_ns": transform.stamp,
+            "translation": transform.translation.tolist(),
+            "quaternion": transform.quaternion.tolist(),
+        }
+    )
 
 
 def format_transform(transform: Transform, precision: int = 3) -> str:

@@ -1,4 +1,4 @@
-"""``coframe frames``: shows the transform trees with their figures, or writes a diagram, like view_frames."""
+"""``coframe frames``: shows the transform trees with edge statistics, or writes a diagram, like view_frames."""
 
 from __future__ import annotations
 
@@ -72,10 +72,12 @@ def frames(
             "--output", "-o", metavar="FILE", help=f"Write a diagram or data: {', '.join(_FORMATS)}; repeatable."
         ),
     ] = None,
-    watching: Annotated[bool, typer.Option("--watch", help="Keep listening, and highlight changes.")] = False,
+    watching: Annotated[
+        bool, typer.Option("--watch", help="Update the trees continuously, and highlight changes.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON; times are in nanoseconds.")] = False,
     duration: Annotated[
-        str, typer.Option(metavar="DURATION", help="Time to listen; with --watch, the window of the figures.")
+        str, typer.Option(metavar="DURATION", help="Observation time; with --watch, the time window of the statistics.")
     ] = "5s",
     namespace: NamespaceOption = None,
     prefix: PrefixOption = "",
@@ -117,7 +119,7 @@ def frames(
                 watch(observer, as_json)
                 return
             if Console(stderr=True).is_terminal:
-                typer.echo(f"listening for {duration} ...", err=True)
+                typer.echo(f"observing for {duration} ...", err=True)
             observer.listen(window / SECOND)
             forest = grow(observer.observe())
         if not forest.frames:

@@ -20,6 +20,19 @@ _RANGE = re.compile(r"  \[(?:[-\d.]+<=?)?x(?:[<>]=?[-\d.]+)?\]|; (?:[-\d.]+<=?)?
 class PlainCommand(TyperCommand):
     """A command whose help names each argument as it is written on the command line: BAG, [BAG] or TOPIC..."""
 
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Parse the arguments; suggest the correct name of a misspelled option as of a misspelled command."""
+        try:
+            words: list[str] = super().parse_args(ctx, args)
+        except Exception as error:
+            # The class is private in the versions of typer that contain their own click.
+            if type(error).__name__ == "NoSuchOption" and getattr(error, "possibilities", None):
+                near = sorted(error.possibilities)  # type: ignore[attr-defined]
+                error.message = f"{error.message.rstrip('.')}. Did you mean {' or '.join(near)}?"  # type: ignore[attr-defined]
+                error.possibilities = None  # type: ignore[attr-defined]
+            raise
+        return words
+
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
         """Return the words after the name of the command."""
         return ["[OPTIONS]", *(_name(argument) for argument in _parameters(self, ctx, "argument"))]

@@ -1,48 +1,65 @@
-"""``coframe lookup``: prints a transform from a recording."""
+"""``coframe lookup``: prints a transform from the live ROS graph or from a recording."""
 
 from __future__ import annotations
 
-import json
+import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from coframe.cli.echo import MAX_DIGITS, format_transform
+import coframe
+from coframe.bags import parse_time_point
+from coframe.cli.echo import MAX_DIGITS, as_json_line, format_transform
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
+    TF_STATIC_TOPIC,
+    TF_TOPIC,
     TIMES,
-    BagArgument,
+    DomainOption,
     KeepOption,
     NamespaceOption,
     PrefixOption,
     RecordedTfStaticTopicOption,
     RecordedTfTopicOption,
+    positive_duration,
+    reject_namespace_of_live_graph,
 )
 from coframe.cli.output import fail
-from coframe.cli.recordings import open_recording, parse_time
+from coframe.cli.recordings import check_has_transforms, open_recording, parse_time
 from coframe.errors import ExtrapolationException, TransformException
 from coframe.formatting import seconds
+from coframe.time import SECOND
 
 if TYPE_CHECKING:
-    from coframe import Transform
+    from collections.abc import Callable
+
+    from coframe import Buffer, Transform
     from coframe.bags import Recording
 
 __all__ = ["lookup"]
 
 _ALWAYS = (0, 0)  # the span of static transforms
+_RETRY_PERIOD = 0.05  # seconds
 
 
 def lookup(
-    bag: BagArgument,
-    target: Annotated[str, typer.Argument(metavar="TARGET", help="Frame in which the pose is expressed.")],
-    source: Annotated[str, typer.Argument(metavar="SOURCE", help="Frame whose pose is looked up.")],
+    names: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="[BAG] TARGET SOURCE",
+            help="Prints the pose of SOURCE relative to TARGET, in the order of tf2_echo; without a recording BAG, on "
+            "the live ROS graph.",
+            show_default=False,
+        ),
+    ],
     at: Annotated[
         str | None,
         typer.Option(
             "--at",
             "-t",
             metavar="TIME",
-            help=f"Time of the lookup: {TIMES}. [default: the latest common time]",
+            help=f"Time of the lookup: {TIMES}; live also 'now'. [default: the latest common time]",
             show_default=False,
         ),
     ] = None,
@@ -54,7 +71,12 @@ def lookup(
         str | None,
         typer.Option(metavar="TIME", help="Time travel: time of SOURCE; --at is the time of TARGET."),
     ] = None,
+    duration: Annotated[
+        str,
+        typer.Option("--duration", "--timeout", metavar="DURATION", help="Live: time to wait for the transform."),
+    ] = "5s",
     namespace: NamespaceOption = None,
+    domain: DomainOption = None,
     tf_topic: RecordedTfTopicOption = None,
     tf_static_topic: RecordedTfStaticTopicOption = None,
     prefix: PrefixOption = "",
@@ -67,26 +89,67 @@ def lookup(
     ] = 6,
     as_json: Annotated[bool, typer.Option("--json", help="Print one line of JSON in full precision.")] = False,
 ) -> None:
-    """Print the pose of SOURCE relative to TARGET at a time of the recording BAG.
+    """Print the pose of SOURCE relative to TARGET once, live or at a time of the recording BAG.
 
     Example: coframe lookup run.mcap map base_link --at 10s
     """
     if (fixed is None) != (source_time is None):
         given, missing = ("--fixed", "--source-time") if source_time is None else ("--source-time", "--fixed")
         fail(f"{given} requires {missing}", "Time travel needs both options.", code=2)
-    with run_to_completion(), open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
-        when = 0 if at is None else parse_time("--at", at, recording)
-        buffer = recording.buffer
+    if len(names) not in {2, 3}:
+        fail("Give the frames TARGET and SOURCE, or a recording and the two frames.", code=2)
+    *bags, target, source = names
+    window = positive_duration("--duration", duration)
+
+    def transform(buffer: Buffer, parse: Callable[[str, str], int]) -> Transform:
+        when = 0 if at is None else parse("--at", at)
+        if fixed is None or source_time is None:
+            return buffer.lookup(target, source, when)
+        return buffer._lookup_full(target, when, source, parse("--source-time", source_time), fixed)
+
+    with run_to_completion():
+        if bags:
+            with open_recording(Path(bags[0]), namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+                check_has_transforms(recording)
+                try:
+                    found = transform(recording.buffer, lambda option, text: parse_time(option, text, recording))
+                except ExtrapolationException as error:
+                    available = _available_span(recording, {target, source, fixed or source})
+                    when = None if at is None else parse_time("--at", at, recording)
+                    fail(str(error), available or recording.buffer.why(target, source, when).hint)
+        else:
+            reject_namespace_of_live_graph(namespace)
+            if Path(target).exists() and not {"/", "."}.isdisjoint(target):
+                fail(f"{target} is a file or a folder. Give TARGET and SOURCE after the recording.", code=2)
+            topics = {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
+            with coframe.connect("coframe_lookup", domain=domain, **topics, prefix=prefix, keep=keep) as ros:
+                found = _when_possible(lambda: transform(ros.buffer, _clock_time(window)), window)
+        print(as_json_line(found) if as_json else format_transform(found, precision))
+
+
+def _clock_time(window: int) -> Callable[[str, str], int]:
+    """Return the function that parses a time of the live graph; offsets are relative to the time to wait."""
+    now = time.time_ns()
+
+    def parse(option: str, text: str) -> int:
         try:
-            if fixed is None or source_time is None:
-                found = buffer.lookup(target, source, when)
-            else:
-                then = parse_time("--source-time", source_time, recording)
-                found = buffer._lookup_full(target, when, source, then, fixed)
-        except ExtrapolationException as error:
-            available = _available_span(recording, {target, source, fixed or source})
-            fail(str(error), available or buffer.why(target, source, when).hint)
-        print(_json(found) if as_json else format_transform(found, precision))
+            return now if text.strip() == "now" else parse_time_point(text, (now - window, now))
+        except ValueError as error:
+            fail(f"{option}: {error}", code=2)
+
+    return parse
+
+
+def _when_possible(transform: Callable[[], Transform], window: int) -> Transform:
+    """Return the transform as soon as it is available; raise the error of the last attempt when the time is over."""
+    end = time.monotonic() + window / SECOND
+    while True:
+        try:
+            return transform()
+        except TransformException:
+            if time.monotonic() >= end:
+                raise
+        time.sleep(_RETRY_PERIOD)
 
 
 def _available_span(recording: Recording, frames: set[str]) -> str:
@@ -103,16 +166,4 @@ def _available_span(recording: Recording, frames: set[str]) -> str:
     return (
         f"The recording has transforms between {', '.join([one, *others[:-1]])} and {others[-1]} "
         f"from {seconds(first)} to {seconds(last)}, i.e. --at {offsets[0]} to {offsets[1]}."
-    )
-
-
-def _json(transform: Transform) -> str:
-    return json.dumps(
-        {
-            "target": transform.target,
-            "source": transform.source,
-            "stamp_ns": transform.stamp,
-            "translation": transform.translation.tolist(),
-            "quaternion": transform.quaternion.tolist(),
-        }
     )

@@ -1,4 +1,4 @@
-"""``coframe monitor``: shows the figures of tf2_monitor for each edge and publisher."""
+"""``coframe monitor``: shows the statistics of tf2_monitor for each edge and publisher."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def monitor(
         bool, typer.Option("--json", help="Print one line of JSON per report; times are in nanoseconds.")
     ] = False,
     classic: Annotated[bool, typer.Option("--classic", help="Print in the format of ROS 2's tf2_monitor.")] = False,
-    duration: Annotated[str, typer.Option(metavar="DURATION", help="Time window of the figures.")] = "10s",
+    duration: Annotated[str, typer.Option(metavar="DURATION", help="Time window of the statistics.")] = "10s",
     domain: DomainOption = None,
     tf_topic: TfTopicOption = TF_TOPIC,
     tf_static_topic: TfStaticTopicOption = TF_STATIC_TOPIC,

@@ -5,6 +5,7 @@ Every option has the same name, the same value name and the same sentence in eve
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Annotated
 
@@ -12,14 +13,16 @@ import typer
 
 from coframe import frame_names
 from coframe.cli.output import fail, warn
-from coframe.time import duration_ns
+from coframe.time import SECOND, duration_ns
 
 __all__ = [
+    "DURATIONS",
     "TF_STATIC_TOPIC",
     "TF_TOPIC",
     "TIMES",
     "BagArgument",
     "DomainOption",
+    "DurationOption",
     "KeepOption",
     "NamespaceOption",
     "PrefixOption",
@@ -28,6 +31,8 @@ __all__ = [
     "TfStaticTopicOption",
     "TfTopicOption",
     "checked_prefix",
+    "duration_in_seconds",
+    "parse_duration",
     "positive_duration",
     "recorded_tf_topics",
     "reject_namespace_of_live_graph",
@@ -35,6 +40,9 @@ __all__ = [
 ]
 
 TF_TOPIC, TF_STATIC_TOPIC = "/tf", "/tf_static"
+# How a duration is written.
+DURATIONS = "Write a number of seconds, or a number and a unit: 3, 3s, 500ms, 10min."
+_BARE_NUMBER = re.compile(r"\d+(\.\d+)?", re.ASCII)
 # How a time of a recording is written.
 TIMES = "seconds (1666859837.36), 10s after the start, -2s before the end, ISO 8601, 'start' or 'end'"
 
@@ -65,6 +73,10 @@ NamespaceOption = Annotated[
         help="Use only the transforms of this namespace of the recording, e.g. /robot1.",
         show_default=False,
     ),
+]
+DurationOption = Annotated[
+    str | None,
+    typer.Option(metavar="DURATION", help="Stop after this time, e.g. 30s or 10min. [default: on Ctrl-C]"),
 ]
 DomainOption = Annotated[
     int | None,
@@ -133,12 +145,31 @@ def reject_namespace_of_live_graph(namespace: str | None) -> None:
         fail("--namespace needs a recording", f"For live transforms, use {topics}.", code=2)
 
 
-def positive_duration(option: str, text: str) -> int:
-    """Return the value of an option such as 10s in nanoseconds; end the command unless it is a positive duration."""
+def parse_duration(option: str, text: str) -> int:
+    """Return the value of an option such as 3, 3s, 500ms or -1min in nanoseconds; a bare number is in seconds."""
+    bare = text.strip().removeprefix("+")
+    sign, bare = (-1, bare[1:]) if bare.startswith("-") else (1, bare)
+    if _BARE_NUMBER.fullmatch(bare):
+        bare += "s"
     try:
-        nanoseconds = duration_ns(text)
-    except (ValueError, TypeError) as error:
-        fail(f"{option}: {error}", code=2)
+        return sign * duration_ns(bare)
+    except (ValueError, TypeError):
+        fail(f"{option}: {text[:60]!r} is not a duration. {DURATIONS}", code=2)
+
+
+def positive_duration(option: str, text: str) -> int:
+    """Return the value of an option in nanoseconds; end the command unless it is a positive duration."""
+    nanoseconds = parse_duration(option, text)
     if nanoseconds <= 0:
         fail(f"{option} must be greater than 0, not {text!r}", code=2)
     return nanoseconds
+
+
+def duration_in_seconds(option: str, text: str | None) -> float | None:
+    """Return the value of an option in seconds; None stays None; end the command if the duration is negative."""
+    if text is None:
+        return None
+    nanoseconds = parse_duration(option, text)
+    if nanoseconds < 0:
+        fail(f"{option} must not be negative, not {text!r}", code=2)
+    return nanoseconds / SECOND

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import sys
 import time
-from typing import TYPE_CHECKING, NoReturn
+from typing import IO, TYPE_CHECKING, Any, NoReturn, cast
 
 import typer
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["fail", "log", "printable", "report_console", "warn", "with_doctor_command"]
 
-_REDIRECTED_WIDTH = 200  # columns
+_REDIRECTED_WIDTH = 1000  # columns
 
 
 def fail(text: str, hint: str = "", *, code: int = 1) -> NoReturn:
@@ -48,8 +48,20 @@ def printable(text: str) -> str:
 
 
 def report_console() -> Console:
-    """Return the console for tables; without a terminal it is wide enough that no cell is cut."""
+    """Return the console for tables; without a terminal no cell is cut and no line ends with spaces."""
     from rich.console import Console  # noqa: PLC0415 - commands without tables start faster
 
     console = Console(highlight=False)
-    return console if console.is_terminal else Console(highlight=False, width=_REDIRECTED_WIDTH)
+    if console.is_terminal:
+        return console
+    return Console(file=cast("IO[str]", _WithoutTrailingSpaces()), highlight=False, width=_REDIRECTED_WIDTH)
+
+
+class _WithoutTrailingSpaces:
+    """Writes to standard output, without the spaces with which a table fills its last column."""
+
+    def write(self, text: str) -> int:
+        return sys.stdout.write(re.sub(r" +$", "", text, flags=re.MULTILINE))
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(sys.stdout, name)

@@ -24,6 +24,7 @@ from coframe.cli.options import (
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
+    parse_duration,
 )
 from coframe.cli.output import fail, warn
 from coframe.formatting import count
@@ -63,7 +64,7 @@ def _is_number(following: list[str]) -> bool:
 def play(
     bag: BagArgument,
     topics: Annotated[
-        list[str] | None, typer.Option("--topics", "-t", metavar="TOPIC", help="Play only this topic; repeatable.")
+        list[str] | None, typer.Option("--topics", metavar="TOPIC", help="Replay only this topic; repeatable.")
     ] = None,
     remap: Annotated[
         list[str] | None,
@@ -72,11 +73,13 @@ def play(
     rate: Annotated[
         float, typer.Option("--rate", "-r", metavar="FACTOR", help="Playback speed; 2 is twice as fast.")
     ] = 1.0,
-    loop: Annotated[bool, typer.Option("--loop", "-l", help="Start again at the end.")] = False,
+    loop: Annotated[bool, typer.Option("--loop", help="Start again at the end.")] = False,
+    upstream_loop: Annotated[bool, typer.Option("-l", hidden=True)] = False,
     start_offset: Annotated[
-        str, typer.Option(metavar="DURATION", help="Skip this much at the start, e.g. 10s, 2min, or seconds.")
+        str, typer.Option(metavar="DURATION", help="Skip this much at the start, e.g. 10s or 2min.")
     ] = "0s",
-    start_paused: Annotated[bool, typer.Option("--start-paused", "-p", help="Start paused.")] = False,
+    start_paused: Annotated[bool, typer.Option("--start-paused", help="Start paused.")] = False,
+    upstream_paused: Annotated[bool, typer.Option("-p", hidden=True)] = False,
     clock: Annotated[
         float | None,
         typer.Option(
@@ -112,11 +115,12 @@ def play(
                     **dict(map(_parsed_remapping, remap or [])),
                 },
                 rate=rate,
-                loop=loop,
-                start_offset=f"{start_offset}s" if _is_number([start_offset]) else start_offset,
-                paused=start_paused,
+                # The short options of `ros2 bag play` are accepted; in the other commands they mean something else.
+                loop=loop or upstream_loop,
+                start_offset=parse_duration("--start-offset", start_offset),
+                paused=start_paused or upstream_paused,
                 clock=clock,
-                delay=f"{delay}s" if _is_number([delay]) else delay,
+                delay=parse_duration("--delay", delay),
                 domain=domain,
                 prefix=prefix,
                 keep=keep,

@@ -19,10 +19,13 @@ from coframe.cli.options import (
     TF_STATIC_TOPIC,
     TF_TOPIC,
     DomainOption,
+    DurationOption,
     KeepOption,
     PrefixOption,
     TfStaticTopicOption,
     TfTopicOption,
+    duration_in_seconds,
+    positive_duration,
 )
 from coframe.cli.output import fail, printable, warn
 from coframe.formatting import count
@@ -66,9 +69,7 @@ def record(
     max_duration: Annotated[
         str | None, typer.Option(metavar="DURATION", help="Start a new file after this duration, e.g. 30s or 10min.")
     ] = None,
-    duration: Annotated[
-        float | None, typer.Option(metavar="SECONDS", min=0.0, help="Stop after this time. [default: on Ctrl-C]")
-    ] = None,
+    duration: DurationOption = None,
     backlog: Annotated[
         str, typer.Option(metavar="SIZE", help="Memory for messages that wait to be written; more are dropped.")
     ] = "128MB",
@@ -83,6 +84,8 @@ def record(
     Topics that appear later are recorded as well. If the process is killed, at most the last second is lost. --prefix
     applies to the frame names in all messages; with --tf-topic /robot1/tf, to those of the topics in /robot1.
 
+    The exit code is 1 if no message was recorded.
+
     Example: coframe record -o run --max-duration 10min
     """
     if not prefix and (tf_topic, tf_static_topic) != (TF_TOPIC, TF_STATIC_TOPIC):
@@ -93,6 +96,7 @@ def record(
         )
     if everything and (topics or regex):
         fail("--all cannot be combined with TOPIC or --regex", code=2)
+    seconds = duration_in_seconds("--duration", duration)
     with run_until_interrupted():
         try:
             recorder = start_recording(
@@ -103,7 +107,7 @@ def record(
                 domain=domain,
                 compression=compression,
                 max_size=None if max_size is None else _bytes("--max-size", max_size),
-                max_duration=max_duration,
+                max_duration=None if max_duration is None else positive_duration("--max-duration", max_duration),
                 backlog=_bytes("--backlog", backlog),
                 on_topic=_print_topic,
                 tf_topic=tf_topic,
@@ -116,11 +120,16 @@ def record(
         except ValueError as error:
             fail(str(error), code=2)
         try:
-            _watch(recorder, duration)
+            _watch(recorder, seconds)
         except KeyboardInterrupt:
             pass
         finally:
             _finish(recorder)
+        if not recorder.statistics.messages:
+            fail(
+                "no messages were recorded",
+                "Check that the topics are published in the same ROS domain: coframe monitor",
+            )
 
 
 def _print_topic(topic: str, ros_type: str) -> None:

@@ -9,6 +9,8 @@ from coframe.bags import open_bag, parse_time_point
 from coframe.cli.options import recorded_tf_topics
 from coframe.cli.output import fail, warn
 from coframe.cli.progress import reading_progress
+from coframe.formatting import listed, seconds
+from coframe.time import DAY
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -16,7 +18,10 @@ if TYPE_CHECKING:
 
     from coframe.bags import Recording
 
-__all__ = ["open_recording", "parse_time"]
+__all__ = ["EARLIEST_WALL_TIME", "check_has_transforms", "grouped_by_topic", "open_recording", "parse_time"]
+
+# Stamps before 1980 are simulation time, which begins near 0.
+EARLIEST_WALL_TIME = 10 * 365 * DAY
 
 
 @contextmanager
@@ -36,19 +41,43 @@ def open_recording(
         recording = open_bag(path, **chosen, progress=progress, on_transforms=on_transforms)
     with recording:
         printed = recording.problems
-        for problem in printed:
+        for problem in grouped_by_topic(printed):
             warn(problem)
         try:
             yield recording
         finally:
-            for problem in recording.problems:
-                if problem not in printed:
-                    warn(problem)
+            for problem in grouped_by_topic([problem for problem in recording.problems if problem not in printed]):
+                warn(problem)
+
+
+def check_has_transforms(recording: Recording) -> None:
+    """End the command if the recording contains no transforms."""
+    if not any(buffer.frame_names() for buffer in recording.buffers.values()):
+        fail(f"{recording.path} contains no transforms", "Its topics are listed by: coframe bag info")
 
 
 def parse_time(option: str, text: str, recording: Recording) -> int:
     """Return the time that an option gives, in nanoseconds; end the command if it is not a time."""
     try:
-        return parse_time_point(text, recording.span)
+        time_point = parse_time_point(text, recording.span)
     except ValueError as error:
         fail(f"{option}: {error}", code=2)
+    first, last = recording.span
+    if 0 < last < EARLIEST_WALL_TIME <= time_point:
+        fail(
+            f"{option}: {text} is a time of day, but the stamps of the recording are simulation time, "
+            f"from {seconds(first)} to {seconds(last)} s",
+            f"Give a time in this range, or an offset from the start: {option} 0s to {seconds(last - first)}s.",
+            code=2,
+        )
+    return time_point
+
+
+def grouped_by_topic(sentences: list[str]) -> list[str]:
+    """Return sentences that begin with a topic, such as "/tf: ...", with equal ones as one about several topics."""
+    topics: dict[str, list[str]] = {}
+    for sentence in sentences:
+        topic, colon, text = sentence.partition(": ")
+        is_about_topic = bool(colon) and topic.startswith("/") and " " not in topic
+        topics.setdefault(text if is_about_topic else sentence, []).extend([topic] if is_about_topic else [])
+    return [f"{listed(names)}: {text}" if names else text for text, names in topics.items()]

@@ -46,7 +46,7 @@ def relay(
             "--to",
             "--tf-topic",
             metavar="TOPIC",
-            help="Common topic: written, or read with --split.",
+            help="Common topic: the output or, with --split, the input.",
             callback=with_leading_slash,
         ),
     ] = TF_TOPIC,
@@ -166,7 +166,7 @@ def _table(running: Relay, rates: _Rates) -> Table:
         note = f"also published by {edge.conflicting_robot}, which is ignored" if edge.conflicting_robot else ""
         if states[edge.robot] in {"gone", "stale"}:
             has_left = states[edge.robot] == "gone"
-            note = f"stale: {edge.robot} {'is no longer there' if has_left else 'stopped publishing'}"
+            note = f"stale: {edge.robot} {'left the ROS graph' if has_left else 'stopped publishing'}"
         hertz = each.get((edge.target, edge.parent, edge.child))
         cells = [
             f"{edge.parent} -> {edge.child}",

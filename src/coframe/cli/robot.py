@@ -43,7 +43,7 @@ def robot(
     ignore_timestamp: Annotated[
         bool,
         typer.Option(
-            "--ignore-timestamp", help="Publish for every joint state, regardless of its stamp and of --frequency."
+            "--ignore-timestamp", help="Publish for every joint state, regardless of its stamp and --frequency."
         ),
     ] = False,
     domain: DomainOption = None,

@@ -34,7 +34,7 @@ from coframe.cli.options import (
     reject_namespace_of_live_graph,
 )
 from coframe.cli.output import fail, printable, with_doctor_command
-from coframe.cli.recordings import open_recording, parse_time
+from coframe.cli.recordings import check_has_transforms, open_recording, parse_time
 from coframe.doctor import Observation, diagnose
 from coframe.doctor.recorded import collecting
 from coframe.doctor.rendering.plain import as_data
@@ -105,9 +105,9 @@ def why(
         ),
     ] = None,
     duration: Annotated[
-        str, typer.Option("--duration", "--timeout", metavar="DURATION", help="Time to listen.")
+        str, typer.Option("--duration", "--timeout", metavar="DURATION", help="Observation time.")
     ] = "2s",
-    watch: Annotated[bool, typer.Option("--watch", help="Keep listening, and update the answer every second.")] = False,
+    watch: Annotated[bool, typer.Option("--watch", help="Update the answer every second.")] = False,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one line of JSON per answer; times are in nanoseconds.")
     ] = False,
@@ -155,6 +155,7 @@ def _answer_recorded(
     collectors: dict[str, Collector] = {}
     collect = collecting(collectors, renaming(**names._asdict()), recorded_tf_topics(**topics))
     with open_recording(bag, namespace, **topics, **names._asdict(), on_transforms=collect) as recording:
+        check_has_transforms(recording)
         found = recording.buffer.why(target, source, None if at is None else parse_time("--at", at, recording))
         seen = [
             Observation(live=False, start=recording.start, end=recording.end, transforms=collectors[name].transforms())
@@ -177,7 +178,7 @@ def _answer_live(graph: _LiveSource, target: str, source: str, at: str | None, w
         ) as observer,
     ):
         if Console(stderr=True).is_terminal:
-            typer.echo(f"listening for {window / SECOND:g} s ...", err=True)
+            typer.echo(f"observing for {window / SECOND:g} s ...", err=True)
         observer.listen(window / SECOND)
         seen = observer.observe()
         clock = int(seen.clock.stamp[-1]) if seen.clock is not None else None

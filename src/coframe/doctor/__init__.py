@@ -41,3 +41,7 @@ __all__ = [
     "observe_recording",
     "page",
 ]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

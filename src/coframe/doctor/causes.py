@@ -22,7 +22,7 @@ CAUSES: tuple[tuple[str, str, bool], ...] = (
     ("TF024", "TF023", False),
     ("TF006", "TF001", True),  # a name with and without its prefix is in two trees
     ("TF006", "TF014", True),
-    ("TF019", "TF001", True),  # an edge that tf2 refuses does not exist
+    ("TF019", "TF001", True),  # an edge that tf2 rejects does not exist
     ("TF019", "TF014", True),
     ("TF004", "TF001", True),
     ("TF002", "TF004", True),  # two publishers with different parents can form a loop
@@ -47,6 +47,7 @@ CAUSES: tuple[tuple[str, str, bool], ...] = (
     ("TF022", "TF001", True),  # joints without states have no transform
     ("TF022", "TF014", True),
     ("TF021", "TF023", True),
+    ("TF026", "TF022", False),  # joints whose states are never published
 )
 
 

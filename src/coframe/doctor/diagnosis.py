@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from coframe import html_tables
 from coframe.doctor import checks
 from coframe.doctor.causes import joined
-from coframe.doctor.finding import Severity
+from coframe.doctor.finding import Severity, findings_table
 from coframe.doctor.observation import NEVER
+from coframe.formatting import count
 from coframe.time import MILLISECOND
 
 if TYPE_CHECKING:
@@ -74,6 +76,10 @@ class Report(NamedTuple):
     def every_finding(self) -> list[Finding]:
         """Return the causes and their consequences as one list."""
         return [one for finding in self.findings for one in (finding, *finding.explains)]
+
+    def _repr_html_(self) -> str:
+        findings = self.every_finding()
+        return html_tables.section(count(len(findings), "finding"), findings_table(findings))
 
 
 @cache

@@ -6,9 +6,12 @@ from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from typing import TYPE_CHECKING
 
+from coframe import html_tables
 from coframe.doctor.codes import page
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from typing_extensions import Self
 
 __all__ = ["Finding", "Severity"]
@@ -72,3 +75,18 @@ class Finding:
     def explaining(self, others: tuple[Finding, ...]) -> Self:
         """Return the finding with its consequences."""
         return replace(self, explains=others)
+
+    def _repr_html_(self) -> str:
+        title = f"{self.code} {self.severity}" + (f": {self.subject}" if self.subject else "")
+        rows = [("problem", self.text), ("why it matters", self.why), ("fix", self.fix)]
+        return html_tables.section(
+            title,
+            html_tables.table(("", ""), rows, len(rows)),
+            findings_table(self.explains, "consequence") if self.explains else "",
+        )
+
+
+def findings_table(findings: Sequence[Finding], noun: str = "finding") -> str:
+    """Return findings as an HTML table for notebooks, the first of them if they are many."""
+    rows = ((one.code, one.severity, one.subject, one.text, one.fix) for one in findings)
+    return html_tables.table(("code", "severity", "subject", "problem", "fix"), rows, len(findings), noun)

@@ -79,6 +79,7 @@ class _Topic:
         self.name = name
         self.type = ros_type
         self.subscription = subscription
+        self.since = time.monotonic_ns()
         self.messages = 0
         self.headers: deque[_ReceivedHeader] = deque(maxlen=_MAX_MESSAGES)
         self.decoded: deque[tuple[int, Any]] = deque(maxlen=_MAX_MESSAGES)
@@ -119,6 +120,7 @@ class LiveObserver:
         self.cache = cache
         self.window = window
         self.start = time.time_ns()
+        self._started = time.monotonic_ns()
         self._participant = Participant.get(domain)
         self._collector = Collector(names)
         self._writers: dict[int, _Writer] = {}
@@ -303,6 +305,7 @@ class LiveObserver:
         return Clock(arrived, stamp)
 
     def _facts(self) -> dict[str, TopicFacts]:
+        now = time.monotonic_ns()
         facts = {
             topic: TopicFacts(
                 topic,
@@ -310,10 +313,17 @@ class LiveObserver:
                 self._collector.messages.get(topic, 0),
                 self._endpoints(self._participant.publishers(topic)),
                 self._endpoints(self._participant.subscribers(topic)),
+                now - self._started,
             )
             for topic in self._transforms
         }
-        facts |= {topic.name: TopicFacts(topic.name, topic.type, topic.messages) for topic in self._topics.values()}
+        published = self._participant.published()
+        for topic in self._topics.values():
+            # Only topics without messages are examined by their publishers.
+            publishers = self._endpoints(published.get(topic.name, {}).values()) if not topic.messages else ()
+            facts[topic.name] = TopicFacts(
+                topic.name, topic.type, topic.messages, publishers, observed=now - topic.since
+            )
         return facts
 
     def _endpoints(self, endpoints: Iterable[EndpointInfo]) -> tuple[Endpoint, ...]:

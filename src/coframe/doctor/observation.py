@@ -1,6 +1,6 @@
 """Observation: the transforms and messages that were received or recorded, with the facts that several checks need.
 
-The rows are the transforms as published, including those that a buffer refuses. All times are int64 nanoseconds.
+The rows are the transforms as published, including those that a buffer rejects. All times are int64 nanoseconds.
 """
 
 from __future__ import annotations
@@ -48,7 +48,8 @@ class Endpoint:
 class TopicFacts:
     """A topic: its type, the number of received messages, its publishers and its subscriptions.
 
-    In a recording, only the publishers of static transforms are known.
+    In a recording, only the publishers of static transforms are known. For how long messages could be received, in
+    nanoseconds, is 0 in a recording.
     """
 
     name: str
@@ -56,6 +57,7 @@ class TopicFacts:
     messages: int
     publishers: tuple[Endpoint, ...] = ()
     subscribers: tuple[Endpoint, ...] = ()
+    observed: int = 0
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 __all__ = ["NORM_TOLERANCE", "Transforms", "bare", "numbered"]
 
-# tf2 refuses a quaternion whose squared length differs from 1 by this much or more.
+# tf2 rejects a quaternion whose squared length differs from 1 by this much or more.
 NORM_TOLERANCE = 0.01
 _DENSE = 1_000_000  # keys up to this one are counted, which is faster than sorting them
 _COLUMNS = ("arrived", "stamp", "parent", "child", "static", "values")

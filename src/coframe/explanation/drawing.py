@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+from coframe import html_tables
 from coframe.analysis.liveness import stale_limit, usual_gap
 from coframe.formatting import count, duration, seconds
 
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
 
     from coframe.explanation.facts import ChainEdge, Explanation
 
-__all__ = ["draw", "remark", "verdict"]
+__all__ = ["draw", "draw_html", "remark", "verdict"]
 
 _DEEPEST = 20  # levels of indentation; more would leave no room for the columns
 _TITLES = ("  frame", "oldest", "newest", "age", "rate", "publisher")
@@ -27,6 +28,21 @@ def draw(found: Explanation) -> Iterator[str]:
     """Yield the verdict, the chain, what to do, and the message of tf2."""
     yield verdict(found)
     yield from _table(found)
+    yield from _advice(found)
+
+
+def draw_html(found: Explanation) -> str:
+    """Return the same as an HTML table for notebooks."""
+    rows = [(*row.cells, row.remark) for row in _rows(found)] if found.edges else []
+    titles = (*(title.strip() for title in _TITLES), "")
+    return html_tables.section(
+        verdict(found),
+        html_tables.table(titles, rows, len(rows), "frame"),
+        *(html_tables.paragraph(line) for line in _advice(found)),
+    )
+
+
+def _advice(found: Explanation) -> Iterator[str]:
     if found.possible_at is not None:
         other = f"at {seconds(found.possible_at)}" if found.possible_at else "at the latest time"
         yield f"the tree has changed: there is a transform {other}"

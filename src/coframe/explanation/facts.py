@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from coframe.explanation.drawing import draw
+from coframe.explanation.drawing import draw, draw_html
 
 if TYPE_CHECKING:
     from coframe.analysis.missing_edges import MissingEdge
@@ -120,3 +120,6 @@ class Explanation:
 
     def __str__(self) -> str:
         return "\n".join(draw(self))
+
+    def _repr_html_(self) -> str:
+        return draw_html(self)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["COMPLETE_LAB", "DESCRIBED_LAB", "FailedNode", "Launcher", "NodeCommand"]
 
+_PREFIX = "coframe-lab-"  # of temporary folders
 STOP_TIMEOUT = 5.0  # seconds between SIGTERM and SIGKILL
 
 
@@ -64,6 +66,26 @@ DESCRIBED_LAB = (
 )
 
 
+def _remove_stale_folders() -> None:
+    """Remove the temporary folders of launchers that were killed; their names contain the id of the process."""
+    for folder in Path(tempfile.gettempdir()).glob(f"{_PREFIX}*-*"):
+        number = folder.name.removeprefix(_PREFIX).partition("-")[0]
+        if number.isdecimal() and not _is_running(int(number)):
+            shutil.rmtree(folder, ignore_errors=True)
+
+
+def _is_running(process: int) -> bool:
+    if os.name != "posix":  # On Windows, os.kill() with the signal 0 ends the process.
+        return True
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (PermissionError, OverflowError):
+        return True
+    return True
+
+
 class Launcher:
     """A context manager that runs nodes. Their output goes to files in a temporary folder.
 
@@ -76,7 +98,8 @@ class Launcher:
         self._commands = commands
         self._environment = {**os.environ} if domain is None else {**os.environ, "ROS_DOMAIN_ID": str(domain)}
         self._processes: dict[str, subprocess.Popen[bytes]] = {}
-        self._folder = tempfile.TemporaryDirectory(prefix="coframe-lab-", ignore_cleanup_errors=True)
+        _remove_stale_folders()
+        self._folder = tempfile.TemporaryDirectory(prefix=f"{_PREFIX}{os.getpid()}-", ignore_cleanup_errors=True)
 
     def __enter__(self) -> Self:
         for command in self._commands:

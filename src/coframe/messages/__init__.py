@@ -10,5 +10,10 @@ Example:
 from coframe.messages.codec import deserialize, serialize
 from coframe.messages.message import Action, Message, Service
 from coframe.messages.registry import find
+from coframe.messages.yaml_text import to_yaml
 
-__all__ = ["Action", "Message", "Service", "deserialize", "find", "serialize"]
+__all__ = ["Action", "Message", "Service", "deserialize", "find", "serialize", "to_yaml"]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -7,9 +7,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from coframe import html_tables
 from coframe.messages.definition import AbstractSequence, AbstractType, describe
 from coframe.messages.fields import CHECKED, Check, attribute, constructor_conversion, number_of
 from coframe.messages.registry import classes
+from coframe.messages.yaml_text import to_yaml
 
 
 class MessageType(type):
@@ -70,6 +72,10 @@ class Message(metaclass=MessageType):
         fields = zip(self._fields_and_field_types, self.__values(), self.SLOT_TYPES, strict=True)
         content = ", ".join(f"{name}={_show(value, type_)}" for name, value, type_ in fields)
         return f"{type(self).__module__}.{type(self).__name__}({content})"
+
+    def _repr_html_(self) -> str:
+        lines = to_yaml(self, max_items=html_tables.MOST_ROWS).splitlines()
+        return html_tables.section(self.ROS_TYPE, html_tables.preformatted(lines))
 
 
 class Service:

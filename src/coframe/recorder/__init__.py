@@ -7,3 +7,7 @@ from coframe.recorder.player import FASTEST, Player, play
 from coframe.recorder.recorder import Recorder, RecorderStatistics, record
 
 __all__ = ["FASTEST", "Player", "Recorder", "RecorderStatistics", "play", "record"]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -49,3 +49,7 @@ __all__ = [
     "load",
     "parse_urdf",
 ]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -9,3 +9,7 @@ from coframe.sensors.deskewing import deskew
 from coframe.sensors.scans import ScanPoints, project_scan
 
 __all__ = ["ScanPoints", "deskew", "project_scan", "transform_cloud"]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -64,7 +64,7 @@ def transform_cloud(
 ) -> Points:
     """Transform the points of a cloud to another frame.
 
-    Positions (x, y, z) are rotated and translated, and computed in float64 whatever their stored type. Normals
+    Positions (x, y, z) are rotated and translated, and computed in float64 regardless of their stored type. Normals
     (normal_x, normal_y, normal_z; nx, ny, nz) and ``vectors`` are rotated. Everything else is kept: other fields, the
     layout, the byte order, and points that are NaN.
 
@@ -140,7 +140,7 @@ def core_buffer(thing: Any) -> _core.Buffer | None:
 
 
 def to_transform(transform: Any) -> Transform:
-    """Return a single transform from a Transform or a message; the quaternion of a message is normalised.
+    """Return a single transform from a Transform or a message; the quaternion of a message is normalized.
 
     Raises:
         TypeError: The argument has another type.

@@ -57,7 +57,7 @@ def deskew(
     Args:
         points: As in :func:`transform_cloud`.
         times: Time of each point: an array of int64 nanoseconds or datetime64 with one value per point, or one per
-            column of an organised cloud, 0 for the latest; or the name of a field, together with ``unit``.
+            column of an organized cloud, 0 for the latest; or the name of a field, together with ``unit``.
         buffer: The buffer with the motion of the sensor.
         target: The frame to transform to.
         source: The frame of the sensor; by default that in the header of the message.
@@ -173,10 +173,10 @@ def _pose_from_fixed(
 
 
 def _deskew_fields(buffer: _core.Buffer, fixed: str, source: str, arguments: tuple[Any, ...]) -> None:
-    stamps, *_, nan_for_none, _ = arguments
+    stamps, *_, nan_for_missing, _ = arguments
     for _ in range(_MAX_ATTEMPTS):
         missing, first = _core.deskew_fields(buffer, fixed, source, *arguments)
-        if missing == 0 or (nan_for_none and missing < len(stamps)):
+        if missing == 0 or (nan_for_missing and missing < len(stamps)):
             return
         try:
             # This raises the reason, unless the missing transform was inserted in the meantime.

@@ -26,7 +26,7 @@ __all__ = ["READABLE_FORMATS", "read_trajectory"]
 
 READABLE_FORMATS = ("tum", "kitti", "euroc", "csv", "npz")
 _SECONDS = re.compile(r"(-?)(\d+)(?:\.(\d*))?", re.ASCII)
-# How the formats are told apart, for errors.
+# The differences between the formats, for error messages.
 _LAYOUTS = (
     "TUM has 8 columns separated by spaces (seconds x y z qx qy qz qw), KITTI has 12 (a 3x4 matrix), EuRoC has at "
     "least 8 separated by commas (ns, x, y, z, qw, qx, qy, qz), and CSV begins with a line of names: "

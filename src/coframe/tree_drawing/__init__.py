@@ -16,3 +16,7 @@ from coframe.tree_drawing.changes import Change, changes
 from coframe.tree_drawing.forest import Forest, Frame
 
 __all__ = ["Change", "Forest", "Frame", "changes", "grow"]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -37,7 +37,7 @@ def changes(before: Forest, after: Forest) -> Iterator[Change]:
         if old is None:
             yield Change("new", name, f"{shown(name)} is new: {_position(frame)}")
         elif old.parent != frame.parent:
-            yield Change("moved", name, f"{shown(name)} moved: {_position(frame)}, before {_position(old)}")
+            yield Change("moved", name, f"{shown(name)} moved: now {_position(frame)}, previously {_position(old)}")
         elif frame.silence is not None and old.silence is None:
             yield Change("stale", name, f"{shown(name)} is stale: no transform for {duration(frame.silence)}")
         elif frame.silence is None and old.silence is not None:

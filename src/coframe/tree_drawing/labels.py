@@ -17,7 +17,7 @@ _MOST_EDGES = 5
 
 
 def shown(name: str) -> str:
-    r"""Return a name for a drawing: printable and not too long, whatever a publisher sends.
+    r"""Return a name for a drawing: printable and not too long, for any name that was received.
 
     Example:
         >>> shown("base_link"), shown("two\nlines"), len(shown("x" * 10_000))

@@ -16,3 +16,7 @@ Subpackages, from the ground up; imports point down only:
 from coframe.viewer.show import Viewer, show, start_viewer
 
 __all__ = ["Viewer", "show", "start_viewer"]
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

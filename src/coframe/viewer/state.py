@@ -66,7 +66,7 @@ class ViewerState:
         self.descriptions = RobotDescriptions(robot, _description_topics(rviz), self.meshes)
         self.scene = Scene(source.buffer, ages=source.mode == "live")
         self.findings = FindingsWatcher()
-        self.rviz = rviz
+        self.rviz = rviz.with_fixed_frame(fixed) if rviz is not None and fixed else rviz
         self._joint_states = joint_states
         self.fixed = fixed or (rviz.fixed_frame if rviz is not None else "")
         self.saved_rviz: str | None = None

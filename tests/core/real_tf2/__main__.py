@@ -1,6 +1,6 @@
 """Command line for the comparison of coframe with Debian's real tf2:
 
-PYTHONPATH=tests/core python -m real_tf2 failure.json               a scenario that a test has printed
+PYTHONPATH=tests/core python -m real_tf2 failure.json               a scenario that a test printed
 PYTHONPATH=tests/core python -m real_tf2 --operations 10000000      random ones
 """
 
@@ -10,7 +10,7 @@ import sys
 import time
 from pathlib import Path
 
-from real_tf2.comparison import Debian, first_difference, run, told
+from real_tf2.comparison import Debian, difference_report, first_difference, run
 
 
 def main():
@@ -22,7 +22,7 @@ def main():
     debian = Debian()
     if arguments.failure:
         made = json.loads(arguments.failure.read_text("utf-8"))
-        finding = told(debian, made) if first_difference(debian, made) else None
+        finding = difference_report(debian, made) if first_difference(debian, made) else None
     else:
         print("seed", arguments.seed, flush=True)
         explained, finding = run(debian, arguments.seed, arguments.operations)

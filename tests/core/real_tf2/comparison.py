@@ -67,7 +67,7 @@ def run(debian, seed, operations, make_side=CoframeSide):
         for batch, their_answers in _batches(debian, seed, -(-operations // OPERATIONS_PER_SCENARIO)):
             for (number, made, steps), theirs in zip(batch, their_answers.result(), strict=True):
                 if _compare(made["cache"], steps, theirs, explained, make_side):
-                    return explained, f"seed {seed}, scenario {number}: {told(debian, made, make_side)}"
+                    return explained, f"seed {seed}, scenario {number}: {difference_report(debian, made, make_side)}"
     return explained, None
 
 
@@ -78,7 +78,7 @@ def first_difference(debian, made, make_side=CoframeSide):
     return _compare(made["cache"], steps, their_answers, collections.Counter(), make_side)
 
 
-def told(debian, made, make_side=CoframeSide):
+def difference_report(debian, made, make_side=CoframeSide):
     """Return a difference as text, with the operations that reproduce it."""
     made = _shrunk(debian, made, make_side)
     difference = first_difference(debian, made, make_side)

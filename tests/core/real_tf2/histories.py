@@ -1,7 +1,7 @@
-"""What one frame's history holds, and what becomes of an insertion: by the rules of ROS 2, and by those of ROS 1.
+"""The history of one frame and the effects of insertions, by the rules of ROS 2 and by those of ROS 1.
 
-Deliberately plain: sorted lists, written from the rules and not from anybody's source. The rules in which both differ
-are told with their reasons in ros1_rules.json.
+The implementation is deliberately simple: sorted lists, written from the rules and not from any source code.
+ros1_rules.json contains the rules in which the two differ, with their reasons.
 """
 
 import bisect
@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 class Sample:
     parent: str
     values: tuple  # x, y, z, qx, qy, qz, qw; the quaternion canonical
-    told: list = field(compare=False, default=())  # the values as they were sent
+    sent: list = field(compare=False, default=())  # the values as they were sent
 
 
 class History:
@@ -47,7 +47,7 @@ class History:
             self.stamps, self.samples = [], []
 
     def at(self, stamp):
-        """The sample at a stamp that is within the data, 0 being the latest; a static one at any."""
+        """Return the sample at a stamp within the history; 0 is the latest. A static sample is valid at any stamp."""
         if self.static or stamp in (0, self.stamps[-1]):
             return self.samples[-1]
         if stamp == self.stamps[0]:

@@ -2,11 +2,11 @@
 
 The list is data: ros1_rules.json, and the wordings of ../../conformance/ros1_differences.json. Its parts:
 
-    insertions  what becomes of an insertion into equal histories, told in the words of histories.py
-    adapted     what ROS 1 is told or asked otherwise, and the sign of quaternions
-    logs        what is logged of such insertions
-    words       texts that ROS 1 puts otherwise, wherever they occur
-    numbers     numbers in texts that are not printed alike
+    insertions  results of an insertion into equal histories, as histories.py describes them
+    adapted     operations that differ for ROS 1, and the sign of quaternions
+    logs        the log lines of such insertions
+    words       texts that ROS 1 phrases differently, in all answers
+    numbers     numbers in texts that are printed differently
     answers     whole answers, ours and ROS 1's, to certain questions; ROS 1's may refer to groups in ours
 """
 
@@ -34,7 +34,7 @@ def explain_insertion(ours, theirs):
     for rule in _RULES["insertions"]:
         if re.search(rule["ros2"], ours) and re.search(rule["ros1"], theirs):
             return rule["reason"]
-    raise LookupError(f"no rule explains that ROS 2 says {ours!r} where ROS 1 says {theirs!r}")
+    raise LookupError(f"no rule explains that ROS 2 returns {ours!r} and ROS 1 {theirs!r}")
 
 
 def explain(operation, ours, theirs):

@@ -169,10 +169,10 @@ class _World:
         at = self.rng.randrange(7)
         values = self.rng.choice(([*good[:at], NAN, *good[at + 1 :]], [*good[:3], 0, 0, 0, 0], good))
         names = [child, "", self.parents[child], "/", f"/{child}", *([None] * 3)]
-        parent, told = self.rng.choice(names), self.rng.choice((child, child, child, "", "/"))
+        parent, sent_child = self.rng.choice(names), self.rng.choice((child, child, child, "", "/"))
         static = self.rng.random() < 0.5
         operation = self.set(child, self.later(child), parent=parent, values=values, static=static)
-        return [*operation[:2], told, *operation[3:]]
+        return [*operation[:2], sent_child, *operation[3:]]
 
     def slashed(self):
         child = self.child()

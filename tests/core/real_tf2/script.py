@@ -1,11 +1,10 @@
-"""A scenario, worked out: what coframe is told and asked, what ROS 1 is, and what has to come of it.
+"""The steps of a scenario: the operations on coframe and on ROS 1, and the expected answers.
 
-Where both rule alike they hold the same, and each question's answers are compared with each other. Where an insertion
-is treated otherwise by a rule of ros1_rules.json, coframe's frame and ROS 1's differ from then on. The frame is then
-checked by itself, on each side against its own rules: what look-ups at, between and after its samples give, and what
-the YAML tells of it. Before anything else is asked, coframe's frame is brought to what ROS 1's holds; ROS 1's is never
-touched, so that it is the measure throughout. Quaternions that are not of unit length, which ROS 1 refuses or leaves
-as they are, it is given once more normalised.
+As long as both follow the same rules, their histories are equal and their answers are compared with each other. If a
+rule of ros1_rules.json applies to an insertion, the two histories of that frame differ from then on. Each is then
+checked against the rules of its own version: lookups at, between and after the samples, and the YAML of the frame.
+Before the next query, coframe's history is made equal to that of ROS 1, which is the reference and never changed.
+ROS 1 rejects or stores unchanged quaternions that are not of unit length, so it also receives them normalised.
 """
 
 import bisect
@@ -15,17 +14,19 @@ from typing import Any, NamedTuple
 from real_tf2.histories import Ros1History, Ros2History, Sample, canonical
 from real_tf2.rules import ADAPTED, LOGS, explain_insertion
 
-UNIT_TOLERANCE = 1e-9  # beyond it, in the square, ROS 1's answers are off by more than is compared
+UNIT_TOLERANCE = (
+    1e-9  # with a larger error of the squared length, the answers of ROS 1 differ by more than the tolerance
+)
 ROS1_TOLERANCE = 0.01
 
 
 class Step(NamedTuple):
-    number: int  # of the scenario's operation
-    ours: list | None  # what coframe is told or asked
-    theirs: list | None  # what ROS 1 is
-    our_answer: Any = None  # None: as theirs
+    number: int  # index of the operation in the scenario
+    ours: list | None  # the operation on coframe
+    theirs: list | None  # the operation on ROS 1
+    our_answer: Any = None  # None: the same as that of ROS 1
     their_answer: Any = None
-    rule: str | None = None  # that explains it
+    rule: str | None = None  # the rule that explains a difference
 
 
 def script(scenario):
@@ -38,7 +39,7 @@ class _Writer:
         self.cache = scenario["cache"]
         self.ours, self.theirs = {}, {}  # child: history
         self.known = set()  # frames
-        self.apart = set()  # children whose histories differ
+        self.different = set()  # children whose histories differ
         self.steps = []
         for self.number, operation in enumerate(scenario["operations"]):
             if operation[0] == "set":
@@ -50,9 +51,9 @@ class _Writer:
         self.steps.append(Step(self.number, ours, theirs, *answers, rule=rule))
 
     def question(self, operation):
-        for child in sorted(self.apart):
-            self.bring_together(child)
-        self.apart.clear()
+        for child in sorted(self.different):
+            self.make_equal(child)
+        self.different.clear()
         if operation[0] == "clear":
             for history in (*self.ours.values(), *self.theirs.values()):
                 history.clear()
@@ -86,20 +87,20 @@ class _Writer:
         our_outcome = ours.insert(stamp, sample, static, authority)
         their_outcome = theirs.insert(stamp, sample, static, authority)
         rule = None
-        if child in self.apart:
+        if child in self.different:
             if ours.same_as(theirs):
-                self.apart.remove(child)
+                self.different.remove(child)
         elif our_outcome != their_outcome:
             rule = explain_insertion(our_outcome, their_outcome)
-            self.apart.add(child)
+            self.different.add(child)
         our_log, their_log = (_log(outcome, child, stamp, authority) for outcome in (our_outcome, their_outcome))
         self.add(operation, given, our_log, their_log, rule=rule)
-        if child in self.apart:
+        if child in self.different:
             self.check(child, stamp)
 
     def given_to_ros1(self, operation, child, sample):
-        """The operation, where its quaternion is of unit length; else one that ROS 1 understands alike."""
-        kind, parent, told_child, stamp, values, static, authority = operation
+        """Return the operation if its quaternion has unit length, else one that has the same effect in ROS 1."""
+        kind, parent, sent_child, stamp, values, static, authority = operation
         off = abs(sum(x * x for x in values[3:]) - 1)
         if off < UNIT_TOLERANCE:
             return operation
@@ -108,44 +109,48 @@ class _Writer:
         else:
             line = LOGS["unnormalised"].format(child=child, authority=authority, q=values[3:])
             self.add(None, operation, None, ("log", (("error", line),)), rule=ADAPTED["unnormalised"])
-        return [kind, parent, told_child, stamp, list(sample.values), static, authority]
+        return [kind, parent, sent_child, stamp, list(sample.values), static, authority]
 
     def check(self, child, stamp):
         ours, theirs = self.ours[child], self.theirs[child]
-        for question, answer in _look_ups(ours, child, stamp):
+        for question, answer in _lookups(ours, child, stamp):
             self.add(question, None, answer)
         self.add(["all_frames_as_yaml"], None, ("block", child, ours.block()))
         self.add(None, ["all_frames_as_yaml"], None, ("block", child, theirs.block()))
 
-    def bring_together(self, child):
+    def make_equal(self, child):
         ours, theirs = self.ours[child], self.theirs[child]
-        for parent, stamp, told, static in _way_back(ours, theirs):
-            # With a slash in front: one is taken off again.
-            again = ["set", f"/{parent}", f"/{child}", stamp, told, static, theirs.authority]
+        for parent, stamp, values, static in _repairing_insertions(ours, theirs):
+            # One leading slash is removed by the buffer.
+            again = ["set", f"/{parent}", f"/{child}", stamp, values, static, theirs.authority]
             self.add(again, None, ("log", ()), None)
         ours.take_over(theirs)
 
 
-def _way_back(ours, theirs):
-    """What makes `ours` hold what `theirs` does: a repetition where that suffices, else a flip and everything anew."""
+def _repairing_insertions(ours, theirs):
+    """Return the insertions that make `ours` equal to `theirs`.
+
+    Repeating the last one is enough in some cases. Otherwise, a change to static clears the history, and all samples
+    are inserted again.
+    """
     last = theirs.samples[-1]
-    newest = (last.parent, theirs.stamps[-1], last.told, theirs.static)
+    newest = (last.parent, theirs.stamps[-1], last.sent, theirs.static)
     trial = ours.copy()
     trial.insert(theirs.stamps[-1], last, theirs.static, theirs.authority)
     if trial.same_as(theirs):
         return [newest]
-    flip = [] if ours.static else [(last.parent, 0, last.told, True)]
+    flip = [] if ours.static else [(last.parent, 0, last.sent, True)]
     samples = zip(theirs.stamps, theirs.samples, strict=True)
-    return [*flip, *((sample.parent, stamp, sample.told, False) for stamp, sample in samples)]
+    return [*flip, *((sample.parent, stamp, sample.sent, False) for stamp, sample in samples)]
 
 
-def _look_ups(history, child, stamp):
+def _lookups(history, child, stamp):
     """Return lookups on one edge, mostly around a stamp, with the answers expected from a history."""
     for when in (stamp,) if history.static else {0, *_stamps_around(history.stamps, stamp)}:
         sample = history.at(when)
-        told = when if when or history.static else history.stamps[-1]
-        if "/" not in (sample.parent[0], child[0]):  # no look-up reaches such a frame
-            yield ["lookup", sample.parent, child, when], ("pose", told, sample.values)
+        stamp_of_answer = when if when or history.static else history.stamps[-1]
+        if "/" not in (sample.parent[0], child[0]):  # frames with a slash cannot be looked up
+            yield ["lookup", sample.parent, child, when], ("pose", stamp_of_answer, sample.values)
 
 
 def _stamps_around(stamps, stamp):

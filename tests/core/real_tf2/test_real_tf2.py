@@ -1,6 +1,7 @@
 """Random operations on coframe and on the real tf2 of ROS 1, in one sequence per buffer, with all answers compared.
 
-ROS 1 differs from ROS 2 by rules, which are data (rules.py); how buffers that differ are compared is told in script.py.
+ROS 1 differs from ROS 2 by rules, which are data (rules.py); script.py describes how buffers that differ are
+compared.
 """
 
 import time
@@ -73,8 +74,8 @@ class KeepsTheFirstOfEqualStamps(FaultySide):
 
 class ForgetsNothingOnFlips(FaultySide):
     def set(self, *operation):
-        *told, _, authority = operation
-        return super().set(*told, False, authority)
+        *values, _, authority = operation
+        return super().set(*values, False, authority)
 
 
 class IsOff(FaultySide):
@@ -95,10 +96,10 @@ class HasAnotherStamp(FaultySide):
         return tag, stamp + 1
 
 
-class SaysLess(FaultySide):
+class TruncatesErrorTexts(FaultySide):
     def answer(self, operation):
-        tag, *told = super().answer(operation)
-        return (tag, told[0], told[1].rstrip()) if tag == "raises" else (tag, *told)
+        tag, *details = super().answer(operation)
+        return (tag, details[0], details[1].rstrip()) if tag == "raises" else (tag, *details)
 
 
 class NamesInOrder(FaultySide):

@@ -23,7 +23,7 @@ export class Timeline {
     role: "slider",
     aria: { label: "Time", valuemin: "0", valuemax: "0", valuenow: "0" },
   });
-  private readonly head = h("div", { class: "head", aria: { hidden: "true" } });
+  private readonly playhead = h("div", { class: "playhead", aria: { hidden: "true" } });
   private readonly rows = h("canvas", {
     role: "img",
     aria: { label: "Rates and gaps of each frame over time" },
@@ -72,7 +72,7 @@ export class Timeline {
         this.live,
         this.loop,
         speed,
-        h("div", { class: "scrub" }, this.canvas, this.head),
+        h("div", { class: "scrub" }, this.canvas, this.playhead),
         this.time,
         this.sparklinesButton,
       ),
@@ -160,16 +160,16 @@ export class Timeline {
     }
     setText(this.time, format.stamp(this.model.origin, update.time));
     this.time.title = `${format.offset(update.time - span[0])} of ${format.offset(span[1] - span[0])}`;
-    this.placeHead();
+    this.placePlayhead();
   }
 
-  private placeHead(): void {
+  private placePlayhead(): void {
     const span = this.model.span;
     const at = this.dragging ?? this.model.frameUpdate?.time ?? NaN;
     const part = span && span[1] > span[0] ? (at - span[0]) / (span[1] - span[0]) : NaN;
-    this.head.hidden = !Number.isFinite(part) && !this.model.clock.live;
+    this.playhead.hidden = !Number.isFinite(part) && !this.model.clock.live;
     const shown = this.model.clock.live ? 1 : Math.max(0, Math.min(1, part));
-    this.head.style.left = `${(shown * 100).toFixed(3)}%`;
+    this.playhead.style.left = `${(shown * 100).toFixed(3)}%`;
     if (!span || !Number.isFinite(part)) return;
     this.canvas.setAttribute("aria-valuemax", ((span[1] - span[0]) / 1e9).toFixed(1));
     this.canvas.setAttribute("aria-valuenow", ((at - span[0]) / 1e9).toFixed(1));
@@ -208,7 +208,7 @@ export class Timeline {
   }
 
   private draw(): void {
-    this.placeHead();
+    this.placePlayhead();
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement ?? this.canvas;
     const context = prepare(this.canvas, width, height);
     const span = this.model.span;

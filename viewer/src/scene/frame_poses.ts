@@ -15,9 +15,9 @@ const TREE_GAP_M = 1;
 const MAX_TREE_RADIUS_M = 1e4;
 
 export class FramePoses {
-  /** Scene coordinates, count x 3. */
+  /** Scene coordinates in metres, count x 3. */
   positions = new Float64Array(0);
-  /** count x 4. */
+  /** x, y, z, w, count x 4. */
   quaternions = new Float32Array(0);
   drawn = new Uint8Array(0);
   /** From 0 (fresh) to 1 (invisible). */

@@ -41,6 +41,8 @@ export class View {
   private pending: FrameUpdate | null = null;
   private changed = true;
   private fitted = false;
+  /** Whether the user has moved the camera, so that it is not fitted again automatically. */
+  private cameraChosen = false;
   private readonly bounds: (() => THREE.Box3)[] = [];
   private chain: number[] = [];
   private readonly posesListeners: ((framePoses: FramePoses, update: FrameUpdate) => void)[] = [];
@@ -135,6 +137,7 @@ export class View {
 
   setFollowed(frame: string | null): void {
     this.followed = frame;
+    if (frame !== null) this.cameraChosen = true;
     this.renderer.camera.follow(null);
     this.refresh();
   }
@@ -163,16 +166,15 @@ export class View {
     }
   }
 
-  /** Fits again after data has arrived, unless the user has moved the camera. */
+  /** Fits again after data has arrived, unless the user has moved the camera or followed a frame. */
   private refit(): void {
     const { canvas, camera } = this.renderer;
-    let touched = false;
     for (const event of ["pointerdown", "wheel"] as const)
-      canvas.addEventListener(event, () => (touched = true), { once: true, passive: true });
+      canvas.addEventListener(event, () => (this.cameraChosen = true), { once: true, passive: true });
     const mode = camera.mode;
     for (const wait of REFIT_MS)
       setTimeout(() => {
-        if (!touched && camera.mode === mode && this.followed === null) this.fit();
+        if (!this.cameraChosen && camera.mode === mode) this.fit();
       }, wait);
   }
 

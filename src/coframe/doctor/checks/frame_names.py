@@ -41,7 +41,7 @@ def _slashes(observation: Observation) -> Iterator[Finding]:
             code=CODE,
             severity=Severity.WARNING,
             text=f"{count(len(names), 'frame name')} with a leading slash: {quoted(names)}",
-            fix=f"Remove the slash where the name is set: {names[0].lstrip('/')!r}. tf2 refuses such names in lookups. "
+            fix=f"Remove the slash where the name is set: {names[0].lstrip('/')!r}. tf2 rejects such names in lookups. "
             "The parameter frame_prefix is put in front of names unchanged and must end with the slash: 'robot1/'.",
             frames=frozenset(transforms.names[number].lstrip("/") for number in numbers),
             first_stamp=int(transforms.stamp[rows[0]]) if len(rows) else None,

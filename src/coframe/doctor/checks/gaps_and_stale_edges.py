@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from coframe.analysis.liveness import usual_gap
+from coframe.analysis.liveness import median_interval, stamp_intervals, usual_gap
 from coframe.analysis.static_command import static_command
 from coframe.doctor.edge import publishers_of
 from coframe.doctor.finding import Finding, Severity
 from coframe.formatting import duration, listed
-from coframe.time import MILLISECOND
+from coframe.time import MILLISECOND, SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -23,16 +23,31 @@ __all__ = ["CODE", "find"]
 
 CODE = "TF013"
 _SLOW = 400 * MILLISECOND  # the longest period of a moving edge that is not a finding
+_SENSED = 110 * MILLISECOND  # the same for an edge that sensors with a higher rate need: 10 Hz, and some jitter
+_FASTER = 2.0  # how many times the rate of the edge a sensor must have; poses of the base concern every sensor
+_BASES = {"base_link", "base_footprint"}
+_CORRECTIONS = {"odom"}  # localization corrects map -> odom at a low rate on purpose
 _LEAST = 5  # transforms from which a rate and gaps can be judged
+# Poses of the robot between two transforms matter for what these sensors see.
+_NEED_POSES = {
+    "sensor_msgs/msg/CameraInfo",
+    "sensor_msgs/msg/CompressedImage",
+    "sensor_msgs/msg/Image",
+    "sensor_msgs/msg/LaserScan",
+    "sensor_msgs/msg/MultiEchoLaserScan",
+    "sensor_msgs/msg/PointCloud2",
+    "sensor_msgs/msg/Range",
+}
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield one finding per slow edge, one for all gaps, and one for all stale edges."""
+    """Yield one finding per slow edge, or edge slower than its sensors; one for all gaps, one for all stale edges."""
     edges = [edge for edge in observation.dynamic if edge.count >= _LEAST and edge.period]
     slow = [edge for edge in edges if edge.period > _SLOW]
     gaps = [edge for edge in edges if int(edge.intervals.max()) > usual_gap(edge.period)]
     stale = [edge for edge in observation.dynamic if observation.is_stale(edge)]
     yield from map(_slow, slow)
+    yield from _below_sensors(observation, [edge for edge in edges if edge.period <= _SLOW and not edge.is_unset])
     if gaps:
         yield _gaps(gaps)
     if stale:
@@ -51,6 +66,45 @@ def _slow(edge: Edge) -> Finding:
             if edge.constant
             else ": self.create_timer(0.02, self.broadcast)."
         ),
+        edge.first_stamp,
+    )
+
+
+def _below_sensors(observation: Observation, edges: list[Edge]) -> Iterator[Finding]:
+    """Yield edges below 10 Hz that messages with a higher rate need."""
+    edges = [edge for edge in edges if edge.period > _SENSED and not edge.constant]
+    edges = [edge for edge in edges if edge.child.rpartition("/")[2] not in _CORRECTIONS]
+    if not edges:
+        return
+    users = [
+        (
+            median_interval(stamp_intervals(sensor.stamp[sensor.stamp != 0])),
+            sensor.topic,
+            observation.path(sensor.frame),
+        )
+        for sensor in observation.sensors
+        if len(sensor.stamp) >= _LEAST and sensor.type in _NEED_POSES
+    ]
+    for edge in edges:
+        factor = 1.1 if edge.child.rpartition("/")[2] in _BASES else _FASTER
+        faster = [
+            (period, topic) for period, topic, path in users if 0 < period * factor < edge.period and edge in path
+        ]
+        if faster:
+            yield _below_sensor(edge, *min(faster))
+
+
+def _below_sensor(edge: Edge, period: float, topic: str) -> Finding:
+    rate, sensor_rate = SECOND / edge.period, SECOND / period
+    return _finding(
+        [edge],
+        Severity.WARNING,
+        f"published every {duration(edge.period)} ({rate:.3g} Hz) only, but {topic}, which needs it, every "
+        f"{duration(period)} ({sensor_rate:.3g} Hz): its messages wait up to {duration(edge.period)} for the next "
+        "transform, and their poses are interpolated",
+        "Publish it at 20 Hz or more, best at the rate of the sensor: "
+        f"self.create_timer({min(0.05, period / SECOND):.3g}, self.broadcast), or raise the rate in the parameters of "
+        "the node (publish_rate, frequency).",
         edge.first_stamp,
     )
 

@@ -42,7 +42,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         transforms,
         ~transforms.finite,
         Severity.ERROR,
-        "{count} of {all} transforms contain NaN or infinity; tf2 refuses them",
+        "{count} of {all} transforms contain NaN or infinity; tf2 rejects them",
         "Find the division by zero or the field that was not set, and check before publishing: "
         "if all(map(math.isfinite, values)): broadcaster.sendTransform(t)",
         off,
@@ -52,7 +52,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         zero,
         Severity.ERROR,
         "{count} of {all} transforms have the quaternion 0, 0, 0, 0, which means that the rotation was not set; tf2 "
-        "refuses them",
+        "rejects them",
         "Set it: t.transform.rotation.w = 1.0",
         off,
     )
@@ -60,8 +60,8 @@ def find(observation: Observation) -> Iterator[Finding]:
         transforms,
         refused,
         Severity.ERROR,
-        "{count} of {all} transforms have a quaternion that is not a rotation, its length is off by up to {off:.3g}; "
-        "tf2 refuses them",
+        "{count} of {all} transforms have a quaternion that is not normalized: its length is off by up to {off:.3g}; "
+        "tf2 rejects them",
         f"Check the order x, y, z, w, and {_NORMALIZE}.",
         off,
         explained=True,
@@ -70,7 +70,7 @@ def find(observation: Observation) -> Iterator[Finding]:
         transforms,
         rounded,
         Severity.NOTE,
-        "{count} of {all} quaternions are not exactly normalized, their length is off by up to {off:.2g}; tf2 accepts "
+        "{count} of {all} quaternions are not exactly normalized: their length is off by up to {off:.2g}; tf2 accepts "
         "them",
         f"Use more digits (0.70710678 instead of 0.707), or {_NORMALIZE}.",
         off,

@@ -22,7 +22,7 @@ _MOST_NAMES = 20  # of a loop, in the text of a finding
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield the loops, then the transforms that tf2 refuses, then damaged, ignored and empty messages."""
+    """Yield the loops, then the transforms that tf2 rejects, then damaged, ignored and empty messages."""
     yield from _loops(observation)
     yield from _refused(observation)
     if observation.damaged_messages:

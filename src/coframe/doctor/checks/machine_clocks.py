@@ -78,8 +78,8 @@ def _by_stamps(observation: Observation) -> Iterator[Finding]:
         code=CODE,
         severity=Severity.WARNING,
         text=f"the stamps of {listed(edge.name for edge in edges)} are all {duration(abs(median))} "
-        f"{'ahead of' if median < 0 else 'behind'} their arrival, those of other edges are not: the clock of their "
-        "machine is wrong",
+        f"{'ahead of' if median < 0 else 'behind'} their arrival, but those of other edges are not: the clock of "
+        "their machine is wrong",
         fix=_FIX,
         edge=edges[0].key,
         frames=frozenset(name for edge in edges for name in edge.key),

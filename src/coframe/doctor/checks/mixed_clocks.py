@@ -79,7 +79,8 @@ def _static(observation: Observation, usual: str) -> Iterator[Finding]:
             f"/tf ({seconds(off[0].first_stamp)}, {duration(abs(off[0].first_stamp - high))} off), {zero} have the "
             "stamp 0; tf2 ignores the stamps of static transforms",
             fix="Start their publishers with --ros-args -p use_sim_time:=true, like the other nodes.",
-            harm="A static transform is valid at all times, whatever its stamp. But its publisher uses another clock "
+            harm="A static transform is valid for all times, regardless of its stamp. But its publisher uses another "
+            "clock "
             "than the other nodes, and its other messages will not match theirs.",
             edge=off[0].key,
             frames=frozenset(edge.child for edge in off),

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from coframe.analysis.static_command import static_command
 from coframe.doctor.edge import angles_between
 from coframe.doctor.finding import Finding, Severity
 from coframe.doctor.robot_model import model
+from coframe.transform import Transform
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -35,7 +37,7 @@ class _Difference(NamedTuple):
 
 
 def find(observation: Observation) -> Iterator[Finding]:
-    """Yield one finding per joint."""
+    """Yield one finding per joint, and one per static transform between other links that cannot move."""
     robot = model(observation)
     if robot is None:
         return
@@ -44,6 +46,9 @@ def find(observation: Observation) -> Iterator[Finding]:
         edge = by_key.get((observation.link_name(joint.parent), observation.link_name(joint.child)))
         found = _difference(observation, robot, name, edge) if edge is not None else None
         if edge is None or found is None or (found.metres < _METRES and found.radians < _RADIANS):
+            continue
+        if joint.type == "fixed":
+            yield _mount(edge, f"fixed joint {name!r}", robot.joint_transforms()[name], found)
             continue
         yield Finding(
             code=CODE,
@@ -57,6 +62,63 @@ def find(observation: Observation) -> Iterator[Finding]:
             first_stamp=edge.first_stamp,
             publishers=edge.publishers,
         )
+    yield from _other_mounts(observation, robot)
+
+
+def _other_mounts(observation: Observation, robot: Robot) -> Iterator[Finding]:
+    """Yield findings for static transforms between two links that several fixed joints connect."""
+    link_of = {observation.link_name(link): link for link in robot.links}
+    joint_above = {joint.child: joint for joint in robot.joints.values()}
+    rigid = {}  # the topmost link to which each link is fixed
+    for link in robot.links:
+        top = link
+        while top in joint_above and joint_above[top].type == "fixed":
+            top = joint_above[top].parent
+        rigid[link] = top
+    poses = None
+    for edge in observation.static:
+        parent, child = link_of.get(edge.parent, ""), link_of.get(edge.child, "")
+        if not parent or not child or rigid[parent] != rigid[child] or observation.last[edge.child] is not edge:
+            continue
+        if child in joint_above and joint_above[child].parent == parent:
+            continue  # compared with the joint itself
+        poses = poses or robot.frames()
+        expected = poses[parent].inverse() @ poses[child]
+        found = _deviation(edge, np.array([edge.count - 1]), expected)
+        if found.metres >= _METRES or found.radians >= _RADIANS:
+            yield _mount(edge, "the fixed joints between these links", expected, found)
+
+
+def _mount(edge: Edge, joint: str, expected: Transform, found: _Difference) -> Finding:
+    pose = [*expected.translation.tolist(), *expected.quaternion.tolist()]
+    published = Transform(edge.values[-1, :3], edge.rotations[-1])
+    return Finding(
+        code=CODE,
+        severity=Severity.WARNING,
+        text=f"differs from {joint} of the robot description by {found.metres:.3g} m and {degrees(found.radians):.3g} "
+        f"degrees: published {_described(published)}, described {_described(expected)}",
+        fix="Decide which pose is right. If that of the robot description is, let only robot_state_publisher publish "
+        f"it (its values: `{static_command(*edge.key, pose)}`); otherwise correct <origin> in the URDF to "
+        f"{_origin(published)}, and restart robot_state_publisher.",
+        edge=edge.key,
+        first_stamp=edge.first_stamp,
+        publishers=edge.publishers,
+    )
+
+
+def _described(pose: Transform) -> str:
+    x, y, z = _numbers(pose.translation, 4)
+    roll, pitch, yaw = _numbers(np.degrees(pose.rpy), 2)
+    return f"x {x}, y {y}, z {z} m, roll {roll}, pitch {pitch}, yaw {yaw} degrees"
+
+
+def _origin(pose: Transform) -> str:
+    return f'xyz="{" ".join(_numbers(pose.translation, 6))}" rpy="{" ".join(_numbers(pose.rpy, 6))}"'
+
+
+def _numbers(values: NDArray[np.float64], digits: int) -> list[str]:
+    """Return numbers rounded to some decimal places; adding 0.0 turns -0.0 into 0.0."""
+    return [f"{value + 0.0:.12g}" for value in np.round(values, digits).tolist()]
 
 
 def _difference(observation: Observation, robot: Robot, name: str, edge: Edge) -> _Difference | None:
@@ -65,7 +127,6 @@ def _difference(observation: Observation, robot: Robot, name: str, edge: Edge) -
     if joint.type == "fixed":
         rows = np.array([edge.count - 1])
         expected = robot.joint_transforms()[name]
-        translation, rotation = expected.translation[None], expected.quaternion[None]
     else:
         if joint.size != 1:
             return None
@@ -77,9 +138,14 @@ def _difference(observation: Observation, robot: Robot, name: str, edge: Edge) -
             expected = robot.joint_transforms({name: positions})[name]
         except ValueError:
             return None
-        translation, rotation = expected.translation, expected.quaternion
-    metres = np.linalg.norm(edge.values[rows, :3] - translation, axis=1)
-    radians = angles_between(edge.rotations[rows], rotation)
+    return _deviation(edge, rows, expected)
+
+
+def _deviation(edge: Edge, rows: NDArray[np.intp], expected: Transform) -> _Difference:
+    """Return the median difference between some rows of an edge and the expected poses, one or one per row."""
+    rotations = np.broadcast_to(expected.quaternion, (len(rows), 4))
+    metres = np.linalg.norm(edge.values[rows, :3] - expected.translation, axis=1)
+    radians = angles_between(edge.rotations[rows], rotations)
     return _Difference(float(np.median(metres)), float(np.median(radians)), len(rows))
 
 

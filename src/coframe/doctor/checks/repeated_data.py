@@ -58,7 +58,7 @@ def _old(edge: Edge, cache: int) -> Iterator[Finding]:
         yield Finding(
             code=CODE,
             severity=Severity.WARNING,
-            text=f"{len(old)} of {edge.count} transforms are older than a buffer of {duration(cache)} keeps: up to "
+            text=f"{len(old)} of {edge.count} transforms are older than the cache length of {duration(cache)}: up to "
             f"{duration(int(behind.max()))} older than the newest one",
             fix="Restart the listeners after a clock was reset or a recording was restarted, or find the second "
             "publisher whose clock is behind.",
@@ -83,7 +83,7 @@ def _repeated_states(states: JointStates) -> Iterator[Finding]:
         text=f"{len(repeated)} of {len(states.stamp)} joint states repeat a stamp, {np.count_nonzero(differ)} of them "
         "with other positions",
         fix="Stamp each joint state when the joints are read; robot_state_publisher skips repeated stamps.",
-        harm="At one time a joint has two positions, and it depends on chance which one a program uses.",
+        harm="The joint then has two positions at one time, and it is undefined which one a program uses.",
         topic=states.topic,
         first_stamp=int(states.stamp[order[repeated[0]]]),
     )

@@ -69,7 +69,7 @@ class Feed(Protocol):
     """A source of updates for one client.
 
     Attributes:
-        due: When the feed should be asked for updates again, on the monotonic clock.
+        due: When the feed is to be checked for updates again, on the monotonic clock.
     """
 
     due: float

@@ -58,7 +58,7 @@ def draw_image(image: Any, options: Options) -> Drawing:
 
 
 def draw_compressed_image(image: Any, options: Options) -> Drawing:
-    """Draw a CompressedImage that contains JPEG or PNG data, whatever its format field contains."""
+    """Draw a CompressedImage that contains JPEG or PNG data, regardless of its format field."""
     data = np.frombuffer(image.data, np.uint8)
     head = bytes(data[: 1 << 16])
     if not head.startswith((_JPEG, _PNG)):

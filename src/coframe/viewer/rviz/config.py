@@ -162,6 +162,12 @@ class RvizConfig:
         )
         return RvizConfiguration({"displays": known, "global": global_options, "view": current, "unknown": unknown})
 
+    def with_fixed_frame(self, frame: str) -> RvizConfig:
+        """Return a copy with another fixed frame."""
+        manager = self._document.get(_MANAGER) or {}
+        options = {**(manager.get("Global Options") or {}), "Fixed Frame": frame}
+        return RvizConfig({**self._document, _MANAGER: {**manager, "Global Options": options}})
+
     def merged(
         self, displays: Sequence[RvizDisplay], options: Mapping[str, Any], view: Mapping[str, Any]
     ) -> RvizConfig:

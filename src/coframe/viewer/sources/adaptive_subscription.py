@@ -1,4 +1,4 @@
-"""A subscription that receives from every publisher of a topic, whatever quality of service each of them offers.
+"""A subscription that receives from every publisher of a topic, regardless of the QoS that each of them offers.
 
 DDS does not match a subscription that requests more than a publisher offers, so reliable delivery is requested only if
 all publishers offer it. Durability needs more than that: a subscription that requests less does not receive what was

@@ -1,0 +1,73 @@
+"""TF026: topics of sensors, joint states and transforms that have a publisher but no messages."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from coframe.doctor.finding import Finding, Severity
+from coframe.formatting import duration, listed
+from coframe.time import SECOND
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from coframe.doctor.observation import Observation, TopicFacts
+
+__all__ = ["CODE", "find"]
+
+CODE = "TF026"
+_LEAST = 4 * SECOND  # a GPS publishes once per second, and a driver may still be starting
+# These messages are published regularly; others, such as goals or maps, only on an event.
+_REGULAR = {
+    "nav_msgs/msg/Odometry",
+    "sensor_msgs/msg/CameraInfo",
+    "sensor_msgs/msg/Imu",
+    "sensor_msgs/msg/JointState",
+    "sensor_msgs/msg/LaserScan",
+    "sensor_msgs/msg/MagneticField",
+    "sensor_msgs/msg/MultiEchoLaserScan",
+    "sensor_msgs/msg/NavSatFix",
+    "sensor_msgs/msg/PointCloud2",
+    "sensor_msgs/msg/Range",
+}
+_EVENT = re.compile("cmd|command|goal|desired|target|request|map|debug|trigger|snapshot")
+_TRANSFORMS = "tf2_msgs/msg/TFMessage"
+
+
+def find(observation: Observation) -> Iterator[Finding]:
+    """Yield one finding per group of publishers."""
+    silent: dict[tuple[str, ...], list[str]] = {}
+    for facts in observation.topics.values():
+        if facts.messages == 0 and facts.observed >= _LEAST and _is_promised(observation, facts):
+            nodes = tuple(dict.fromkeys(endpoint.node for endpoint in facts.publishers if endpoint.node))
+            silent.setdefault(nodes, []).append(facts.name)
+    for nodes, topics in silent.items():
+        seen = min(observation.topics[topic].observed for topic in topics)
+        nothing = f"no message was received in {duration(seen)}"
+        node = nodes[0] if nodes else "the node that publishes it"
+        yield Finding(
+            code=CODE,
+            severity=Severity.WARNING,
+            text=f"it has a publisher, but {nothing}"
+            if len(topics) == 1
+            else f"{len(topics)} topics have a publisher, but {nothing}: {listed(topics)}",
+            fix=f"Look at the output of {node}: is its device connected, does it wait for another topic, for a "
+            "transform or for /clock (use_sim_time)? Is the method that publishes called: "
+            "self.create_timer(0.05, self.publish)?",
+            topic=topics[0],
+            publishers=nodes,
+        )
+
+
+def _is_promised(observation: Observation, facts: TopicFacts) -> bool:
+    """Return whether messages are published regularly on a topic that has publishers."""
+    if not facts.publishers or all(endpoint.transient_local for endpoint in facts.publishers):
+        return False  # latched messages are published once, whenever there is something new
+    if facts.type == _TRANSFORMS:
+        # robot_state_publisher publishes on /tf only if the robot has movable joints.
+        return not len(observation.transforms)
+    name = facts.name.lower()
+    if facts.type == "sensor_msgs/msg/JointState" and not name.endswith("joint_states"):
+        return False  # other joint states are usually commands
+    return facts.type in _REGULAR and _EVENT.search(name) is None

@@ -1,0 +1,83 @@
+"""Small HTML tables, as notebooks show values.
+
+Names of frames, topics and nodes come from the network, so that every text is escaped and shortened. The styles use
+no colours of their own: the tables are readable on light and on dark backgrounds.
+"""
+
+from __future__ import annotations
+
+import html
+from itertools import islice
+from typing import TYPE_CHECKING
+
+from coframe.formatting import count
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+__all__ = ["MOST_ROWS", "paragraph", "preformatted", "section", "table"]
+
+MOST_ROWS = 50
+_LONGEST = 1000  # characters of one text
+_BORDER = "1px solid rgba(128, 128, 128, 0.4)"
+_CELL = "text-align: left; padding: 0.15em 0.8em; font-variant-numeric: tabular-nums"
+
+
+def section(title: str, *parts: str) -> str:
+    """Return HTML parts below a title.
+
+    Args:
+        title: The title as text.
+        parts: HTML, as the other functions return it; empty parts are skipped.
+    """
+    heading = f'<div style="font-weight: bold; margin-bottom: 0.3em">{_escaped(title)}</div>'
+    return '<div style="color: inherit">' + heading + "".join(parts) + "</div>"
+
+
+def table(titles: Sequence[str], rows: Iterable[Sequence[object]], total: int, noun: str = "row") -> str:
+    """Return a table with at most `MOST_ROWS` rows, and the number of the others.
+
+    Args:
+        titles: The titles of the columns.
+        rows: The cells of each row; only the first rows are read.
+        total: The number of all rows.
+        noun: What a row is, in the singular.
+
+    Returns:
+        HTML; "" without rows.
+    """
+    if total == 0:
+        return ""
+    head = "".join(f'<th style="{_CELL}; border-bottom: {_BORDER}">{_escaped(title)}</th>' for title in titles)
+    body = "".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in islice(rows, MOST_ROWS))
+    more = paragraph(_more(total, noun)) if total > MOST_ROWS else ""
+    return (
+        '<table style="border-collapse: collapse; color: inherit; background: transparent">'
+        f"<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
+    )
+
+
+def _cell(value: object) -> str:
+    return f'<td style="{_CELL}">{_escaped(str(value))}</td>'
+
+
+def paragraph(text: str) -> str:
+    """Return a text as a paragraph; "" without a text."""
+    return f'<div style="margin: 0.3em 0">{_escaped(text)}</div>' if text else ""
+
+
+def preformatted(lines: Sequence[str]) -> str:
+    """Return at most `MOST_ROWS` lines in a fixed-width font, and the number of the others."""
+    shown = "\n".join(_escaped(line) for line in lines[:MOST_ROWS])
+    more = paragraph(_more(len(lines), "line")) if len(lines) > MOST_ROWS else ""
+    return f'<pre style="margin: 0; color: inherit; background: transparent">{shown}</pre>{more}'
+
+
+def _more(total: int, noun: str) -> str:
+    return "and " + count(total - MOST_ROWS, f"more {noun}")
+
+
+def _escaped(text: str) -> str:
+    """Return a text for HTML: shortened, and without control characters and marks that change the direction."""
+    short = text if len(text) <= _LONGEST else f"{text[:_LONGEST]}..."
+    return html.escape("".join(c if c.isprintable() else ascii(c)[1:-1] for c in short))

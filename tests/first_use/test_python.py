@@ -1,0 +1,209 @@
+"""What a user meets who explores coframe at the prompt or in a notebook."""
+
+import html
+import re
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+import yaml
+from recordings import write_mcap
+
+import coframe
+from coframe.doctor import Finding, Severity, diagnose, observe_recording
+from coframe.messages import Message, find, to_yaml
+
+SECOND = 1_000_000_000
+HOSTILE = "<img src=x onerror=alert(1)>\x1b[31m\n\u202e\"'&"
+
+
+class Tags(HTMLParser):
+    """Checks that the tags are balanced, and collects them and the text."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.seen, self.text = [], set(), []
+
+    def handle_starttag(self, tag, _attributes):
+        self.seen.add(tag)
+        self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+
+def shown(value):
+    """Return the text of a value's HTML, after checks that it contains only our own tags and no control characters."""
+    text = value._repr_html_()
+    tags = Tags()
+    tags.feed(text)
+    tags.close()
+    assert tags.open == []
+    assert tags.seen <= {"div", "table", "thead", "tbody", "tr", "th", "td", "pre"}
+    assert all(c.isprintable() or c == "\n" for c in text)
+    assert not re.search(r"#[0-9a-f]{3}|background: (?!transparent)", html.unescape(text))
+    return "|".join(tags.text)
+
+
+def rows(value):
+    return value._repr_html_().count("<tr>") - value._repr_html_().count("<thead>")
+
+
+@pytest.fixture
+def hostile():
+    """A buffer whose names come from an attacker."""
+    buffer = coframe.Buffer(cache=None)
+    for stamp in (1, 2):
+        buffer.set(f"odom{HOSTILE}", f"base{HOSTILE}", coframe.Transform(), stamp * SECOND, authority=HOSTILE)
+    buffer.set(f"base{HOSTILE}", "lidar", coframe.Transform(), static=True)
+    return buffer
+
+
+def test_transforms_in_notebooks():
+    single = coframe.Transform.from_rpy([1, 2, 3], yaw=0.5, target=HOSTILE, source="base", stamp=7)
+    assert "|7|1|2|3|0|0|0.5" in shown(single)
+    batch = coframe.Transform(np.zeros((4, 30, 3)), target="map", source="base")
+    assert rows(batch) == 50
+    assert "and 70 more transforms" in shown(batch)
+    assert "batch (4, 30)" in shown(batch)
+    assert rows(coframe.Transform(np.zeros((0, 3)))) == 0
+    assert rows(coframe.Transform(np.zeros((50, 3)), stamp=np.arange(50))) == 50
+
+
+def test_buffers_in_notebooks(hostile):
+    text = shown(hostile)
+    assert "odom<img src=x onerror=alert(1)>\\x1b[31m\\n\\u202e" in text
+    assert "|static|" in text
+    assert "|1 Hz|1.000000000|2.000000000|" in text
+    for index in range(120):
+        hostile.set("lidar", f"part{index}", coframe.Transform(), static=True)
+    assert rows(hostile) == 50
+    assert "and 72 more edges" in shown(hostile)
+    assert shown(coframe.Buffer()) == "Buffer(cache=10s, frames=0)"
+
+
+def test_a_very_long_name_is_shortened():
+    buffer = coframe.Buffer()
+    buffer.set("map", "x" * 1_000_000, coframe.Transform(), static=True)
+    assert len(shown(buffer)) < 3_000
+
+
+def test_explanations_in_notebooks(hostile):
+    possible = hostile.why("lidar", f"odom{HOSTILE}")
+    assert "yes: there is a transform" in shown(possible)
+    assert "no: there is no transform" in shown(hostile.why("lidar", f"odom{HOSTILE}", 9 * SECOND))
+    unknown = hostile.why("lidar", HOSTILE)
+    assert "do:  " in shown(unknown)
+    assert "tf2: " in shown(unknown)
+    for index in range(120):
+        hostile.set("lidar" if index == 0 else f"part{index - 1}", f"part{index}", coframe.Transform(), static=True)
+    assert rows(hostile.why("lidar", "part119")) == 50
+
+
+def test_recordings_and_reports_in_notebooks(tmp_path):
+    path = tmp_path / "run.mcap"
+    write_mcap(path)
+    with coframe.open_bag(path) as recording:
+        text = shown(recording)
+        assert "|/tf|tf2_msgs/msg/TFMessage|" in text
+        assert re.search(r"The buffer has \d+ frames?\.", text)
+    (observation,) = observe_recording(path).values()
+    report = diagnose(observation)
+    assert shown(report).startswith(f"{len(report.every_finding())} finding")
+
+
+def test_findings_in_notebooks():
+    consequence = Finding("TF001", Severity.WARNING, HOSTILE, "do this", frames=frozenset())
+    finding = Finding("TF013", Severity.ERROR, HOSTILE, "do that", edge=("map", HOSTILE), explains=(consequence,) * 60)
+    text = shown(finding)
+    assert text.startswith("TF013 error: map -> <img")
+    assert "do that" in text
+    assert "and 10 more consequences" in text
+
+
+ALL_TYPES = [
+    "geometry_msgs/msg/TransformStamped",
+    "nav_msgs/msg/Odometry",
+    "sensor_msgs/msg/PointCloud2",
+    "visualization_msgs/msg/MarkerArray",
+    "std_msgs/msg/Empty",
+    "std_msgs/msg/Byte",
+    "std_msgs/msg/ByteMultiArray",
+]
+
+
+def plain(value):
+    """Return a message as dicts, lists and numbers, as YAML can hold them."""
+    if isinstance(value, Message):
+        return {name: plain(getattr(value, name)) for name in value.get_fields_and_field_types()}
+    if isinstance(value, bytes) and len(value) == 1:
+        return value[0]
+    if isinstance(value, str | int | float | bool):
+        return value
+    return [plain(item) for item in value.tolist()] if hasattr(value, "tolist") else [plain(item) for item in value]
+
+
+@pytest.mark.parametrize("name", ALL_TYPES)
+def test_messages_as_yaml_are_read_back_equal(name):
+    message = find(name)()
+    assert yaml.safe_load(to_yaml(message)) == plain(message)
+
+
+@pytest.mark.parametrize(
+    "text", ["map", "", "yes", "Null", "1", "a: b", "- x", "# no", HOSTILE, "\U0001f916\ufeff", "~"]
+)
+def test_texts_in_yaml_are_read_back_equal(text):
+    message = find("std_msgs/msg/String")(data=text)
+    assert yaml.safe_load(to_yaml(message)) == {"data": text}
+    assert "\n" not in to_yaml(message)[:-1]
+
+
+@pytest.mark.parametrize("number", [0.0, 1e-5, 1e22, -1.5e-7, np.inf, -np.inf, 0.1])
+def test_numbers_in_yaml_are_read_back_equal(number):
+    message = find("std_msgs/msg/Float64")(data=float(number))
+    assert yaml.safe_load(to_yaml(message)) == {"data": number}
+
+
+def test_nested_sequences_in_yaml():
+    marker, point = find("visualization_msgs/msg/Marker"), find("geometry_msgs/msg/Point")
+    message = find("visualization_msgs/msg/MarkerArray")(
+        markers=[marker(ns="a", points=[point(x=1.0), point(y=2.0)]), marker(ns="b")]
+    )
+    assert yaml.safe_load(to_yaml(message)) == plain(message)
+    short = yaml.safe_load(to_yaml(message, max_items=1))
+    assert [one["ns"] for one in short["markers"]] == ["a"]
+    assert "# and 1 more item\n" in to_yaml(message, max_items=1)
+
+
+def test_messages_in_notebooks():
+    text = shown(find("std_msgs/msg/String")(data=HOSTILE))
+    assert text.startswith("std_msgs/msg/String|data: ")
+    cloud = find("sensor_msgs/msg/PointCloud2")(data=bytes(1_000_000))
+    assert len(cloud._repr_html_()) < 5_000
+    assert "# and 999950 more items" in shown(cloud)
+    transforms = [find("geometry_msgs/msg/TransformStamped")() for _ in range(80)]
+    assert "more lines" in shown(find("tf2_msgs/msg/TFMessage")(transforms=transforms))
+
+
+def test_str_of_a_message_is_its_repr_as_in_rclpy():
+    message = find("std_msgs/msg/String")(data="hello")
+    assert str(message) == repr(message) == "std_msgs.msg.String(data='hello')"
+
+
+MODULES = ["bags", "doctor", "frame_names", "messages", "quaternion", "recorder", "robots", "sensors", "time"]
+
+
+@pytest.mark.parametrize("name", [*MODULES, "tree_drawing", "viewer"])
+def test_completion_of_a_module_lists_its_public_names(name):
+    module = getattr(coframe, name)
+    assert dir(module) == sorted(module.__all__)
+    assert all(hasattr(module, public) for public in dir(module))
+
+
+@pytest.mark.parametrize("value", [coframe.Transform(), coframe.Buffer()], ids=["Transform", "Buffer"])
+def test_completion_of_an_instance_lists_the_names_of_its_class(value):
+    of_class = {name for name in dir(type(value)) if not name.startswith("_")}
+    assert {name for name in dir(value) if not name.startswith("_")} == of_class
