@@ -213,14 +213,14 @@ class MessageIndex:
     def _track_stamps(self, track: Track) -> NDArray[np.int64]:
         received = _int64(track.received)
         if track.stamp_reader is None:
-            return self._on_ros_clock(received)
+            return self.to_ros_time(received)
         if len(track.stamps) == len(track.received):
             return _int64(track.stamps)
         self._check_open()
         heads = Slices.join([track.first_bytes(position) for position in track.positions])
         return track.stamp_reader.stamps(heads, received)
 
-    def _on_ros_clock(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
+    def to_ros_time(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
         """Convert times of receipt to the ROS clock, if /clock was recorded."""
         if self._clock is None:
             return received

@@ -313,6 +313,14 @@ class Recording:
         """
         return self._index.received(self._index.find_topic(topic))
 
+    def to_ros_time(self, received: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Convert times of receipt to the clock of ``/clock``; unchanged if that was not recorded.
+
+        Args:
+            received: (N,) nanoseconds, as returned by :meth:`received`.
+        """
+        return self._index.to_ros_time(received)
+
     def message_at(self, topic: str, stamp: StampLike) -> RecordedMessage | None:
         """Return the newest message of a topic at a time; None before the first one.
 

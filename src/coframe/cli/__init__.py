@@ -16,6 +16,7 @@ _INTERRUPTED = 130  # exit code: 128 + SIGINT, as shells have it
 _EXTRAS = {
     "cyclonedds": "dds",
     "lz4": "bags",
+    "matplotlib": "plot",
     "mcap": "bags",
     "pyarrow": "parquet",
     "pydyf": "pdf",

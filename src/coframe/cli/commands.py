@@ -39,6 +39,8 @@ COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
     "bag": ("Record, play, inspect, repair, convert and cut recordings.", {}),
     "lookup": ("Print a transform once, live or from a recording.", {}),
     "trajectory": ("Write the trajectory of a frame from a recording.", {}),
+    "compare": ("Compare two trajectories: absolute and relative pose errors.", {}),
+    "plot": ("Plot poses, fields, rates and delays over time.", {}),
     "cloud": ("Write point clouds or scans from a recording in one frame.", {}),
     "batch": ("Write trajectories from many recordings as one dataset.", {}),
 }

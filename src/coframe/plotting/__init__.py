@@ -1,1 +1,24 @@
-"""Plots over time of poses, fields of messages, rates and delays."""
+"""Plots over time of poses, fields of messages, rates and delays, as SVG, PNG and interactive HTML."""
+
+from coframe.errors import PlotError
+from coframe.plotting.evaluation import evaluate
+from coframe.plotting.expressions import (
+    FieldExpression,
+    PoseExpression,
+    TimingExpression,
+    parse_expression,
+)
+from coframe.plotting.figure import FIGURE_FORMATS, Figure, Series, figure_format
+
+__all__ = [
+    "FIGURE_FORMATS",
+    "FieldExpression",
+    "Figure",
+    "PlotError",
+    "PoseExpression",
+    "Series",
+    "TimingExpression",
+    "evaluate",
+    "figure_format",
+    "parse_expression",
+]

@@ -1,0 +1,191 @@
+"""``coframe compare``: absolute and relative pose errors of an estimated trajectory."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import numpy as np
+import typer
+
+from coframe.cli.lifecycle import run_to_completion
+from coframe.cli.output import fail, printable
+from coframe.cli.plot import check_figure_package, save_figure
+from coframe.cli.recordings import open_recording
+from coframe.formatting import count
+from coframe.plotting import FIGURE_FORMATS, Figure, Series
+from coframe.time import duration_ns
+from coframe.trajectories import compare_trajectories, parse_delta, read_trajectory
+
+if TYPE_CHECKING:
+    from coframe import Transform
+    from coframe.trajectories import Comparison, PoseErrors, Statistics
+
+__all__ = ["compare"]
+
+_SUFFIXES = tuple(f".{kind}" for kind in (*FIGURE_FORMATS, "json", "csv"))
+_RECORDINGS = {".mcap", ".db3", ".bag"}
+
+
+def compare(
+    ref: Annotated[
+        str,
+        typer.Argument(
+            metavar="REF",
+            help="Reference: a TUM, KITTI, EuRoC, CSV or npz file, or BAG:TARGET:SOURCE for the poses of the frame "
+            "SOURCE relative to TARGET in a recording.",
+        ),
+    ],
+    est: Annotated[str, typer.Argument(metavar="EST", help="Estimate, written like REF.")],
+    align: Annotated[
+        Literal["none", "se3", "sim3"],
+        typer.Option(
+            metavar="KIND",
+            help="Align the estimate first: none, se3 (rotation and translation), or sim3 (also scale).",
+        ),
+    ] = "none",
+    max_difference: Annotated[
+        str, typer.Option(metavar="DURATION", help="Largest difference between the stamps of two compared poses.")
+    ] = "10ms",
+    delta: Annotated[
+        str,
+        typer.Option(metavar="DELTA", help="Distance between the poses of a relative error: 10 (poses), 0.5m, or 1s."),
+    ] = "1",
+    output: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--output", "-o", metavar="FILE", help=f"Write a plot or data: {', '.join(_SUFFIXES)}; repeatable."
+        ),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON, in metres and radians.")] = False,
+) -> None:
+    """Compare the trajectory EST with the trajectory REF: absolute (APE) and relative (RPE) pose errors.
+
+    Stamps are paired with the nearest ones. The figures equal those of the tool evo.
+
+    Example: coframe compare truth.tum run.mcap:map:base_link --align se3
+    """
+    files = [_checked_output(path) for path in output or []]
+    try:
+        distance, limit = parse_delta(delta), duration_ns(max_difference)
+    except ValueError as error:
+        fail(f"--delta/--max-difference: {error}", code=2)
+    with run_to_completion():
+        reference, estimate = _read(ref), _read(est)
+        result = compare_trajectories(reference, estimate, align=align, max_difference=limit, delta=distance)
+        for path in files:
+            _write(path, result, f"{est} compared with {ref}")
+        if as_json:
+            print(json.dumps(result.as_dict()))
+        else:
+            print(_table(result))
+
+
+def _read(text: str) -> Transform:
+    """Return the trajectory that an argument names."""
+    path, _, frames = text.partition(":") if Path(text).exists() else _split(text)
+    if not frames:
+        file = Path(path)
+        if file.is_dir() or file.suffix.lower() in _RECORDINGS:
+            fail(
+                f"{path} is a recording: name two frames of it",
+                f"Write BAG:TARGET:SOURCE, such as {path}:map:base_link.",
+                code=2,
+            )
+        return read_trajectory(file)
+    target, _, source = frames.partition(":")
+    with open_recording(Path(path), None, None, None, "", "") as recording:
+        return recording.buffer.trajectory(target, source)
+
+
+def _split(text: str) -> tuple[str, str, str]:
+    """Split BAG:TARGET:SOURCE at the last two colons, because a path may contain colons."""
+    bag, *frames = text.rsplit(":", 2)
+    if len(frames) == 2 and all((bag, *frames)):
+        return bag, ":", ":".join(frames)
+    if frames and Path(bag).exists():
+        fail(f"{text!r} names one frame; a trajectory needs two", "Write BAG:TARGET:SOURCE.", code=2)
+    return text, "", ""
+
+
+def _checked_output(path: Path) -> Path:
+    if path.suffix.lower() not in _SUFFIXES:
+        fail(f"--output {path}: unknown suffix {path.suffix!r}. Suffixes: {', '.join(_SUFFIXES)}", code=2)
+    check_figure_package(path)
+    return path
+
+
+def _table(result: Comparison) -> str:
+    lines = [f"{count(len(result.reference), 'pair')} of poses, {'not ' if result.alignment is None else ''}aligned"]
+    if result.alignment is not None:
+        x, y, z = result.alignment.transform.translation.tolist()
+        roll, pitch, yaw = np.degrees(result.alignment.transform.rpy).tolist()
+        rotated = f"rotated by [{roll:.3f}, {pitch:.3f}, {yaw:.3f}] deg (RPY)"
+        lines.append(
+            f"estimate scaled by {result.alignment.scale:.6f}, {rotated}, moved by [{x:.4f}, {y:.4f}, {z:.4f}] m"
+        )
+    rows = [
+        ("APE translation [m]", result.ape.translation_statistics),
+        ("APE rotation [deg]", _in_degrees(result.ape)),
+        ("RPE translation [m]", result.rpe.translation_statistics),
+        ("RPE rotation [deg]", _in_degrees(result.rpe)),
+    ]
+    lines += [
+        f"RPE over {result.delta}: {count(len(result.rpe.translation), 'motion')}",
+        "",
+        f"{'':<19}" + "".join(f"{name:>12}" for name in rows[0][1]._fields),
+    ]
+    lines += [f"{name:<19}" + "".join(f"{value:>12.5g}" for value in statistics) for name, statistics in rows]
+    return "\n".join(lines)
+
+
+def _in_degrees(errors: PoseErrors) -> Statistics:
+    statistics = errors.rotation_statistics
+    values = {name: math.degrees(value) for name, value in statistics._asdict().items()}
+    return statistics._replace(**{**values, "sse": math.degrees(values["sse"])})
+
+
+def _write(path: Path, result: Comparison, title: str) -> None:
+    kind = path.suffix.lower().removeprefix(".")
+    if kind in FIGURE_FORMATS:
+        save_figure(_figure(result, title), path)
+        return
+    text = json.dumps(result.as_dict(), indent=2) + "\n" if kind == "json" else _csv(result)
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        fail(f"{path} cannot be written: {error.strerror}", "Check that the folder exists and is writable.")
+
+
+def _csv(result: Comparison) -> str:
+    """Return a row for each pair of poses; relative errors stand at their later pose, in metres and radians."""
+    relative = {
+        row: values
+        for row, *values in zip(
+            result.rpe.index.tolist(), result.rpe.translation.tolist(), result.rpe.rotation.tolist(), strict=True
+        )
+    }
+    stamps = result.reference.stamps
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["stamp_ns", "ape_translation", "ape_rotation", "rpe_translation", "rpe_rotation"])
+    for row, errors in enumerate(zip(result.ape.translation.tolist(), result.ape.rotation.tolist(), strict=True)):
+        stamp = "" if stamps is None else int(stamps[row])
+        writer.writerow([stamp, *errors, *relative.get(row, ("", ""))])
+    return text.getvalue()
+
+
+def _figure(result: Comparison, title: str) -> Figure:
+    stamps = result.reference.stamps
+    numbers = np.arange(len(result.reference)) if stamps is None else stamps
+    series = []
+    for name, errors in (("APE", result.ape), ("RPE", result.rpe)):
+        label = name if name == "APE" else f"RPE over {result.delta}"
+        at = np.asarray(numbers[errors.index], dtype=np.int64)
+        series.append(Series(f"{label}, translation", at, errors.translation, f"{name} [m]"))
+        series.append(Series(f"{label}, rotation", at, np.degrees(errors.rotation), f"{name} [deg]"))
+    return Figure(printable(title), series, has_time=stamps is not None)

@@ -1,0 +1,109 @@
+"""``coframe plot``: plots over time from a recording."""
+
+from __future__ import annotations
+
+from pathlib import Path  # noqa: TC003 - typer reads the annotations
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from coframe.cli.lifecycle import run_to_completion
+from coframe.cli.options import (
+    BagArgument,
+    KeepOption,
+    NamespaceOption,
+    PrefixOption,
+    RecordedTfStaticTopicOption,
+    RecordedTfTopicOption,
+)
+from coframe.cli.output import fail, printable, warn
+from coframe.cli.progress import task_progress
+from coframe.cli.recordings import open_recording, parse_time
+from coframe.errors import PlotError
+from coframe.formatting import count
+from coframe.plotting import FIGURE_FORMATS, Figure, evaluate, figure_format, parse_expression
+
+if TYPE_CHECKING:
+    from coframe.plotting import Series
+
+__all__ = ["check_figure_package", "plot", "save_figure"]
+
+_SUFFIXES = ", ".join(f".{kind}" for kind in FIGURE_FORMATS)
+
+
+def plot(
+    bag: BagArgument,
+    expressions: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="EXPR...",
+            help="What to plot. The frame base_link relative to odom: odom:base_link.x, also .y .z .roll .pitch .yaw "
+            ".distance. A field of messages: /odom.twist.twist.linear.x, /scan.ranges[0]. The rate or delay of a topic "
+            "or an edge: /tf.rate, odom:base_link.delay. In quotation marks, 'odom->base_link.x' means the same.",
+        ),
+    ],
+    output: Annotated[
+        list[Path],
+        typer.Option("--output", "-o", metavar="FILE", help=f"Output file: {_SUFFIXES} (interactive); repeatable."),
+    ],
+    start: Annotated[str | None, typer.Option(metavar="TIME", help="First time, written like --at of lookup.")] = None,
+    stop: Annotated[str | None, typer.Option(metavar="TIME", help="Last time, written like --start.")] = None,
+    title: Annotated[
+        str | None,
+        typer.Option(metavar="TEXT", help="Title of the plot. [default: the name of BAG]", show_default=False),
+    ] = None,
+    namespace: NamespaceOption = None,
+    tf_topic: RecordedTfTopicOption = None,
+    tf_static_topic: RecordedTfStaticTopicOption = None,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
+) -> None:
+    """Plot poses, fields of messages, rates and delays over time from the recording BAG.
+
+    Example: coframe plot run.mcap map:base_link.x /scan.rate -o run.html
+    """
+    try:
+        parsed = [parse_expression(text) for text in expressions]
+        for path in output:
+            figure_format(path)
+    except PlotError as error:
+        fail(str(error), error.hint, code=2)
+    with run_to_completion():
+        for path in output:
+            check_figure_package(path)
+        with open_recording(bag, namespace, tf_topic, tf_static_topic, prefix, keep) as recording:
+            first = None if start is None else parse_time("--start", start, recording)
+            last = None if stop is None else parse_time("--stop", stop, recording)
+            with task_progress() as progress:
+                curves = evaluate(parsed, recording, first, last, progress=progress)
+        for curve in curves:
+            if curve.skipped:
+                warn(f"{curve.label}: {count(curve.skipped, 'message')} without a value")
+        figure = Figure(printable(title or bag.resolve().name), curves)
+        for path in output:
+            save_figure(figure, path)
+            print(f"{path}: {_summary(curves)}")
+
+
+def check_figure_package(path: Path) -> None:
+    """End the command if the file is an image and the package that draws images is not installed."""
+    if path.suffix.lower() in {".svg", ".png"}:
+        from coframe.plotting.image import check_installed  # noqa: PLC0415 - only images need it
+
+        try:
+            check_installed()
+        except PlotError as error:
+            fail(str(error), error.hint)
+
+
+def save_figure(figure: Figure, path: Path) -> None:
+    """Write a figure; end the command if the file cannot be written."""
+    try:
+        figure.save(path)
+    except OSError as error:
+        fail(f"{path} cannot be written: {error.strerror}", "Check that the folder exists and is writable.")
+
+
+def _summary(curves: list[Series]) -> str:
+    values = sum(curve.values.size for curve in curves)
+    return f"{count(len(curves), 'curve')}, {count(values, 'value')}"

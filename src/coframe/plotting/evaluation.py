@@ -1,0 +1,327 @@
+"""Evaluation of expressions on a recording."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from coframe import _core
+from coframe.analysis.clocks import clock_of
+from coframe.bags.namespaces import TopicFilter
+from coframe.bags.transforms import ingest_for
+from coframe.errors import DecodeError, PlotError
+from coframe.formatting import listed
+from coframe.messages.slices import Slices
+from coframe.plotting.expressions import (
+    ANGLES,
+    Expression,
+    FieldExpression,
+    PoseExpression,
+    TimingExpression,
+    did_you_mean,
+    parse_expression,
+)
+from coframe.plotting.figure import Series
+from coframe.time import SECOND
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from numpy.typing import NDArray
+
+    from coframe.bags import Recording
+    from coframe.bags.storage import Channel
+    from coframe.transform import Transform
+
+    Stamped = tuple[NDArray[np.int64], NDArray[np.float64]]
+
+__all__ = ["evaluate"]
+
+_BATCH = 5_000  # messages
+_WINDOW = SECOND  # of rates
+_REPORTED = 500  # messages between two reports of the progress
+_MANY = 12  # names in a hint
+
+
+def evaluate(
+    expressions: Iterable[Expression | str],
+    recording: Recording,
+    start: int | None = None,
+    stop: int | None = None,
+    *,
+    progress: Callable[[str, int, int], object] | None = None,
+) -> list[Series]:
+    """Return the curves of expressions.
+
+    A pose has a value at each sample of the edges between its frames. A rate is a mean over the second before each
+    message; of a topic by the times of receipt, of an edge by the stamps. A delay is the time of receipt minus the
+    stamp; in a simulation, the time of ``/clock`` at receipt minus the stamp.
+
+    Args:
+        expressions: Expressions, or text as for :func:`parse_expression`.
+        recording: The recording.
+        start: The first stamp, in nanoseconds.
+        stop: The last stamp, in nanoseconds.
+        progress: Called regularly with an expression, the number of messages read and their total number.
+
+    Raises:
+        PlotError: A text is not an expression, a topic or a field does not exist, or there are no values.
+        TransformException: A frame does not exist, or the frames are not connected.
+    """
+    parsed = [parse_expression(each) if isinstance(each, str) else each for each in expressions]
+    report = progress or (lambda _text, _done, _total: None)
+    curves = []
+    for each in parsed:
+        curve = _evaluate(each, recording, report)
+        inside = np.ones(len(curve.stamps), dtype=bool)
+        if start is not None:
+            inside &= curve.stamps >= start
+        if stop is not None:
+            inside &= curve.stamps <= stop
+        order = np.argsort(curve.stamps[inside], kind="stable")
+        chosen = Series(
+            curve.label, curve.stamps[inside][order], curve.values[inside][order], curve.panel, curve.skipped
+        )
+        if not np.isfinite(chosen.values).any():
+            between = "" if start is None and stop is None else " between the start and the stop"
+            raise PlotError(f"{each.text} has no values{between}")
+        curves.append(chosen)
+    return curves
+
+
+def _evaluate(expression: Expression, recording: Recording, report: Callable[[str, int, int], object]) -> Series:
+    if isinstance(expression, PoseExpression):
+        return _pose_curve(expression, recording)
+    if isinstance(expression, FieldExpression):
+        return _field_curve(expression, recording, report)
+    return _timing_curve(expression, recording, report)
+
+
+def _pose_curve(expression: PoseExpression, recording: Recording) -> Series:
+    poses = recording.buffer.trajectory(expression.target, expression.source)
+    stamps = np.asarray(poses.stamps, dtype=np.int64)
+    values = _coordinate(poses, expression.quantity)
+    if len(stamps) == 1 and stamps[0] == 0:  # All edges are static.
+        stamps, values = np.array(recording.span, dtype=np.int64), np.repeat(values, 2)
+    panel = "angle [rad]" if expression.quantity in ANGLES else "position [m]"
+    return Series(expression.text, stamps, values, panel)
+
+
+def _coordinate(poses: Transform, quantity: str) -> NDArray[np.float64]:
+    if quantity in ANGLES:
+        return poses.rpy[:, ANGLES.index(quantity)]
+    if quantity == "distance":
+        return np.asarray(np.linalg.norm(poses.translation, axis=1))
+    return poses.translation[:, "xyz".index(quantity)]
+
+
+def _field_curve(
+    expression: FieldExpression, recording: Recording, report: Callable[[str, int, int], object]
+) -> Series:
+    topic = _existing_topic(recording, expression.topic)
+    total = recording.topics[topic].messages
+    stamps, values = [], []
+    missing = damaged = 0
+    for done, message in enumerate(recording.messages(topic), start=1):
+        try:
+            value = _field(message.message, expression, message.type)
+        except DecodeError:
+            damaged += 1
+            continue
+        except _NoElementError:
+            missing += 1
+            value = float("nan")
+        stamps.append(message.stamp)
+        values.append(value)
+        if done % _REPORTED == 0 or done == total:
+            report(expression.text, done, total)
+    if values and missing == len(values):
+        raise PlotError(f"{expression.text}: no message on {topic} has an element with this index")
+    names = [step for step in expression.path if isinstance(step, str)]
+    group = names[-2:-1] or names[-1:]
+    return Series(
+        expression.text,
+        np.array(stamps, dtype=np.int64),
+        np.array(values, dtype=np.float64),
+        group[0] if isinstance(expression.path[-1], str) else names[-1],
+        damaged + missing,
+    )
+
+
+class _NoElementError(Exception):
+    """A sequence in a message is too short for the index."""
+
+
+def _field(message: Any, expression: FieldExpression, type_: str) -> float:
+    if isinstance(message, bytes):
+        raise PlotError(f"{expression.text}: the messages have the type {type_}, whose definition is not known")
+    value, written = message, expression.topic
+    for step in expression.path:
+        value = _step(value, step, written, expression)
+        written += f"[{step}]" if isinstance(step, int) else f".{step}"
+    if isinstance(value, bool | int | float | np.number | np.bool_):
+        return float(value)
+    if isinstance(value, str):
+        raise PlotError(f"{expression.text} is text, not a number: {value[:40]!r}")
+    names = _names(value)
+    if names:
+        hint = f"Choose a field: {listed(f'{written}.{name}' for name in names)}."
+        raise PlotError(f"{expression.text} is a message, not a number", hint=hint)
+    raise PlotError(f"{expression.text} is a sequence, not a number", hint=f"Choose an element, such as {written}[0].")
+
+
+def _step(value: Any, step: str | int, written: str, expression: FieldExpression) -> Any:
+    if isinstance(step, int):
+        if isinstance(value, str) or not hasattr(value, "__getitem__") or isinstance(value, dict):
+            raise PlotError(f"{expression.text}: {written} is not a sequence, so it has no element {step}")
+        try:
+            return value[step]
+        except IndexError:
+            raise _NoElementError from None
+    names = _names(value)
+    if step not in names:
+        if not names and hasattr(value, "__len__") and not isinstance(value, str):
+            raise PlotError(
+                f"{expression.text}: {written} is a sequence, which has no field {step!r}",
+                hint=f"Choose an element, such as {written}[0].{step}.",
+            )
+        known = f"Fields: {', '.join(names[:_MANY])}{', ...' if len(names) > _MANY else ''}." if names else ""
+        raise PlotError(f"{expression.text}: {written} has no field {step!r}", hint=did_you_mean(step, names) + known)
+    return value[step] if isinstance(value, dict) else getattr(value, step)
+
+
+def _names(value: Any) -> list[str]:
+    """Return the names of the fields of a message of ROS, JSON or protobuf; none for other values."""
+    if isinstance(value, dict):
+        return list(map(str, value))
+    if hasattr(value, "get_fields_and_field_types"):
+        return list(value.get_fields_and_field_types())
+    descriptor = getattr(value, "DESCRIPTOR", None)
+    if descriptor is not None:
+        return [each.name for each in descriptor.fields]
+    return list(getattr(value, "__dataclass_fields__", ()))
+
+
+def _timing_curve(
+    expression: TimingExpression, recording: Recording, report: Callable[[str, int, int], object]
+) -> Series:
+    delays = expression.quantity == "delay"
+    if expression.edge is None:
+        topic = _existing_topic(recording, str(expression.topic))
+        stamps, received = recording.stamps(topic), recording.received(topic)
+        if delays and np.array_equal(stamps, recording.to_ros_time(received)):
+            raise PlotError(
+                f"{expression.text}: the messages of type {recording.topics[topic].type} have no stamp and "
+                "therefore no delay",
+                hint=f"Their rate can be plotted: {topic}.rate.",
+            )
+        values = _delays(expression, recording, stamps, received) if delays else _rates(received)
+    else:
+        _check_edge(expression, recording)
+        if delays:
+            stamps, received = _received_transforms(expression, recording, report)
+            values = _delays(expression, recording, stamps, received)
+        else:
+            stamps = _edge_stamps(recording, *expression.edge)
+            values = _rates(stamps)
+    return Series(expression.text, stamps, values, "delay [s]" if delays else "rate [Hz]")
+
+
+def _rates(times: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return the mean rate before each of the sorted times; NaN until enough time has passed.
+
+    The mean begins at the last message that is at least a second older, so that a burst after a pause has no high rate.
+    """
+    window = min(_WINDOW, int(times[-1] - times[0]) // 2) if times.size else 0
+    first = np.searchsorted(times, times - window, side="right") - 1
+    elapsed = (times - times[np.maximum(first, 0)]) / SECOND
+    rates: NDArray[np.float64] = np.full(len(times), np.nan)
+    np.divide(np.arange(len(times)) - first, elapsed, out=rates, where=(first >= 0) & (elapsed > 0))
+    return rates
+
+
+def _delays(
+    expression: TimingExpression, recording: Recording, stamps: NDArray[np.int64], received: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """Return the times of receipt minus the stamps in seconds, on the clock of the stamps."""
+    if not stamps.size:
+        raise PlotError(f"{expression.text} has no values: there are no messages")
+    simulated = recording.to_ros_time(received)
+    clock = clock_of(
+        float(np.median(received - stamps)),
+        None if np.array_equal(simulated, received) else float(np.median(simulated - stamps)),
+    )
+    if clock == "other":
+        raise PlotError(
+            f"{expression.text}: the stamps and the times of receipt are on different clocks, so there is no delay",
+            hint="In a recording of a simulation this needs the topic /clock.",
+        )
+    return np.asarray(((simulated if clock == "simulated" else received) - stamps) / SECOND)
+
+
+def _check_edge(expression: TimingExpression, recording: Recording) -> None:
+    """Raise a PlotError unless the frames are parent and child of an edge with stamps."""
+    parent, child = expression.edge or ("", "")
+    buffer = recording.buffer
+    parents = {edge.child: edge for edge in buffer.edges()}
+    if child in parents and parents[child].parent == parent:
+        if parents[child].static:
+            raise PlotError(f"{expression.text}: {parent} -> {child} is static, so it has no {expression.quantity}")
+        return
+    buffer.lookup(parent, child)  # raises an error if a frame does not exist
+    if parent in parents and parents[parent].parent == child:
+        hint = f"The parent comes first: {child}->{parent}.{expression.quantity}."
+    else:
+        hint = f"The parent of {child!r} is {parents[child].parent!r}." if child in parents else ""
+    raise PlotError(f"{expression.text}: {parent!r} is not the parent of {child!r}", hint=hint)
+
+
+def _edge_stamps(recording: Recording, parent: str, child: str) -> NDArray[np.int64]:
+    stamps, _, parents, names = _core.samples_of(recording.buffer.snapshot(), child)
+    of_parent = np.frombuffer(parents, dtype=np.uint32) == names.index(parent)
+    return np.unique(np.frombuffer(stamps, dtype=np.int64)[of_parent])
+
+
+def _received_transforms(
+    expression: TimingExpression, recording: Recording, report: Callable[[str, int, int], object]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the stamps and the times of receipt of all transforms of an edge."""
+    parent, child = expression.edge or ("", "")
+    read = TopicFilter(recording.options["namespace"], recording.options["tf_topics"])
+    topics = {channel.topic for channel in recording.channels() if ingest_for(channel) and read(channel.topic)}
+    stamps, received = [np.empty(0, dtype=np.int64)], [np.empty(0, dtype=np.int64)]
+    total, done = sum(recording.topics[topic].messages for topic in topics), 0
+    for channel, times, messages in _batches(recording, topics):
+        ingest = ingest_for(channel)
+        if ingest is not None:
+            columns = ingest.columns(messages)
+            names = [recording.frame(name) for name in columns.names]
+            is_edge = np.array([name == parent for name in names], dtype=bool)[columns.parent]
+            is_edge &= np.array([name == child for name in names], dtype=bool)[columns.child]
+            stamps.append(columns.stamp[is_edge])
+            received.append(times[columns.message[is_edge]])
+        done += len(times)
+        report(expression.text, done, total)
+    return np.concatenate(stamps), np.concatenate(received)
+
+
+def _batches(recording: Recording, topics: set[str]) -> Iterator[tuple[Channel, NDArray[np.int64], Slices]]:
+    pending: dict[int, tuple[Channel, list[int], list[bytes]]] = {}
+    for channel, time, data in recording.in_order(sorted(topics)):
+        _, times, messages = pending.setdefault(id(channel), (channel, [], []))
+        times.append(time)
+        messages.append(data)
+        if len(messages) >= _BATCH:
+            del pending[id(channel)]
+            yield channel, np.array(times, dtype=np.int64), Slices.join(messages)
+    for channel, times, messages in pending.values():
+        yield channel, np.array(times, dtype=np.int64), Slices.join(messages)
+
+
+def _existing_topic(recording: Recording, name: str) -> str:
+    if name in recording.topics:
+        return name
+    names = list(recording.topics)
+    known = f"Topics: {', '.join(names[:_MANY])}{', ...' if len(names) > _MANY else ''}." if names else ""
+    raise PlotError(f"{recording.path} has no topic {name!r}", hint=did_you_mean(name, names) + known)
