@@ -63,10 +63,13 @@ def record(browser: str, url: str) -> list[Image.Image]:
         page = chromium.new_page(viewport={"width": SIZE[0], "height": SIZE[1]})
         page.goto(url)
         page.wait_for_selector("canvas")
-        page.mouse.move(SIZE[0] * 2 // 3, SIZE[1] // 2)
-        for _ in range(4):
-            page.mouse.wheel(0, -120)  # closer to the arm
+        # The robot drives around in the world; relative to its base, the arm stays in view and the walls move.
+        page.get_by_label("Fixed Frame").select_option("base_link")
         time.sleep(6.0)  # all nodes have started and the first scans are drawn
+        page.mouse.move(SIZE[0] * 2 // 3, SIZE[1] // 2)
+        for _ in range(3):
+            page.mouse.wheel(0, -120)  # closer to the arm
+        time.sleep(1.0)
         images = []
         start = time.monotonic()
         for number in range(round(SECONDS * FRAMES_PER_SECOND)):
