@@ -76,8 +76,35 @@ def test_without_the_extra_cli(run, hidden):
 
 
 def test_help_needs_only_the_extra_cli(run):
-    optional = ["cyclonedds", "yaml", "mcap", "zstandard", "lz4", "rosbags", "websockets", "xacro", "pydyf", "pyarrow"]
-    commands = ["demo", "doctor", "echo", "why", "view", "play", "record", "robot", "joints", "static", "bag", "cloud"]
+    optional = [
+        "cyclonedds",
+        "yaml",
+        "mcap",
+        "zstandard",
+        "lz4",
+        "rosbags",
+        "websockets",
+        "xacro",
+        "pydyf",
+        "pyarrow",
+        "matplotlib",
+    ]
+    commands = [
+        "demo",
+        "doctor",
+        "echo",
+        "why",
+        "view",
+        "play",
+        "record",
+        "robot",
+        "joints",
+        "static",
+        "bag",
+        "cloud",
+        "plot",
+        "compare",
+    ]
     for code, text in run(optional, ["--help"], *([command, "--help"] for command in commands)):
         assert (code, "Example: coframe" in text) == (0, True), text
 
