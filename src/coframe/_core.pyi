@@ -696,13 +696,13 @@ class DomainParticipant:
         """End the participant and DDS's threads."""
 
 class Writer:
-    """A DDS writer of serialised messages."""
+    """A DDS writer of serialized messages."""
 
     def __init__(
         self, participant: int, topic: int, qos: QosProfile, user_data: str, unchecked: bool = False
     ) -> None: ...
     def write(self, message: bytes) -> None:
-        """Send one serialised message without the GIL."""
+        """Send one serialized message without the GIL."""
 
     def forward(self, message: bytes) -> None:
         """Send a message of any type on an unchecked topic, without a check of its bytes."""
@@ -723,7 +723,7 @@ class Writer:
     def close(self) -> None: ...
 
 class Reader:
-    """A DDS reader of serialised messages; the event is set whenever some arrive."""
+    """A DDS reader of serialized messages; the event is set whenever some arrive."""
 
     def __init__(
         self, participant: int, topic: int, qos: QosProfile, user_data: str, on_data: Event | None

@@ -37,7 +37,7 @@ class Transform(_core.Transform):
 
     Args:
         translation: Position of the origin of ``source`` in ``target``, in metres, shape (..., 3).
-        quaternion: Rotation as x, y, z, w, shape (..., 4); it is normalised.
+        quaternion: Rotation as x, y, z, w, shape (..., 4); it is normalized.
         target: The frame of the transformed coordinates.
         source: The frame of the coordinates to transform.
         stamp: Nanoseconds, or anything that :func:`coframe.time.stamp_ns` takes; for a batch also an int64 array of

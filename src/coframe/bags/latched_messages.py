@@ -22,7 +22,7 @@ class LatchedMessage(NamedTuple):
 
     Attributes:
         keys: What the message describes: its child frames, or its publisher.
-        data: The serialised message.
+        data: The serialized message.
         published: When it was published, in nanoseconds.
     """
 

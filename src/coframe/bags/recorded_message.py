@@ -36,7 +36,7 @@ class RecordedMessage:
         type: Name of its type.
         stamp: The stamp of its header; the time of receipt if it has none.
         received: The time of receipt.
-        data: The serialised message.
+        data: The serialized message.
     """
 
     __slots__ = ("_decode", "_message", "data", "received", "stamp", "topic", "type")

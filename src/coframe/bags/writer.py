@@ -182,7 +182,7 @@ class Writer:
 
         Args:
             topic: The number of the topic.
-            data: The serialised message.
+            data: The serialized message.
             received: Time of receipt in nanoseconds.
             published: Time of publication in nanoseconds; None or an invalid time: the time of receipt.
             publisher: Distinguishes the publishers of a latched topic.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from typing import TYPE_CHECKING
 
@@ -30,11 +31,20 @@ _EXTRAS = {
 def main() -> None:
     """Run the console script ``coframe``."""
     try:
-        _app(sys.argv[1] if len(sys.argv) > 1 else "")()
+        _app(_command_name())()
     except ModuleNotFoundError as error:
         sys.exit(_what_to_install(error))
     except KeyboardInterrupt:  # Ctrl-C during the imports.
         sys.exit(_INTERRUPTED)
+
+
+def _command_name() -> str:
+    """Return the first argument; when the shell asks for completions, that of the line to complete."""
+    if "_COFRAME_COMPLETE" not in os.environ:
+        return sys.argv[1] if len(sys.argv) > 1 else ""
+    line = os.environ.get("_TYPER_COMPLETE_ARGS") or os.environ.get("COMP_WORDS", "")
+    words = line.split()
+    return words[1] if len(words) > 1 else ""
 
 
 def _app(name: str) -> typer.Typer:

@@ -56,7 +56,6 @@ def build_app(names: Iterable[str]) -> typer.Typer:
             "Example: coframe demo"
         ),
         no_args_is_help=True,
-        add_completion=False,
         pretty_exceptions_enable=False,
         # Plain text: panels cut the descriptions of options to half of an 80-column terminal.
         rich_markup_mode=None,

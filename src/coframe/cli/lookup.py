@@ -10,6 +10,7 @@ import typer
 
 import coframe
 from coframe.bags import parse_time_point
+from coframe.cli.completion import complete_frames
 from coframe.cli.echo import MAX_DIGITS, as_json_line, format_transform
 from coframe.cli.lifecycle import run_to_completion
 from coframe.cli.options import (
@@ -51,6 +52,7 @@ def lookup(
             help="Prints the pose of SOURCE relative to TARGET, in the order of tf2_echo; without a recording BAG, on "
             "the live ROS graph.",
             show_default=False,
+            autocompletion=complete_frames,
         ),
     ],
     at: Annotated[

@@ -18,6 +18,7 @@ from rich.text import Text
 
 import coframe
 from coframe.bags import parse_time_point
+from coframe.cli.completion import complete_frames
 from coframe.cli.lifecycle import run_to_completion, run_until_interrupted
 from coframe.cli.options import (
     TF_STATIC_TOPIC,
@@ -92,6 +93,7 @@ def why(
             metavar=_NAMES,
             help="The frames as in lookup; without a recording BAG, the live ROS graph is used.",
             show_default=False,
+            autocompletion=complete_frames,
         ),
     ] = None,
     at: Annotated[

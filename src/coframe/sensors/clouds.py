@@ -140,7 +140,7 @@ def core_buffer(thing: Any) -> _core.Buffer | None:
 
 
 def to_transform(transform: Any) -> Transform:
-    """Return a single transform from a Transform or a message; the quaternion of a message is normalised.
+    """Return a single transform from a Transform or a message; the quaternion of a message is normalized.
 
     Raises:
         TypeError: The argument has another type.

@@ -57,7 +57,7 @@ def deskew(
     Args:
         points: As in :func:`transform_cloud`.
         times: Time of each point: an array of int64 nanoseconds or datetime64 with one value per point, or one per
-            column of an organised cloud, 0 for the latest; or the name of a field, together with ``unit``.
+            column of an organized cloud, 0 for the latest; or the name of a field, together with ``unit``.
         buffer: The buffer with the motion of the sensor.
         target: The frame to transform to.
         source: The frame of the sensor; by default that in the header of the message.

@@ -49,7 +49,7 @@ def is_message(points: Any) -> bool:
 
 
 def grid_of(points: Any) -> tuple[int, ...]:
-    """Return the shape of the points: (N,), or (rows, columns) for an organised cloud.
+    """Return the shape of the points: (N,), or (rows, columns) for an organized cloud.
 
     Raises:
         ValueError: A message has fewer bytes than points.

@@ -4,6 +4,7 @@ import sys
 from collections.abc import Callable
 
 import rclpy
+from coframe.errors import CoframeError
 from rclpy.exceptions import NameValidationException, ParameterException, RCLError
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -38,6 +39,6 @@ def program(name: str, args: list[str] | None, run: Callable[[list[str], list[st
     words = [name, *(sys.argv[1:] if args is None else args)]
     try:
         run(words, remove_ros_args(words)[1:])
-    except (NameValidationException, ParameterException, RCLError, ValueError) as error:
+    except (NameValidationException, ParameterException, RCLError, CoframeError, ValueError) as error:
         hint = getattr(error, "hint", "")
         sys.exit(f"{name}: {error}" + (f"\n  {hint}" if hint else ""))

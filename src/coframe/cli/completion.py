@@ -1,0 +1,31 @@
+"""Completion of frame names for the shell; it is installed by ``coframe --install-completion``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from coframe.errors import CoframeError
+
+__all__ = ["complete_frames"]
+
+_LARGEST = 200 << 20  # bytes: reading more takes longer than typing the name
+
+
+def complete_frames(ctx: Any, incomplete: str) -> list[str]:
+    """Return the frames of the recording in the first argument that begin with a text."""
+    words = ctx.params.get("names") or []
+    if not words or not Path(words[0]).exists():
+        return []
+    from coframe.bags import open_bag  # noqa: PLC0415 - only if there is a recording
+
+    path = Path(words[0])
+    files = path.iterdir() if path.is_dir() else [path]
+    if sum(file.stat().st_size for file in files if file.is_file()) > _LARGEST:
+        return []
+    try:
+        with open_bag(path) as recording:
+            names = {name for buffer in recording.buffers.values() for name in buffer.frame_names()}
+    except CoframeError:
+        return []
+    return sorted(name for name in names if name.startswith(incomplete))
