@@ -71,13 +71,42 @@ def run(tmp_path):
 
 @pytest.mark.parametrize("hidden", ["typer", "rich"])
 def test_without_the_extra_cli(run, hidden):
-    for code, text in run([hidden], ["--help"], ["doctor"], ["demo", "--help"]):
+    # The list of the commands needs only typer.
+    general = [["--help"]] if hidden == "typer" else []
+    for code, text in run([hidden], *general, ["doctor"], ["demo", "--help"]):
         assert (code, text) == (1, "The command line needs the packages typer and rich: pip install 'coframe[cli]'")
 
 
 def test_help_needs_only_the_extra_cli(run):
-    optional = ["cyclonedds", "yaml", "mcap", "zstandard", "lz4", "rosbags", "websockets", "xacro", "pydyf", "pyarrow"]
-    commands = ["demo", "doctor", "echo", "why", "view", "play", "record", "robot", "joints", "static", "bag", "cloud"]
+    optional = [
+        "cyclonedds",
+        "yaml",
+        "mcap",
+        "zstandard",
+        "lz4",
+        "rosbags",
+        "websockets",
+        "xacro",
+        "pydyf",
+        "pyarrow",
+        "matplotlib",
+    ]
+    commands = [
+        "demo",
+        "doctor",
+        "echo",
+        "why",
+        "view",
+        "play",
+        "record",
+        "robot",
+        "joints",
+        "static",
+        "bag",
+        "cloud",
+        "plot",
+        "compare",
+    ]
     for code, text in run(optional, ["--help"], *([command, "--help"] for command in commands)):
         assert (code, "Example: coframe" in text) == (0, True), text
 

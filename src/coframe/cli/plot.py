@@ -50,7 +50,7 @@ def plot(
     stop: Annotated[str | None, typer.Option(metavar="TIME", help="Last time, written like --start.")] = None,
     title: Annotated[
         str | None,
-        typer.Option(metavar="TEXT", help="Title of the plot. [default: the name of BAG]", show_default=False),
+        typer.Option(metavar="TITLE", help="Title of the plot. [default: the name of BAG]", show_default=False),
     ] = None,
     namespace: NamespaceOption = None,
     tf_topic: RecordedTfTopicOption = None,
