@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Benchmarks of coframe and its peers: `make bench`."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`make bench`: compares coframe with its peers in one table, and checks whether each target is met.
 
 make bench                                  all rows; writes benchmarks/RESULTS.md

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Measures the cost of `coframe doctor --watch`.
 
 A talker publishes messages of ten transforms at 1 kHz. Once the window of the doctor is full, its processor time is

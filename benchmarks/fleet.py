@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Several robots, one relay and one buffer: measures the processor time of the relay and the number of lost transforms.
 
 Each robot is a process that publishes the transforms of its frames on its own topics. The relay, in another process,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Stores ten million transforms and prints the peak memory of the process in bytes.
 
 python -m benchmarks.large buffer

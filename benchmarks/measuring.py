@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Rows of the table: which contenders are compared, how they are measured, and the target."""
 
 import contextlib

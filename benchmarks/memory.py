@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Prints by how many bytes the resident memory of a process grows for each stored transform.
 
     python -m benchmarks.memory coframe

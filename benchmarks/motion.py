@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The chain that all contenders store: f0 <- f1 <- f2 ...; all edges rotate, at 50 Hz, each with its own stamps."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """coframe's buffers with the chain that all contenders store."""
 
 import numpy as np

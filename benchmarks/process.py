@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Contenders that run in other processes and other Pythons."""
 
 import contextlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One processor for all contenders of a row: on a shared machine, some processors are half as fast as others."""
 
 import contextlib

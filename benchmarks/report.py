@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The table of results, in the terminal and as a Markdown page."""
 
 from pathlib import Path

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Times a statement.
 
 This module uses only the standard library, because it also runs in the Python of a peer.

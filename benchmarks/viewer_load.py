@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Measures the cost of a tab of the viewer for its server, at 30 Hz and in addition to the lookups.
 
     python -m benchmarks.viewer_load 1000 5     frames, seconds: percent of one core

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Measures the time that `coframe view` takes until a tab receives its first frame update.
 
     python -m benchmarks.viewer_start

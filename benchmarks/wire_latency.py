@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Measures the latency of transforms between two processes, and the processor time of a listener.
 
 A talker publishes messages of ten transforms at 1 kHz. They are stamped with the monotonic clock, and the first one

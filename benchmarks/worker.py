@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Times the statements of a module in this Python, for a benchmark that runs in another Python.
 
     python -m benchmarks.worker benchmarks.peers.tf2

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Run the conformance cases of tf2's semantics against coframe or any other implementation.
 
     python conformance/run.py                                   all cases, against coframe.Buffer

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Generator of the message classes from the definitions in ``interfaces/``.
 
 python scripts/generate_messages.py            write src/coframe/messages/generated and the packages in src/ros

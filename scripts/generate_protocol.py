@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Generate the page's side of the viewer's protocol from ``src/coframe/viewer/protocol/messages.py``.
 
 python scripts/generate_protocol.py            write viewer/src/generated/protocol.ts and the protocol's version

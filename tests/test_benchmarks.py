@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The arithmetic of `make bench`, with contenders whose results are known, and one row for each target."""
 
 import contextlib

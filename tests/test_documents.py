@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every example in the README, the docs and the public docstrings is run."""
 
 import doctest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The wheel in an environment of its own, as `pip install` would have it."""
 
 import os

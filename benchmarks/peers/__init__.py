@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Finds the peers, and says what to install if one is missing."""
 
 import importlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The poses of a chain at many times, implemented by hand with NumPy, SciPy and pytransform3d.
 
 Each class receives the stamps (n,) and values (n, 7) of the edges, and returns poses (N, 7) or (N, 4, 4).

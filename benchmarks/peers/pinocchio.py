@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Pinocchio's forward kinematics from Python, and the robot used for the comparison."""
 
 import importlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Programs that use tf2's Python interface, for any provider: Debian's ROS 1, a ROS 2, or coframe.
 
 This module uses only the standard library and tf2, because it runs in the provider's Python.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tf_tree (PyPI: transform-tree) with the chain that all contenders store; by default with tf2's interpolation."""
 
 from typing import Any

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The rows of the table, one module per subject."""
 
 from benchmarks.rows import (

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Many lookups and many insertions in one call."""
 
 import time

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The doctor, on a recording of a million transforms, and live with ten thousand transforms per second."""
 
 import functools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Ten robots, each a process that publishes 20 frames at 50 Hz, through one relay into one buffer."""
 
 from collections.abc import Generator

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Insertion of transforms into the buffer, one message or one set of numbers at a time."""
 
 from collections.abc import Callable, Generator

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Ten million transforms in memory and in a frozen file."""
 
 import functools

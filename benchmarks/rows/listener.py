@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A listener over DDS: messages of ten transforms at 1 kHz from another process."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Opening a recording: all transforms from its file into a buffer."""
 
 import functools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Forward kinematics of a robot, for many configurations in one call and for a single one."""
 
 from collections.abc import Generator

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Transformation of point clouds, and deskewing of points with individual times."""
 
 from collections.abc import Callable, Generator

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Single lookups from Python."""
 
 from collections.abc import Generator

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Rows that compare coframe with another tf2, which runs the functions of `peers.tf2` in its own Python."""
 
 import contextlib

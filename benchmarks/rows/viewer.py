@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The server of the viewer: the cost of a tab at 30 Hz, and the time until the first frame update."""
 
 from collections.abc import Generator

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """ROS 2's transform system (tf2) for Python: any frame, any time, on any machine."""
 
 import importlib

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The native core. Private: use `import coframe`."""
 
 from collections.abc import Sequence

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Buffer: stores transforms over time and answers "what is the pose of frame A relative to frame B at time t?"."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`coframe.connect()`: a node with a buffer that receives transforms, and with publishers and subscriptions."""
 
 from __future__ import annotations

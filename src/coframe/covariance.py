@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Covariances of poses in other frames.
 
 A covariance is that of ROS's PoseWithCovariance: (6, 6) or its 36 numbers row by row, over x, y, z in metres and small

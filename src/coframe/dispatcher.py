@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The thread that runs Python callbacks for events of the native code: finished waits and changed edges."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """All exceptions that coframe raises by itself.
 
     Exception

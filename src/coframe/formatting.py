@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Durations, stamps, counts and lists of names as messages show them."""
 
 from __future__ import annotations

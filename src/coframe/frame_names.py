@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Frame prefixes, which keep the frames of several robots apart: a prefix in front of all names but the shared ones.
 
 The prefix is added without a slash of its own, like robot_state_publisher's ``frame_prefix``.

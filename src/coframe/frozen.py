@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Buffers in files that are mapped into memory, and that any number of processes share."""
 
 from __future__ import annotations

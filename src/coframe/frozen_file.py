@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The file format of frozen buffers: how a buffer is written, and how its header is read.
 
 A frozen file is little endian throughout:

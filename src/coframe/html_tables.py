@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Small HTML tables, as notebooks show values.
 
 Names of frames, topics and nodes come from the network, so that every text is escaped and shortened. The styles use

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Hints for failed lookups: what to do next, and which page of the doctor explains the problem."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Operations on unit quaternions (x, y, z, w) as arrays of shape (..., 4), with any leading batch axes."""
 
 from __future__ import annotations

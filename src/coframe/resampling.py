@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Resampling of a motion with as few poses as a limit on the steps between them allows."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A check that all ROS packages are imported from one place: coframe or a ROS installation, never both."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The publishers of transforms: their state, clocks and frame names, from the messages that a subscription received."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Conversion of times and durations to int64 nanoseconds, and the units of time.
 
 Floats of seconds are never accepted: a float64 cannot hold the current time to the nanosecond.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Transform: a rigid motion between two named frames at one time, or a batch of them."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Which clock stamps are on, and the periods and limits of edges."""
 
 import numpy as np

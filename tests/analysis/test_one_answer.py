@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every surface gives the same answer to the question whether an edge is stale: the answer of the rule."""
 
 import time

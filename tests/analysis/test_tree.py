@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The structure of trees of frames, compared with definitions that are slow and obvious."""
 
 import random

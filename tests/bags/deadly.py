@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A query that kills its process, as a lack of memory would; in a module that worker processes can import."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Small recordings of the same robot motion (the "walk") in all formats, written by `mcap`, `rosbags` and by hand."""
 
 import json

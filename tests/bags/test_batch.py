@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The same query over many recordings: one dataset, and a bad recording does not stop the others."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Clouds and scans of recordings: transformed points, skipped messages with reasons, and all file formats."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The commands coframe lookup, trajectory and bag info."""
 
 import json

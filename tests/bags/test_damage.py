@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Truncated, damaged and malicious recordings: the intact part is read, and problems describe the rest."""
 
 import itertools

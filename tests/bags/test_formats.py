@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The same transforms in all formats give the same lookups."""
 
 import itertools

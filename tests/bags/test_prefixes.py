@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A recording of two robots with the same frame names: each command reads only one of them, with a prefix."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Real recordings with their peculiarities, compared with `rosbags`."""
 
 import numpy as np

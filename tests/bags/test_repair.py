@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Repaired copies of recordings: problems are reported and absent from the copy."""
 
 import shutil

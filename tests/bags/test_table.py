@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """All transforms of a recording as one table."""
 
 import sys

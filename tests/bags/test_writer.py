@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Recordings written by coframe, read by other programs."""
 
 import errno

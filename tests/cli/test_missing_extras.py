@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Commands where the packages of an extra are not installed: one sentence says what to install."""
 
 import json

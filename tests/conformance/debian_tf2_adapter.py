@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """An adapter from the JSON lines of the conformance cases to Debian's real tf2 (ROS 1); runs in Debian's Python.
 
 The answer to every insertion contains the lines that it added to the log.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Capture of the log of Debian's tf2, whose C++ code writes to the process's standard error."""
 
 import os

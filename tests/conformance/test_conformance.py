@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The conformance cases, run against coframe, the drop-in BufferCore, and Debian's real tf2 of ROS 1."""
 
 import collections

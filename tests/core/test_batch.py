@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Batches of lookups and insertions: each row equals a single call, for every order and number of threads."""
 
 import threading

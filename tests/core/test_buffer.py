@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Results, errors and texts of the buffer equal those of tf2."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """How sure a pose is in another frame: against sampled poses, and against exact cases."""
 
 import numpy as np

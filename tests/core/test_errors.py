@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tracebacks show the hint of an exception, in the interpreter and in notebooks, without cost for lookups that fail."""
 
 import copy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Features of the buffer beyond tf2: bounded extrapolation, batches of lookups, statistics, snapshots."""
 
 import asyncio

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Frame prefixes follow the same rules in Python, in relays and when bytes are ingested."""
 
 import pytest

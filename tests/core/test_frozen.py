@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Buffers saved to files: loading returns the saved data, and damaged files are safe."""
 
 import concurrent.futures

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Ingesting TFMessage bytes into the buffer: recorded samples, and a hundred thousand damaged ones."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The public interface: its names, where they say they are from, their documentation, and the errors."""
 
 import ast

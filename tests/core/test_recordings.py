@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Lookups in a real recording, compared with an independent computation in NumPy and SciPy."""
 
 import bisect

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Waiting threads: timeouts, finalizers, forks, callbacks, and the exit of the interpreter."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Transforms form a group and their values are right, for all batch shapes, compared with SciPy."""
 
 import copy

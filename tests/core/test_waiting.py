@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Many threads wait for transforms: each is woken at once by the insertion into its edge and does not slow down others.
 
 What a thread waits for after it is woken is the interpreter: beside a busy Python thread every hand-over of the GIL

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Every insertion that makes a waiting lookup possible ends the wait."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Explanations: the verdict matches the lookup, and the edges that are named are the ones at fault."""
 
 import operator

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Fixtures that run the doctor on recordings and on real processes."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The source code of nodes that tests run as processes."""
 
 # The body of NODE can use `node`, `every(period, call)` and `stamped(parent, child, x)`.

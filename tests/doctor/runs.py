@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Recordings of a healthy robot, to which tests add faults."""
 
 import numpy as np

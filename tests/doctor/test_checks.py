@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Each check finds its fault and nothing else."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The command `coframe doctor`: text, JSON, SARIF, exit codes and code pages."""
 
 import importlib.resources

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The command `coframe frames`: recordings, files, live trees and changes with --watch."""
 
 import dataclasses

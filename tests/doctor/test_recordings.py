@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The problems of recordings of real robots that their manifest lists are found, and nothing else."""
 
 import re

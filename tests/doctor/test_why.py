@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The command `coframe why` on recordings of real robots, and on the common errors of students in the lab."""
 
 import itertools

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The commands coframe bag convert, merge and slice."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a new user meets first: each test was a mistake of a command."""
 
 import json

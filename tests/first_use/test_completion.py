@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Completion of commands, options and frame names in a shell."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The programs of the nodes on an installation without the optional packages."""
 
 import subprocess

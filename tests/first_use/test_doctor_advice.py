@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The doctor's advice for people without ROS: what a finding says must be possible with coframe alone."""
 
 import ast

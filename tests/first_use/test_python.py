@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a user meets who explores coframe at the prompt or in a notebook."""
 
 import html

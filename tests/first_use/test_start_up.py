@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The help of the command line appears quickly, and misspelled commands and options are corrected."""
 
 import subprocess

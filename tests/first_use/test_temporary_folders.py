@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The demo leaves no temporary folders, even if it is killed."""
 
 import os

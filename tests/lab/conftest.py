@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The nodes of the lab, in this process or in their own processes."""
 
 import signal

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """static_tf_broadcaster, dynamic_tf_broadcaster and complete_tf_tree."""
 
 import math

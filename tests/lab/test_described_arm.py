@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The robot of the lab from its description, which gives the same transforms as the hand-written nodes."""
 
 import subprocess

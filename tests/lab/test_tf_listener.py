@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tf_listener: the pose of the end effector."""
 
 import math

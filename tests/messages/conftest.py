@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Fixtures that build random messages of any type, and the same messages in the classes of rosbags."""
 
 import random

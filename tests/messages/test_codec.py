@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Serialized bytes equal those of ROS 2, and invalid bytes are refused with a clear message."""
 
 import random

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The definitions equal those of ROS 2 Humble, and the generated classes are up to date."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Stamps and frames read from the first bytes of messages."""
 
 import random

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
 # Runs a program that was built with a sanitizer. The program ends at the first error that the sanitizer reports.
 #
 #   sanitized.sh PROGRAM ARGUMENTS...

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Tests of the native core under sanitizers: concurrent readers and writers, and damaged messages.
 
 `make sanitize` runs the same programs. The results of the build stay in build/sanitize.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What expressions mean, and how wrong ones are reported."""
 
 import pytest

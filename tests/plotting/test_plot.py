@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe plot``: curves have the right values, files the right contents, and mistakes a hint."""
 
 import json

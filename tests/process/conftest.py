@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Processes in a separate network, and an independent program that subscribes to their topics."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """An independent RTPS program (rosless, in Rust), which prints the messages that it receives.
 
     python observer.py DOMAIN PATIENCE SECONDS TOPIC:TYPE:DURABILITY ...

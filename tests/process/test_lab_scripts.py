@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The five unchanged scripts of the lab in five processes, observed by an independent program."""
 
 import signal

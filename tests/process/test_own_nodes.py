@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The nodes of coframe in processes: every scan becomes a correct cloud at its own stamp while the robot moves."""
 
 import bisect

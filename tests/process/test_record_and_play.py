@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`coframe record` and `coframe play` as a user runs them: killed, with a full disk, and controlled by keys."""
 
 import os

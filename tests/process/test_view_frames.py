@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The service that tf2's view_frames calls, called from another process."""
 
 import json

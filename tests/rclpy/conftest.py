@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Fixtures for the tests of rclpy: contexts, nodes and child processes."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Actions: goals, feedback, cancel requests and results."""
 
 import importlib.util

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Awaiting rclpy's futures in asyncio programs, with results from any thread."""
 
 import asyncio

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Executors: timers, guard conditions, coroutines, callback groups and threads."""
 
 import contextlib

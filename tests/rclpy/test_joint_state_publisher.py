@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """joint_state_publisher as a node, and `coframe joints` as a user runs it."""
 
 import os

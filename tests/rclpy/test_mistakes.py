@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Helpful error messages for common mistakes."""
 
 import pytest

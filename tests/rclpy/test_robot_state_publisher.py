@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """robot_state_publisher as a node, and as a command in a separate process."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Detection of a mixture of coframe's ROS packages with those of a ROS installation."""
 
 import os

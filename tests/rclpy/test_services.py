@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Services, service clients and parameter services."""
 
 import threading

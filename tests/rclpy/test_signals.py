@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Ends of programs: SIGINT, SIGTERM, shutdown in other threads, and missing shutdowns."""
 
 import signal

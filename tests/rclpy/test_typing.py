@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Type checking of user programs with mypy."""
 
 import subprocess

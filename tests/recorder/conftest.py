@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A participant that publishes and subscribes next to the recorder or the player."""
 
 from collections.abc import Iterator

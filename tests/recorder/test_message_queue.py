@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The queue of messages that are not on the disk yet."""
 
 from coframe.recorder.message_queue import MessageQueue, ReceivedMessage, Source

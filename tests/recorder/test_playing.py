@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The messages that a graph receives when a recording is replayed."""
 
 import time

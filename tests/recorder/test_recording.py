@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The messages that are published on a graph, and those in the recording."""
 
 import time

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Joint states: default positions, sources, mimic joints and steps."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Forward kinematics, compared with SciPy, with finite differences and with the recording of a real robot."""
 
 import itertools

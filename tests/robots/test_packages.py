@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The search for packages and their files, with and without ROS."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Kinematics of real robots, compared with Pinocchio. `make test-slow` installs both."""
 
 import importlib.metadata

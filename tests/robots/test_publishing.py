@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The transforms that robot_state_publisher would publish, and their rate."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The parser of robot descriptions: valid documents, and the errors for invalid ones."""
 
 import random

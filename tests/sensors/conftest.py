@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Fixtures: a moving sensor and its points."""
 
 import numpy as np

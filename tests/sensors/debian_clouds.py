@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Transform a pickled cloud with Debian's do_transform_cloud and return it pickled; runs in Debian's Python."""
 
 import pickle

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Test data: point clouds and a moving sensor."""
 
 from array import array

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """transform_cloud compared with SciPy."""
 
 import copy

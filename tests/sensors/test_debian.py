@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Comparison with Debian's do_transform_cloud, which is that of ROS 1."""
 
 import pickle

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """deskew compared with SciPy's Slerp and with single lookups."""
 
 import copy

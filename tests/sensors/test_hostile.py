@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Messages with wrong sizes: a clear error, or a result that changes only its own points."""
 
 from array import array

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The kernels are exact, and their results for all CPU levels agree to 1e-15."""
 
 import os

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """project_scan compared with values computed by hand and with single lookups."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Transforms for the tests."""
 
 from collections.abc import Callable

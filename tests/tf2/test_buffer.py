@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tf2_ros.Buffer without a graph: timeouts, futures and transform()."""
 
 import gc

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """API of BufferCore: arguments, return types and texts. The results are tested with the core."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tf2_geometry_msgs, compared with SciPy."""
 
 import copy

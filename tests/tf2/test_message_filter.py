@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tf2_ros.MessageFilter: waiting for transforms and reasons for dropped messages."""
 
 import asyncio

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tf2_nav_msgs and tf2_visualization_msgs."""
 
 import copy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Twists, wrenches, accelerations, inertias, orientations and arrays of poses, compared with SciPy."""
 
 import copy

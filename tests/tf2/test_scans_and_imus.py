@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Laser scans and IMU data in tf2_sensor_msgs, compared with SciPy."""
 
 import copy

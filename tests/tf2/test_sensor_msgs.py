@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tf2_sensor_msgs and sensor_msgs_py."""
 
 import copy

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The commands ``coframe compare`` and ``coframe trajectory``."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Absolute and relative pose errors with known results."""
 
 import numpy as np

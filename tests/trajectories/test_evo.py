@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The figures of a comparison equal those of evo."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Trees of a moving robot with a second parent, a loop, and hostile frame names."""
 
 import pytest

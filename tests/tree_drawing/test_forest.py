@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What grows from an observation, and what differs between two forests."""
 
 import time

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Each format, read by an independent program."""
 
 import io

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Viewers on loopback, and tabs: real WebSocket clients without a browser."""
 
 import json

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Displays of a tab: messages published over DDS and drawn at their own stamps, or the reason why they cannot be."""
 
 import threading

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A viewer that starts before its source: the tabs start from scratch when the source is available."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What a client is sent: the newest message of each subject, and only what has changed."""
 
 import json

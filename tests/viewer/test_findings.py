@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The findings of the doctor that tabs receive."""
 
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The poses of frames in a tab equal those of the buffer, at any time, in any fixed frame and at any distance."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The committed page equals a build of its source, so that installing coframe does not need Node.js."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The protocol: one definition from which both sides are derived, and checks of what clients send."""
 
 import dataclasses

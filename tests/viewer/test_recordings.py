@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Recordings in a tab: frames and messages at any time."""
 
 import numpy as np

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A replay is one HTML file that contains the poses of the buffer and requests nothing from the network."""
 
 import base64

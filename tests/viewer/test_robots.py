@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Robots in a tab: checked descriptions, meshes but no other files, and joints."""
 
 import time

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """RViz configuration files: known parts are applied, other parts are listed, and everything is preserved."""
 
 import itertools

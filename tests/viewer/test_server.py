@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The server: access, invalid and stuck clients, start and end."""
 
 import contextlib

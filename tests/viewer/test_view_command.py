@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`coframe view` and `coframe demo`, started from the command line."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Commands for several robots: the demo, the relay and prefixes."""
 
 import json

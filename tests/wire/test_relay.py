@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Relays between processes: the received transforms, their origin, and the warnings."""
 
 import re

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The one rule for which clock stamps are on: the system clock, simulated time, or another clock."""
 
 from __future__ import annotations

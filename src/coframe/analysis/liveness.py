@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The one rule for when an edge has a gap and when it is stale, and a tracker for buffers that apply it.
 
 Every surface uses this module: the doctor, the drawings, ``monitor``, ``why``, the terminal screens, the viewer,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The edge that is most likely missing between two trees, by the names of their frames."""
 
 from __future__ import annotations

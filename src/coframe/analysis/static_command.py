@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The shell command that publishes a static transform."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The structure of trees of frames: roots, children, order, depths, loops, paths and chains."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Recordings without ROS: rosbag2 (MCAP, SQLite) and bags of ROS 1."""
 
 import warnings

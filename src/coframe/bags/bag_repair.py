@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Writes a repaired copy of a recording: with index and metadata, static transforms first and valid frame names."""
 
 from __future__ import annotations

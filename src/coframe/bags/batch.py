@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The same trajectory query over many recordings, in parallel; the results form one Parquet dataset.
 
 :func:`query_recording` does the work for one recording. It is a plain function whose arguments and result can be

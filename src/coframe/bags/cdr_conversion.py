@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Conversion of recorded messages to CDR: those of ROS 1 are converted if ROS 2 has the type."""
 
 from __future__ import annotations

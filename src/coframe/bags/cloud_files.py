@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Point cloud files: PLY, PCD, NumPy's npy and npz, a folder of these, or a new recording."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The points of a recorded topic (point clouds or laser scans), transformed into one frame and deskewed."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Recordings whose messages are compressed one by one (rosbag2's compression mode "message")."""
 
 from __future__ import annotations

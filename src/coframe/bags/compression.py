@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Decompression with a size limit that recovers the undamaged beginning of damaged data."""
 
 from __future__ import annotations

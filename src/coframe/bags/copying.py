@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Copies the messages of one or several recordings into a new one: conversion, merging and slicing."""
 
 from __future__ import annotations

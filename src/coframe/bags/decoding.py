@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Decodes recorded messages: with coframe's classes if they match, else by the definitions in the recording."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Definitions of message types as text; stored in a recording, they make it readable without ROS."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Finds the files of a recording below a path and opens each with the reader for its format.
 
 The first bytes of a file decide its format. Names and metadata.yaml only help to find and order the files.

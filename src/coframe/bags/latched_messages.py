@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Latched (transient-local) messages: late joiners receive them, and each file of a recording begins with them."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reader for MCAP files, including damaged and unfinished ones; the format is described at https://mcap.dev/spec."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Writer for one MCAP file that is valid at any moment; the format is described at https://mcap.dev/spec.
 
 Each flush writes a chunk and, after it, the end of the file. The next flush overwrites that end. So a recorder that is

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Frame names in messages of any type: finds them by the definition of the type and replaces them."""
 
 from __future__ import annotations

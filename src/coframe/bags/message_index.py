@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Index of all messages of a recording: their positions in the files, times of receipt and stamps."""
 
 from __future__ import annotations

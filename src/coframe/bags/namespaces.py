@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The transforms of a recording by namespace: one buffer per robot, and a common one if the names are distinct."""
 
 from __future__ import annotations

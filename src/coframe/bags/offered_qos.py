@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Quality of service that the publishers of a topic offered, in the YAML of rosbag2."""
 
 from __future__ import annotations

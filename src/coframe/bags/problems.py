@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Problems found in a recording, as sentences; equal ones are counted."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Recording: every transform of a recording in a buffer, and its other messages by topic and time."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reader for bags of ROS 1 (http://wiki.ros.org/Bags/Format/2.0), with or without an index."""
 
 from __future__ import annotations

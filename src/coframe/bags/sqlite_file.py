@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reader for rosbag2's SQLite files of all schema versions."""
 
 from __future__ import annotations

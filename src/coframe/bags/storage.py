@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Interface of the readers for the file formats: all messages once in file order, then single messages by position."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Summary of a recording: its topics, trees and edges, and which sensor data can be transformed."""
 
 from __future__ import annotations

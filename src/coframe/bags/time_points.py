@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Points in time as users write them (stamps, offsets and ISO 8601), parsed to nanoseconds."""
 
 from __future__ import annotations

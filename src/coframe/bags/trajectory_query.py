@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TrajectoryQuery: the poses of one frame relative to another, requested in the same way from any recording."""
 
 from __future__ import annotations

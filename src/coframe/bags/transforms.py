@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Ingests recorded transforms into a buffer: TFMessages as bytes, other types decoded here."""
 
 from __future__ import annotations

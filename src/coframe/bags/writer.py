@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Writer for recordings in rosbag2's format: a folder with MCAP files and a metadata.yaml."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe bag info``: shows what a recording contains; ``coframe bag fix``: writes a repaired copy."""
 
 from __future__ import annotations

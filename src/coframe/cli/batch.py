@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe batch``: writes trajectories from many recordings as one dataset."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe cloud``: writes the point clouds or scans of a recording, transformed into one frame."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The table of commands: each is a function, or a group, with the name of its module."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe compare``: absolute and relative pose errors of an estimated trajectory."""
 
 from __future__ import annotations

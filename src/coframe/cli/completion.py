@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Completion of frame names for the shell; it is installed by ``coframe --install-completion``."""
 
 from __future__ import annotations

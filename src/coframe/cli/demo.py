@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe demo``: simulated robots whose transforms are published over DDS and shown live."""
 
 from __future__ import annotations

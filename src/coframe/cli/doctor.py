@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe doctor``: finds problems with transforms, live or in a recording."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe echo``: prints a live transform repeatedly, with the options and the output of tf2_echo."""
 
 from __future__ import annotations

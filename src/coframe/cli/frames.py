@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe frames``: shows the transform trees with edge statistics, or writes a diagram, like view_frames."""
 
 from __future__ import annotations

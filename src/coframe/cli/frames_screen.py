@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The transform trees in a terminal, printed once or updated with changes highlighted."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The layout of ``--help``: usage, description, arguments and options as plain text of at most 80 columns."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe joints``: publishes joint states, like joint_state_publisher, with a slider for each joint."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """How commands end: on Ctrl-C, on SIGTERM, when their reader goes away, and with errors of the library."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe lookup``: prints a transform from the live ROS graph or from a recording."""
 
 from __future__ import annotations

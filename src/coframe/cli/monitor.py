@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe monitor``: shows the statistics of tf2_monitor for each edge and publisher."""
 
 from __future__ import annotations

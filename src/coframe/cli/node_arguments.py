@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The part of a command line that is meant for a node (``--ros-args``) or for a xacro file (``NAME:=VALUE``)."""
 
 from __future__ import annotations

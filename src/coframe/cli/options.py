@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The options that several commands share, and how their values are read.
 
 Every option has the same name, the same value name and the same sentence in every command.

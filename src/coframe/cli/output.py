@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What all commands use to print: errors, warnings, log lines, and text that is safe for a terminal."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe plot``: plots over time from a recording."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Progress bars on stderr; nothing is shown if it is not a terminal."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe record``: records topics in the folder layout of rosbag2."""
 
 from __future__ import annotations

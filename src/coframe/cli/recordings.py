@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Opening recordings for a command, and the times in its options."""
 
 from __future__ import annotations

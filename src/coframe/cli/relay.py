@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe relay``: merges the transforms of several robots on one topic, or splits them."""
 
 from __future__ import annotations

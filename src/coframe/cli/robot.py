@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe robot``: publishes the transforms of a robot description, like robot_state_publisher."""
 
 from __future__ import annotations

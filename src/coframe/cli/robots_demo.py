@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe demo --robots``: several simulated robots, each in its own process, in one view."""
 
 from __future__ import annotations

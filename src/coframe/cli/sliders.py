@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Sliders for joints in the terminal, controlled by the arrow keys."""
 
 from __future__ import annotations

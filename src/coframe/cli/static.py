@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe static``: publishes a static transform, with both argument styles of static_transform_publisher."""
 
 from __future__ import annotations

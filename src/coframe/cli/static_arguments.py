@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The arguments of static_transform_publisher: named options, or the deprecated positional numbers."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe trajectory``: writes the trajectory of a frame from a recording."""
 
 from __future__ import annotations

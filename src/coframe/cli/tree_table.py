@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The transform tree of a live buffer as a table: frame, parent, rate, age and pose."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe view``: opens the viewer in a browser tab."""
 
 from __future__ import annotations

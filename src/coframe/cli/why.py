@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """``coframe why``: explains why a transform between two frames is available, or why it is not.
 
 The arguments are those of ``coframe lookup``, so that a user who gets an error there changes only the command.

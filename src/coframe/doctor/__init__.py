@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Checks of the transforms of a robot: what is wrong, why it matters, and what to do; live or in a recording.
 
 The package is built in layers:

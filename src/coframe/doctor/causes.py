@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The causes of findings, as data: a report lists consequences below their cause."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The page of each code, which `coframe doctor --explain` prints and the documentation links to.
 
 A page is Markdown: a title ``# TF001: ...``, then sections. The first paragraph of "Why it matters" is printed below

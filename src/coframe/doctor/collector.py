@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Collector: builds the table of transforms of an observation from batches of messages."""
 
 from __future__ import annotations

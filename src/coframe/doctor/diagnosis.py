@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Diagnosis: runs all checks on an observation."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Edge: all transforms of one edge on one kind of topic, in the order of arrival."""
 
 from __future__ import annotations

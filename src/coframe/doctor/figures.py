@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Figures of edges: rate, jitter, delay and age per publisher, and the edge that limits a chain."""
 
 from __future__ import annotations

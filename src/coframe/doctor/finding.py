@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Finding: one problem with its values and what to do about it."""
 
 from __future__ import annotations

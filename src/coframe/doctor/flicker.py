@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Flicker: an edge that alternates between two poses, as with two publishers that disagree."""
 
 from __future__ import annotations

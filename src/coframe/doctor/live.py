@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Observation of a live graph: a node that subscribes to transforms, sensors, joint states and log messages."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Observation: the transforms and messages that were received or recorded, with the facts that several checks need.
 
 The rows are the transforms as published, including those that a buffer rejects. All times are int64 nanoseconds.

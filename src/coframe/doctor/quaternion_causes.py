@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The likely mistake behind quaternions that are not rotations: a missing half angle, an angle used as a component."""
 
 from __future__ import annotations

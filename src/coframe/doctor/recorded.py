@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Observation of a recording, one per namespace: robots with their own /tf may use the same frame names."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The robot model of an observation."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The table of all transforms as published, one row each, from which everything else is derived."""
 
 from __future__ import annotations

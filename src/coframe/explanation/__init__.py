@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Explanations of why a transform between two frames exists or not: which edge is missing, late or early, by how much.
 
 `facts` defines the explanation as a value, `explaining` builds it from a buffer, `advice` gives the recommended fix,

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What to do about a missing transform: the hint of the exception, or a better one where the edges give more detail."""
 
 from __future__ import annotations

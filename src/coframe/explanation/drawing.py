@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """An explanation as lines of text: the verdict, the chain with one line per frame, and what to do."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Builds an explanation from a buffer.
 
 The buffer itself decides whether there is a transform. The edges are those that the lookup uses, or would use if the

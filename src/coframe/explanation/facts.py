@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Explanation: the chain between two frames, edge by edge, and what is wrong with it."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The nodes of the tf2 lab.
 
 They import only ROS packages, so each of these files also runs unchanged on a real ROS 2 installation.

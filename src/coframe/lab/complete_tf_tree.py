@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Publish the complete transform tree of the robot system: world, map, odom, base, arm and sensors.
 
 Try it:

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Broadcast the transforms of a two-link arm, from joint states or from a simulation if there are none.
 
 Try it:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Start and stop the nodes of the lab, each in its own process."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Run robot_state_publisher with the description of the lab's arm, two_link_arm.urdf.xacro.
 
 Try it:

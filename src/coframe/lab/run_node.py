@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Run a node that stops when its launcher stops: ``python -m coframe.lab.run_node MODULE ...``.
 
 The launcher holds the other end of the standard input. It is closed when the launcher exits, even if it is killed.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Transform laser scans into the base frame and publish them as point clouds.
 
 A scan usually arrives before the transforms with its stamp. Therefore, each scan waits for its own transform until a

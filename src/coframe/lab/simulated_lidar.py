@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Publish the scans of a simulated lidar in a long hall with pillars, at the position of the robot.
 
 The hall has no end along x, because the robot drives on without end. It contains all kinds of invalid ranges: far away

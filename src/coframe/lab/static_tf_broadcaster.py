@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Broadcast the static transforms of the sensor mounts: camera, IMU and lidar.
 
 Try it:

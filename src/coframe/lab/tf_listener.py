@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Listen to transforms and publish the pose of the end effector.
 
 Try it:

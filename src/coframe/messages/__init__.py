@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Message classes of ROS 2 without a ROS installation: find classes by type name, serialize and deserialize messages.
 
 Example:

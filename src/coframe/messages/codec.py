@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Serialization of messages to CDR as ROS 2 sends it: XCDR1 after a 4-byte encapsulation header."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Compiler from a message type to a Python function that writes or reads messages of that type.
 
 The compiler tracks what is known about the offset, joins adjacent numbers into one `struct` call, and prepares that

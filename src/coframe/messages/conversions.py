@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Conversion of coframe's values to messages."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Compiler for functions that read messages from CDR, which check every length before they use it."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Types of message fields, with the names of ``rosidl_parser.definition``."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The encapsulation header of a CDR message: 4 bytes that contain its byte order."""
 
 from __future__ import annotations

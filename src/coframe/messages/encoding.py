@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Compiler for functions that write messages to CDR."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The attributes of messages: which values their setters accept, convert and refuse.
 
 The rules and the error texts are those of Humble's generated classes. The checks are disabled by ``python -O`` and by

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Read stamps and frames from the first bytes of messages, without decoding the rest.
 
 Most messages begin with a std_msgs/Header; some begin with a time, or with a sequence of messages that have a header.

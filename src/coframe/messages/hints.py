@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Type hints for fields whose type on reading differs from the types that they accept."""
 
 from __future__ import annotations

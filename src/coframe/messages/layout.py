@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Positions of numbers in CDR.
 
 CDR (XCDR1) aligns every number to its own size, counted from the end of the 4-byte encapsulation header. The offsets

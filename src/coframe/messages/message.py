@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Base classes of all message, service and action classes."""
 
 from __future__ import annotations

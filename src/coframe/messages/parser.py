@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Parser for interface definitions: the text of ``.msg``, ``.srv`` and ``.action`` files."""
 
 from __future__ import annotations

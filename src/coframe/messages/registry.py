@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The registry of message, service and action classes by ROS type name."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The bytes of many messages in one block of memory."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Messages as YAML, in the order of their fields."""
 
 from __future__ import annotations

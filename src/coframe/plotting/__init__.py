@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Plots over time of poses, fields of messages, rates and delays, as SVG, PNG and interactive HTML."""
 
 from coframe.errors import PlotError

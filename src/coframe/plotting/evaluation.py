@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Evaluation of expressions on a recording."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The expressions that name what is plotted.
 
 There are three kinds; everything after the last dot of a pair of frames, or after the first dot of a topic, is the

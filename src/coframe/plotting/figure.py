@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Figures: curves over time, in one panel for each unit, written as SVG, PNG or HTML."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Figures as a page that contains its data and uPlot (MIT licence), so that it works without a network."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Figures as SVG and PNG, drawn by matplotlib."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The queue of received messages that are not on the disk yet. Its size is limited, because the disk may be slow."""
 
 from __future__ import annotations

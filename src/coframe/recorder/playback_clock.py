@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The clock of a replay: recorded time that can be paused, stepped, scaled and stopped."""
 
 from __future__ import annotations

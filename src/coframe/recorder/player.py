@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`coframe.play()`: the replay of a recording on the graph."""
 
 from __future__ import annotations

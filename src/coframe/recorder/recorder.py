@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`coframe.record()`: recording of topics, with one thread that receives and one that writes to the disk."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The publishers of a replay: one for each recorded topic; static transforms are merged into one message."""
 
 from __future__ import annotations

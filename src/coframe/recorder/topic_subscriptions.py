@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The subscriptions of a recorder: to each selected topic, as soon as it has a publisher, with the offered QoS."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Robot models from URDF and xacro: links, joints and forward kinematics.
 
 >>> import coframe.robots

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A strict XML parser with line numbers, which rejects entities, internal definitions and deep nesting."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Loading of robot descriptions from URDF and xacro files."""
 
 from __future__ import annotations

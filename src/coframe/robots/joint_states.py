@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Joint states by the rules of joint_state_publisher: defaults, values from other sources, and mimic joints."""
 
 from __future__ import annotations

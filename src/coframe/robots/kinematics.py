@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Forward kinematics of a tree of joints in the native core, for one or many configurations."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Search for ROS packages, with or without ROS, and for the files of ``package://`` URLs."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The parts of a robot description: links, joints and shapes. Units are metres, radians and kilograms."""
 
 from __future__ import annotations

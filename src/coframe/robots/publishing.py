@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Transforms from joint states by the rules of robot_state_publisher. This module does not publish them."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Robot models: links that are connected by joints, with forward kinematics and Jacobians."""
 
 from __future__ import annotations

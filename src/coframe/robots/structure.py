@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Validation that links and joints form one tree, and that mimic joints follow an existing joint."""
 
 from __future__ import annotations

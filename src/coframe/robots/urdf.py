@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A strict URDF parser, which reports contradictions with their line instead of guessing."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Transformation of point clouds to another frame."""
 
 from __future__ import annotations

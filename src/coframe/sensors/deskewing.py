@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Deskewing of point clouds that were measured while the sensor moved."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Access to the fields of points in messages and arrays, and to the memory for results."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The time of each point of a cloud, as drivers of lidars publish it.
 
 A message contains the name and type of the time field, but not its unit, which is therefore guessed from the values:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The thread of a relay, which reads transforms and writes them to other topics, and the function `relay`."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The robots of a relay, their topics and prefixes."""
 
 from __future__ import annotations

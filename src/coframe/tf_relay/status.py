@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The state of the edges and robots of a relay."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Trajectory files (TUM, KITTI, EuRoC, CSV), and the comparison of an estimated trajectory with a reference."""
 
 from coframe.errors import TrajectoryError

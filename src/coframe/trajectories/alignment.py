@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Alignment of one trajectory with another by a rigid motion or a similarity (Umeyama, 1991)."""
 
 from __future__ import annotations

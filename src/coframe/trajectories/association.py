@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Association of the poses of two trajectories by their stamps."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Absolute and relative pose errors of an estimated trajectory (Sturm et al., 2012), with their statistics."""
 
 from __future__ import annotations

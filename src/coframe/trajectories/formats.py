@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Writing of trajectory files: TUM, KITTI, EuRoC, CSV, Parquet and NumPy's npz."""
 
 from __future__ import annotations

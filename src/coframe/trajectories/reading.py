@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Reading of trajectory files: TUM, KITTI, EuRoC, CSV and NumPy's npz."""
 
 from __future__ import annotations

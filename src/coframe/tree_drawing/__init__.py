@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Drawings of the frames of a robot as trees: for terminals, as images, and as text for other programs.
 
 The package is built in layers:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Builds the forest of frames from an observation."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The changes from one forest to the next."""
 
 from __future__ import annotations

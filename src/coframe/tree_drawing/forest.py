@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Forest: the frames as trees, each with the figures of the edge to its parent."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A forest in the DOT language of Graphviz."""
 
 from __future__ import annotations

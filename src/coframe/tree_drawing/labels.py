@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Names and figures of frames as short lines of text."""
 
 from __future__ import annotations

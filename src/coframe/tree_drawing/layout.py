@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A forest as boxes, lines and texts on a page: roots on the left, each frame to the right of its parent, no overlaps.
 
 Lengths are pixels of 1/96 inch, and y points down. Boxes have a margin, as the width of texts depends on the font.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A forest as a flowchart of Mermaid, which code hosts draw inside Markdown."""
 
 from __future__ import annotations

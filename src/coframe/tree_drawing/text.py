@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A forest as rows for a terminal: branches and names in the first column, figures in the others."""
 
 from __future__ import annotations

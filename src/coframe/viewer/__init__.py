@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The viewer: RViz's displays in a browser tab, with time travel.
 
 `coframe.show(buffer)` and the command `coframe view` start it. The server looks up all poses and the page draws them.

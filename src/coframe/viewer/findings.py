@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The findings of the doctor on the displayed source, computed in a thread while a page is open.
 
 A recording is examined once, the ROS graph repeatedly on its last seconds, as by `coframe doctor`.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """`coframe.show()`: a viewer for a buffer, a connection or a recording."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What all clients share: the source with its scene, the topics, and the origin of times."""
 
 from __future__ import annotations

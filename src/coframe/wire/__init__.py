@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Communication with the ROS 2 graph over DDS.
 
 The package `cyclonedds` is loaded when the process joins the graph, not when this package is imported.

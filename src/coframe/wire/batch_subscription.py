@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A subscription that returns arrival times and message bytes as arrays."""
 
 from __future__ import annotations

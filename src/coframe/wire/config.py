@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The configuration of Cyclone DDS from the environment variables of ROS 2."""
 
 from __future__ import annotations

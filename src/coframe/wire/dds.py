@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Access to the `cyclonedds` package, which is loaded when the process joins the graph."""
 
 from __future__ import annotations

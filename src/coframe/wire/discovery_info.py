@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The CDR message of the topic ros_discovery_info, on which ROS participants publish their nodes.
 
 The message, rmw_dds_common/msg/ParticipantEntitiesInfo, contains the identifier of the participant, then for each node

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Warnings about publishers and subscriptions on one topic that cannot communicate."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The nodes, publishers and subscriptions of this process."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The ROS graph: its nodes, publishers and subscriptions, from ros_discovery_info and DDS discovery."""
 
 from __future__ import annotations

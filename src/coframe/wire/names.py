@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Conversion between ROS names and DDS names."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The DDS participant of this process in a ROS domain, shared by all its nodes."""
 
 from __future__ import annotations

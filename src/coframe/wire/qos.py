@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Quality of service: what a publisher offers and a subscription requests."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Warnings about transforms that were received but not stored."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Static transforms: all broadcasters of a process on one topic share one DDS writer.
 
 A late-joining subscriber receives only the last message of a writer, so every message contains all static transforms

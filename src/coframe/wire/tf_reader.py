@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A subscription that stores the transforms of a topic in a buffer."""
 
 from __future__ import annotations

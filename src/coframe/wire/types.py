@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The DDS types of ROS messages: name and layout. `coframe.messages.codec` encodes and decodes the messages."""
 
 from __future__ import annotations

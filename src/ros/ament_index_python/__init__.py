@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Locations of installed packages, with the API of the ROS 2 package `ament_index_python`."""
 
 from ament_index_python.packages import (

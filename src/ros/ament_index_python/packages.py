@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Search for packages in installation prefixes (`AMENT_PREFIX_PATH`) and in source directories.
 
 `COFRAME_PACKAGE_PATH` lists directories that contain packages as in a source tree, `<directory>/<package>/...`. These

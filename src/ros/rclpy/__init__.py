@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The ROS 2 client library for Python (the API of Humble) without a ROS installation.
 
     import rclpy

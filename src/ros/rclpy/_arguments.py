@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Parser of `--ros-args`: remapping rules, parameters and logging."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Support for awaiting rclpy's futures in asyncio tasks."""
 
 # The modules of rclpy use each other's private members.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Clock types. They are separate from clock.py, because `Time` needs them and the clocks need `Time`."""
 
 from enum import IntEnum

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Application of remapping rules to the names of a node."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Request header: 16 bytes before the payload of service requests and replies that identify the request."""
 
 from __future__ import annotations

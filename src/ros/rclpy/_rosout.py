@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Publisher of log messages on the topic /rosout."""
 
 # The modules of rclpy use each other's private members.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Wake-up condition on which executors wait for work."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Parser of parameter values on the command line and in parameter files, with ROS's typing rules."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Callback groups, which control which callbacks may run in parallel."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Clocks: system time, steady time, and ROS time, which a simulator can set."""
 
 # The modules of rclpy use each other's private members.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Unit conversion factors."""
 
 from coframe.time import SECOND

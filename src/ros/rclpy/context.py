@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Contexts: the ROS arguments, the DDS domain and the shutdown state that nodes share."""
 
 # The modules of rclpy use each other's private members.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Executors, which wait until timers, subscriptions and other waitables are ready and run their callbacks."""
 
 # The modules of rclpy use each other's private members.

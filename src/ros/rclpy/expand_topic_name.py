@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Expansion of topic and service names to fully qualified names."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Guard conditions, which wake an executor from any thread."""
 
 # The modules of rclpy use each other's private members.

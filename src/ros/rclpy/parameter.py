@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Parameters, which have a name and a value of one of nine types."""
 
 from __future__ import annotations

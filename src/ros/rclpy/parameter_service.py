@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Parameter services, through which other nodes get and set the parameters of a node (`ros2 param`)."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """QoS override parameters, which set the QoS of publishers and subscriptions when a node starts."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Serialization of messages to CDR, the format on the wire."""
 
 from __future__ import annotations

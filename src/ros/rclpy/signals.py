@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Handlers of SIGINT and SIGTERM, which shut down all contexts and suppress the traceback of the exit."""
 
 from __future__ import annotations

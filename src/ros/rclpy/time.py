@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Points in time, each of which belongs to one type of clock."""
 
 from __future__ import annotations

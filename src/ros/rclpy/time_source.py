@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Source of simulated time, which sets the clocks of a node from the topic /clock."""
 
 # The modules of rclpy use each other's private members.

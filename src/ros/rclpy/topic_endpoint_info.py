@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Information about publishers and subscriptions in the graph."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Validation of fully qualified topic and service names."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Validation of topic and service names before expansion, which may be relative and contain `~` and `{node}`."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Function that waits for a single message."""
 
 # The modules of rclpy use each other's private members.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The node robot_state_publisher, with the parameters, topics, QoS profiles and log messages of upstream."""
 
 from collections.abc import Sequence

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Entry points of nodes as programs, which run until shutdown and report errors as a message."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Conversion between `sensor_msgs/PointCloud2` and NumPy arrays."""
 
 import sys

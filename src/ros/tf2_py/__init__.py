@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tf2's buffer and exceptions with the API of the ROS 2 package `tf2_py`."""
 
 from collections.abc import Iterator

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Conversion of the arguments of tf2's functions to those of the core: nanoseconds, checked names and pose values."""
 
 import warnings

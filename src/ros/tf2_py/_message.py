@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Conversion of the core's results to messages and times.
 
 The values are written directly into the slots, because they need no checks. This also allows stamps beyond the 32-bit

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tf2's `BufferCore` on coframe's native buffer."""
 
 import sys

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Velocity of a frame relative to another, computed as tf2's finite difference of two lookups."""
 
 import math

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """tf2 for nodes: buffers, listeners and broadcasters.
 
 The upstream package has no `__all__`, and programs rely on names that its modules import. These names are exported

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Definitions shared by buffer clients and servers: the QoS profile and the error codes of the action."""
 
 from typing import Final

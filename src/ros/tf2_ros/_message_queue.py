@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Queue of the messages that wait for transforms in a message filter."""
 
 import threading

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renaming of the frames of messages, for example with the prefix of a robot."""
 
 from collections.abc import Iterable

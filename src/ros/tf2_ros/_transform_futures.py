@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Futures that complete when a transform becomes available in a buffer."""
 
 # rclpy and tf2_ros use each other's private members.

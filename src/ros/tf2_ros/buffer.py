@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Transform buffer of nodes."""
 
 # The unused names are imported because programs import them from upstream's module.

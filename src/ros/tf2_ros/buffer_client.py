@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Client for lookups in the buffer of another node."""
 
 # ruff: noqa: SLF001 - The client uses a private method of rclpy's action client to wait with a timeout.

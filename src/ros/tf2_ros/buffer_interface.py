@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Interface of tf2 buffers, and the registries of the types that they can transform and convert."""
 
 # The unused names are imported because programs import them from upstream's module.

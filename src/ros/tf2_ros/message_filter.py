@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Message filter, which passes messages on once their frame can be transformed."""
 
 import inspect

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Broadcaster of static transforms."""
 
 # ruff: noqa: SLF001 - The broadcasters of a process share a DDS writer through private members of rclpy's nodes.

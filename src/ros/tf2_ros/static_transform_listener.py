@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Listener for static transforms."""
 
 import tf2_py as tf2

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Broadcaster of dynamic transforms."""
 
 from collections.abc import Iterable

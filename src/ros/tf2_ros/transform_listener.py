@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Listener that fills a buffer with received transforms."""
 
 # ruff: noqa: SLF001 - Native ingestion requires private members of rclpy's nodes and tf2's buffers.

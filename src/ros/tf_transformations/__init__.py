@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Rotations, quaternions and homogeneous matrices with the API of `transformations.py`.
 
 Quaternions are (x, y, z, w), as in ROS. Angles are in radians. Matrices are 4x4 and transform column vectors. The

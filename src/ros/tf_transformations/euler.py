@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Euler angles in all 24 conventions.
 
 Rotations about body axes are equivalent to rotations about fixed axes in the opposite order. All computations therefore

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Homogeneous 4x4 matrices."""
 
 import math

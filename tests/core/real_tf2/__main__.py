@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Command line for the comparison of coframe with Debian's real tf2:
 
 PYTHONPATH=tests/core python -m real_tf2 failure.json               a scenario that a test printed

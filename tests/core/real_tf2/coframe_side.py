@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The answers of coframe to the operations of a scenario, in the format of debian_side.py."""
 
 import coframe

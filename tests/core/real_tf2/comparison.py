@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Run scenarios on coframe and on Debian's real tf2, compare every answer, and minimise differences."""
 
 import collections

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Run scenarios on the real tf2 of ROS 1 and return the answers; runs in Debian's Python.
 
 Both as pickles: a batch is a list of (cache length in ns, operations), and comes back as a list of lists of answers.

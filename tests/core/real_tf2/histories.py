@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The history of one frame and the effects of insertions, by the rules of ROS 2 and by those of ROS 1.
 
 The implementation is deliberately simple: sorted lists, written from the rules and not from any source code.

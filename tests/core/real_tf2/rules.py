@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The rules for differences between ROS 1 and ROS 2, and which rule explains that two answers differ.
 
 The list is data: ros1_rules.json, and the wordings of ../../conformance/ros1_differences.json. Its parts:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Random scenarios: a cache length, and insertions and questions for one buffer, mixed in one sequence.
 
 A scenario is JSON through and through:

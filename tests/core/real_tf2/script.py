@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The steps of a scenario: the operations on coframe and on ROS 1, and the expected answers.
 
 As long as both follow the same rules, their histories are equal and their answers are compared with each other. If a

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Random operations on coframe and on the real tf2 of ROS 1, in one sequence per buffer, with all answers compared.
 
 ROS 1 differs from ROS 2 by rules, which are data (rules.py); script.py describes how buffers that differ are

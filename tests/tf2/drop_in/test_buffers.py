@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Buffers without a graph, tested through upstream's names only, like upstream's own tests."""
 
 import copy

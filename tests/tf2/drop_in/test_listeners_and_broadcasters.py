@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A node that receives its own transforms, tested through upstream's names only, like upstream's tests.
 
 Upstream needs one `spin_once` for each message, and so do these; none of them has a timeout, and all must return.

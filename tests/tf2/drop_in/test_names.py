@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Names and signatures of tf2's Python packages."""
 
 import importlib

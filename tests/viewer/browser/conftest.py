@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Fixtures for tests in a real browser, with the real server and the running demo."""
 
 import json

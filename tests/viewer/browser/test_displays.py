@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Displays: .rviz files, scans, robots and their joints."""
 
 import struct

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Real robots with their meshes in a browser; `make test-slow` installs them."""
 
 import importlib.metadata

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The findings of the doctor and the marks of the affected frames."""
 
 import pytest

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Frames in the tree and in the scene, compared with a buffer that receives the same transforms."""
 
 import shlex

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Hostile input is rejected with a message or shown as text, and the viewer keeps working."""
 
 import json

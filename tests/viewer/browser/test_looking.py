@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The camera: measuring, following a frame, and the top-down view."""
 
 import re

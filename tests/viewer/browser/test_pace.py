@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Frame rates with many frames and large clouds. `make test-slow ARGS=-s` prints the measurements."""
 
 import subprocess

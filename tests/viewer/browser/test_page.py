@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The page: exports, layout, shortcuts, and its behaviour without a server."""
 
 import base64

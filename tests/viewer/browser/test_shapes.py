@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Markers, maps, covariances, clouds and images are drawn at the correct poses."""
 
 import base64

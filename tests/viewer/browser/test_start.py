@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The time until frames are drawn. `make test-slow ARGS=-s` prints the measurements."""
 
 import os

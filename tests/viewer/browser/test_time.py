@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Time travel by keys and mouse, at any speed, in live data and recordings."""
 
 import numpy as np

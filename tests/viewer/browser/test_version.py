@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A page whose protocol differs from the server's reloads once, and then explains the problem."""
 
 import json

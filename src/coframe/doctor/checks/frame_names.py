@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF006: frame names that cause problems: leading slashes, spaces, near-duplicates, incomplete prefixes."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF013: edges with a low rate, with gaps, or without recent transforms."""
 
 from __future__ import annotations

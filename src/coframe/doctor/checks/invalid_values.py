@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF019: quaternions that are not rotations, and values that are not finite."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF022: joints without joint states, and joint states without joints."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF025: listeners that are too slow: lookups that keep failing, and messages that are received in bursts."""
 
 from __future__ import annotations

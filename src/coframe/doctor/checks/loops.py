@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF004: loops, frames that are their own parent, empty frame names, invalid and empty messages."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF010: machines with different clocks."""
 
 from __future__ import annotations

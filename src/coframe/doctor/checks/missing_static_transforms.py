@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF017: a recording without static transforms."""
 
 from __future__ import annotations

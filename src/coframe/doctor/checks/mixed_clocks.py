@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF009: stamps on several clocks in one system: the system clock, simulated time, or the clock of another day."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF023: transforms that differ from the robot description and the joint states."""
 
 from __future__ import annotations

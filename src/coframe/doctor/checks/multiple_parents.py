@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF002: a frame with more than one parent."""
 
 from __future__ import annotations

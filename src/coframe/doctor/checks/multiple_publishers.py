@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF003: an edge with several publishers whose poses differ, so that it flickers."""
 
 from __future__ import annotations

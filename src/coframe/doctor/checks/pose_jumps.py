@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF020: edges that jump farther than a robot moves, or that alternate between two poses."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF007: the order of earth, map, odom and base_link by REP-105."""
 
 from __future__ import annotations

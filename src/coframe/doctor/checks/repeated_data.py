@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF011: repeated stamps, and transforms that are older than a buffer keeps."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF024: robot descriptions that are empty or invalid, and meshes that do not exist."""
 
 from __future__ import annotations

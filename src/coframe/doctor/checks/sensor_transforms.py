@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF014: sensor messages that cannot be transformed, not even after a delay."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF001: trees that no chain of transforms connects, and the edge that is most likely missing."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF015: sensor messages that arrive when a buffer no longer has the transforms of their time."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF026: topics of sensors, joint states and transforms that have a publisher but no messages."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF008: stamps that are ahead of the clock or far behind it."""
 
 from __future__ import annotations

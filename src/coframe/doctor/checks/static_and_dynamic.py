@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF005: an edge that is published both as static and as dynamic."""
 
 from __future__ import annotations

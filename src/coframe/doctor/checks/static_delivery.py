@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF016: static transforms that late joiners do not receive, and outdated ones from earlier processes."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF018: constant transforms that are published as dynamic, and changing transforms that are published as static."""
 
 from __future__ import annotations

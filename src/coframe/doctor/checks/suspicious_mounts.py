@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF021: mounts that look like degrees for radians, millimetres for metres, or a missing optical rotation."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """TF012: time that jumped back, as after a restarted recording or a reset simulation."""
 
 from __future__ import annotations

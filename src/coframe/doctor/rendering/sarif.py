@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A report as SARIF 2.1.0, which code hosts show next to a change."""
 
 from __future__ import annotations

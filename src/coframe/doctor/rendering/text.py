@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A report as text: each finding in one line, followed by why it matters and what to do."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One connected browser tab.
 
 Updates are sent only when the client has drawn the last frame update and the connection has accepted it, so a client

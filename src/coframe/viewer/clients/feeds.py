@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The feeds of a client: each produces the newest message about one subject.
 
 A feed yields updates. An update has a key, which names its subject, and a version. The client encodes and sends an

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The requests of clients: one handler per type of message."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What one client shows: fixed frame, time, displays and joints."""
 
 from __future__ import annotations

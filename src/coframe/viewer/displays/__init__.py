@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Displays: messages converted to drawings, one module per family of message types.
 
 A drawing is expressed in a frame of its message at the message's own stamp. `coframe.viewer.displays.display` looks up

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A display to which a client has subscribed: the drawing of one message, and its pose in the fixed frame.
 
 Messages usually arrive a little before the transforms at their stamps. A message is therefore shown when its transform

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Drawings, and the options of displays."""
 
 from __future__ import annotations

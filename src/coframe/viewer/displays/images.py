@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Camera images: raw images as grey or RGB pixels, compressed images as they are."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Markers: a set that messages add to and remove from, drawn in groups that share a frame and a stamp."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Laser scans and point clouds: points with one number or one colour each."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Renderers: convert the messages of a topic to drawings, one after another, outside the server's thread."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Poses, paths, odometry, ranges and cameras."""
 
 from __future__ import annotations

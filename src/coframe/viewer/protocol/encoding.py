@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Encoders of the messages that the server sends."""
 
 from __future__ import annotations

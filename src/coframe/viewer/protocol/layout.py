@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The binary layout of headers and records, derived from the classes in `messages`."""
 
 from __future__ import annotations

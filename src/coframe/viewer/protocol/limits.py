@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Limits of numbers in the viewer's protocol, for use in ``Annotated``."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The messages between the viewer's server and its page: the single source of the protocol.
 
 ``scripts/generate_protocol.py`` generates the TypeScript types and the checks of the page from the classes below, and

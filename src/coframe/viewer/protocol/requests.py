@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The messages of clients, checked against the classes of the protocol."""
 
 from __future__ import annotations

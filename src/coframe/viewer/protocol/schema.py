@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The types of the protocol's fields, derived from the annotations in `messages`.
 
 The same types check what clients send (`FieldType.check`) and are written as TypeScript by

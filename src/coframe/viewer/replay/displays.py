@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The displays of a replay: what a client would have received of each, at every time of the replay."""
 
 from __future__ import annotations

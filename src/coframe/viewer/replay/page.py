@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The HTML file of a replay."""
 
 from __future__ import annotations

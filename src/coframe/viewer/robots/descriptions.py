@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The robots that the viewer shows: one from a file, and those whose descriptions are published."""
 
 from __future__ import annotations

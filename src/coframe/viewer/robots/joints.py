@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Publication of the joint positions that are set by a page's sliders, as joint_state_publisher_gui does."""
 
 from __future__ import annotations

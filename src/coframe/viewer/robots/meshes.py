@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Meshes and textures that robots and markers name, served only from declared folders."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The message that describes a robot to the page, with the URLs of its meshes."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Configuration files of RViz 2 and RViz 1, read and written so that unknown parts are preserved."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """YAML of untrusted files, with limits on its size, depth and aliases."""
 
 from __future__ import annotations

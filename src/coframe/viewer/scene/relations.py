@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The pose of one frame relative to another in all common notations, or the reason why there is none."""
 
 from __future__ import annotations

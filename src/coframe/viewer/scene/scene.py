@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """What the page draws of a buffer: its trees, the liveness of each frame, and the poses of all frames at a time."""
 
 from __future__ import annotations

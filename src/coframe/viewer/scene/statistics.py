@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Statistics of each frame, as shown in the rows of the tree: rate, age, publisher."""
 
 from __future__ import annotations

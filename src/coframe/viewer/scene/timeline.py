@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The timeline: the number of samples of each edge over time, its gaps, and the next stamp to step to."""
 
 from __future__ import annotations

@@ -1,1 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
 """The server of the viewer: HTTP, WebSockets, and the timer that updates the clients."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """HTTP responses: the page and its files, with checks of who may request them."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One timer for all clients: each wake-up of the thread costs more than an update of a client with few frames."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The viewer's server: the page over HTTP and its data over a WebSocket, in a thread of its own."""
 
 from __future__ import annotations

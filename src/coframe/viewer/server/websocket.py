@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """One connection to the server: an HTTP request that is answered, or a WebSocket.
 
 The library websockets implements the protocol; input and output are implemented here. Received messages are passed on

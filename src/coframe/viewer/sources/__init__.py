@@ -1,1 +1,2 @@
+# SPDX-License-Identifier: Apache-2.0
 """Sources that the viewer can show: the ROS graph, a recording or a buffer."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A subscription that receives from every publisher of a topic, regardless of the QoS that each of them offers.
 
 DDS does not match a subscription that requests more than a publisher offers, so reliable delivery is requested only if

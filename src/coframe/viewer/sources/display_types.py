@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The message types that the viewer can display."""
 
 from __future__ import annotations

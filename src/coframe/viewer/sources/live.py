@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The ROS graph as a source: a connection, with a subscription for each displayed topic."""
 
 from __future__ import annotations

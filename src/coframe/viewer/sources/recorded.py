@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """A recording as a source: all of its frames and messages, at any time."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The interface of sources, and the source for a buffer."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """The messages of one topic, which displays look up by time."""
 
 from __future__ import annotations

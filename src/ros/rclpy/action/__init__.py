@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Actions: long-running goals with feedback, cancellation and a result."""
 
 from rclpy.action.client import ActionClient, ClientGoalHandle

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Goal handles of action servers: the state machine and the result of a goal."""
 
 # The modules of rclpy use each other's private members.

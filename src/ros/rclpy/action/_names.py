@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Names of the services and topics of an action."""
 
 from __future__ import annotations

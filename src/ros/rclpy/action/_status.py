@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Encoder of `action_msgs/GoalStatusArray`, the message on the status topic of an action.
 
 A busy server publishes the message several times per goal, and each message contains all goals. Encoding the entries

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Action clients, which send goals to action servers."""
 
 # The modules of rclpy use each other's private members.

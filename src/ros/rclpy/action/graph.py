@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Graph queries about actions."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Action servers, which execute the goals of action clients."""
 
 # The modules of rclpy use each other's private members.

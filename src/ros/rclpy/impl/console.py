@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Console output of log records: levels by logger name, ROS's line format and colors."""
 
 from __future__ import annotations

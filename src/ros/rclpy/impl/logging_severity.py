@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Severity levels of log messages."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Loggers with the filters `once`, `throttle_duration_sec` and `skip_first`, applied per call site."""
 
 # The modules of rclpy use each other's private members.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Server for lookups of other nodes, which then need no buffer and no listener."""
 
 # ruff: noqa: SLF001 - The server uses a private future of rclpy's goal handles to react to cancel requests.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 """Node with a buffer server: ``python -m tf2_ros.buffer_server --ros-args -p buffer_size:=60.0``."""
 
 import rclpy
