@@ -94,7 +94,7 @@ def generate() -> dict[Path, str]:
     doc = '"""The version of the viewer\'s protocol: a hash of all message definitions."""'
     return {
         TYPESCRIPT: typescript(version),
-        VERSION: f'# {NOTICE}\n{doc}\n\nPROTOCOL_VERSION = "{version}"\n',
+        VERSION: f'# SPDX-License-Identifier: Apache-2.0\n# {NOTICE}\n{doc}\n\nPROTOCOL_VERSION = "{version}"\n',
     }
 
 
