@@ -102,8 +102,12 @@ _CORE = ("coframe.buffer", "coframe.connection", "coframe.errors", "coframe.tran
 
 
 def _publish(name: str, value: Any) -> Any:
-    """Let a public class or function report `coframe` as its module, as users import it from there."""
-    value.__module__ = __name__
+    """Let a public class or function report `coframe` as its module, as users import it from there.
+
+    The drop-in package tf2_py has already given tf2's exceptions the name of upstream's module; they keep it.
+    """
+    if value.__module__ != "tf2":
+        value.__module__ = __name__
     globals()[name] = value
     return value
 

@@ -96,7 +96,7 @@ def test_prefixes(tmp_path):
     )
     code, output = fix(source, tmp_path / "new", "--prefix", "r1/", "--keep", "odom")
     assert code == 0
-    assert "fixed: /odom: 1 frame names given the prefix 'r1/'" in output
+    assert "fixed: /odom: 1 frame name given the prefix 'r1/'" in output
     assert_clean(tmp_path / "new")
     with coframe.open_bag(tmp_path / "new") as bag:
         poses = bag.buffer.trajectory("odom", "r1/lidar").matrix
@@ -109,7 +109,7 @@ def test_statics_come_first_and_from_another_recording(tmp_path):
     static, *moving = recordings.messages()
     late = recordings.write_mcap(tmp_path / "late.mcap", rows=[*moving, ("/tf_static", START + 9 * SECOND, static[2])])
     report = repair(late, tmp_path / "first")
-    assert "/tf_static: 1 static transforms moved to the beginning" in report.changes
+    assert "/tf_static: 1 static transform moved to the beginning" in report.changes
     (first, _, data), *_ = assert_clean(tmp_path / "first")
     assert (first.topic, bytes(data)) == ("/tf_static", static[2])
     assert len(repair(tmp_path / "first", tmp_path / "again").changes) == 1
@@ -117,7 +117,7 @@ def test_statics_come_first_and_from_another_recording(tmp_path):
     without = recordings.write_mcap(tmp_path / "without.mcap", rows=moving)
     code, output = fix(without, tmp_path / "new", "--statics", late)
     assert code == 0
-    assert "fixed: /tf_static: 1 static transforms added" in output
+    assert "fixed: /tf_static: 1 static transform added" in output
     assert_clean(tmp_path / "new")
     with coframe.open_bag(tmp_path / "new") as bag:
         recordings.assert_same(bag.buffer)
@@ -137,7 +137,7 @@ def test_statics_are_added_to_one_robot(tmp_path):
     robot1 = ["--tf-topic", "/robot1/tf", "--tf-static-topic", "robot1/tf_static", "--prefix", "robot1/"]
     code, output = fix(run.write(tmp_path), tmp_path / "new", "--statics", plain.write(tmp_path / "plain"), *robot1)
     assert code == 0
-    assert "fixed: /robot1/tf_static: 1 static transforms added" in output
+    assert "fixed: /robot1/tf_static: 1 static transform added" in output
     assert "1 static transform not added because the recording contains their frames" in output
     with coframe.open_bag(tmp_path / "new") as bag:
         assert bag.buffers["/robot1"].can_transform("robot1/odom", "robot1/lidar")

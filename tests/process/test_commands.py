@@ -123,7 +123,8 @@ def test_demo_shows_the_complete_tree_and_stops_its_nodes(processes):
     for frame in ("world", "map", "odom", "base_link", "link1", "link2", "end_effector", "camera_link", "lidar_link"):
         assert re.search(rf"^ *{frame}\b", text, re.MULTILINE), text
     assert "not connected" not in text
-    assert "already running in this domain: simulated_lidar. Stop it, or choose another domain" in text
+    unwrapped = " ".join(text.split())
+    assert "already running in this domain: simulated_lidar. Stop it, or choose another domain" in unwrapped
     assert re.search(r"/scan_base_frame: \d+\.\d Hz, \d+ points in base_link", text)
 
 

@@ -73,7 +73,8 @@ def query_recording(bag: str, query: TrajectoryQuery, folder: str) -> QueryResul
         return _query(bag, query, Path(folder))
     except Exception as error:  # noqa: BLE001 - one recording must never stop the others
         parts = (str(error) or type(error).__name__, getattr(error, "hint", ""))
-        return QueryResult(bag, error=". ".join(" ".join(part.split()).rstrip(".") for part in parts if part) + ".")
+        sentences = [" ".join(part.split()) for part in parts if part]
+        return QueryResult(bag, error=" ".join(part if part.endswith((".", "?")) else f"{part}." for part in sentences))
 
 
 def query_recordings(

@@ -14,6 +14,13 @@ import numpy as np
 import typer
 
 from coframe.cli.lifecycle import run_to_completion
+from coframe.cli.options import (
+    KeepOption,
+    NamespaceOption,
+    PrefixOption,
+    RecordedTfStaticTopicOption,
+    RecordedTfTopicOption,
+)
 from coframe.cli.output import fail, printable
 from coframe.cli.plot import check_figure_package, save_figure
 from coframe.cli.recordings import open_recording
@@ -63,6 +70,11 @@ def compare(
         ),
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON, in metres and radians.")] = False,
+    namespace: NamespaceOption = None,
+    tf_topic: RecordedTfTopicOption = None,
+    tf_static_topic: RecordedTfStaticTopicOption = None,
+    prefix: PrefixOption = "",
+    keep: KeepOption = "",
 ) -> None:
     """Compare the trajectory EST with the trajectory REF: absolute (APE) and relative (RPE) pose errors.
 
@@ -76,7 +88,8 @@ def compare(
     except ValueError as error:
         fail(f"--delta/--max-difference: {error}", code=2)
     with run_to_completion():
-        reference, estimate = _read(ref), _read(est)
+        options = (namespace, tf_topic, tf_static_topic, prefix, keep)
+        reference, estimate = _read(ref, options), _read(est, options)
         result = compare_trajectories(reference, estimate, align=align, max_difference=limit, delta=distance)
         for path in files:
             _write(path, result, f"{est} compared with {ref}")
@@ -86,8 +99,8 @@ def compare(
             print(_table(result))
 
 
-def _read(text: str) -> Transform:
-    """Return the trajectory that an argument names."""
+def _read(text: str, options: tuple[str | None, str | None, str | None, str, str]) -> Transform:
+    """Return the trajectory that an argument names; `options` are those of :func:`open_recording`."""
     path, _, frames = text.partition(":") if Path(text).exists() else _split(text)
     if not frames:
         file = Path(path)
@@ -99,7 +112,7 @@ def _read(text: str) -> Transform:
             )
         return read_trajectory(file)
     target, _, source = frames.partition(":")
-    with open_recording(Path(path), None, None, None, "", "") as recording:
+    with open_recording(Path(path), *options) as recording:
         return recording.buffer.trajectory(target, source)
 
 
