@@ -22,7 +22,7 @@ PYTHON
 find_python() { # 3.14 comes last because cyclonedds has no wheels for it yet
     for name in ${PYTHON:-python3 python3.13 python3.12 python3.11 python3.10 /usr/bin/python3 python3.14}; do
         if command -v "$name" >/dev/null 2>&1 && usable "$name"; then
-            echo "$name"
+            command -v "$name"  # an absolute path, because PATH changes below
             return
         fi
     done
@@ -52,11 +52,25 @@ if ! command -v "${CXX:-c++}" >/dev/null 2>&1; then
     exit 1
 fi
 
+has_pip() { "$1" -c "import pip" >/dev/null 2>&1; }
+
 if [ ! -x "$venv/bin/python" ]; then
     echo "setup: creating $venv with $("$python" --version)" >&2
-    "$python" -m venv "$venv"
+    # Copying pip into the environment takes five seconds of processor time; a recent pip can install from outside.
+    if [ "$purpose" = demo ] && "$python" -m pip --help 2>/dev/null | grep -q -e "--python"; then
+        "$python" -m venv --without-pip "$venv"
+    else
+        "$python" -m venv "$venv"
+    fi
 fi
-pip() { "$venv/bin/python" -m pip --quiet --disable-pip-version-check "$@"; }
+if [ "$purpose" = dev ] && ! has_pip "$venv/bin/python"; then
+    "$venv/bin/python" -m ensurepip --default-pip >/dev/null
+fi
+if has_pip "$venv/bin/python"; then
+    pip() { "$venv/bin/python" -m pip --quiet --disable-pip-version-check "$@"; }
+else
+    pip() { "$python" -m pip --python "$venv/bin/python" --quiet --disable-pip-version-check "$@"; }
+fi
 
 recent_cmake() {
     command -v cmake >/dev/null 2>&1 &&
