@@ -126,6 +126,7 @@ def test_an_interrupted_writer_keeps_the_previous_file(tmp_path, poses):
     assert path.read_text() == "previous"
 
 
+@pytest.mark.slow
 def test_long_trajectories_are_formatted_in_parts(poses):
     """The text of a trajectory takes much more memory than its numbers."""
     import tracemalloc

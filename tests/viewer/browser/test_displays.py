@@ -107,6 +107,7 @@ def assert_on_the_walls(scan):
     assert (walls < 0.05).sum() > 50
 
 
+@pytest.mark.slow
 def test_a_replay_of_the_demo_shows_scans_at_their_recorded_poses(lab, open_page, tmp_path):
     lab.raw.select_option("#fixed", "odom")
     lab.until("coframe.frames.odom.position.every((x) => x === 0)")

@@ -47,6 +47,7 @@ def test_a_stale_page_reloads_itself_once(viewer, open_page):
     assert page.evaluate("sessionStorage.getItem('coframe.reloaded')") is None
 
 
+@pytest.mark.slow
 def test_a_page_that_still_differs_after_a_reload_explains_the_problem(viewer, open_page):
     connections = []
     page = open_page(viewer.url, relay=with_version(connections, lambda _number: "newer"))
