@@ -143,10 +143,10 @@ COPYING_COMMANDS = {"bag convert", "bag merge", "bag slice"}
 
 
 @pytest.mark.parametrize(
-    ("command", "taken"), [(name, taken) for name, taken in options().items() if name not in COPYING_COMMANDS]
+    ("command", "accepted"), [(name, accepted) for name, accepted in options().items() if name not in COPYING_COMMANDS]
 )
-def test_every_command_accepts_topics_and_a_prefix(command, taken):
-    assert {"--tf-topic", "--tf-static-topic", "--prefix", "--keep"} - taken == set(), command
+def test_every_command_accepts_topics_and_a_prefix(command, accepted):
+    assert {"--tf-topic", "--tf-static-topic", "--prefix", "--keep"} - accepted == set(), command
 
 
 def test_monitor_applies_the_prefix(participant, node):
