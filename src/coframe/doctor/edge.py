@@ -88,7 +88,7 @@ class Edge:
 
     @property
     def is_unset(self) -> bool:
-        """Whether so many stamps were never set that the others do not count; a simulation may begin at 0."""
+        """Whether most stamps were never set, so that the others do not count. A simulation may begin at 0."""
         return self.unset == self.count or (self.unset >= _LEAST_UNSET and self.unset > 0.05 * self.count)
 
     @cached_property
