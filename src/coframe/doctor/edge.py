@@ -88,7 +88,7 @@ class Edge:
 
     @property
     def is_unset(self) -> bool:
-        """Whether most stamps were never set, so that the others do not count. A simulation may begin at 0."""
+        """Whether the stamps count as never set: all, or more than 5 %, are 0. A simulation may begin with a few."""
         return self.unset == self.count or (self.unset >= _LEAST_UNSET and self.unset > 0.05 * self.count)
 
     @cached_property
