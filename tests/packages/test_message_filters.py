@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: Apache-2.0
+"""message_filters: caches and synchronization, compared with a plain statement of the rule."""
+
+import inspect
+import itertools
+import time
+from types import SimpleNamespace
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import message_filters
+import rclpy
+from geometry_msgs.msg import PointStamped
+from message_filters import ApproximateTimeSynchronizer, Cache, SimpleFilter, Subscriber, TimeSynchronizer
+from rclpy.clock import ClockType
+from rclpy.duration import Duration
+from rclpy.time import Time
+from std_msgs.msg import Header, String
+
+
+def stamped(nanoseconds, name=""):
+    header = Header(frame_id=name)
+    header.stamp.sec, header.stamp.nanosec = divmod(nanoseconds, 1_000_000_000)
+    return SimpleNamespace(header=header, time=nanoseconds, name=name)
+
+
+def synchronize(kind, number, *args, **options):
+    inputs = [SimpleFilter() for _ in range(number)]
+    received = []
+    synchronizer = kind(inputs, *args, **options)
+    synchronizer.registerCallback(lambda *messages: received.append([m.time for m in messages]))
+    return inputs, received, synchronizer
+
+
+def expected_sets(arrivals, number, queue_size, slop):
+    """Return the sets that the rule gives, by trying all combinations in order."""
+    queues = [{} for _ in range(number)]
+    sets = []
+    for topic, stamp in arrivals:
+        queue = queues[topic]
+        queue[stamp] = True
+        while len(queue) > queue_size:
+            del queue[min(queue)]
+        near = [
+            [stamp]
+            if other is queue
+            else sorted((s for s in other if abs(s - stamp) <= slop), key=lambda s: abs(s - stamp))
+            for other in queues
+        ]
+        for combination in itertools.product(*near):
+            present = all(s in q for s, q in zip(combination, queues, strict=True))
+            if present and max(combination) - min(combination) < slop:
+                sets.append(list(combination))
+                for s, q in zip(combination, queues, strict=True):
+                    del q[s]
+                break
+    return sets
+
+
+@settings(max_examples=400, deadline=None)
+@given(st.integers(1, 4), st.integers(1, 5), st.integers(0, 12), st.data())
+def test_approximate_sets_are_those_of_the_rule(number, queue_size, slop, data):
+    arrival = st.tuples(st.integers(0, number - 1), st.integers(0, 30))
+    arrivals = data.draw(st.lists(arrival, max_size=40))
+    inputs, received, _ = synchronize(ApproximateTimeSynchronizer, number, queue_size, slop * 1e-9)
+    for topic, stamp in arrivals:
+        inputs[topic].signalMessage(stamped(stamp))
+    assert received == expected_sets(arrivals, number, queue_size, slop)
+
+
+@settings(max_examples=200, deadline=None)
+@given(st.integers(1, 4), st.integers(1, 5), st.data())
+def test_exact_sets_have_equal_stamps(number, queue_size, data):
+    arrivals = data.draw(st.lists(st.tuples(st.integers(0, number - 1), st.integers(0, 8)), max_size=40))
+    inputs, received, _ = synchronize(TimeSynchronizer, number, queue_size)
+    for topic, stamp in arrivals:
+        inputs[topic].signalMessage(stamped(stamp))
+    # Stamps that differ by less than one nanosecond are equal.
+    assert received == expected_sets(arrivals, number, queue_size, slop=1)
+
+
+def test_sets_whose_stamps_are_exactly_slop_apart_are_not_passed_on():
+    inputs, received, _ = synchronize(ApproximateTimeSynchronizer, 2, 10, 0.1)
+    inputs[0].signalMessage(stamped(0))
+    inputs[1].signalMessage(stamped(100_000_000))
+    assert received == []
+    inputs[1].signalMessage(stamped(99_999_999))
+    assert received == [[0, 99_999_999]]
+
+
+def test_many_topics_take_little_time():
+    # Each queue is full of close stamps that do not fit together: trying combinations would take 20**29 steps.
+    number, queue_size = 30, 20
+    inputs, received, _ = synchronize(ApproximateTimeSynchronizer, number, queue_size, 1e-6)
+    for topic in range(number - 1):
+        for stamp in range(queue_size):
+            inputs[topic].signalMessage(stamped(10_000 + stamp + (900 if topic % 2 else -900)))
+    start = time.process_time()
+    for stamp in range(20):
+        inputs[-1].signalMessage(stamped(10_000 + stamp))
+    assert received == []
+    assert time.process_time() - start < 1.0
+
+
+def test_messages_without_header():
+    inputs, received, _ = synchronize(ApproximateTimeSynchronizer, 2, 10, 0.5)
+    for each in inputs:
+        each.signalMessage(SimpleNamespace(time=1))
+    assert received == []
+    inputs, received, _ = synchronize(ApproximateTimeSynchronizer, 2, 10, 0.5, allow_headerless=True)
+    for each in inputs:
+        each.signalMessage(SimpleNamespace(time=1))
+    assert received == [[1, 1]]
+    inputs, _, _ = synchronize(TimeSynchronizer, 1, 10)
+    with pytest.raises(AttributeError):
+        inputs[0].signalMessage(String())
+
+
+def test_arrival_time_replaces_the_stamps():
+    inputs, received, _ = synchronize(ApproximateTimeSynchronizer, 2, 10, 0.5, sync_arrival_time=True)
+    inputs[0].signalMessage(stamped(0))
+    inputs[1].signalMessage(stamped(10**12))
+    assert received == [[0, 10**12]]
+
+
+def test_a_jump_back_of_the_clock_drops_waiting_messages():
+    clock = SimpleNamespace(time=100)
+    node = SimpleNamespace(get_clock=lambda: SimpleNamespace(now=lambda: Time(nanoseconds=clock.time)))
+    inputs = [SimpleFilter(), SimpleFilter()]
+    inputs[0].node = node
+    received = []
+    TimeSynchronizer(inputs, 1).registerCallback(lambda *messages: received.append(messages[0].time))
+    inputs[0].signalMessage(stamped(100))
+    clock.time = 5  # The recording was started again.
+    for each in inputs:
+        each.signalMessage(stamped(5))
+    assert received == [5], "a message of the future does not fill the queue"
+
+
+def test_cache_keeps_the_last_messages():
+    source, passed = SimpleFilter(), []
+    cache = Cache(source, cache_size=3)
+    cache.registerCallback(lambda message, extra: passed.append((message.time, extra)), "extra")
+    assert (cache.getLast(), cache.getLastestTime(), cache.getLatestTime(), cache.getOldestTime()) == (None,) * 4
+    for stamp in (10, 20, 30, 40):
+        source.signalMessage(stamped(stamp))
+    at = {n: Time(nanoseconds=n, clock_type=ClockType.ROS_TIME) for n in range(0, 70, 5)}
+    assert [m.time for m in cache.getInterval(at[20], at[30])] == [20, 30]
+    assert [m.time for m in cache.getInterval(at[0], at[65])] == [20, 30, 40]
+    assert cache.getElemAfterTime(at[20]).time == 20
+    assert cache.getElemAfterTime(at[25]).time == 30
+    assert cache.getElemAfterTime(at[45]) is None
+    assert cache.getElemBeforeTime(at[35]).time == 30
+    assert cache.getElemBeforeTime(at[15]) is None
+    assert (cache.getOldestTime(), cache.getLastestTime(), cache.getLast().time) == (at[20], at[40], 40)
+    assert passed == [(10, "extra"), (20, "extra"), (30, "extra"), (40, "extra")]
+    with pytest.raises(AssertionError):
+        cache.getInterval(at[30], at[20])
+    source.signalMessage(String())
+    assert cache.getLast().time == 40, "messages without a header are ignored"
+    headerless = Cache(source, 1, allow_headerless=True)
+    source.signalMessage(String(data="a"))
+    assert headerless.getLast().data == "a"
+
+
+def test_topics_are_synchronized(node, make_node, wait_until):
+    talker = make_node("talker")
+    publishers = [talker.create_publisher(PointStamped, name, 10) for name in ("left", "right")]
+    subscribers = [Subscriber(node, PointStamped, name, qos_profile=10) for name in ("left", "right")]
+    assert subscribers[0].getTopic() == subscribers[0].topic == "left"
+    assert subscribers[0].topic_name == "/left"
+    with pytest.raises(AttributeError):
+        subscribers[0].missing  # noqa: B018 - the access is what is tested
+    received = []
+    synchronizer = ApproximateTimeSynchronizer(subscribers, 10, slop=0.05)
+    assert synchronizer.slop == Duration(seconds=0.05)
+    synchronizer.registerCallback(lambda left, right: received.append((left.point.x, right.point.x)))
+    wait_until(lambda: all(p.get_subscription_count() for p in publishers))
+    for number in range(3):
+        for publisher, late in zip(publishers, (0, 20_000_000), strict=True):
+            message = PointStamped(header=stamped(10**9 * (number + 1) + late).header)
+            message.point.x = float(number)
+            publisher.publish(message)
+    executor = rclpy.executors.SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    wait_until(lambda: len(received) == 3, meanwhile=lambda: executor.spin_once(timeout_sec=0.1))
+    assert received == [(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)]
+
+
+def test_signatures_are_upstreams():
+    def names(function):
+        return list(inspect.signature(function).parameters)
+
+    assert set(message_filters.__all__) >= {
+        "ApproximateTimeSynchronizer", "Cache", "SimpleFilter", "Subscriber", "TimeSynchronizer",
+    }  # fmt: skip
+    assert names(TimeSynchronizer) == ["fs", "queue_size"]
+    assert names(ApproximateTimeSynchronizer) == ["fs", "queue_size", "slop", "allow_headerless", "sync_arrival_time"]
+    assert names(Cache) == ["f", "cache_size", "allow_headerless"]
+    assert names(TimeSynchronizer.add) == ["self", "msg", "my_queue", "my_queue_index"]
