@@ -8,16 +8,15 @@ import sys
 from pathlib import Path
 from typing import Final
 
+# The packages that share message classes and nodes. Packages that only use them, such as tf2_sensor_msgs, are not here:
+# they work with the side that provides these.
 PACKAGES: Final = (
     "rclpy",
     "tf2_py",
     "tf2_ros",
-    "tf2_geometry_msgs",
-    "tf2_sensor_msgs",
     "tf2_msgs",
     "geometry_msgs",
     "sensor_msgs",
-    "sensor_msgs_py",
     "std_msgs",
     "nav_msgs",
     "builtin_interfaces",

@@ -35,8 +35,8 @@ from coframe.robots import RobotDescriptionError, load
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
+    from coframe.nodes.joint_state_publisher import JointStatePublisher
     from coframe.robots import Robot
-    from joint_state_publisher import JointStatePublisher
     from rclpy.parameter import Parameter
 
 __all__ = ["joints"]
@@ -174,11 +174,11 @@ class RunningNode:
 def _running_node(
     args: list[str], robot: Robot, domain: int | None, overrides: list[Parameter[Any]]
 ) -> Iterator[RunningNode]:
-    import rclpy  # noqa: PLC0415 - not needed if the file cannot be read
-    from joint_state_publisher import JointStatePublisher  # noqa: PLC0415
+    from coframe.nodes.joint_state_publisher import JointStatePublisher  # noqa: PLC0415 - not needed without a file
+    from coframe.nodes.program import initialized  # noqa: PLC0415
     from rclpy.executors import SingleThreadedExecutor  # noqa: PLC0415
 
-    with rclpy.init(args=args, domain_id=domain):
+    with initialized(args, domain):
         try:
             node = JointStatePublisher(robot, parameter_overrides=overrides)
         except ValueError as error:

@@ -17,11 +17,11 @@ __all__ = ["reported_node_errors", "xacro_arguments"]
 @contextlib.contextmanager
 def reported_node_errors() -> Iterator[None]:
     """Report invalid ROS arguments, names and parameters of a node with exit code 2."""
-    from rclpy.exceptions import NameValidationException, ParameterException, RCLError  # noqa: PLC0415 - slow import
+    from coframe.nodes.program import NODE_ERRORS  # noqa: PLC0415 - slow import
 
     try:
         yield
-    except (NameValidationException, ParameterException, RCLError) as error:
+    except NODE_ERRORS as error:
         fail(str(error), code=2)
 
 

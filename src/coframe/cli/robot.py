@@ -67,8 +67,8 @@ def robot(
         }
         # Options that are not given do not override the parameters of -p and --params-file.
         parameters = {"robot_description": description} | {n: value for n, value in given.items() if value is not None}
-        from rclpy.parameter import Parameter  # noqa: PLC0415 - not needed if the file cannot be read
-        from robot_state_publisher import run  # noqa: PLC0415
+        from coframe.nodes.robot_state_publisher import run  # noqa: PLC0415 - not needed if the file cannot be read
+        from rclpy.parameter import Parameter  # noqa: PLC0415
 
         overrides = [Parameter(name, value=value) for name, value in parameters.items()]
         remaps = ["--ros-args", "-r", f"/tf:={tf_topic}", "-r", f"/tf_static:={tf_static_topic}"]

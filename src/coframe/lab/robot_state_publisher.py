@@ -9,9 +9,10 @@ Arguments before --ros-args are arguments of the xacro file. The parameters are 
 
 from pathlib import Path
 
+from coframe.nodes.program import program
+from coframe.nodes.robot_state_publisher import run
 from coframe.robots import load
 from rclpy.parameter import Parameter
-from robot_state_publisher import program, run
 
 ARM = Path(__file__).with_name("two_link_arm.urdf.xacro")
 

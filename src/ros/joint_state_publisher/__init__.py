@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """joint_state_publisher as an rclpy node, which combines joint states from a robot description and other sources."""
 
-from joint_state_publisher._node import JointStatePublisher, main, run
+from coframe.nodes.joint_state_publisher import JointStatePublisher, main, run
 
 __all__ = ["JointStatePublisher", "main", "run"]

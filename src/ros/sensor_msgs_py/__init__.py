@@ -1,6 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
 """Conversion between `sensor_msgs/PointCloud2` and NumPy arrays with the API of the ROS 2 package `sensor_msgs_py`."""
-
-from coframe import ros_side
-
-ros_side.check(__name__)

@@ -3,11 +3,6 @@
 Importing this package registers the stamped types for `tf2_ros.Buffer.transform`.
 """
 
-from coframe import ros_side
-
-ros_side.check(__name__)
-
-
 from typing import Iterable, Optional, Tuple  # noqa: UP035 - leaked upstream
 
 import numpy as np

@@ -3,11 +3,6 @@
 Importing this package registers the types `PointCloud2`, `LaserScan` and `Imu` for `tf2_ros.Buffer.transform`.
 """
 
-from coframe import ros_side
-
-ros_side.check(__name__)
-
-
 from tf2_sensor_msgs.imu import do_transform_imu
 from tf2_sensor_msgs.laser_scan import do_transform_laser_scan
 from tf2_sensor_msgs.tf2_sensor_msgs import do_transform_cloud, transform_points

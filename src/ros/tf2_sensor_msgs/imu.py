@@ -18,7 +18,6 @@ import tf2_ros
 from coframe import quaternion as quaternions
 from geometry_msgs.msg import Quaternion, TransformStamped, Vector3
 from sensor_msgs.msg import Imu
-from tf2_geometry_msgs.tf2_geometry_msgs import _get_mat_from_quat
 
 Array = NDArray[np.float64]
 
@@ -38,7 +37,7 @@ def do_transform_imu(imu: Imu, transform: TransformStamped) -> Imu:
         transform: Transform into a frame that is fixed to the same body.
     """
     frame_rotation = _unit(transform.transform.rotation)
-    rotation = _get_mat_from_quat(np.roll(frame_rotation, 1))
+    rotation = quaternions.to_matrix(frame_rotation)
     result = deepcopy(imu)
     result.header = transform.header
     if imu.orientation_covariance[0] != _NOT_MEASURED and imu.orientation != _NO_ORIENTATION:

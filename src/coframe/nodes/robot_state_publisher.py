@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from coframe.frame_names import kept, prefix_advice
+from coframe.nodes.program import program, spin_until_shutdown
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
 from coframe.robots.publishing import StatePublisher
 from coframe.time import SECOND
@@ -16,7 +17,6 @@ from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile, qos_profile_sensor_data
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.time import Time
-from robot_state_publisher._program import program, spin_until_shutdown
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_ros import StaticTransformBroadcaster, TransformBroadcaster

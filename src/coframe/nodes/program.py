@@ -1,17 +1,45 @@
 # SPDX-License-Identifier: Apache-2.0
 """Entry points of nodes as programs, which run until shutdown and report errors as a message."""
 
+from __future__ import annotations
+
+import contextlib
 import sys
-from collections.abc import Callable
+from typing import TYPE_CHECKING, Final
 
 import rclpy
 from coframe.errors import CoframeError
-from rclpy.exceptions import NameValidationException, ParameterException, RCLError
+
+# rclpy.exceptions has this exception in coframe only.
+from rclpy._rclpy_pybind11 import RCLError
+from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import ExternalShutdownException
-from rclpy.node import Node
 from rclpy.utilities import remove_ros_args
 
-__all__ = ["program", "spin_until_shutdown"]
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from rclpy.node import Node
+
+__all__ = ["NODE_ERRORS", "initialized", "program", "spin_until_shutdown"]
+
+# What invalid ROS arguments, names and parameters of a node raise.
+NODE_ERRORS: Final = (NameValidationException, ParameterException, RCLError)
+
+
+@contextlib.contextmanager
+def initialized(args: list[str], domain_id: int | None) -> Iterator[None]:
+    """Initialize rclpy for the time of the context. `rclpy.init` is a context manager only since Jazzy.
+
+    Args:
+        args: Command line with `--ros-args`.
+        domain_id: DDS domain. None: ROS_DOMAIN_ID or 0.
+    """
+    rclpy.init(args=args, domain_id=domain_id)
+    try:
+        yield
+    finally:
+        rclpy.try_shutdown()
 
 
 def spin_until_shutdown(make_node: Callable[[], Node], args: list[str], domain_id: int | None) -> None:
@@ -23,7 +51,7 @@ def spin_until_shutdown(make_node: Callable[[], Node], args: list[str], domain_i
         domain_id: DDS domain. None: ROS_DOMAIN_ID or 0.
     """
     try:
-        with rclpy.init(args=args, domain_id=domain_id):
+        with initialized(args, domain_id):
             rclpy.spin(make_node())
     except (KeyboardInterrupt, ExternalShutdownException):
         pass
@@ -40,6 +68,6 @@ def program(name: str, args: list[str] | None, run: Callable[[list[str], list[st
     words = [name, *(sys.argv[1:] if args is None else args)]
     try:
         run(words, remove_ros_args(words)[1:])
-    except (NameValidationException, ParameterException, RCLError, CoframeError, ValueError) as error:
+    except (*NODE_ERRORS, CoframeError, ValueError) as error:
         hint = getattr(error, "hint", "")
         sys.exit(f"{name}: {error}" + (f"\n  {hint}" if hint else ""))

@@ -6,13 +6,13 @@ import threading
 from collections.abc import Sequence
 from typing import Any
 
+from coframe.nodes.program import program, spin_until_shutdown
 from coframe.robots import Robot, RobotDescriptionError, load, parse_urdf
 from coframe.robots.joint_states import JointStates
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.exceptions import ParameterAlreadyDeclaredException
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
-from robot_state_publisher import program, spin_until_shutdown
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 
