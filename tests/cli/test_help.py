@@ -71,6 +71,8 @@ def test_options_of_the_same_name_have_the_same_text():
     while pending:
         command = pending.pop()
         pending += getattr(command, "commands", {}).values()
+        if command.name == "run":
+            continue  # Its --prefix is a command, as in ros2 run.
         for parameter in command.params:
             for name in {"--domain", "--keep", "--namespace", "--port", "--prefix"} & set(parameter.opts):
                 texts.setdefault(name, set()).add((parameter.metavar, parameter.help))

@@ -34,6 +34,11 @@ COMMANDS: dict[str, tuple[str, dict[str, Any]]] = {
     ),
     "robot": ("Publish a robot's transforms, like robot_state_publisher.", _PASSES_WORDS_ON),
     "joints": ("Publish joint states, like joint_state_publisher.", _PASSES_WORDS_ON),
+    # The arguments of the executable begin after its name, and may look like options.
+    "run": (
+        "Run an executable of a package, like ros2 run.",
+        {"context_settings": {**_PASSES_WORDS_ON["context_settings"], "allow_interspersed_args": False}},
+    ),
     "relay": ("Merge the transforms of several robots, or split them.", {}),
     "record": ("Record topics as MCAP files in rosbag2's layout.", {}),
     "play": ("Replay a recording.", {"cls": "PlayCommand"}),

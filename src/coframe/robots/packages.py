@@ -3,24 +3,22 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import unquote
-from xml.etree import ElementTree as ET
 
 from coframe.errors import PackageError
+from coframe.packages.folders import crawl, listed, named, package_around
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    import os
+    from collections.abc import Iterable
 
 __all__ = ["Packages"]
 
-_MANIFEST = "package.xml"
 _MAX_DEPTH = 4  # levels of folders between a workspace and its packages
 _NEIGHBOR_DEPTH = 2  # less, because the folder around a package may be large, such as a home folder
 _SEARCHED = "Packages are searched in the folders of COFRAME_PACKAGE_PATH."
-_NOT_SEARCHED = {"build", "install", "log", "node_modules", "__pycache__"}
 
 
 class Packages:
@@ -95,7 +93,7 @@ class Packages:
                 hint=f"Use package://PACKAGE/PATH. {_SEARCHED}",
             )
         folder = self.near if self.near.is_dir() else self.near.parent
-        return _package_around(folder) or folder, folder / unquote(url)
+        return package_around(folder) or folder, folder / unquote(url)
 
     def _search(self, name: str) -> Path:
         # The name must not contain path separators or anything else that leads to another folder.
@@ -106,14 +104,14 @@ class Packages:
         for folder in self._nearby_folders():
             if name in self._below(folder, _NEIGHBOR_DEPTH):
                 return self._below(folder, _NEIGHBOR_DEPTH)[name]
-        for folder in [*self.folders, *_listed("COFRAME_PACKAGE_PATH")]:
+        for folder in [*self.folders, *listed("COFRAME_PACKAGE_PATH")]:
             found = self._below(folder, _MAX_DEPTH).get(name) or folder / name
             if found.is_dir():
                 return found
-        for prefix in _listed("AMENT_PREFIX_PATH"):
+        for prefix in listed("AMENT_PREFIX_PATH"):
             if (prefix / "share" / name).is_dir():
                 return prefix / "share" / name
-        for folder in _listed("ROS_PACKAGE_PATH"):
+        for folder in listed("ROS_PACKAGE_PATH"):
             if name in self._below(folder, _MAX_DEPTH):
                 return self._below(folder, _MAX_DEPTH)[name]
         raise PackageError(
@@ -125,51 +123,10 @@ class Packages:
         """Return the package that contains the description, and the folder with its neighbors."""
         if self.near is None:
             return []
-        package = _package_around(self.near)
+        package = package_around(self.near)
         return [] if package is None else [package, package.parent]
 
     def _below(self, folder: Path, max_depth: int) -> dict[str, Path]:
         if (folder, max_depth) not in self._crawled:
-            found: dict[str, Path] = {}
-            packages = list(_crawl(folder, max_depth))
-            for package in packages:
-                found.setdefault(_name(package), package)
-            for package in packages:  # the folder of an installed package can have another name
-                found.setdefault(package.name, package)
-            self._crawled[folder, max_depth] = found
+            self._crawled[folder, max_depth] = named(list(crawl(folder, max_depth)))
         return self._crawled[folder, max_depth]
-
-
-def _listed(variable: str) -> Iterator[Path]:
-    """Return the existing folders in an environment variable."""
-    entries = os.environ.get(variable, "").split(os.pathsep)
-    return (Path(entry) for entry in entries if entry and Path(entry).is_dir())
-
-
-def _package_around(path: Path) -> Path | None:
-    return next((folder for folder in [path, *path.parents] if (folder / _MANIFEST).is_file()), None)
-
-
-def _crawl(folder: Path, max_depth: int) -> Iterator[Path]:
-    """Yield the packages at or below a folder. Packages inside packages are not searched."""
-    if (folder / _MANIFEST).is_file():
-        yield folder
-        return
-    if max_depth == 0:
-        return
-    try:
-        inside = sorted(entry.name for entry in os.scandir(folder) if entry.is_dir(follow_symlinks=False))
-    except OSError:  # no permission
-        return
-    for name in inside:
-        if not name.startswith(".") and name not in _NOT_SEARCHED:
-            yield from _crawl(folder / name, max_depth - 1)
-
-
-def _name(package: Path) -> str:
-    """Return the name in the manifest of a package, or the name of its folder."""
-    try:
-        name = ET.parse(package / _MANIFEST).findtext("name") or ""  # noqa: S314
-    except (OSError, ET.ParseError, ValueError, LookupError):
-        name = ""
-    return name.strip() or package.name

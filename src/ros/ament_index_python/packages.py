@@ -2,13 +2,15 @@
 """Search for packages in installation prefixes (`AMENT_PREFIX_PATH`) and in source directories.
 
 `COFRAME_PACKAGE_PATH` lists directories that contain packages as in a source tree, `<directory>/<package>/...`. These
-packages do not need to be built or installed.
+packages do not need to be built or installed. The workspace around the current directory is searched as well.
 """
 
-import os
 import re
-from collections.abc import Iterator
 from pathlib import Path
+
+from coframe.errors import PackageError
+from coframe.packages.finding import find_package, package_names
+from coframe.packages.folders import listed
 
 __all__ = [
     "PackageNotFoundError",
@@ -21,7 +23,6 @@ __all__ = [
 AMENT_PREFIX_PATH = "AMENT_PREFIX_PATH"
 COFRAME_PACKAGE_PATH = "COFRAME_PACKAGE_PATH"
 
-_INDEX = Path("share", "ament_index", "resource_index", "packages")
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_\-]*")
 
 
@@ -64,38 +65,20 @@ def get_package_share_path(package_name: str, print_warning: bool = True) -> Pat
 
 def get_packages_with_prefixes() -> dict[str, str]:
     """Return the names of all packages with their prefixes. The first prefix that contains a package applies."""
-    found: dict[str, str] = {}
-    for prefix in _folders(AMENT_PREFIX_PATH):
-        index = prefix / _INDEX
-        for marker in sorted(index.iterdir()) if index.is_dir() else ():
-            if marker.is_file() and not marker.name.startswith("."):
-                found.setdefault(marker.name, str(prefix))
-    for folder in _folders(COFRAME_PACKAGE_PATH):
-        for manifest in sorted(folder.glob("*/package.xml")):
-            found.setdefault(manifest.parent.name, str(folder))
-    return found
+    found = [find_package(name) for name in package_names()]
+    return {package.name: str(package.prefix) for package in found if package.origin != "builtin"}
 
 
 def _find(package_name: str) -> tuple[Path, Path]:
     """Return the prefix and the share directory of a package."""
     if not _NAME.fullmatch(package_name):
         raise ValueError(f"'{package_name}' is not a valid package name")
-    for prefix in _folders(AMENT_PREFIX_PATH):
-        share = prefix / "share" / package_name
-        if (prefix / _INDEX / package_name).is_file() and share.is_dir():
-            return prefix, share
-    for folder in _folders(COFRAME_PACKAGE_PATH):
-        if (folder / package_name).is_dir():
-            return folder, folder / package_name
-    searched = [str(folder) for name in (AMENT_PREFIX_PATH, COFRAME_PACKAGE_PATH) for folder in _folders(name)]
-    raise PackageNotFoundError(
-        f"package '{package_name}' not found, searching: {searched}. "
-        f"Set {COFRAME_PACKAGE_PATH} to the directory that contains the package directory."
-    )
-
-
-def _folders(variable: str) -> Iterator[Path]:
-    """Yield the existing directories that an environment variable lists."""
-    for entry in os.environ.get(variable, "").split(os.pathsep):
-        if entry and Path(entry).is_dir():
-            yield Path(entry)
+    try:
+        package = find_package(package_name)
+    except PackageError as error:
+        searched = [str(folder) for name in (AMENT_PREFIX_PATH, COFRAME_PACKAGE_PATH) for folder in listed(name)]
+        raise PackageNotFoundError(
+            f"package '{package_name}' not found, searching: {searched}. {error.hint} "
+            f"Set {COFRAME_PACKAGE_PATH} to the directory that contains the package directory."
+        ) from None
+    return package.prefix, package.share

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""``coframe run``: runs an executable of a package, like ``ros2 run``."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import subprocess
+import sys
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from coframe.cli.output import fail
+from coframe.errors import PackageError
+from coframe.packages.executables import executables, find_executable
+from coframe.packages.finding import find_package
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+__all__ = ["run"]
+
+
+def run(
+    context: typer.Context,
+    package: Annotated[str, typer.Argument(metavar="PACKAGE", help="Name of the package.")],
+    executable: Annotated[
+        str | None,
+        typer.Argument(metavar="[EXECUTABLE]", help="Name of the executable; without it, all are listed."),
+    ] = None,
+    prefix: Annotated[
+        str, typer.Option(metavar="COMMAND", help="Command to put in front, e.g. 'gdb --args'.", show_default=False)
+    ] = "",
+) -> None:
+    """Run an executable of PACKAGE with all further arguments, like ros2 run.
+
+    The package may be in a sourced workspace or in a source folder: console scripts of setup.py, setup.cfg and
+    pyproject.toml run without colcon build. Options of this command stand in front of PACKAGE.
+
+    Example: coframe run my_package talker --ros-args -r chatter:=/news
+    """
+    try:
+        if executable is None:
+            find_package(package)
+            typer.echo("\n".join(sorted(executables(package))))
+            return
+        found = find_executable(package, executable)
+    except PackageError as error:
+        fail(str(error), error.hint)
+    _replace_process([*shlex.split(prefix), *found.command, *context.args], found.environment())
+
+
+def _replace_process(command: list[str], environment: Mapping[str, str]) -> None:
+    """Run a command in place of this process, so that Ctrl-C and signals reach it alone."""
+    sys.stdout.flush()
+    try:
+        if os.name == "posix":
+            os.execvpe(command[0], command, environment)  # noqa: S606 - the command is what the user asked for
+        # Windows has no exec: Ctrl-C reaches both processes, and the child ends first.
+        child = subprocess.Popen(command, env=environment)  # noqa: S603
+    except OSError as error:
+        fail(f"{command[0]} cannot be run: {error.strerror}")
+    while True:
+        try:
+            raise typer.Exit(child.wait())
+        except KeyboardInterrupt:
+            continue

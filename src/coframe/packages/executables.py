@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The executables of packages: files in ``lib/PACKAGE``, console scripts of source folders, and built-in ones."""
+
+from __future__ import annotations
+
+import difflib
+import os
+import re
+import sys
+from typing import TYPE_CHECKING, NamedTuple
+
+from coframe.errors import PackageError
+from coframe.packages import builtin, console_scripts
+from coframe.packages.finding import Package, candidates, find_package
+from coframe.packages.folders import crawl
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+__all__ = ["Executable", "executables", "find_executable"]
+
+# install(PROGRAMS scripts/a.py DESTINATION lib/${PROJECT_NAME}) in a CMakeLists.txt
+_INSTALLED_PROGRAMS = re.compile(r"install\s*\(\s*PROGRAMS\s+(.*?)\s+DESTINATION\s+\"?lib/", re.DOTALL | re.IGNORECASE)
+_MOST_NAMES = 30  # in an error message
+_MAX_DEPTH = 4
+
+
+class Executable(NamedTuple):
+    """An executable of a package.
+
+    Attributes:
+        package: Name of the package.
+        name: Name of the executable.
+        command: The words that start it.
+        python_path: Folders to put in front of PYTHONPATH.
+    """
+
+    package: str
+    name: str
+    command: tuple[str, ...]
+    python_path: tuple[str, ...] = ()
+
+    def environment(self, base: Mapping[str, str] | None = None) -> dict[str, str]:
+        """Return the environment to start it with; `base` is the environment of this process if None."""
+        environment = dict(os.environ if base is None else base)
+        if self.python_path:
+            present = environment.get("PYTHONPATH", "")
+            environment["PYTHONPATH"] = os.pathsep.join([*self.python_path, *([present] if present else [])])
+        return environment
+
+
+def find_executable(package: str, name: str) -> Executable:
+    """Return an executable of a package.
+
+    Raises:
+        PackageError: There is no such package or executable; the hint lists similar names.
+    """
+    find_package(package)
+    found = executables(package)
+    if name in found:
+        return found[name]
+    close = difflib.get_close_matches(name, found, n=3)
+    guess = f"Did you mean {' or '.join(map(repr, close))}? " if close else ""
+    names = sorted(found)
+    there = f"Its executables: {', '.join(names[:_MOST_NAMES])}." if names else _where_executables_come_from(package)
+    raise PackageError(f"No executable {name!r} in the package {package!r}.", hint=guess + there)
+
+
+def executables(package: str) -> dict[str, Executable]:
+    """Return the executables of a package by name; an installed one comes before the one in the source folder."""
+    found: dict[str, Executable] = {}
+    for candidate in candidates(package):
+        for name, executable in _of(candidate).items():
+            found.setdefault(name, executable)
+    return found
+
+
+def _where_executables_come_from(package: str) -> str:
+    share = next(candidates(package)).share
+    return (
+        f"{share} declares none: console_scripts of setup.py, setup.cfg or pyproject.toml, and install(PROGRAMS) of "
+        "CMakeLists.txt are read; programs in C++ need `colcon build` and a sourced workspace."
+    )
+
+
+def _of(package: Package) -> dict[str, Executable]:
+    if package.origin == "installed":
+        return _installed(package)
+    if package.origin == "builtin":
+        return {
+            name: Executable(package.name, name, (sys.executable, "-m", *words))
+            for name, words in builtin.executables(package.name).items()
+        }
+    return _from_source(package)
+
+
+def _installed(package: Package) -> dict[str, Executable]:
+    folder = package.prefix / "lib" / package.name
+    files = sorted(folder.iterdir()) if folder.is_dir() else []
+    return {
+        file.name: Executable(package.name, file.name, (str(file),))
+        for file in files
+        if file.is_file() and os.access(file, os.X_OK) and not file.name.startswith(".")
+    }
+
+
+def _from_source(package: Package) -> dict[str, Executable]:
+    declared = console_scripts.read(package.share)
+    path = _python_path(package.share, declared.root)
+    found = {
+        name: Executable(package.name, name, (sys.executable, "-m", "coframe.packages.entry_point", target), path)
+        for name, target in declared.scripts.items()
+    }
+    for relative in [*declared.files, *_programs_of_cmake(package.share)]:
+        file = package.share / relative
+        if file.is_file() and file.resolve().is_relative_to(package.share.resolve()):
+            found.setdefault(file.name, Executable(package.name, file.name, _command_of(file), path))
+    return found
+
+
+def _python_path(package: Path, root: str) -> tuple[str, ...]:
+    """Return the folders of the package and of its neighbors, whose modules it may import."""
+    neighbors = [each for each in crawl(package.parent, _MAX_DEPTH) if each != package and _has_modules(each)]
+    return tuple(map(str, [(package / root).resolve(), *neighbors]))
+
+
+def _has_modules(package: Path) -> bool:
+    return (package / "setup.py").is_file() or (package / package.name / "__init__.py").is_file()
+
+
+def _programs_of_cmake(package: Path) -> list[str]:
+    try:
+        text = (package / "CMakeLists.txt").read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError):
+        return []
+    text = re.sub(r"#.*", "", text)
+    return [word.strip('"') for match in _INSTALLED_PROGRAMS.finditer(text) for word in match[1].split()]
+
+
+def _command_of(file: Path) -> tuple[str, ...]:
+    """Return the command of a script; a Python file needs neither the executable bit nor a first line with #!."""
+    if file.suffix == ".py" or _has_python_shebang(file):
+        return (sys.executable, str(file))
+    return (str(file),)
+
+
+def _has_python_shebang(file: Path) -> bool:
+    with file.open("rb") as stream:
+        return stream.readline(200).startswith(b"#!") and b"python" in file.read_bytes()[:200].splitlines()[0]
