@@ -3,13 +3,20 @@
 
 import pytest
 
-from ament_index_python import PackageNotFoundError
+from ament_index_python import (
+    InvalidResourceNameError,
+    InvalidResourceTypeNameError,
+    PackageNotFoundError,
+    get_search_paths,
+)
+from ament_index_python.constants import RESOURCE_INDEX_SUBFOLDER
 from ament_index_python.packages import (
     get_package_prefix,
     get_package_share_directory,
     get_package_share_path,
     get_packages_with_prefixes,
 )
+from ament_index_python.resources import get_resource, get_resource_types, get_resources, has_resource
 
 
 @pytest.fixture
@@ -50,3 +57,23 @@ def test_error_for_a_missing_package_lists_the_searched_directories(places):
 def test_invalid_package_names(name):
     with pytest.raises(ValueError, match="is not a valid package name"):
         get_package_share_directory(name)
+
+
+def test_resources_of_the_index(places):
+    prefix, _ = places
+    folder = prefix / RESOURCE_INDEX_SUBFOLDER / "plugins"
+    folder.mkdir()
+    (folder / "arm").write_text("gripper.xml")
+    assert get_search_paths() == [str(prefix)]
+    assert get_resource("plugins", "arm") == ("gripper.xml", str(prefix))
+    assert get_resources("packages") == {"arm": str(prefix), "shared": str(prefix)}
+    assert get_resource_types() == {"packages", "plugins"}
+    assert has_resource("plugins", "arm") == str(prefix)
+    assert has_resource("plugins", "rover") is False
+    assert get_resources("nothing") == {}
+    with pytest.raises(LookupError, match="Could not find the resource 'rover' of type 'plugins'"):
+        get_resource("plugins", "rover")
+    with pytest.raises(InvalidResourceTypeNameError):
+        get_resources("a/b")
+    with pytest.raises(InvalidResourceNameError):
+        get_resource("plugins", "../x")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Messages as YAML, in the order of their fields."""
+"""Messages as compact YAML for display, in the order of their fields."""
 
 from __future__ import annotations
 
@@ -22,7 +22,10 @@ _RESERVED = {"true", "false", "yes", "no", "on", "off", "y", "n", "null"}
 
 
 def to_yaml(message: Any, *, max_items: int | None = None) -> str:
-    """Return a message as YAML, as ``ros2 topic echo`` shows messages; ``str(message)`` is its repr, as in rclpy.
+    """Return a message as compact YAML with comments; ``str(message)`` is its repr, as in rclpy.
+
+    No other package is needed. `rosidl_runtime_py.message_to_yaml` returns the text that ``ros2 topic echo`` prints,
+    which has one line for each element of a sequence.
 
     Args:
         message: A message.
