@@ -13,10 +13,11 @@ from coframe.buffer import Buffer
 from coframe.errors import WireError
 from coframe.frame_names import kept, renaming
 from coframe.tf_publishers import TfPublisher, publishers_of
-from coframe.time import SECOND, duration_ns
+from coframe.time import MILLISECOND, SECOND, duration_ns
 from coframe.wire.names import any_ros_name
 from coframe.wire.participant import Participant
 from coframe.wire.qos import DEFAULT, QoS
+from coframe.wire.tf_reader import STATICS_TIMEOUT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -29,6 +30,8 @@ if TYPE_CHECKING:
     from coframe.wire.endpoints import Publisher, Subscription
 
 _logger = logging.getLogger("coframe.wire")
+
+_STATICS_CHECK_PERIOD = 50 * MILLISECOND
 
 M = TypeVar("M", bound="Message")
 
@@ -235,6 +238,31 @@ class Connection:
     def publishers(self) -> list[TfPublisher]:
         """Return the publishers that transforms were received from, including those that have left."""
         return [publisher for reader in self._readers for publisher in publishers_of(self.participant, reader)]
+
+    def awaited_statics(self) -> list[str]:
+        """Return the nodes that have a publisher of static transforms from which nothing was received yet."""
+        awaited = {writer for reader in self._readers if reader.static for writer in reader.awaited_writers()}
+        return sorted(self.participant.writer_node(writer) or "an unnamed node" for writer in awaited)
+
+    def wait_for_statics(self, timeout: float | str = STATICS_TIMEOUT) -> bool:
+        """Wait until every discovered publisher of static transforms has delivered them.
+
+        A publisher that was started earlier with Fast DDS delivers them up to 3.5 seconds after it is discovered. Until
+        then, lookups of these transforms fail.
+
+        Args:
+            timeout: The timeout in seconds, or a text such as "100ms".
+
+        Returns:
+            Whether all have delivered. `awaited_statics` returns the others.
+        """
+        deadline = time.monotonic_ns() + _timeout_ns(timeout)
+        while awaited := self.awaited_statics():
+            left = deadline - time.monotonic_ns()
+            if left <= 0:
+                break
+            time.sleep(min(left, _STATICS_CHECK_PERIOD) / SECOND)
+        return not awaited
 
     def close(self) -> None:
         """Leave the graph. The buffer keeps its transforms. A second call has no effect."""

@@ -366,12 +366,14 @@ def _guess(failure: Failure) -> str:
     known = sorted(failure.parents)
     if not known:
         return "The buffer has not received any transforms. Is a broadcaster running in the same ROS domain?"
-    similar = _similar_names(failure.name, known)
+    arguments = (failure.target, failure.source)
+    # The other frame of the lookup cannot be meant.
+    others = [frame for frame in known if failure.name not in arguments or frame not in arguments]
+    similar = _similar_names(failure.name, others)
     if not similar:
         return f"Known frames: {', '.join(known)}."
-    arguments = (failure.target, failure.source)
     target, source = (
-        name if name in failure.parents else (_similar_names(name, known) or [name])[0] for name in arguments
+        name if name in failure.parents else (_similar_names(name, others) or [name])[0] for name in arguments
     )
     line = f" In a node: lookup_transform({target!r}, {source!r}, ...)." if failure.name in arguments else ""
     return f"Did you mean {' or '.join(map(repr, similar))}? Known frames: {', '.join(known)}.{line}"

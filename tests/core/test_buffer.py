@@ -123,6 +123,16 @@ def test_disconnected_trees_are_named_with_the_missing_edge(buffer):
         assert words in caught.value.hint
 
 
+def test_hint_for_an_unknown_frame_never_suggests_the_other_frame_of_the_lookup(buffer):
+    buffer.set("base", "base_link", coframe.Transform(), static=True)
+    with pytest.raises(coframe.LookupException) as caught:
+        buffer.lookup("base_link", "base_lonk")
+    assert "Did you mean 'base_link'" not in caught.value.hint
+    with pytest.raises(coframe.LookupException) as caught:
+        buffer.lookup("lidar", "base_lonk")
+    assert "Did you mean 'base_link'?" in caught.value.hint
+
+
 def test_hint_for_an_unknown_frame_suggests_and_lists_names(buffer):
     with pytest.raises(coframe.LookupException) as caught:
         buffer.lookup("odom", "lidr")

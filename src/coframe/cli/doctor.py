@@ -117,6 +117,7 @@ def doctor(
             if Console(stderr=True).is_terminal:
                 typer.echo(f"observing for {duration} ...", err=True)
             observer.listen(window / SECOND)
+            observer.listen_for_statics()
             report = diagnose(observer.observe(), ignore=ignored)
         _print_and_exit({"": report}, as_json, sarif, None)
 

@@ -24,14 +24,14 @@ from coframe.cli.options import (
     TfTopicOption,
     parse_duration,
 )
-from coframe.cli.output import fail, log, with_doctor_command
+from coframe.cli.output import awaited_statics_text, fail, log, with_doctor_command
 from coframe.errors import TransformException
 from coframe.time import MICROSECOND, SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from coframe import Buffer, Transform
+    from coframe import Buffer, Connection, Transform
 
 __all__ = ["echo"]
 
@@ -115,7 +115,7 @@ def echo(
     ):
         period = round(SECOND / hertz)
         write = as_json_line if as_json else partial(format_transform, precision=precision)
-        _wait_until_possible(ros.buffer, source_frame, target_frame, period)
+        _wait_until_possible(ros, source_frame, target_frame, period)
         due = time.monotonic_ns()
         answers = 0
         while limit is None or answers < limit:
@@ -152,7 +152,8 @@ def _lookup_time(at: float | None, offset: float | None) -> int:
     return 0 if offset is None else time.time_ns() + round(offset * SECOND)
 
 
-def _wait_until_possible(buffer: Buffer, source: str, target: str, period: int) -> None:
+def _wait_until_possible(ros: Connection, source: str, target: str, period: int) -> None:
+    buffer = ros.buffer
     logged_at = logged_hint = None
     while True:
         try:
@@ -161,9 +162,11 @@ def _wait_until_possible(buffer: Buffer, source: str, target: str, period: int) 
             if logged_at is None or time.monotonic() - logged_at >= 1.0:
                 logged_at = time.monotonic()
                 log("INFO", NODE, f"Waiting for transform {source} ->  {target}: {buffer._why_not(source, target)}")
-                if error.hint != logged_hint:  # The reason is repeated every second, the hint only when it changes.
-                    logged_hint = error.hint
-                    log("INFO", NODE, with_doctor_command(error.hint))
+                awaited = ros.awaited_statics()
+                hint = awaited_statics_text(awaited) if awaited else error.hint
+                if hint != logged_hint:  # The reason is repeated every second, the hint only when it changes.
+                    logged_hint = hint
+                    log("INFO", NODE, with_doctor_command(hint))
         else:
             return
 

@@ -122,6 +122,7 @@ def frames(
             if Console(stderr=True).is_terminal:
                 typer.echo(f"observing for {duration} ...", err=True)
             observer.listen(window / SECOND)
+            observer.listen_for_statics()
             forest = grow(observer.observe())
         if not forest.frames:
             fail("no transforms received", "Check that a broadcaster is running in the same ROS domain.")

@@ -27,7 +27,7 @@ from coframe.cli.options import (
     positive_duration,
     reject_namespace_of_live_graph,
 )
-from coframe.cli.output import fail
+from coframe.cli.output import awaited_statics_text, fail
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_time
 from coframe.errors import ExtrapolationException, TransformException
 from coframe.formatting import seconds
@@ -126,7 +126,12 @@ def lookup(
                 fail(f"{target} is a file or a folder. Give TARGET and SOURCE after the recording.", code=2)
             topics = {"tf_topic": tf_topic or TF_TOPIC, "tf_static_topic": tf_static_topic or TF_STATIC_TOPIC}
             with coframe.connect("coframe_lookup", domain=domain, **topics, prefix=prefix, keep=keep) as ros:
-                found = _when_possible(lambda: transform(ros.buffer, _clock_time(window)), window)
+                try:
+                    found = _when_possible(lambda: transform(ros.buffer, _clock_time(window)), window)
+                except TransformException as error:
+                    if awaited := ros.awaited_statics():
+                        fail(str(error), awaited_statics_text(awaited))
+                    raise
         print(as_json_line(found) if as_json else format_transform(found, precision))
 
 

@@ -15,7 +15,7 @@ from coframe.time import SECOND
 if TYPE_CHECKING:
     from rich.console import Console
 
-__all__ = ["fail", "log", "printable", "report_console", "warn", "with_doctor_command"]
+__all__ = ["awaited_statics_text", "fail", "log", "printable", "report_console", "warn", "with_doctor_command"]
 
 _REDIRECTED_WIDTH = 1000  # columns
 
@@ -30,6 +30,13 @@ def fail(text: str, hint: str = "", *, code: int = 1) -> NoReturn:
 def with_doctor_command(hint: str) -> str:
     """Replace the doctor code in a hint of the library by the command that prints the page about it."""
     return re.sub(r"See doctor code (TF\d+)\.", r"More: coframe doctor --explain \1", hint)
+
+
+def awaited_statics_text(nodes: list[str]) -> str:
+    """Return what to say if publishers of static transforms have been discovered but have not delivered them."""
+    return (
+        f"The static transforms of {', '.join(nodes)} have not arrived yet. Repeat the command if a frame is missing."
+    )
 
 
 def warn(text: str) -> None:

@@ -35,7 +35,7 @@ from coframe.cli.options import (
     recorded_tf_topics,
     reject_namespace_of_live_graph,
 )
-from coframe.cli.output import fail, printable, with_doctor_command
+from coframe.cli.output import awaited_statics_text, fail, printable, with_doctor_command
 from coframe.cli.recordings import check_has_transforms, open_recording, parse_time
 from coframe.doctor import Observation, diagnose
 from coframe.doctor.recorded import collecting
@@ -58,6 +58,8 @@ if TYPE_CHECKING:
 __all__ = ["why"]
 
 _NAMES = "[BAG] TARGET SOURCE"
+# The node of the connection receives static transforms at about the same time as the doctor's node, which waits first.
+_SECOND_LISTENER = 0.5  # seconds
 _TF_TYPE = "tf2_msgs/msg/TFMessage"
 _ASCII = str.maketrans("├└│─", "+`|-")
 _STYLES = {"error": "bold red", "warning": "yellow", "note": "cyan"}
@@ -183,10 +185,15 @@ def _answer_live(graph: _LiveSource, target: str, source: str, at: str | None, w
         if Console(stderr=True).is_terminal:
             typer.echo(f"observing for {window / SECOND:g} s ...", err=True)
         observer.listen(window / SECOND)
+        if not ros.buffer.can_transform(target, source):
+            # Without all static transforms, existing frames would be reported as missing.
+            observer.listen_for_statics()
+            ros.wait_for_statics(_SECOND_LISTENER)
         seen = observer.observe()
         clock = int(seen.clock.stamp[-1]) if seen.clock is not None else None
         found = ros.buffer.why(target, source, _lookup_time(at, clock, window), now=clock)
-        return _Answer(found, _relevant_reports(found, [seen]), list(_other_topics(found, ros, graph)))
+        notes = [*_awaited(found, ros), *_other_topics(found, ros, graph)]
+        return _Answer(found, _relevant_reports(found, [seen]), notes)
 
 
 def _watch(graph: _LiveSource, target: str, source: str, at: str | None, window: int, *, as_json: bool) -> NoReturn:
@@ -198,7 +205,8 @@ def _watch(graph: _LiveSource, target: str, source: str, at: str | None, window:
         ros.subscribe("/clock", find("rosgraph_msgs/msg/Clock"), ticks.append, QoS(depth=1, reliable=False))
         while True:
             clock = stamp_ns(ticks[0].clock) if ticks else None
-            answer = _Answer(ros.buffer.why(target, source, _lookup_time(at, clock, window), now=clock), [], [])
+            found = ros.buffer.why(target, source, _lookup_time(at, clock, window), now=clock)
+            answer = _Answer(found, [], list(_awaited(found, ros)))
             if as_json:
                 print(json.dumps(_data(answer)), flush=True)
             else:
@@ -250,6 +258,11 @@ def _other_namespaces(found: Explanation, recording: Recording) -> Iterator[str]
         for name, buffer in recording.buffers.items():
             if frame in buffer:
                 yield f"frame {frame!r} is published on {name}/tf: coframe why ... --namespace {name or '/'}"
+
+
+def _awaited(found: Explanation, ros: Connection) -> Iterator[str]:
+    if not found.possible and (nodes := ros.awaited_statics()):
+        yield awaited_statics_text(nodes)
 
 
 def _other_topics(found: Explanation, ros: Connection, graph: _LiveSource) -> Iterator[str]:

@@ -32,6 +32,7 @@ from coframe.time import SECOND
 from coframe.wire.names import full_name
 from coframe.wire.participant import Participant
 from coframe.wire.qos import TF, TF_STATIC_READER, QoS
+from coframe.wire.tf_reader import STATICS_TIMEOUT
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -126,6 +127,7 @@ class LiveObserver:
         self._collector = Collector(names)
         self._writers: dict[int, _Writer] = {}
         self._delays: dict[int, deque[int]] = {}
+        self._static_writers: set[int] = set()  # those that have delivered
         self._topics: dict[str, _Topic] = {}
         try:
             self._node = self._participant.add_node("/", node_name)
@@ -170,6 +172,12 @@ class LiveObserver:
         while (left := end - time.monotonic()) > 0:
             time.sleep(min(0.2, left))
             self.poll()
+
+    def listen_for_statics(self) -> None:
+        """Poll until every publisher of static transforms has delivered them, or until STATICS_TIMEOUT has passed."""
+        end = self._started / SECOND + STATICS_TIMEOUT
+        while self._awaited_statics() and (left := end - time.monotonic()) > 0:
+            self.listen(min(0.1, left))
 
     def observe(self) -> Observation:
         """Return what was received within the window."""
@@ -247,6 +255,11 @@ class LiveObserver:
             by_name.setdefault(self._node_of(handle), []).extend(delays)
         return {name: np.array(delays, dtype=np.int64) for name, delays in by_name.items()}
 
+    def _awaited_statics(self) -> set[int]:
+        """Return the handles of the matched publishers of static transforms that nothing was received from."""
+        readers = [subscription for subscription, static in self._transforms.values() if static]
+        return {writer for reader in readers for writer in reader.matched_handles()} - self._static_writers
+
     def _take_transforms(self, topic: str, messages: MessageBatch, static: bool) -> None:
         if not len(messages.ends):
             return
@@ -259,7 +272,9 @@ class LiveObserver:
             publisher,
             list(map(str, handles.tolist())),
         )
-        if not static:  # latched messages may have been sent long before this node subscribed
+        if static:
+            self._static_writers.update(handles.tolist())
+        else:  # latched messages may have been sent long before this node subscribed
             delay = messages.arrived - messages.sent
             for number, handle in enumerate(handles.tolist()):
                 delays = self._delays.setdefault(handle, deque(maxlen=_MAX_MESSAGES))

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 # tf2's text for a transform without a publisher.
 NO_AUTHORITY = "<no authority available>"
 
+# How long to wait for the static transforms of publishers that were started earlier. Fast DDS takes 2 to 3.5 seconds.
+STATICS_TIMEOUT = 5.0  # seconds
+
 _DEPARTED_WRITERS = 100  # writers whose node names are kept after they have left
 
 
@@ -84,6 +87,10 @@ class TfReader(LocalEndpoint):
     def writer_statistics(self) -> list[WriterStatistics]:
         """Return what was received from each writer, including writers that have left; nothing after `close`."""
         return [] if self._closed else [WriterStatistics(*facts) for facts in self._reader.writers()]
+
+    def awaited_writers(self) -> set[int]:
+        """Return the handles of the matched writers that no message was received from."""
+        return self.matched_handles() - {known.writer for known in self.writer_statistics() if known.messages}
 
     def name_writers(self, graph: Graph) -> None:
         """Set the names of the publishing nodes in the buffer, as far as they are known from the graph."""
