@@ -10,29 +10,41 @@ from __future__ import annotations
 import re
 import sys
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from coframe.messages.definition import (
-    AbstractNestedType,
-    AbstractType,
-    Array,
-    BasicType,
-    NamespacedType,
-)
+from coframe.messages import archive
+from coframe.messages.compounds import PARTS, member_messages
+from coframe.messages.constructors import default_assignments
+from coframe.messages.definition import Array, NamespacedType
 from coframe.messages.fields import number_of
 from coframe.messages.parser import Field, Structure, parse
+from coframe.messages.stubs import field_hint, parameter_hint, stub, value_type
 
 ROOT = Path(__file__).resolve().parents[1]
 INTERFACES = ROOT / "interfaces"
 GENERATED = ROOT / "src/coframe/messages/generated"
+SHIPPED = ROOT / "src/coframe/messages/shipped"
 ROS = ROOT / "src/ros"
+
+# The packages that coframe or most programs use; importing Python source is faster than creating classes. The classes
+# of all other packages are created from their definitions when they are first used, which keeps the install small.
+WITH_SOURCE = {
+    "action_msgs",
+    "builtin_interfaces",
+    "geometry_msgs",
+    "nav_msgs",
+    "rcl_interfaces",
+    "rosgraph_msgs",
+    "sensor_msgs",
+    "std_msgs",
+    "std_srvs",
+    "tf2_msgs",
+    "unique_identifier_msgs",
+    "visualization_msgs",
+}
 
 NOTICE = "# Written by scripts/generate_messages.py from interfaces/{package}/{kind}; do not edit.\n"
 KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
-PARTS = {"msg": 1, "srv": 2, "action": 3}
-
-GOAL_ID = Field("goal_id", NamespacedType(("unique_identifier_msgs", "msg"), "UUID"), None)
-TIME = NamespacedType(("builtin_interfaces", "msg"), "Time")
 
 
 class Message(NamedTuple):
@@ -58,7 +70,7 @@ def main() -> int:
             path.write_text(text, encoding="utf-8")
         return 0
     stale = [path for path, text in files.items() if not path.is_file() or path.read_text("utf-8") != text]
-    stale += [path for path in GENERATED.rglob("*.py") if path not in files]
+    stale += [path for path in (*GENERATED.rglob("*.py"), *SHIPPED.rglob("*.txt")) if path not in files]
     for path in stale:
         print(f"{path.relative_to(ROOT)} is out of date. Run scripts/generate_messages.py.")
     return 1 if stale else 0
@@ -69,19 +81,44 @@ def generate() -> dict[Path, str]:
     files = {GENERATED / "__init__.py": '"""The message classes of each ROS package."""\n'}
     for folder in sorted(path for path in INTERFACES.iterdir() if path.is_dir()):
         package = folder.name
-        docstring = f'"""ROS package {package}."""\n'
-        files[GENERATED / package / "__init__.py"] = docstring
-        files[ROS / package / "__init__.py"] = (
-            f'{docstring}\nfrom coframe import ros_side\n\nros_side.check("{package}")\n'
-        )
+        definitions = {path.relative_to(folder).with_suffix("").as_posix(): path for path in sorted(folder.glob("*/*"))}
+        texts = {name: path.read_text("utf-8") for name, path in definitions.items()}
+        files[SHIPPED / f"{package}.txt"] = archive.pack(texts)
         files[ROS / package / "py.typed"] = ""
+        files[ROS / package / "__init__.py"] = (
+            f'"""ROS package {package}."""\n\nfrom coframe import ros_side\n\nros_side.check("{package}")\n'
+        )
+        modules = _classes_as_source if package in WITH_SOURCE else _classes_at_first_use
         for kind in sorted(path.name for path in folder.iterdir()):
-            module = Module(package, kind)
-            for path in sorted((folder / kind).iterdir()):
-                module.add(path)
-            files[GENERATED / package / f"{kind}.py"] = module.text()
-            files[ROS / package / kind / "__init__.py"] = module.public_text()
+            files |= modules(package, kind, sorted((folder / kind).iterdir()))
     return files
+
+
+def _classes_as_source(package: str, kind: str, paths: list[Path]) -> dict[Path, str]:
+    module = Module(package, kind)
+    for path in paths:
+        module.add(path)
+    return {
+        GENERATED / package / "__init__.py": f'"""ROS package {package}."""\n',
+        GENERATED / package / f"{kind}.py": module.text(),
+        ROS / package / kind / "__init__.py": module.public_text(),
+    }
+
+
+def _classes_at_first_use(package: str, kind: str, paths: list[Path]) -> dict[Path, str]:
+    notice = NOTICE.format(package=package, kind=kind)
+    definitions = {path.stem: parse(path.read_text("utf-8"), package, PARTS[kind]) for path in paths}
+    folder = ROS / package / kind
+    return {
+        folder / "__init__.pyi": notice + stub(package, kind, definitions),
+        folder / "__init__.py": notice
+        + f'''"""{KINDS[kind]} of {package}; each class is created when it is first used."""
+
+from coframe.messages.packages import shipped_exports
+
+__all__, __getattr__, __dir__ = shipped_exports("{package}", "{kind}")
+''',
+    }
 
 
 class Module:
@@ -99,22 +136,14 @@ class Module:
         """Add one definition file."""
         parts = parse(path.read_text("utf-8"), self.package, PARTS[self.kind])
         name = path.stem
-        if self.kind == "msg":
-            self._add_message(name, parts[0])
-        elif self.kind == "srv":
-            self._add_service(name, *parts)
-        else:
-            self._add_action(name, *parts)
+        for message, structure in member_messages(self.package, self.kind, name, parts).items():
+            self.messages[message] = Message(self.package, self.kind, message, structure)
+        if self.kind == "srv":
+            self._add_service(name)
+        elif self.kind == "action":
+            self._add_action(name)
 
-    def _add_message(self, name: str, structure: Structure) -> None:
-        self.messages[name] = Message(self.package, self.kind, name, structure)
-
-    def _own(self, name: str) -> NamespacedType:
-        return NamespacedType((self.package, self.kind), name)
-
-    def _add_service(self, name: str, request: Structure, response: Structure) -> None:
-        self._add_message(f"{name}_Request", request)
-        self._add_message(f"{name}_Response", response)
+    def _add_service(self, name: str) -> None:
         self.names["message"].add("Service")
         self.compounds[name] = [
             f"class {name}(Service):",
@@ -125,22 +154,9 @@ class Module:
             f"    Response: TypeAlias = {name}_Response",
         ]
 
-    def _add_action(self, name: str, goal: Structure, result: Structure, feedback: Structure) -> None:
-        for part, structure in (("Goal", goal), ("Result", result), ("Feedback", feedback)):
-            self._add_message(f"{name}_{part}", structure)
-        self._add_service(
-            f"{name}_SendGoal",
-            _structure(GOAL_ID, Field("goal", self._own(f"{name}_Goal"), None)),
-            _structure(Field("accepted", BasicType("boolean"), None), Field("stamp", TIME, None)),
-        )
-        self._add_service(
-            f"{name}_GetResult",
-            _structure(GOAL_ID),
-            _structure(Field("status", BasicType("int8"), None), Field("result", self._own(f"{name}_Result"), None)),
-        )
-        self._add_message(
-            f"{name}_FeedbackMessage", _structure(GOAL_ID, Field("feedback", self._own(f"{name}_Feedback"), None))
-        )
+    def _add_action(self, name: str) -> None:
+        self._add_service(f"{name}_SendGoal")
+        self._add_service(f"{name}_GetResult")
         self._import("action_msgs", "srv", "CancelGoal")
         self._import("action_msgs", "msg", "GoalStatusArray")
         self.names["message"].add("Action")
@@ -223,7 +239,7 @@ class Module:
 
         def visit(message: Message) -> None:
             for field in message.structure.fields:
-                inner = _value_type(field.type)
+                inner = value_type(field.type)
                 if isinstance(inner, NamespacedType) and inner.namespaces == (self.package, self.kind):
                     visit(self.messages[inner.name])
             ordered.setdefault(message.name, message)
@@ -263,7 +279,7 @@ class Module:
         for field in fields:
             lines.append(f"        {field.type!r},")
             self.names["definition"].add(type(field.type).__name__)
-            inner = _value_type(field.type)
+            inner = value_type(field.type)
             self.names["definition"].add(type(inner).__name__)
             if isinstance(inner, NamespacedType):
                 package, kind = inner.namespaces
@@ -273,25 +289,25 @@ class Module:
     def _hints(self, fields: list[Field]) -> list[str]:
         lines = ["    if TYPE_CHECKING:"]
         lines += [self._attribute_hint(field) for field in fields]
-        parameters = "".join(f", {field.name}: {_parameter_hint(field.type)} = ..." for field in fields)
+        parameters = "".join(f", {field.name}: {parameter_hint(field.type, _short_name)} = ..." for field in fields)
         star = ", *" if fields else ""
         return [*lines, f"        def __init__(self{star}{parameters}) -> None: ..."]
 
     def _attribute_hint(self, field: Field) -> str:
         number = number_of(field.type)
         if number is None:
-            return f"        {field.name}: {_hint(field.type)}"
+            return f"        {field.name}: {field_hint(field.type, _short_name)}"
         if isinstance(field.type, Array):
             self.names["hints"].add("NumberArray")
             return f"        {field.name} = NumberArray[np.{number.dtype.name}]()"
         self.names["hints"].add("NumberSequence")
-        return f"        {field.name} = NumberSequence[{_hint(_value_type(field.type))}]()"
+        return f"        {field.name} = NumberSequence[{field_hint(value_type(field.type), _short_name)}]()"
 
 
 def _constructor(fields: list[Field]) -> list[str]:
     return [
         "        def __init__(self, **fields: Any) -> None:",
-        *(f"            self._{field.name} = {_default(field)}" for field in fields),
+        *(f"            {line}" for line in default_assignments(fields, _short_name)),
         "            if fields:",
         "                super().__init__(**fields)",
     ]
@@ -302,66 +318,12 @@ def _natural(name: str) -> list[tuple[str, int]]:
     return [(text, int(digits or -1)) for text, digits in re.findall(r"(\D+)(\d*)", name)]
 
 
-def _structure(*fields: Field) -> Structure:
-    return Structure(list(fields), [], "")
-
-
 def _import_line(module: str, names: set[str]) -> str:
     return f"from {module} import {', '.join(sorted(names))}\n" if names else ""
 
 
-def _value_type(type_: AbstractType) -> AbstractType:
-    return type_.value_type if isinstance(type_, AbstractNestedType) else type_
-
-
-def _hint(type_: AbstractType) -> str:
-    if isinstance(type_, AbstractNestedType):
-        return f"list[{_hint(type_.value_type)}]"
-    if isinstance(type_, NamespacedType):
-        return type_.name
-    if isinstance(type_, BasicType):
-        hints = {"boolean": "bool", "octet": "bytes", "float": "float", "double": "float"}
-        return hints.get(type_.typename, "int")
-    return "str"
-
-
-def _parameter_hint(type_: AbstractType) -> str:
-    return f"Iterable[{_hint(_value_type(type_))}]" if number_of(type_) else _hint(type_)
-
-
-def _default(field: Field) -> str:
-    """Return the expression for the default value of a field."""
-    type_ = field.type
-    number = number_of(type_)
-    if field.default is not None:
-        return _given_default(field.default, type_)
-    if isinstance(type_, NamespacedType):
-        return f'fields.get("{field.name}") or {type_.name}()'
-    if isinstance(type_, Array) and number:
-        return f"np.zeros({type_.size}, np.{number.dtype.name})"
-    if isinstance(type_, Array):
-        return f"[{_zero(type_.value_type)} for _ in range({type_.size})]"
-    if number:
-        return f'array("{number.code}")'
-    return "[]" if isinstance(type_, AbstractNestedType) else _zero(type_)
-
-
-def _given_default(value: Any, type_: AbstractType) -> str:
-    number = number_of(type_)
-    if number is None:
-        return repr(value)
-    if isinstance(type_, Array):
-        return f"np.array({value!r}, np.{number.dtype.name})"
-    return f'array("{number.code}", {value!r})'
-
-
-def _zero(type_: AbstractType) -> str:
-    if isinstance(type_, NamespacedType):
-        return f"{type_.name}()"
-    if isinstance(type_, BasicType):
-        zeros = {"boolean": "False", "octet": 'b"\\x00"', "float": "0.0", "double": "0.0"}
-        return zeros.get(type_.typename, "0")
-    return '""'
+def _short_name(type_: NamespacedType) -> str:
+    return type_.name
 
 
 if __name__ == "__main__":

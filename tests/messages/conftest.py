@@ -2,6 +2,7 @@
 """Fixtures that build random messages of any type, and the same messages in the classes of rosbags."""
 
 import random
+import re
 import struct
 from collections.abc import Callable
 from pathlib import Path
@@ -9,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from coframe.messages import find
 from coframe.messages.definition import (
@@ -22,7 +23,34 @@ from coframe.messages.definition import (
 
 INTERFACES = Path(__file__).resolve().parents[2] / "interfaces"
 TEXTS = ["", "a", "map", "base_link", "wörld", "机器人", "🤖" * 3, "x" * 70]
-MESSAGE_TYPES = sorted(f"{path.parts[-3]}/msg/{path.stem}" for path in INTERFACES.glob("*/msg/*.msg"))
+# The messages that belong to services and actions, as the ROS 2 design describes them.
+PARTS = {"msg": ("",), "srv": ("_Request", "_Response"), "action": ("_Goal", "_Result", "_Feedback")}
+PROTOCOL = {
+    "_SendGoal_Request": "unique_identifier_msgs/UUID goal_id\n{name}_Goal goal",
+    "_SendGoal_Response": "bool accepted\nbuiltin_interfaces/Time stamp",
+    "_GetResult_Request": "unique_identifier_msgs/UUID goal_id",
+    "_GetResult_Response": "int8 status\n{name}_Result result",
+    "_FeedbackMessage": "unique_identifier_msgs/UUID goal_id\n{name}_Feedback feedback",
+}
+
+
+def message_texts() -> dict[str, str]:
+    """Return the definition of every message in `interfaces/`, of those of services and actions too."""
+    texts = {}
+    for path in sorted(INTERFACES.glob("*/*/*.*")):
+        package, kind = path.parts[-3:-1]
+        name = f"{package}/{kind}/{path.stem}"
+        # rosbags expects the package in front of types that the file of a service or action uses.
+        text = re.sub(r"(?m)^([A-Z]\w*(\[.*\])? )", rf"{package}/\1", path.read_text("utf-8"))
+        parts = re.split(r"(?m)^---$", text)
+        texts |= {f"{name}{part}": text for part, text in zip(PARTS[kind], parts, strict=True)}
+        if kind == "action":
+            texts |= {f"{name}{part}": text.format(name=name) for part, text in PROTOCOL.items()}
+    return texts
+
+
+# rosbags does not know wstring; the tests of the codec compare its bytes with recorded ones.
+MESSAGE_TEXTS = {name: text for name, text in message_texts().items() if not text.startswith("wstring")}
 
 
 def random_value(type_: Any, rng: random.Random) -> Any:
@@ -59,7 +87,7 @@ def build(cls: Any, rng: random.Random) -> Any:
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     """Run every test with the argument `ros_type` for every message type."""
     if "ros_type" in metafunc.fixturenames:
-        metafunc.parametrize("ros_type", MESSAGE_TYPES)
+        metafunc.parametrize("ros_type", sorted(MESSAGE_TEXTS))
 
 
 @pytest.fixture(scope="session")
@@ -70,7 +98,14 @@ def random_message() -> Callable[[Any, random.Random], Any]:
 
 @pytest.fixture(scope="session")
 def store() -> Any:
-    return get_typestore(Stores.ROS2_HUMBLE)
+    """Return rosbags' types of Humble, and those that it reads from our definitions."""
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    types: dict[str, Any] = {}
+    for name, text in MESSAGE_TEXTS.items():
+        if name not in store.fielddefs:
+            (types[name],) = get_types_from_msg(text, name).values()
+    store.register(types)
+    return store
 
 
 @pytest.fixture

@@ -11,10 +11,13 @@ pytest.importorskip("mypy", reason="the type checker")
 
 PROGRAM = """
     import rclpy
+    from example_interfaces.srv import AddTwoInts
     from geometry_msgs.msg import PointStamped
     from rclpy.duration import Duration
     from rclpy.node import Node
     from rclpy.time import Time
+    from nav2_msgs.action import NavigateToPose
+    from shape_msgs.msg import SolidPrimitive
     from std_srvs.srv import SetBool
     from tf2_geometry_msgs import do_transform_point
     from tf2_ros import Buffer, TransformException, TransformListener
@@ -30,6 +33,13 @@ PROGRAM = """
             response.success = request.data
             response.message = request.data  # wrong
             return response
+
+        def shipped_as_data(self) -> int:
+            goal = NavigateToPose.Goal(behaviour_tree="tree.xml")  # wrong
+            goal.pose.header.frame_id = 1  # wrong
+            cylinder = SolidPrimitive(type=SolidPrimitive.CYLINDER, dimensions=[1.0, 2.0])
+            cylinder.dimensions[0] = "high"  # wrong
+            return AddTwoInts.Request(a=1, b=2).a
 
         def look(self) -> PointStamped:
             transform = self.buffer.lookup_transform("a", "b", Time(), timeout=Duration(seconds=0.1))

@@ -75,7 +75,7 @@ def parse(text: str, package: str, parts: int = 1) -> list[Structure]:
 def _parse_structure(text: str, package: str) -> Structure:
     structure = Structure([], [], _opening_comment(text))
     for line in text.splitlines():
-        content = _without_comment(line)
+        content = without_comment(line)
         if not content:
             continue
         match = _LINE.fullmatch(content)
@@ -100,7 +100,7 @@ def _opening_comment(text: str) -> str:
     return " ".join(lines)
 
 
-def _without_comment(line: str) -> str:
+def without_comment(line: str) -> str:
     """Return the line up to a ``#`` that is not inside a quoted string."""
     return re.sub(r"""^((?:[^#"']|"[^"]*"|'[^']*')*)#.*$""", r"\1", line).strip()
 

@@ -29,13 +29,27 @@ def find(ros_type: str) -> Any:
     if match is None:
         raise LookupError(f"{ros_type!r} is not a full ROS type name such as 'geometry_msgs/msg/Pose'")
     package, kind, name = match.groups()
+    if not _load(package, kind, name):
+        raise LookupError(f"no type {ros_type}: coframe has no package {package} with {kind} types")
+    if ros_type not in classes:
+        raise LookupError(f"no type {ros_type}: package {package} has no {kind} type {name}")
+    return classes[ros_type]
+
+
+def _load(package: str, kind: str, name: str) -> bool:
+    """Register the classes with a name if they exist; return whether the package has types of this kind."""
     module = f"{__package__}.generated.{package}.{kind}"
     try:
         importlib.import_module(module)
     except ModuleNotFoundError as error:
         if error.name is None or not module.startswith(error.name):
             raise
-        raise LookupError(f"no type {ros_type}: coframe has no package {package} with {kind} types") from None
-    if ros_type not in classes:
-        raise LookupError(f"no type {ros_type}: package {package} has no {kind} type {name}")
-    return classes[ros_type]
+    else:
+        return True
+    from coframe.messages.packages import shipped  # noqa: PLC0415 - it imports this module
+
+    found = shipped(package)
+    if found is None or kind not in found.kinds():
+        return False
+    found.create(kind, name)
+    return True

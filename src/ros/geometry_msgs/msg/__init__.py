@@ -12,6 +12,8 @@ from coframe.messages.generated.geometry_msgs.msg import (
     Point32,
     PointStamped,
     Polygon,
+    PolygonInstance,
+    PolygonInstanceStamped,
     PolygonStamped,
     Pose,
     Pose2D,
@@ -29,6 +31,7 @@ from coframe.messages.generated.geometry_msgs.msg import (
     TwistWithCovarianceStamped,
     Vector3,
     Vector3Stamped,
+    VelocityStamped,
     Wrench,
     WrenchStamped,
 )
@@ -44,6 +47,8 @@ __all__ = [
     "Point32",
     "PointStamped",
     "Polygon",
+    "PolygonInstance",
+    "PolygonInstanceStamped",
     "PolygonStamped",
     "Pose",
     "Pose2D",
@@ -61,6 +66,7 @@ __all__ = [
     "TwistWithCovarianceStamped",
     "Vector3",
     "Vector3Stamped",
+    "VelocityStamped",
     "Wrench",
     "WrenchStamped",
 ]

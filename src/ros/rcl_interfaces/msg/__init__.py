@@ -6,12 +6,14 @@ from coframe.messages.generated.rcl_interfaces.msg import (
     IntegerRange,
     ListParametersResult,
     Log,
+    LoggerLevel,
     Parameter,
     ParameterDescriptor,
     ParameterEvent,
     ParameterEventDescriptors,
     ParameterType,
     ParameterValue,
+    SetLoggerLevelsResult,
     SetParametersResult,
 )
 
@@ -20,11 +22,13 @@ __all__ = [
     "IntegerRange",
     "ListParametersResult",
     "Log",
+    "LoggerLevel",
     "Parameter",
     "ParameterDescriptor",
     "ParameterEvent",
     "ParameterEventDescriptors",
     "ParameterType",
     "ParameterValue",
+    "SetLoggerLevelsResult",
     "SetParametersResult",
 ]

@@ -294,6 +294,52 @@ class Polygon(Message):
                 super().__init__(**fields)
 
 
+class PolygonInstance(Message):
+    """Message geometry_msgs/msg/PolygonInstance."""
+
+    ROS_TYPE = "geometry_msgs/msg/PolygonInstance"
+    SLOT_TYPES = (
+        NamespacedType(('geometry_msgs', 'msg'), 'Polygon'),
+        BasicType('int64'),
+    )
+
+    if TYPE_CHECKING:
+        polygon: Polygon
+        id: int
+        def __init__(self, *, polygon: Polygon = ..., id: int = ...) -> None: ...
+    else:
+        __slots__ = ["_polygon", "_id"]
+
+        def __init__(self, **fields: Any) -> None:
+            self._polygon = fields.get("polygon") or Polygon()
+            self._id = 0
+            if fields:
+                super().__init__(**fields)
+
+
+class PolygonInstanceStamped(Message):
+    """Message geometry_msgs/msg/PolygonInstanceStamped."""
+
+    ROS_TYPE = "geometry_msgs/msg/PolygonInstanceStamped"
+    SLOT_TYPES = (
+        NamespacedType(('std_msgs', 'msg'), 'Header'),
+        NamespacedType(('geometry_msgs', 'msg'), 'PolygonInstance'),
+    )
+
+    if TYPE_CHECKING:
+        header: Header
+        polygon: PolygonInstance
+        def __init__(self, *, header: Header = ..., polygon: PolygonInstance = ...) -> None: ...
+    else:
+        __slots__ = ["_header", "_polygon"]
+
+        def __init__(self, **fields: Any) -> None:
+            self._header = fields.get("header") or Header()
+            self._polygon = fields.get("polygon") or PolygonInstance()
+            if fields:
+                super().__init__(**fields)
+
+
 class PolygonStamped(Message):
     """Message geometry_msgs/msg/PolygonStamped."""
 
@@ -674,6 +720,35 @@ class Vector3Stamped(Message):
         def __init__(self, **fields: Any) -> None:
             self._header = fields.get("header") or Header()
             self._vector = fields.get("vector") or Vector3()
+            if fields:
+                super().__init__(**fields)
+
+
+class VelocityStamped(Message):
+    """A velocity of one frame relative to another, with its stamp and the frame that it is expressed in."""
+
+    ROS_TYPE = "geometry_msgs/msg/VelocityStamped"
+    SLOT_TYPES = (
+        NamespacedType(('std_msgs', 'msg'), 'Header'),
+        UnboundedString(),
+        UnboundedString(),
+        NamespacedType(('geometry_msgs', 'msg'), 'Twist'),
+    )
+
+    if TYPE_CHECKING:
+        header: Header
+        body_frame_id: str
+        reference_frame_id: str
+        velocity: Twist
+        def __init__(self, *, header: Header = ..., body_frame_id: str = ..., reference_frame_id: str = ..., velocity: Twist = ...) -> None: ...
+    else:
+        __slots__ = ["_header", "_body_frame_id", "_reference_frame_id", "_velocity"]
+
+        def __init__(self, **fields: Any) -> None:
+            self._header = fields.get("header") or Header()
+            self._body_frame_id = ""
+            self._reference_frame_id = ""
+            self._velocity = fields.get("velocity") or Twist()
             if fields:
                 super().__init__(**fields)
 

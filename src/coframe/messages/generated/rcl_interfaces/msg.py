@@ -134,6 +134,35 @@ class Log(Message):
                 super().__init__(**fields)
 
 
+class LoggerLevel(Message):
+    """Message rcl_interfaces/msg/LoggerLevel."""
+
+    ROS_TYPE = "rcl_interfaces/msg/LoggerLevel"
+    SLOT_TYPES = (
+        UnboundedString(),
+        BasicType('uint32'),
+    )
+    LOG_LEVEL_UNKNOWN: Final = 0
+    LOG_LEVEL_DEBUG: Final = 10
+    LOG_LEVEL_INFO: Final = 20
+    LOG_LEVEL_WARN: Final = 30
+    LOG_LEVEL_ERROR: Final = 40
+    LOG_LEVEL_FATAL: Final = 50
+
+    if TYPE_CHECKING:
+        name: str
+        level: int
+        def __init__(self, *, name: str = ..., level: int = ...) -> None: ...
+    else:
+        __slots__ = ["_name", "_level"]
+
+        def __init__(self, **fields: Any) -> None:
+            self._name = ""
+            self._level = 0
+            if fields:
+                super().__init__(**fields)
+
+
 class ParameterValue(Message):
     """The value of a parameter; type selects the member that contains it."""
 
@@ -327,6 +356,29 @@ class ParameterType(Message):
         __slots__ = []
 
         def __init__(self, **fields: Any) -> None:
+            if fields:
+                super().__init__(**fields)
+
+
+class SetLoggerLevelsResult(Message):
+    """Message rcl_interfaces/msg/SetLoggerLevelsResult."""
+
+    ROS_TYPE = "rcl_interfaces/msg/SetLoggerLevelsResult"
+    SLOT_TYPES = (
+        BasicType('boolean'),
+        UnboundedString(),
+    )
+
+    if TYPE_CHECKING:
+        successful: bool
+        reason: str
+        def __init__(self, *, successful: bool = ..., reason: str = ...) -> None: ...
+    else:
+        __slots__ = ["_successful", "_reason"]
+
+        def __init__(self, **fields: Any) -> None:
+            self._successful = False
+            self._reason = ""
             if fields:
                 super().__init__(**fields)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from coframe.messages.definition import BasicType, NamespacedType, UnboundedSequence, UnboundedString
 from coframe.messages.message import Message, Service
-from coframe.messages.generated.rcl_interfaces.msg import ListParametersResult, Parameter, ParameterDescriptor, ParameterValue, SetParametersResult
+from coframe.messages.generated.rcl_interfaces.msg import ListParametersResult, LoggerLevel, Parameter, ParameterDescriptor, ParameterValue, SetLoggerLevelsResult, SetParametersResult
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -52,6 +52,46 @@ class DescribeParameters_Response(Message):
 
         def __init__(self, **fields: Any) -> None:
             self._descriptors = []
+            if fields:
+                super().__init__(**fields)
+
+
+class GetLoggerLevels_Request(Message):
+    """Message rcl_interfaces/srv/GetLoggerLevels_Request."""
+
+    ROS_TYPE = "rcl_interfaces/srv/GetLoggerLevels_Request"
+    SLOT_TYPES = (
+        UnboundedSequence(UnboundedString()),
+    )
+
+    if TYPE_CHECKING:
+        names: list[str]
+        def __init__(self, *, names: list[str] = ...) -> None: ...
+    else:
+        __slots__ = ["_names"]
+
+        def __init__(self, **fields: Any) -> None:
+            self._names = []
+            if fields:
+                super().__init__(**fields)
+
+
+class GetLoggerLevels_Response(Message):
+    """Message rcl_interfaces/srv/GetLoggerLevels_Response."""
+
+    ROS_TYPE = "rcl_interfaces/srv/GetLoggerLevels_Response"
+    SLOT_TYPES = (
+        UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'LoggerLevel')),
+    )
+
+    if TYPE_CHECKING:
+        levels: list[LoggerLevel]
+        def __init__(self, *, levels: list[LoggerLevel] = ...) -> None: ...
+    else:
+        __slots__ = ["_levels"]
+
+        def __init__(self, **fields: Any) -> None:
+            self._levels = []
             if fields:
                 super().__init__(**fields)
 
@@ -180,6 +220,46 @@ class ListParameters_Response(Message):
                 super().__init__(**fields)
 
 
+class SetLoggerLevels_Request(Message):
+    """Message rcl_interfaces/srv/SetLoggerLevels_Request."""
+
+    ROS_TYPE = "rcl_interfaces/srv/SetLoggerLevels_Request"
+    SLOT_TYPES = (
+        UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'LoggerLevel')),
+    )
+
+    if TYPE_CHECKING:
+        levels: list[LoggerLevel]
+        def __init__(self, *, levels: list[LoggerLevel] = ...) -> None: ...
+    else:
+        __slots__ = ["_levels"]
+
+        def __init__(self, **fields: Any) -> None:
+            self._levels = []
+            if fields:
+                super().__init__(**fields)
+
+
+class SetLoggerLevels_Response(Message):
+    """Message rcl_interfaces/srv/SetLoggerLevels_Response."""
+
+    ROS_TYPE = "rcl_interfaces/srv/SetLoggerLevels_Response"
+    SLOT_TYPES = (
+        UnboundedSequence(NamespacedType(('rcl_interfaces', 'msg'), 'SetLoggerLevelsResult')),
+    )
+
+    if TYPE_CHECKING:
+        results: list[SetLoggerLevelsResult]
+        def __init__(self, *, results: list[SetLoggerLevelsResult] = ...) -> None: ...
+    else:
+        __slots__ = ["_results"]
+
+        def __init__(self, **fields: Any) -> None:
+            self._results = []
+            if fields:
+                super().__init__(**fields)
+
+
 class SetParameters_Request(Message):
     """Message rcl_interfaces/srv/SetParameters_Request."""
 
@@ -268,6 +348,14 @@ class DescribeParameters(Service):
     Response: TypeAlias = DescribeParameters_Response
 
 
+class GetLoggerLevels(Service):
+    """Service rcl_interfaces/srv/GetLoggerLevels."""
+
+    ROS_TYPE = "rcl_interfaces/srv/GetLoggerLevels"
+    Request: TypeAlias = GetLoggerLevels_Request
+    Response: TypeAlias = GetLoggerLevels_Response
+
+
 class GetParameterTypes(Service):
     """Service rcl_interfaces/srv/GetParameterTypes."""
 
@@ -290,6 +378,14 @@ class ListParameters(Service):
     ROS_TYPE = "rcl_interfaces/srv/ListParameters"
     Request: TypeAlias = ListParameters_Request
     Response: TypeAlias = ListParameters_Response
+
+
+class SetLoggerLevels(Service):
+    """Service rcl_interfaces/srv/SetLoggerLevels."""
+
+    ROS_TYPE = "rcl_interfaces/srv/SetLoggerLevels"
+    Request: TypeAlias = SetLoggerLevels_Request
+    Response: TypeAlias = SetLoggerLevels_Response
 
 
 class SetParameters(Service):

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Creation of message, service and action classes from definitions at run time.
+
+The classes behave like the generated ones. Each is created when it is first used, together with the others of its
+definition: a service with its request and response, an action with its goal, result, feedback and protocol.
+"""
+
+from __future__ import annotations
+
+import threading
+from array import array
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from coframe.messages.compounds import member_messages
+from coframe.messages.constructors import default_assignments
+from coframe.messages.definition import AbstractNestedType, AbstractType, NamespacedType
+from coframe.messages.message import Action, Message, MessageType, Service
+from coframe.messages.registry import classes, find
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from coframe.messages.parser import Field, Structure
+
+__all__ = ["create_classes"]
+
+_lock = threading.RLock()
+
+
+def create_classes(package: str, kind: str, name: str, parts: Sequence[Structure]) -> None:
+    """Create the classes of one definition and register them.
+
+    Args:
+        package: The package of the definition.
+        kind: ``msg``, ``srv`` or ``action``.
+        name: The name of the message, service or action.
+        parts: The structures of the definition: 1 for a message, 2 for a service, 3 for an action.
+    """
+    with _lock:
+        if f"{package}/{kind}/{name}" in classes:
+            return  # Another thread was faster.
+        for message, structure in member_messages(package, kind, name, parts).items():
+            _create_message(f"{package}/{kind}/{message}", message, structure)
+        if kind == "srv":
+            _create_service(package, kind, name)
+        elif kind == "action":
+            _create_action(package, kind, name)
+
+
+def _create_message(ros_type: str, name: str, structure: Structure) -> None:
+    MessageType(
+        name,
+        (Message,),
+        {
+            "__doc__": structure.comment or f"Message {ros_type}.",
+            "ROS_TYPE": ros_type,
+            "SLOT_TYPES": tuple(field.type for field in structure.fields),
+            "__slots__": [f"_{field.name}" for field in structure.fields],
+            "__init__": _constructor(ros_type, structure.fields),
+            **{constant.name: constant.value for constant in structure.constants},
+            **{f"{f.name.upper()}__DEFAULT": f.default for f in structure.fields if f.default is not None},
+        },
+    )
+
+
+def _constructor(ros_type: str, fields: list[Field]) -> Any:
+    names: dict[str, Any] = {"array": array, "np": np, "set_fields": Message.__init__}
+
+    def class_name(type_: NamespacedType) -> str:
+        full_name = type_.namespaced_name()
+        names["__".join(full_name)] = find("/".join(full_name))
+        return "__".join(full_name)
+
+    for field in fields:
+        inner = _value_type(field.type)
+        if isinstance(inner, NamespacedType):
+            class_name(inner)  # A type that does not exist is an error now, not when a value is first assigned.
+    lines = [*default_assignments(fields, class_name), "if fields:", "    set_fields(self, **fields)"]
+    source = "\n    ".join(["def __init__(self, **fields):", *lines])
+    exec(compile(source, f"<constructor of {ros_type}>", "exec"), names)  # noqa: S102 - names are checked by the parser
+    return names["__init__"]
+
+
+def _value_type(type_: AbstractType) -> AbstractType:
+    return type_.value_type if isinstance(type_, AbstractNestedType) else type_
+
+
+def _create_service(package: str, kind: str, name: str) -> type:
+    ros_type = f"{package}/{kind}/{name}"
+    return type(
+        name,
+        (Service,),
+        {
+            "__doc__": f"Service {ros_type}.",
+            "ROS_TYPE": ros_type,
+            "Request": classes[f"{ros_type}_Request"],
+            "Response": classes[f"{ros_type}_Response"],
+        },
+    )
+
+
+def _create_action(package: str, kind: str, name: str) -> None:
+    ros_type = f"{package}/{kind}/{name}"
+    protocol = {
+        "__doc__": "The services and messages of the action protocol.",
+        "SendGoalService": _create_service(package, kind, f"{name}_SendGoal"),
+        "GetResultService": _create_service(package, kind, f"{name}_GetResult"),
+        "FeedbackMessage": classes[f"{ros_type}_FeedbackMessage"],
+        "CancelGoalService": find("action_msgs/srv/CancelGoal"),
+        "GoalStatusMessage": find("action_msgs/msg/GoalStatusArray"),
+    }
+    parts = {part: classes[f"{ros_type}_{part}"] for part in ("Goal", "Result", "Feedback")}
+    documentation = {"__doc__": f"Action {ros_type}.", "ROS_TYPE": ros_type}
+    type(name, (Action,), {**documentation, **parts, "Impl": type("Impl", (), protocol)})

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The messages that belong to a service or an action: requests, goals, and the parts of the action protocol."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from coframe.messages.definition import BasicType, NamespacedType
+from coframe.messages.parser import Field, Structure
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = ["PARTS", "member_messages"]
+
+# How many parts a definition of each kind has, which lines of "---" separate.
+PARTS = {"msg": 1, "srv": 2, "action": 3}
+
+_GOAL_ID = Field("goal_id", NamespacedType(("unique_identifier_msgs", "msg"), "UUID"), None)
+_TIME = NamespacedType(("builtin_interfaces", "msg"), "Time")
+
+
+def member_messages(package: str, kind: str, name: str, parts: Sequence[Structure]) -> dict[str, Structure]:
+    """Return the messages of one definition by name: one of a message, two of a service, eight of an action."""
+    if kind == "msg":
+        return {name: parts[0]}
+    if kind == "srv":
+        return _service(name, parts[0], parts[1])
+    goal, result, feedback = (f"{name}_{part}" for part in ("Goal", "Result", "Feedback"))
+
+    def own(message: str) -> NamespacedType:
+        return NamespacedType((package, kind), message)
+
+    return {
+        **dict(zip((goal, result, feedback), parts, strict=True)),
+        **_service(
+            f"{name}_SendGoal",
+            _structure(_GOAL_ID, Field("goal", own(goal), None)),
+            _structure(Field("accepted", BasicType("boolean"), None), Field("stamp", _TIME, None)),
+        ),
+        **_service(
+            f"{name}_GetResult",
+            _structure(_GOAL_ID),
+            _structure(Field("status", BasicType("int8"), None), Field("result", own(result), None)),
+        ),
+        f"{name}_FeedbackMessage": _structure(_GOAL_ID, Field("feedback", own(feedback), None)),
+    }
+
+
+def _service(name: str, request: Structure, response: Structure) -> dict[str, Structure]:
+    return {f"{name}_Request": request, f"{name}_Response": response}
+
+
+def _structure(*fields: Field) -> Structure:
+    return Structure(list(fields), [], "")

@@ -1,0 +1,6 @@
+# Written by scripts/generate_messages.py from interfaces/example_interfaces/action; do not edit.
+"""Actions of example_interfaces; each class is created when it is first used."""
+
+from coframe.messages.packages import shipped_exports
+
+__all__, __getattr__, __dir__ = shipped_exports("example_interfaces", "action")

@@ -1,0 +1,5 @@
+"""ROS package rosbag2_interfaces."""
+
+from coframe import ros_side
+
+ros_side.check("rosbag2_interfaces")

@@ -1,0 +1,5 @@
+"""ROS package type_description_interfaces."""
+
+from coframe import ros_side
+
+ros_side.check("type_description_interfaces")

@@ -1,0 +1,6 @@
+# Written by scripts/generate_messages.py from interfaces/type_description_interfaces/srv; do not edit.
+"""Services of type_description_interfaces; each class is created when it is first used."""
+
+from coframe.messages.packages import shipped_exports
+
+__all__, __getattr__, __dir__ = shipped_exports("type_description_interfaces", "srv")
