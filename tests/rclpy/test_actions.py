@@ -238,7 +238,7 @@ def test_cancel_several(serve, connect, result_of, fibonacci):
 
     def cancel(goal_info):
         request = CancelGoal.Request(goal_info=goal_info)
-        response = result_of(client, client._cancel_client.call_async(request))
+        response = result_of(client, client._ActionClient__cancel_client.call_async(request))
         assert response.return_code == CancelGoal.Response.ERROR_NONE
         return {bytes(info.goal_id.uuid) for info in response.goals_canceling}
 
@@ -440,7 +440,7 @@ def test_blocking_calls(serve, connect, count, fibonacci):
     gate = Gate(count)
     serve(gate, executor=MultiThreadedExecutor)
     client = connect()
-    goal_handle = client._wait_for(client.send_goal_async(fibonacci.Goal(order=1)))
+    goal_handle = client._Coframe__wait_for(client.send_goal_async(fibonacci.Goal(order=1)))
     assert goal_handle.cancel_goal().return_code == CancelGoal.Response.ERROR_REJECTED
     gate.opened.set()
     assert list(goal_handle.get_result().result.sequence) == [0, 1, 1]
@@ -454,7 +454,7 @@ def test_names_follow_namespaces_and_remaps(make_node, serve, count, result_of, 
     client = ActionClient(client_node, fibonacci, "fibonacci")
     assert client.wait_for_server(timeout_sec=10)
     assert result_of(client, client.send_goal_async(fibonacci.Goal(order=1))).accepted
-    assert ActionClient(client_node, fibonacci, "/elsewhere")._goal_client.service_is_ready()
+    assert ActionClient(client_node, fibonacci, "/elsewhere")._ActionClient__goal_client.service_is_ready()
 
     expected = [("/robot/numbers", ["test_interfaces/action/Fibonacci"])]
     wait_until(lambda: get_action_server_names_and_types_by_node(client_node, "server", "/robot") == expected)
@@ -642,7 +642,7 @@ with rclpy.init():
     client.wait_for_server()
     ids = []
     for _ in range(2):
-        goal_handle = client._wait_for(client.send_goal_async(LookupTransform.Goal()))
+        goal_handle = client._Coframe__wait_for(client.send_goal_async(LookupTransform.Goal()))
         assert goal_handle.get_result().status == 4
         ids.append(bytes(goal_handle.goal_id.uuid))
     for goal_id in ids:

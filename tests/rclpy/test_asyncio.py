@@ -191,7 +191,7 @@ def test_asyncio_timeout_cancels_the_future():
 
     run(main())
     assert future.cancelled()
-    assert future._waiters == []
+    assert future._Coframe__waiters == []
 
 
 @pytest.mark.skipif(sys.version_info < (3, 11), reason="asyncio.timeout came with Python 3.11")
@@ -265,7 +265,7 @@ def test_several_tasks_await_one_future(in_thread):
         return await awaited
 
     assert run(main()) == ["all"] * 3
-    assert future._waiters == []
+    assert future._Coframe__waiters == []
 
 
 def test_cancelled_request_is_removed(node):
@@ -276,7 +276,7 @@ def test_cancelled_request_is_removed(node):
             await asyncio.wait_for(client.call_async(SetBool.Request()), 0.01)
 
     run(main())
-    assert client._pending == {}
+    assert client._Client__pending == {}
 
 
 def test_result_after_the_loop_is_closed(recwarn):
@@ -288,7 +288,7 @@ def test_result_after_the_loop_is_closed(recwarn):
 
     task = loop.create_task(wait())
     loop.run_until_complete(asyncio.sleep(0))
-    assert len(future._waiters) == 1
+    assert len(future._Coframe__waiters) == 1
     loop.close()
     future.set_result(1)  # The loop of the awaiting task is closed.
     task._log_destroy_pending = False

@@ -128,7 +128,7 @@ def test_change_of_the_time_source_ends_a_sleep(plain_context, wait_until):
         target=lambda: results.append(clock.sleep_for(Duration(seconds=60), context=plain_context))
     )
     thread.start()
-    wait_until(lambda: clock._jump_handles)
+    wait_until(lambda: clock._Coframe__jump_handles)
     clock._set_ros_time_is_active(True)
     thread.join(10)
     assert results == [False]

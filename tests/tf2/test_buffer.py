@@ -125,7 +125,7 @@ def test_future_completes_when_data_are_inserted_natively(buffer):
     done = _core.Event()
     future.add_done_callback(lambda _: done.set())
     # Insert without Python code, like a native subscription.
-    buffer._coframe_buffer._set_values("a", "b", 1_000_000_000, *(0.0,) * 6, 1.0, False, "wire")
+    buffer._Coframe__buffer._set_values("a", "b", 1_000_000_000, *(0.0,) * 6, 1.0, False, "wire")
     assert done.wait(10_000_000_000)
     assert future.result().header.frame_id == "a"
 
@@ -144,7 +144,7 @@ def test_cancelled_futures_are_removed(buffer, stamped):
     future.cancel()
     buffer.set_transform(stamped("a", "b", 1.0), "me")
     assert not future.done()
-    assert buffer._coframe_buffer._dispatcher.is_idle
+    assert buffer._Coframe__buffer._dispatcher.is_idle
 
 
 def test_dispatcher_thread_ends_after_the_last_wait(buffer, stamped):

@@ -102,7 +102,7 @@ def wait_until(condition, meanwhile=lambda: time.sleep(0.005)):
 
 
 def active_goals(server):
-    return sum(goal.is_active for goal in list(server.action_server._goals.values()))
+    return sum(goal.is_active for goal in list(server.action_server._ActionServer__goals.values()))
 
 
 def test_lookup(connected, buffer, stamped):
@@ -349,7 +349,7 @@ def test_cancel(server, make_node):
     client = ActionClient(make_node("client"), LookupTransform, "tf2_buffer_server")
     assert client.wait_for_server(timeout_sec=10)
     goal = LookupTransform.Goal(target_frame="map", source_frame="robot", timeout=LONG.to_msg())
-    goal_handle = client._wait_for(client.send_goal_async(goal))
+    goal_handle = client._Coframe__wait_for(client.send_goal_async(goal))
     wait_until(lambda: active_goals(server))
     assert goal_handle.cancel_goal().return_code == CancelGoal.Response.ERROR_NONE
     assert goal_handle.get_result().status == GoalStatus.STATUS_CANCELED
@@ -384,13 +384,13 @@ def test_many_goals_do_not_need_many_threads(server, make_node, buffer, stamped)
     before = threading.active_count()
     accepted = [client.send_goal_async(goal) for _ in range(1000)]
     for future in accepted:
-        client._wait_for(future, 20)
+        client._Coframe__wait_for(future, 20)
     wait_until(lambda: active_goals(server) == 1000)
     assert threading.active_count() <= before + 2
     results = [future.result().get_result_async() for future in accepted]
     buffer.set_transform(stamped("map", "robot"), "me")
     for future in results:
-        client._wait_for(future, 20)
+        client._Coframe__wait_for(future, 20)
     assert {future.result().result.transform.child_frame_id for future in results} == {"robot"}
 
 

@@ -136,7 +136,7 @@ def move(
 
 def core_buffer(thing: Any) -> _core.Buffer | None:
     """Return the core buffer of a coframe.Buffer or tf2_ros.Buffer; None for other objects."""
-    thing = getattr(thing, "_coframe_buffer", thing)
+    thing = getattr(thing, "_Coframe__buffer", thing)
     return thing if isinstance(thing, _core.Buffer) else None
 
 

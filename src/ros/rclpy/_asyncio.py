@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Support for awaiting rclpy's futures in asyncio tasks."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ def wait_until_complete(future: Future[Any], loop: asyncio.AbstractEventLoop) ->
         with suppress(RuntimeError):  # The loop is closed, so no task waits in it.
             loop.call_soon_threadsafe(_complete, waiter)
 
-    future._add_waiter(wake)
+    future._Coframe__add_waiter(wake)
     try:
         # asyncio requires that futures are awaited through their own `__await__`.
         yield next(waiter.__await__())
@@ -62,7 +62,7 @@ def wait_until_complete(future: Future[Any], loop: asyncio.AbstractEventLoop) ->
         future.cancel()
         raise
     finally:
-        future._remove_waiter(wake)
+        future._Coframe__remove_waiter(wake)
 
 
 def cancelled_error() -> type[BaseException]:

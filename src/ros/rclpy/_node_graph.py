@@ -17,12 +17,12 @@ class NodeGraph:
     """Base class of `Node` with the queries of the ROS graph.
 
     Attributes:
-        _participant: The DDS participant, which tf2_ros also uses.
-        _graph_node: The participant's graph entry of this node, which tf2_ros also uses.
+        _Coframe__participant: The DDS participant, which tf2_ros also uses.
+        _Coframe__graph_node: The participant's graph entry of this node, which tf2_ros also uses.
     """
 
-    _participant: Participant
-    _graph_node: GraphNode
+    _Coframe__participant: Participant
+    _Coframe__graph_node: GraphNode
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
         """Return the fully qualified name of a topic, remapped unless `only_expand` is set."""
@@ -30,15 +30,15 @@ class NodeGraph:
 
     def get_node_names(self) -> list[str]:
         """Return the names of all nodes."""
-        return [name for _, name in self._participant.nodes()]
+        return [name for _, name in self._Coframe__participant.nodes()]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Return the names and namespaces of all nodes."""
-        return [(name, namespace) for namespace, name in self._participant.nodes()]
+        return [(name, namespace) for namespace, name in self._Coframe__participant.nodes()]
 
     def get_fully_qualified_node_names(self) -> list[str]:
         """Return the fully qualified names of all nodes."""
-        return [f"{namespace.rstrip('/')}/{name}" for namespace, name in self._participant.nodes()]
+        return [f"{namespace.rstrip('/')}/{name}" for namespace, name in self._Coframe__participant.nodes()]
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> list[tuple[str, list[str]]]:
         """Return all topics with their types.
@@ -46,38 +46,38 @@ class NodeGraph:
         Args:
             no_demangle: Whether to return the DDS names and types, for example `rt/tf`.
         """
-        topics = sorted(self._participant.topics().items())
+        topics = sorted(self._Coframe__participant.topics().items())
         if not no_demangle:
             return topics
         return [(f"rt{name}", [_mangle(ros_type) for ros_type in types]) for name, types in topics]
 
     def get_service_names_and_types(self) -> list[tuple[str, list[str]]]:
         """Return all services with their types."""
-        services = sorted(self._participant.services().items())
+        services = sorted(self._Coframe__participant.services().items())
         return [(name, sorted({_service_type(ros_type) for ros_type in types})) for name, types in services]
 
     def count_publishers(self, topic_name: str) -> int:
         """Return the number of publishers of a topic."""
-        return len(self._participant.publishers(self.resolve_topic_name(topic_name)))
+        return len(self._Coframe__participant.publishers(self.resolve_topic_name(topic_name)))
 
     def count_subscribers(self, topic_name: str) -> int:
         """Return the number of subscriptions of a topic."""
-        return len(self._participant.subscribers(self.resolve_topic_name(topic_name)))
+        return len(self._Coframe__participant.subscribers(self.resolve_topic_name(topic_name)))
 
     def get_publishers_info_by_topic(self, topic_name: str) -> list[TopicEndpointInfo]:
         """Return information about all publishers of a topic."""
-        endpoints = self._participant.publishers(self.resolve_topic_name(topic_name))
+        endpoints = self._Coframe__participant.publishers(self.resolve_topic_name(topic_name))
         return [_info(endpoint, TopicEndpointTypeEnum.PUBLISHER) for endpoint in endpoints]
 
     def get_subscriptions_info_by_topic(self, topic_name: str) -> list[TopicEndpointInfo]:
         """Return information about all subscriptions of a topic."""
-        endpoints = self._participant.subscribers(self.resolve_topic_name(topic_name))
+        endpoints = self._Coframe__participant.subscribers(self.resolve_topic_name(topic_name))
         return [_info(endpoint, TopicEndpointTypeEnum.SUBSCRIPTION) for endpoint in endpoints]
 
     def get_publisher_names_and_types_by_node(self, node_name: str, node_namespace: str) -> list[tuple[str, list[str]]]:
         """Return the topics that a node publishes, with their types."""
         return _types_by_node(
-            {topic: self._participant.publishers(topic) for topic in self._participant.topics()},
+            {topic: self._Coframe__participant.publishers(topic) for topic in self._Coframe__participant.topics()},
             node_name,
             node_namespace,
         )
@@ -87,7 +87,7 @@ class NodeGraph:
     ) -> list[tuple[str, list[str]]]:
         """Return the topics that a node subscribes to, with their types."""
         return _types_by_node(
-            {topic: self._participant.subscribers(topic) for topic in self._participant.topics()},
+            {topic: self._Coframe__participant.subscribers(topic) for topic in self._Coframe__participant.topics()},
             node_name,
             node_namespace,
         )

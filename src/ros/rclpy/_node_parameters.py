@@ -319,9 +319,9 @@ class NodeParameters:
         if descriptor.dynamic_typing:
             descriptor.type = int(parameter.type_)
         self.__parameters[parameter.name] = parameter
-        self._on_parameter_set(parameter)
+        self._Coframe__on_parameter_set(parameter)
 
-    def _on_parameter_set(self, parameter: Parameter[Any]) -> None:
+    def _Coframe__on_parameter_set(self, parameter: Parameter[Any]) -> None:
         """Handle a new value of a parameter. Subclasses override this."""
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Publisher of log messages on the topic /rosout."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -28,7 +28,9 @@ class RosoutPublisher:
     """
 
     def __init__(self, participant: Participant, graph_node: GraphNode, logger_name: str) -> None:
-        self._publisher = participant.publisher(graph_node, "/rosout", Log, qos_profile_rosout_default._to_wire())
+        self._publisher = participant.publisher(
+            graph_node, "/rosout", Log, qos_profile_rosout_default._Coframe__to_wire()
+        )
         self._logger_name = logger_name
         # The bound method is stored, because `close` compares it by identity.
         self._sink = self._publish

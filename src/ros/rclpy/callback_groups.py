@@ -51,24 +51,24 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
 
     def __init__(self) -> None:
         super().__init__()
-        self._active_entity: Any = None
+        self.__active_entity: Any = None
         self._lock = threading.Lock()
 
     def can_execute(self, entity: Any) -> bool:
         """Return whether no callback of the group is running."""
         assert self.has_entity(entity)
-        return self._active_entity is None
+        return self.__active_entity is None
 
     def beginning_execution(self, entity: Any) -> bool:
         """Reserve the group for a callback. Return False if another callback is running."""
         with self._lock:
-            if self._active_entity is not None:
+            if self.__active_entity is not None:
                 return False
-            self._active_entity = entity
+            self.__active_entity = entity
             return True
 
     def ending_execution(self, entity: Any) -> None:
         """Release the group."""
         with self._lock:
-            assert self._active_entity is entity
-            self._active_entity = None
+            assert self.__active_entity is entity
+            self.__active_entity = None

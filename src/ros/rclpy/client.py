@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Service clients."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -56,14 +56,14 @@ class Client:
         self.srv_name = srv_name
         self.qos_profile = qos_profile
         self.callback_group = callback_group
-        self._participant = participant
-        self._requests = requests
-        self._replies: WireSubscription | None = replies
-        self._executor = executor
-        self._identity = int.from_bytes(os.urandom(8), "little")
-        self._lock = threading.Lock()
-        self._sequence = 0
-        self._pending: dict[int, tuple[Future[Any], Callable[[Any], Any]]] = {}
+        self._Coframe__participant = participant
+        self.__requests = requests
+        self.__replies: WireSubscription | None = replies
+        self.__executor = executor
+        self.__identity = int.from_bytes(os.urandom(8), "little")
+        self.__lock = threading.Lock()
+        self.__sequence = 0
+        self.__pending: dict[int, tuple[Future[Any], Callable[[Any], Any]]] = {}
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
         """Send a request and wait for the response.
@@ -101,36 +101,36 @@ class Client:
         """
         if not isinstance(request, self.srv_type.Request):
             raise TypeError(f"Expected {self.srv_type.Request}, got {type(request)}")
-        return self._send(request, _unchanged)
+        return self._Coframe__send(request, _unchanged)
 
-    def _send(self, request: Any, convert: Callable[[Any], Any]) -> Future[Any]:
+    def _Coframe__send(self, request: Any, convert: Callable[[Any], Any]) -> Future[Any]:
         """Send a request and return a future whose result is `convert(response)`."""
-        self._require_replies()
+        self.__require_replies()
         future: Future[Any] = Future()
-        with self._lock:
-            self._sequence += 1
-            header = RequestHeader(self._identity, self._sequence)
-            self._pending[header.sequence] = future, convert
-        future._add_waiter(partial(self._forget, header.sequence))
-        self._requests.write(_request_header.join(header, codec.serialize(request)))
+        with self.__lock:
+            self.__sequence += 1
+            header = RequestHeader(self.__identity, self.__sequence)
+            self.__pending[header.sequence] = future, convert
+        future._Coframe__add_waiter(partial(self.__forget, header.sequence))
+        self.__requests.write(_request_header.join(header, codec.serialize(request)))
         return future
 
     def remove_pending_request(self, future: Future[Any]) -> None:
         """Remove a pending request. Its response will be dropped."""
-        with self._lock:
-            for sequence, (pending, _) in list(self._pending.items()):
+        with self.__lock:
+            for sequence, (pending, _) in list(self.__pending.items()):
                 if pending is future:
-                    del self._pending[sequence]
+                    del self.__pending[sequence]
 
-    def _forget(self, sequence: int) -> None:
+    def __forget(self, sequence: int) -> None:
         """Remove the request of a completed or cancelled future, whose response may never arrive."""
-        with self._lock:
-            self._pending.pop(sequence, None)
+        with self.__lock:
+            self.__pending.pop(sequence, None)
 
     def service_is_ready(self) -> bool:
         """Return whether a server of this service is available."""
-        replies = self._require_replies()
-        return self._requests.matched > 0 and replies.matched > 0
+        replies = self.__require_replies()
+        return self.__requests.matched > 0 and replies.matched > 0
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         """Wait until a server of this service is available.
@@ -141,44 +141,44 @@ class Client:
         Returns:
             Whether a server is available. False if the context was shut down.
         """
-        return wait_until_ready(self.context, self._participant, self.service_is_ready, timeout_sec)
+        return wait_until_ready(self.context, self._Coframe__participant, self.service_is_ready, timeout_sec)
 
     def destroy(self) -> None:
         """Destroy the client. Prefer `Node.destroy_client`."""
-        if self._replies is not None:
-            self._replies.close()
-            self._requests.close()
-            self._replies = None
+        if self.__replies is not None:
+            self.__replies.close()
+            self.__requests.close()
+            self.__replies = None
 
-    def _require_replies(self) -> WireSubscription:
-        if self._replies is None:
+    def __require_replies(self) -> WireSubscription:
+        if self.__replies is None:
             raise InvalidHandle(f"cannot use Client of '{self.srv_name}' because destruction was requested")
-        return self._replies
+        return self.__replies
 
-    def _remaining_ns(self) -> int | None:
-        replies = self._replies
+    def _Coframe__remaining_ns(self) -> int | None:
+        replies = self.__replies
         return 0 if replies is not None and replies.pending() else None
 
-    def _take(self) -> Callable[[], Any] | None:
+    def _Coframe__take(self) -> Callable[[], Any] | None:
         """Take one reply. A client receives the replies to all clients and skips those of other clients."""
-        replies = self._replies
+        replies = self.__replies
         for sample in [] if replies is None else replies.take(limit=1):
             parts = _request_header.split(sample.data)
-            if parts is None or parts[0].client != self._identity:
+            if parts is None or parts[0].client != self.__identity:
                 continue
-            with self._lock:
-                pending = self._pending.pop(parts[0].sequence, None)
+            with self.__lock:
+                pending = self.__pending.pop(parts[0].sequence, None)
             if pending is not None:
-                return partial(self._deliver, *pending, parts[1])
+                return partial(self.__deliver, *pending, parts[1])
         return None
 
-    def _take_all(self) -> None:
-        while self._remaining_ns() is not None:
-            if (deliver := self._take()) is not None:
+    def _Coframe__take_all(self) -> None:
+        while self._Coframe__remaining_ns() is not None:
+            if (deliver := self._Coframe__take()) is not None:
                 deliver()
 
-    def _deliver(self, future: Future[Any], convert: Callable[[Any], Any], cdr: bytes) -> None:
-        future._set_executor(self._executor())
+    def __deliver(self, future: Future[Any], convert: Callable[[Any], Any], cdr: bytes) -> None:
+        future._set_executor(self.__executor())
         try:
             result = convert(codec.deserialize(cdr, self.srv_type.Response))
         except ValueError as error:
@@ -197,15 +197,15 @@ def take_responses_until(clients: Sequence[Client], future: Future[Any], timeout
     """
     context = clients[0].context
     deadline = _deadline(timeout_sec)
-    future._add_waiter(context._wakeup.set)
+    future._Coframe__add_waiter(context._Coframe__wakeup.set)
     while context.ok():
-        seen = context._wakeup.count
+        seen = context._Coframe__wakeup.count
         for client in clients:
-            client._take_all()
+            client._Coframe__take_all()
         remaining = None if deadline is None else deadline - time.monotonic_ns()
-        if future._is_complete() or (remaining is not None and remaining <= 0):
+        if future._Coframe__is_complete() or (remaining is not None and remaining <= 0):
             return
-        context._wakeup.wait(seen, remaining)
+        context._Coframe__wakeup.wait(seen, remaining)
 
 
 def wait_until_ready(
@@ -226,7 +226,7 @@ def wait_until_ready(
     event = Event()
     participant.watch_graph(event)
     try:
-        with context._set_on_shutdown(event):
+        with context._Coframe__set_on_shutdown(event):
             while context.ok() and not is_ready():
                 remaining = _MATCH_CHECK_PERIOD_NS if deadline is None else deadline - time.monotonic_ns()
                 if remaining <= 0:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Clocks: system time, steady time, and ROS time, which a simulator can set."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -63,7 +63,7 @@ class JumpThreshold:
         self.min_backward = min_backward
         self.on_clock_change = on_clock_change
 
-    def _is_met_by(self, jump: TimeJump) -> bool:
+    def _Coframe__is_met_by(self, jump: TimeJump) -> bool:
         if jump.clock_change in {ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED}:
             return self.on_clock_change
         if self.min_forward is not None and jump.delta.nanoseconds > 0:
@@ -113,12 +113,12 @@ class JumpHandle:
         self._threshold = threshold
         self._pre_callback = pre_callback
         self._post_callback = post_callback
-        clock._jump_handles.append(self)
+        clock._Coframe__jump_handles.append(self)
 
     def unregister(self) -> None:
         """Unregister the callbacks."""
         if self._clock is not None:
-            self._clock._jump_handles.remove(self)
+            self._clock._Coframe__jump_handles.remove(self)
             self._clock = None
 
     def __enter__(self) -> Self:
@@ -147,7 +147,7 @@ class Clock:
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")
         self._clock_type = clock_type
-        self._jump_handles: list[JumpHandle] = []
+        self._Coframe__jump_handles: list[JumpHandle] = []
 
     @property
     def clock_type(self) -> ClockType:
@@ -159,7 +159,7 @@ class Clock:
 
     def now(self) -> Time:
         """Return the current time of this clock."""
-        return Time(nanoseconds=self._now_ns(), clock_type=self.clock_type)
+        return Time(nanoseconds=self._Coframe__now_ns(), clock_type=self.clock_type)
 
     def create_jump_callback(
         self,
@@ -199,13 +199,13 @@ class Clock:
         context = context or get_default_context()
         if not context.ok():
             raise NotInitializedException
-        return self._sleep(until, context)
+        return self._Coframe__sleep(until, context)
 
     def sleep_for(self, rel_time: Duration, context: Context | None = None) -> bool:
         """Sleep for a duration of this clock; otherwise like `sleep_until`."""
         return self.sleep_until(self.now() + rel_time, context)
 
-    def _sleep(self, until: Time, context: Context) -> bool:
+    def _Coframe__sleep(self, until: Time, context: Context) -> bool:
         event = Event()
         source_changes: list[TimeJump] = []
 
@@ -215,20 +215,20 @@ class Clock:
             event.set()
 
         any_progress = JumpThreshold(min_forward=Duration(nanoseconds=1), min_backward=None)
-        with context._set_on_shutdown(event), self.create_jump_callback(any_progress, post_callback=on_jump):
+        with context._Coframe__set_on_shutdown(event), self.create_jump_callback(any_progress, post_callback=on_jump):
             while context.ok() and not source_changes:
-                remaining = until.nanoseconds - self._now_ns()
+                remaining = until.nanoseconds - self._Coframe__now_ns()
                 if remaining <= 0:
                     return True
-                event.wait(None if self._is_simulated else remaining)
+                event.wait(None if self._Coframe__is_simulated else remaining)
         return False
 
     @property
-    def _is_simulated(self) -> bool:
+    def _Coframe__is_simulated(self) -> bool:
         """Whether a simulator sets the time, so that it advances only with messages."""
         return False
 
-    def _now_ns(self) -> int:
+    def _Coframe__now_ns(self) -> int:
         return time.monotonic_ns() if self._clock_type is ClockType.STEADY_TIME else time.time_ns()
 
 
@@ -237,29 +237,29 @@ class ROSClock(Clock):
 
     def __init__(self, *, clock_type: ClockType = ClockType.ROS_TIME) -> None:
         super().__init__(clock_type=clock_type)
-        self._is_active = False
-        self._override_ns = 0
-        self._lock = threading.RLock()
+        self.__is_active = False
+        self.__override_ns = 0
+        self.__lock = threading.RLock()
 
     @property
     def ros_time_is_active(self) -> bool:
         """Whether a simulator sets the time of this clock."""
-        return self._is_active
+        return self.__is_active
 
     def _set_ros_time_is_active(self, enabled: bool) -> None:
-        with self._lock:
-            if enabled == self._is_active:
+        with self.__lock:
+            if enabled == self.__is_active:
                 return
-            offset = self._override_ns - time.time_ns()
+            offset = self.__override_ns - time.time_ns()
             if enabled:
                 jump = TimeJump(ClockChange.ROS_TIME_ACTIVATED, Duration(nanoseconds=offset))
             else:
                 jump = TimeJump(ClockChange.ROS_TIME_DEACTIVATED, Duration(nanoseconds=-offset))
 
             def activate() -> None:
-                self._is_active = enabled
+                self.__is_active = enabled
 
-            self._jump(jump, activate)
+            self.__jump(jump, activate)
 
     def set_ros_time_override(self, time: Time) -> None:
         """Set the simulated time, which applies while ROS time is active.
@@ -271,17 +271,17 @@ class ROSClock(Clock):
             raise TypeError(f"Time must be specified as rclpy.time.Time. Received type: {type(time)}")
 
         def override() -> None:
-            self._override_ns = time.nanoseconds
+            self.__override_ns = time.nanoseconds
 
-        with self._lock:
-            if not self._is_active:
+        with self.__lock:
+            if not self.__is_active:
                 override()
                 return
-            delta = Duration(nanoseconds=time.nanoseconds - self._override_ns)
-            self._jump(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta), override)
+            delta = Duration(nanoseconds=time.nanoseconds - self.__override_ns)
+            self.__jump(TimeJump(ClockChange.ROS_TIME_NO_CHANGE, delta), override)
 
-    def _jump(self, jump: TimeJump, apply: Callable[[], None]) -> None:
-        handles = [handle for handle in self._jump_handles if handle._threshold._is_met_by(jump)]
+    def __jump(self, jump: TimeJump, apply: Callable[[], None]) -> None:
+        handles = [handle for handle in self._Coframe__jump_handles if handle._threshold._Coframe__is_met_by(jump)]
         for handle in handles:
             if handle._pre_callback is not None:
                 handle._pre_callback()
@@ -291,8 +291,8 @@ class ROSClock(Clock):
                 handle._post_callback(jump)
 
     @property
-    def _is_simulated(self) -> bool:
-        return self._is_active
+    def _Coframe__is_simulated(self) -> bool:
+        return self.__is_active
 
-    def _now_ns(self) -> int:
-        return self._override_ns if self._is_active else time.time_ns()
+    def _Coframe__now_ns(self) -> int:
+        return self.__override_ns if self.__is_active else time.time_ns()

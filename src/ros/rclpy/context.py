@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Contexts: the ROS arguments, the DDS domain and the shutdown state that nodes share."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ class Context:
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
-        self._arguments = _arguments.Arguments()
-        self._domain_id = 0
-        self._is_initialized = False
-        self._is_ok = False
-        self._was_shut_down_by_signal = False
-        self._shutdown_callbacks: list[Callable[[], Callable[[], object] | None]] = []
-        self._events: set[Event] = set()
-        self._wakeup = Wakeup()
+        self._Coframe__arguments = _arguments.Arguments()
+        self.__domain_id = 0
+        self.__is_initialized = False
+        self.__is_ok = False
+        self._Coframe__was_shut_down_by_signal = False
+        self.__shutdown_callbacks: list[Callable[[], Callable[[], object] | None]] = []
+        self.__events: set[Event] = set()
+        self._Coframe__wakeup = Wakeup()
 
     def init(
         self,
@@ -64,24 +64,24 @@ class Context:
             RCLInvalidROSArgsError: The arguments are malformed.
         """
         with self._lock:
-            if self._is_initialized:
+            if self.__is_initialized:
                 raise RuntimeError("Context.init() must only be called once")
             if domain_id is not None and domain_id < 0:
                 raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
-            self._arguments = _arguments.parse(sys.argv if args is None else args)
-            self._domain_id = _default_domain_id() if domain_id is None else domain_id
+            self._Coframe__arguments = _arguments.parse(sys.argv if args is None else args)
+            self.__domain_id = _default_domain_id() if domain_id is None else domain_id
             if initialize_logging:
-                ros_logging._configure(self._arguments.logging)
-            self._is_initialized = self._is_ok = True
+                ros_logging._configure(self._Coframe__arguments.logging)
+            self.__is_initialized = self.__is_ok = True
             _running.append(self)
 
     def ok(self) -> bool:
         """Return whether the context is initialized and not shut down."""
-        return self._is_ok
+        return self.__is_ok
 
     def get_domain_id(self) -> int:
         """Return the DDS domain of the context."""
-        return self._domain_id
+        return self.__domain_id
 
     def shutdown(self) -> None:
         """Shut down the context. Calls that spin or sleep in it return.
@@ -89,14 +89,14 @@ class Context:
         Raises:
             RuntimeError: The context was never initialized, or was shut down before (except by a signal).
         """
-        if not self._is_initialized:
+        if not self.__is_initialized:
             raise RuntimeError("Context must be initialized before it can be shutdown")
-        if not self._shut_down() and not self._was_shut_down_by_signal:
+        if not self._Coframe__shut_down() and not self._Coframe__was_shut_down_by_signal:
             raise RuntimeError("failed to shutdown: shutdown was already called on the given context")
 
     def try_shutdown(self) -> None:
         """Shut down the context unless it is shut down already."""
-        self._shut_down()
+        self._Coframe__shut_down()
 
     def on_shutdown(self, callback: Callable[[], object]) -> None:
         """Register a callback for the shutdown. Of a method, only a weak reference is kept.
@@ -107,12 +107,12 @@ class Context:
         if not callable(callback):
             raise TypeError(f"callback should be a callable, got {type(callback)}")
         if hasattr(callback, "__self__") and hasattr(callback, "__func__"):
-            self._shutdown_callbacks.append(weakref.WeakMethod(callback))
+            self.__shutdown_callbacks.append(weakref.WeakMethod(callback))
         else:
-            self._shutdown_callbacks.append(lambda: callback)
+            self.__shutdown_callbacks.append(lambda: callback)
 
     def __enter__(self) -> Self:
-        if not self._is_initialized:
+        if not self.__is_initialized:
             self.init()
         return self
 
@@ -124,42 +124,42 @@ class Context:
     ) -> None:
         self.try_shutdown()
 
-    def _shut_down(self, *, by_signal: bool = False) -> bool:
+    def _Coframe__shut_down(self, *, by_signal: bool = False) -> bool:
         """Shut down the context. Return False if it is shut down already.
 
         A signal handler may call this, so it acquires no lock that the interrupted code could hold.
         """
         with self._lock:
-            if not self._is_ok:
+            if not self.__is_ok:
                 return False
-            self._is_ok = False
-            self._was_shut_down_by_signal = by_signal
+            self.__is_ok = False
+            self._Coframe__was_shut_down_by_signal = by_signal
             _running.remove(self)
-        self._wakeup.set()
-        for event in tuple(self._events):
+        self._Coframe__wakeup.set()
+        for event in tuple(self.__events):
             event.set()
-        callbacks, self._shutdown_callbacks = self._shutdown_callbacks, []
+        callbacks, self.__shutdown_callbacks = self.__shutdown_callbacks, []
         for reference in callbacks:
             if (callback := reference()) is not None:
                 callback()
         return True
 
     @contextmanager
-    def _set_on_shutdown(self, event: Event) -> Iterator[None]:
+    def _Coframe__set_on_shutdown(self, event: Event) -> Iterator[None]:
         """Set the event if the context is shut down within the block."""
-        self._events.add(event)
-        if not self._is_ok:
+        self.__events.add(event)
+        if not self.__is_ok:
             event.set()
         try:
             yield
         finally:
-            self._events.discard(event)
+            self.__events.discard(event)
 
-    def _get_participant(self) -> Participant:
+    def _Coframe__get_participant(self) -> Participant:
         """Return the DDS participant. The caller closes it."""
         from coframe.wire import Participant  # noqa: PLC0415 - Times, clocks and futures do not need DDS.
 
-        participant = Participant.get(self._domain_id)
+        participant = Participant.get(self.__domain_id)
         # Exit handlers run in reverse order of registration, and executors must stop before DDS shuts down.
         atexit.unregister(_shut_down_at_exit)
         atexit.register(_shut_down_at_exit)
@@ -175,15 +175,15 @@ def _default_domain_id() -> int:
 
 def _shut_down_by_signal() -> None:
     for context in tuple(_running):
-        context._shut_down(by_signal=True)
+        context._Coframe__shut_down(by_signal=True)
 
 
 def _shut_down_at_exit() -> None:
     contexts = tuple(_running)
     for context in contexts:
-        context._shut_down()
+        context._Coframe__shut_down()
     for context in contexts:
-        context._wakeup.wait_until_idle()
+        context._Coframe__wakeup.wait_until_idle()
 
 
 atexit.register(_shut_down_at_exit)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Executors, which wait until timers, subscriptions and other waitables are ready and run their callbacks."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import os
 import threading
 import time
 import weakref
-from abc import ABC, abstractmethod
 from collections import deque
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any, Final, Protocol
@@ -62,13 +61,13 @@ class Waitable(Protocol):
 
     callback_group: CallbackGroup
 
-    def _remaining_ns(self) -> int | None:
+    def _Coframe__remaining_ns(self) -> int | None:
         """Return the nanoseconds until the entity is ready, 0 or less if it is ready now.
 
         None means that it is not ready before the context's wakeup is set.
         """
 
-    def _take(self) -> Callable[[], Any] | None:
+    def _Coframe__take(self) -> Callable[[], Any] | None:
         """Take one ready item and return the call to make, or None if another thread took it first."""
 
 
@@ -86,7 +85,7 @@ class PolledSubscription(Protocol):
 Work = tuple["Task[Any]", "Waitable | None", "Node | None"]
 
 
-class Executor(ABC):
+class Executor:
     """Base class of the executors. Subclasses define in which threads callbacks run.
 
     Args:
@@ -96,15 +95,15 @@ class Executor(ABC):
     def __init__(self, *, context: Context | None = None) -> None:
         self._context = context or get_default_context()
         self._nodes: list[Node] = []
-        self._lock = threading.RLock()
-        self._tasks: deque[Task[Any]] = deque()
-        self._ready: deque[tuple[Task[Any] | Waitable, Node | None]] = deque()
-        self._run_order: weakref.WeakKeyDictionary[Waitable, int] = weakref.WeakKeyDictionary()
-        self._run_count = 0
-        self._is_shutdown = False
-        self._is_spinning = False
-        self._running_in: list[int] = []
-        self._is_idle = threading.Condition()
+        self.__lock = threading.RLock()
+        self.__tasks: deque[Task[Any]] = deque()
+        self.__ready: deque[tuple[Task[Any] | Waitable, Node | None]] = deque()
+        self.__run_order: weakref.WeakKeyDictionary[Waitable, int] = weakref.WeakKeyDictionary()
+        self.__run_count = 0
+        self.__is_shutdown = False
+        self.__is_spinning = False
+        self.__running_in: list[int] = []
+        self.__is_idle = threading.Condition()
 
     @property
     def context(self) -> Context:
@@ -128,7 +127,7 @@ class Executor(ABC):
             The task, which is the future of the result.
         """
         task: Task[Any] = Task(callback, args, kwargs, executor=self)
-        self._schedule(task)
+        self._Coframe__schedule(task)
         return task
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
@@ -140,11 +139,11 @@ class Executor(ABC):
         Returns:
             Whether all callbacks finished in time.
         """
-        self._is_shutdown = True
+        self.__is_shutdown = True
         self.wake()
         me = threading.get_ident()
-        with self._is_idle:
-            has_ended = self._is_idle.wait_for(lambda: set(self._running_in) <= {me}, timeout_sec)
+        with self.__is_idle:
+            has_ended = self.__is_idle.wait_for(lambda: set(self.__running_in) <= {me}, timeout_sec)
         for node in self.get_nodes():
             self.remove_node(node)
         return has_ended
@@ -165,7 +164,7 @@ class Executor(ABC):
                 else "belongs to a context that was shut down. Create a new node after rclpy.init()."
             )
             raise RuntimeError(f"Node '{node.get_name()}' {reason}")
-        with self._lock:
+        with self.__lock:
             if node in self._nodes:
                 return False
             self._nodes.append(node)
@@ -175,7 +174,7 @@ class Executor(ABC):
 
     def remove_node(self, node: Node) -> None:
         """Remove a node. A node that was not added is ignored."""
-        with self._lock:
+        with self.__lock:
             if node not in self._nodes:
                 return
             self._nodes.remove(node)
@@ -185,23 +184,23 @@ class Executor(ABC):
 
     def get_nodes(self) -> list[Node]:
         """Return the nodes of this executor."""
-        with self._lock:
+        with self.__lock:
             return list(self._nodes)
 
     def wake(self) -> None:
         """Wake the executor, so that it checks for work and its condition again."""
-        self._context._wakeup.set()
+        self._context._Coframe__wakeup.set()
 
     def spin(self) -> None:
         """Run callbacks until the context or the executor is shut down."""
-        self._is_spinning = True
+        self.__is_spinning = True
         try:
-            while self._context.ok() and not self._is_shutdown:
+            while self._context.ok() and not self.__is_shutdown:
                 self.spin_once()
         except ExternalShutdownException:
             pass
         finally:
-            self._is_spinning = False
+            self.__is_spinning = False
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Wait for one callback and run it.
@@ -212,7 +211,7 @@ class Executor(ABC):
         Raises:
             ExternalShutdownException: The context was shut down.
         """
-        self._spin_once_unless(lambda: False, timeout_sec, polls_subscriptions=not self._is_spinning)
+        self._Coframe__spin_once_unless(lambda: False, timeout_sec, polls_subscriptions=not self.__is_spinning)
 
     def spin_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
         """Run callbacks until the future is complete.
@@ -224,18 +223,18 @@ class Executor(ABC):
         Raises:
             ExternalShutdownException: The context was shut down.
         """
-        future._add_waiter(self.wake)
+        future._Coframe__add_waiter(self.wake)
         deadline = _deadline(timeout_sec)
-        while not future._is_complete() and not self._is_shutdown:
+        while not future._Coframe__is_complete() and not self.__is_shutdown:
             remaining = None if deadline is None else (deadline - time.monotonic_ns()) / S_TO_NS
             if remaining is not None and remaining < 0:
                 return
-            self._spin_once_unless(future._is_complete, remaining)
+            self._Coframe__spin_once_unless(future._Coframe__is_complete, remaining)
 
     def spin_once_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
         """Wait for one callback or for the future; otherwise like `spin_once`."""
-        future._add_waiter(self.wake)
-        self._spin_once_unless(future._is_complete, timeout_sec)
+        future._Coframe__add_waiter(self.wake)
+        self._Coframe__spin_once_unless(future._Coframe__is_complete, timeout_sec)
 
     def can_execute(self, entity: Waitable) -> bool:
         """Return whether the callback group of an entity allows its callback to run now."""
@@ -263,9 +262,9 @@ class Executor(ABC):
             TimeoutException: No callback was ready in time.
             ConditionReachedException: The condition is met.
         """
-        return self._wait_for_work(timeout_sec, nodes, condition, polls_subscriptions=False)
+        return self._Coframe__wait_for_work(timeout_sec, nodes, condition, polls_subscriptions=False)
 
-    def _wait_for_work(
+    def _Coframe__wait_for_work(
         self,
         timeout_sec: float | None,
         nodes: Iterable[Node] | None,
@@ -274,19 +273,19 @@ class Executor(ABC):
         polls_subscriptions: bool,
     ) -> Work:
         deadline = _deadline(timeout_sec)
-        wakeup = self._context._wakeup
+        wakeup = self._context._Coframe__wakeup
         while True:
             if not self._context.ok():
                 raise ExternalShutdownException
-            if self._is_shutdown:
+            if self.__is_shutdown:
                 raise ShutdownException
             if condition():
                 raise ConditionReachedException
             seen = wakeup.count
-            work, next_ns = self._next_work(nodes)
+            work, next_ns = self.__next_work(nodes)
             if work is not None:
                 return work
-            polled = self._polled_subscriptions() if polls_subscriptions else []
+            polled = self._Coframe__polled_subscriptions() if polls_subscriptions else []
             if any(subscription._take_one() for subscription in polled):
                 raise ConditionReachedException
             if polled:
@@ -309,71 +308,73 @@ class Executor(ABC):
     ) -> None:
         self.shutdown()
 
-    @abstractmethod
-    def _run(self, task: Task[Any]) -> None:
+    def _Coframe__run(self, task: Task[Any]) -> None:
         """Run a ready task and raise the exceptions of callbacks."""
+        raise NotImplementedError(f"{type(self).__name__} does not implement spin_once()")
 
-    def _has_capacity(self) -> bool:
+    def _Coframe__has_capacity(self) -> bool:
         """Return whether another callback can run now."""
         return True
 
-    def _schedule(self, task: Task[Any]) -> None:
-        self._tasks.append(task)
+    def _Coframe__schedule(self, task: Task[Any]) -> None:
+        self.__tasks.append(task)
         self.wake()
 
-    def _polled_subscriptions(self) -> list[PolledSubscription]:
-        return [subscription for node in self.get_nodes() for subscription in node._polled_subscriptions]
+    def _Coframe__polled_subscriptions(self) -> list[PolledSubscription]:
+        return [subscription for node in self.get_nodes() for subscription in node._Coframe__polled_subscriptions]
 
-    def _spin_once_unless(
+    def _Coframe__spin_once_unless(
         self, condition: Callable[[], bool], timeout_sec: float | None, *, polls_subscriptions: bool = False
     ) -> None:
         try:
-            task, _, _ = self._wait_for_work(timeout_sec, None, condition, polls_subscriptions=polls_subscriptions)
+            task, _, _ = self._Coframe__wait_for_work(
+                timeout_sec, None, condition, polls_subscriptions=polls_subscriptions
+            )
         except (ShutdownException, TimeoutException, ConditionReachedException):
             return
-        self._run(task)
+        self._Coframe__run(task)
 
-    def _call(self, task: Task[Any]) -> None:
+    def _Coframe__call(self, task: Task[Any]) -> None:
         """Run a task in this thread, and register it so that `shutdown` waits for it."""
         me = threading.get_ident()
-        self._running_in.append(me)
+        self.__running_in.append(me)
         try:
             task()
         finally:
-            with self._is_idle:
-                self._running_in.remove(me)
-                self._is_idle.notify_all()
+            with self.__is_idle:
+                self.__running_in.remove(me)
+                self.__is_idle.notify_all()
 
-    def _raise_error_of(self, task: Task[Any]) -> None:
+    def _Coframe__raise_error_of(self, task: Task[Any]) -> None:
         error = task.exception()
         is_shutdown = isinstance(error, _SHUTDOWN_ERRORS) and not self._context.ok()
         if error is not None and not is_shutdown:
             raise error
 
-    def _next_work(self, nodes: Iterable[Node] | None) -> tuple[Work | None, int | None]:
+    def __next_work(self, nodes: Iterable[Node] | None) -> tuple[Work | None, int | None]:
         """Return the next ready work, or None and the nanoseconds until the next timer."""
-        if not self._has_capacity():
+        if not self._Coframe__has_capacity():
             return None, None
-        with self._lock:
+        with self.__lock:
             allowed = self._nodes if nodes is None else [node for node in nodes if node in self._nodes]
             while True:
                 # All entities that were ready run once before any of them runs again.
-                while self._ready:
-                    ready, node = self._ready.popleft()
-                    if (work := self._begin(ready, node, allowed)) is not None:
+                while self.__ready:
+                    ready, node = self.__ready.popleft()
+                    if (work := self.__begin(ready, node, allowed)) is not None:
                         return work, None
-                next_ns = self._collect_ready(allowed)
-                if not self._ready:
+                next_ns = self.__collect_ready(allowed)
+                if not self.__ready:
                     return None, next_ns
 
-    def _collect_ready(self, nodes: Iterable[Node]) -> int | None:
-        while self._tasks:
-            self._ready.append((self._tasks.popleft(), None))
+    def __collect_ready(self, nodes: Iterable[Node]) -> int | None:
+        while self.__tasks:
+            self.__ready.append((self.__tasks.popleft(), None))
         next_ns: int | None = None
         ready: list[tuple[Waitable, Node]] = []
         for node in nodes:
-            for entity in node._waitables():
-                remaining = entity._remaining_ns()
+            for entity in node._Coframe__waitables():
+                remaining = entity._Coframe__remaining_ns()
                 if remaining is None:
                     continue
                 if remaining > 0:
@@ -382,26 +383,26 @@ class Executor(ABC):
                     ready.append((entity, node))
         if len(ready) > 1:
             # An entity that is always ready must not starve the others of its callback group.
-            ready.sort(key=lambda work: self._run_order.get(work[0], 0))
-        self._ready.extend(ready)
+            ready.sort(key=lambda work: self.__run_order.get(work[0], 0))
+        self.__ready.extend(ready)
         return next_ns
 
-    def _begin(self, ready: Task[Any] | Waitable, node: Node | None, allowed: list[Node]) -> Work | None:
+    def __begin(self, ready: Task[Any] | Waitable, node: Node | None, allowed: list[Node]) -> Work | None:
         if isinstance(ready, Task):
             return ready, None, None
         if node not in allowed or not ready.callback_group.beginning_execution(ready):
             return None
-        self._run_count += 1
-        self._run_order[ready] = self._run_count
+        self.__run_count += 1
+        self.__run_order[ready] = self.__run_count
         call = None
         try:
-            call = ready._take()
+            call = ready._Coframe__take()
         finally:
             if call is None:
                 ready.callback_group.ending_execution(ready)
-        return None if call is None else (Task(self._execute, (ready, call), executor=self), ready, node)
+        return None if call is None else (Task(self.__execute, (ready, call), executor=self), ready, node)
 
-    async def _execute(self, entity: Waitable, call: Callable[[], Any]) -> None:
+    async def __execute(self, entity: Waitable, call: Callable[[], Any]) -> None:
         try:
             result = call()
             if inspect.iscoroutine(result):
@@ -414,9 +415,9 @@ class Executor(ABC):
 class SingleThreadedExecutor(Executor):
     """Executor that runs callbacks in the spinning thread."""
 
-    def _run(self, task: Task[Any]) -> None:
-        self._call(task)
-        self._raise_error_of(task)
+    def _Coframe__run(self, task: Task[Any]) -> None:
+        self._Coframe__call(task)
+        self._Coframe__raise_error_of(task)
 
 
 class MultiThreadedExecutor(Executor):
@@ -429,18 +430,19 @@ class MultiThreadedExecutor(Executor):
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
         super().__init__(context=context)
-        self._num_threads = num_threads or max(os.cpu_count() or 4, 2)
-        self._pool = ThreadPoolExecutor(self._num_threads, thread_name_prefix="rclpy")
-        self._free = self._num_threads
-        self._failed: deque[Task[Any]] = deque()
+        self.__num_threads = num_threads or max(os.cpu_count() or 4, 2)
+        self.__pool = ThreadPoolExecutor(self.__num_threads, thread_name_prefix="rclpy")
+        self.__free = self.__num_threads
+        self.__free_lock = threading.Lock()
+        self.__failed: deque[Task[Any]] = deque()
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
         """Stop spinning and wait for the running callbacks; see `Executor.shutdown`."""
         has_ended = super().shutdown(timeout_sec)
-        self._pool.shutdown(wait=False)
+        self.__pool.shutdown(wait=False)
         return has_ended
 
-    def _wait_for_work(
+    def _Coframe__wait_for_work(
         self,
         timeout_sec: float | None,
         nodes: Iterable[Node] | None,
@@ -451,38 +453,40 @@ class MultiThreadedExecutor(Executor):
         """Wait for work, or for the failure of a callback in the pool."""
 
         def failed_or_condition() -> bool:
-            return bool(self._failed) or condition()
+            return bool(self.__failed) or condition()
 
-        return super()._wait_for_work(timeout_sec, nodes, failed_or_condition, polls_subscriptions=polls_subscriptions)
+        return super()._Coframe__wait_for_work(
+            timeout_sec, nodes, failed_or_condition, polls_subscriptions=polls_subscriptions
+        )
 
-    def _spin_once_unless(
+    def _Coframe__spin_once_unless(
         self, condition: Callable[[], bool], timeout_sec: float | None, *, polls_subscriptions: bool = False
     ) -> None:
-        super()._spin_once_unless(condition, timeout_sec, polls_subscriptions=polls_subscriptions)
-        if self._failed:
-            self._raise_error_of(self._failed.popleft())
+        super()._Coframe__spin_once_unless(condition, timeout_sec, polls_subscriptions=polls_subscriptions)
+        if self.__failed:
+            self._Coframe__raise_error_of(self.__failed.popleft())
 
-    def _has_capacity(self) -> bool:
+    def _Coframe__has_capacity(self) -> bool:
         # Taking more messages than there are threads would move them from the bounded DDS queues to an unbounded one.
-        return self._free > 0
+        return self.__free > 0
 
-    def _run(self, task: Task[Any]) -> None:
-        with self._lock:
-            self._free -= 1
+    def _Coframe__run(self, task: Task[Any]) -> None:
+        with self.__free_lock:
+            self.__free -= 1
         try:
-            self._pool.submit(self._run_in_pool, task)
+            self.__pool.submit(self.__run_in_pool, task)
         except RuntimeError as error:  # The interpreter is shutting down.
             task.cancel()
             raise ExternalShutdownException from error
 
-    def _run_in_pool(self, task: Task[Any]) -> None:
+    def __run_in_pool(self, task: Task[Any]) -> None:
         try:
-            self._call(task)
+            self._Coframe__call(task)
         finally:
             if task.done() and task.exception() is not None:
-                self._failed.append(task)
-            with self._lock:
-                self._free += 1
+                self.__failed.append(task)
+            with self.__free_lock:
+                self.__free += 1
             self.wake()
 
 

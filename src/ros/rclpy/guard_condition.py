@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Guard conditions, which wake an executor from any thread."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -28,23 +28,23 @@ class GuardCondition:
     ) -> None:
         self.callback = callback
         self.callback_group = callback_group
-        self._context = context or get_default_context()
-        self._is_triggered = False
+        self.__context = context or get_default_context()
+        self.__is_triggered = False
 
     def trigger(self) -> None:
         """Schedule the callback. This may be called from any thread."""
-        self._is_triggered = True
-        self._context._wakeup.set()
+        self.__is_triggered = True
+        self.__context._Coframe__wakeup.set()
 
     def destroy(self) -> None:
         """Destroy the guard condition. Prefer `Node.destroy_guard_condition`."""
-        self._is_triggered = False
+        self.__is_triggered = False
 
-    def _remaining_ns(self) -> int | None:
-        return 0 if self._is_triggered else None
+    def _Coframe__remaining_ns(self) -> int | None:
+        return 0 if self.__is_triggered else None
 
-    def _take(self) -> Callable[[], Any] | None:
-        if not self._is_triggered:
+    def _Coframe__take(self) -> Callable[[], Any] | None:
+        if not self.__is_triggered:
             return None
-        self._is_triggered = False
+        self.__is_triggered = False
         return self.callback

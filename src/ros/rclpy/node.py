@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Nodes."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -106,12 +106,12 @@ class Node(NodeParameters, NodeGraph):
         }
         overrides.update((parameter.name, parameter) for parameter in parameter_overrides or [])
 
-        self._participant = self.__context._get_participant()
-        self._graph_node = self._participant.add_node(self.__names.namespace, self.__names.node_name)
-        self._polled_subscriptions: list[PolledSubscription] = []
+        self._Coframe__participant = self.__context._Coframe__get_participant()
+        self._Coframe__graph_node = self._Coframe__participant.add_node(self.__names.namespace, self.__names.node_name)
+        self._Coframe__polled_subscriptions: list[PolledSubscription] = []
         self.__rosout: RosoutPublisher | None = None
         if enable_rosout and arguments.logging.rosout:
-            self.__rosout = RosoutPublisher(self._participant, self._graph_node, self.__logger.name)
+            self.__rosout = RosoutPublisher(self._Coframe__participant, self._Coframe__graph_node, self.__logger.name)
         self.__time_source = TimeSource(node=self)
         self.__time_source.attach_clock(self.__clock)
         try:
@@ -132,7 +132,7 @@ class Node(NodeParameters, NodeGraph):
     if not TYPE_CHECKING:  # With `__getattr__`, type checkers would accept every misspelled attribute.
 
         def __getattr__(self, name: str) -> Any:
-            if name.startswith(("_Node__", "_NodeParameters__")):
+            if name.startswith(("_Node__", "_NodeParameters__", "_Coframe__")):
                 raise AttributeError(
                     f"The node {type(self).__name__} is not initialized. "
                     "Call super().__init__('node_name') first in its __init__."
@@ -259,7 +259,7 @@ class Node(NodeParameters, NodeGraph):
         name = self.resolve_topic_name(topic)
         if qos_overriding_options is not None:
             qos = apply_qos_overrides(self, "publisher", name, qos, qos_overriding_options)
-        wire = self._participant.publisher(self._graph_node, name, msg_type, qos._to_wire())
+        wire = self._Coframe__participant.publisher(self._Coframe__graph_node, name, msg_type, qos._Coframe__to_wire())
         return self.__add(Publisher(wire, msg_type, name, qos, self.context))
 
     def create_subscription(
@@ -297,8 +297,10 @@ class Node(NodeParameters, NodeGraph):
         name = self.resolve_topic_name(topic)
         if qos_overriding_options is not None:
             qos = apply_qos_overrides(self, "subscription", name, qos, qos_overriding_options)
-        wakeup = self.context._wakeup.event
-        wire = self._participant.subscription(self._graph_node, name, msg_type, qos._to_wire(), on_data=wakeup)
+        wakeup = self.context._Coframe__wakeup.event
+        wire = self._Coframe__participant.subscription(
+            self._Coframe__graph_node, name, msg_type, qos._Coframe__to_wire(), on_data=wakeup
+        )
         group = self.__group(callback_group)
         return self.__add(Subscription(wire, msg_type, name, callback, group, qos, raw))
 
@@ -324,15 +326,21 @@ class Node(NodeParameters, NodeGraph):
         """
         check_is_valid_srv_type(srv_type)
         self.__check_not_destroyed()
-        name, qos, graph_node = self.resolve_service_name(srv_name), qos_profile._to_wire(), self._graph_node
-        wakeup = self.context._wakeup.event
-        replies = self._participant.subscription(graph_node, name, srv_type.Response, qos, on_data=wakeup, kind="reply")
-        requests = self._participant.publisher(graph_node, name, srv_type.Request, qos, kind="request")
+        name, qos, graph_node = (
+            self.resolve_service_name(srv_name),
+            qos_profile._Coframe__to_wire(),
+            self._Coframe__graph_node,
+        )
+        wakeup = self.context._Coframe__wakeup.event
+        replies = self._Coframe__participant.subscription(
+            graph_node, name, srv_type.Response, qos, on_data=wakeup, kind="reply"
+        )
+        requests = self._Coframe__participant.publisher(graph_node, name, srv_type.Request, qos, kind="request")
         group = self.__group(callback_group)
         return self.__add(
             Client(
                 self.context,
-                self._participant,
+                self._Coframe__participant,
                 requests,
                 replies,
                 self.__get_executor,
@@ -366,9 +374,9 @@ class Node(NodeParameters, NodeGraph):
             InvalidServiceNameException: The service name is not valid.
             NoTypeSupportImportedException: `srv_type` is not a service class.
         """
-        return self._create_service(Service, srv_type, srv_name, callback, qos_profile, callback_group)
+        return self._Coframe__create_service(Service, srv_type, srv_name, callback, qos_profile, callback_group)
 
-    def _create_service(
+    def _Coframe__create_service(
         self,
         kind: type[Service],
         srv_type: Any,
@@ -380,11 +388,15 @@ class Node(NodeParameters, NodeGraph):
         check_is_valid_srv_type(srv_type)
         _check_callback(callback)
         self.__check_not_destroyed()
-        name, qos, graph_node = self.resolve_service_name(srv_name), qos_profile._to_wire(), self._graph_node
-        wakeup = self.context._wakeup.event
+        name, qos, graph_node = (
+            self.resolve_service_name(srv_name),
+            qos_profile._Coframe__to_wire(),
+            self._Coframe__graph_node,
+        )
+        wakeup = self.context._Coframe__wakeup.event
         # The reply publisher comes first, so that clients that discover the request reader can receive replies.
-        replies = self._participant.publisher(graph_node, name, srv_type.Response, qos, kind="reply")
-        requests = self._participant.subscription(
+        replies = self._Coframe__participant.publisher(graph_node, name, srv_type.Response, qos, kind="reply")
+        requests = self._Coframe__participant.subscription(
             graph_node, name, srv_type.Request, qos, on_data=wakeup, kind="request"
         )
         group = self.__group(callback_group)
@@ -482,8 +494,8 @@ class Node(NodeParameters, NodeGraph):
         self.__waitables = ()
         if self.__rosout is not None:
             self.__rosout.close()
-        self._graph_node.close()
-        self._participant.close()
+        self._Coframe__graph_node.close()
+        self._Coframe__participant.close()
 
     def __enter__(self) -> Self:
         return self
@@ -494,15 +506,15 @@ class Node(NodeParameters, NodeGraph):
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self.get_fully_qualified_name()}>"
 
-    def _add_entity(self, entity: EntityT) -> EntityT:
+    def _Coframe__add_entity(self, entity: EntityT) -> EntityT:
         """Add a publisher or subscription that tf2_ros created, so that the node lists and destroys it."""
         return self.__add(entity)
 
-    def _waitables(self) -> tuple[Waitable, ...]:
+    def _Coframe__waitables(self) -> tuple[Waitable, ...]:
         """Return the entities that an executor waits for."""
         return self.__waitables
 
-    def _on_parameter_set(self, parameter: Parameter[Any]) -> None:
+    def _Coframe__on_parameter_set(self, parameter: Parameter[Any]) -> None:
         if parameter.name == USE_SIM_TIME_NAME:
             self.__time_source.ros_time_is_active = parameter.value is True
 
@@ -523,7 +535,7 @@ class Node(NodeParameters, NodeGraph):
         group = getattr(entity, "callback_group", None)
         if group is not None:
             group.add_entity(entity)
-        self.context._wakeup.set()
+        self.context._Coframe__wakeup.set()
         return entity
 
     def __remove(self, entity: Any) -> bool:
@@ -559,7 +571,7 @@ def _no_executor() -> None:
 
 def _arguments_for(context: Context, cli_args: list[str] | None, *, use_global_arguments: bool) -> Arguments:
     """Return the arguments of the node, combined with those of the process, which have lower precedence."""
-    shared = context._arguments if use_global_arguments else Arguments()
+    shared = context._Coframe__arguments if use_global_arguments else Arguments()
     own = _arguments.parse(cli_args) if cli_args else Arguments()
     return Arguments(
         remaps=own.remaps + shared.remaps,

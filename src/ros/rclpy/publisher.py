@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Publishers."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ class Publisher:
         qos_profile: QoSProfile,
         context: Context,
     ) -> None:
-        self._wire: WirePublisher | StaticBroadcaster | None = wire
-        self._context = context
+        self.__wire: WirePublisher | StaticBroadcaster | None = wire
+        self.__context = context
         self.msg_type = msg_type
         self.topic = topic
         self.qos_profile = qos_profile
@@ -58,25 +58,25 @@ class Publisher:
         else:
             raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
         # After a signal, a program may still publish final messages, for example to stop the robot.
-        if not self._context.ok() and not self._context._was_shut_down_by_signal:
+        if not self.__context.ok() and not self.__context._Coframe__was_shut_down_by_signal:
             raise RCLError("Failed to publish: publisher's context is invalid")
-        self._require_wire().write(data)
+        self.__require_wire().write(data)
 
     def get_subscription_count(self) -> int:
         """Return the number of matched subscriptions."""
-        return self._require_wire().matched
+        return self.__require_wire().matched
 
     def assert_liveliness(self) -> None:
         """Assert that the publisher is alive. DDS does this automatically here."""
-        self._require_wire()
+        self.__require_wire()
 
     def destroy(self) -> None:
         """Destroy the publisher. Prefer `Node.destroy_publisher`."""
-        if self._wire is not None:
-            self._wire.close()
-            self._wire = None
+        if self.__wire is not None:
+            self.__wire.close()
+            self.__wire = None
 
-    def _require_wire(self) -> WirePublisher | StaticBroadcaster:
-        if self._wire is None:
+    def __require_wire(self) -> WirePublisher | StaticBroadcaster:
+        if self.__wire is None:
             raise InvalidHandle(f"cannot use Publisher of '{self.topic}' because destruction was requested")
-        return self._wire
+        return self.__wire

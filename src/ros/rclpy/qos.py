@@ -195,7 +195,7 @@ class QoSProfile:
         """Return the profile itself, since there is no C implementation."""
         return self
 
-    def _to_wire(self) -> WireQoS:
+    def _Coframe__to_wire(self) -> WireQoS:
         from coframe.wire import QoS  # noqa: PLC0415 - Profiles do not need DDS.
 
         return QoS(

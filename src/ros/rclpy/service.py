@@ -37,8 +37,8 @@ class Service:
         callback_group: CallbackGroup,
         qos_profile: QoSProfile,
     ) -> None:
-        self._requests: WireSubscription | None = requests
-        self._replies = replies
+        self.__requests: WireSubscription | None = requests
+        self.__replies = replies
         self.srv_type = srv_type
         self.srv_name = srv_name
         self.callback = callback
@@ -57,32 +57,32 @@ class Service:
         """
         if not isinstance(response, self.srv_type.Response):
             raise TypeError(f"Expected {self.srv_type.Response}, got {type(response)}")
-        if self._requests is None:
+        if self.__requests is None:
             return
         deadline = time.monotonic() + _MATCH_TIMEOUT_S
-        while not self._replies.matched and time.monotonic() < deadline:
+        while not self.__replies.matched and time.monotonic() < deadline:
             time.sleep(0.001)
-        self._replies.write(_request_header.join(header, codec.serialize(response)))
+        self.__replies.write(_request_header.join(header, codec.serialize(response)))
 
     def destroy(self) -> None:
         """Destroy the service. Prefer `Node.destroy_service`."""
-        if self._requests is not None:
-            self._requests.close()
-            self._replies.close()
-            self._requests = None
+        if self.__requests is not None:
+            self.__requests.close()
+            self.__replies.close()
+            self.__requests = None
 
-    def _remaining_ns(self) -> int | None:
-        requests = self._requests
+    def _Coframe__remaining_ns(self) -> int | None:
+        requests = self.__requests
         return 0 if requests is not None and requests.pending() else None
 
-    def _take(self) -> Callable[[], Any] | None:
-        requests = self._requests
+    def _Coframe__take(self) -> Callable[[], Any] | None:
+        requests = self.__requests
         for sample in [] if requests is None else requests.take(limit=1):
             if (parts := _request_header.split(sample.data)) is not None:
-                return partial(self._answer, *parts)
+                return partial(self._Coframe__answer, *parts)
         return None
 
-    async def _answer(self, header: RequestHeader, cdr: bytes) -> None:
+    async def _Coframe__answer(self, header: RequestHeader, cdr: bytes) -> None:
         request = codec.deserialize(cdr, self.srv_type.Request)
         response = self.callback(request, self.srv_type.Response())
         if inspect.iscoroutine(response):
@@ -97,5 +97,5 @@ class DeferredResponseService(Service):
     pending at the same time.
     """
 
-    def _answer(self, header: RequestHeader, cdr: bytes) -> Any:
+    def _Coframe__answer(self, header: RequestHeader, cdr: bytes) -> Any:
         return self.callback(codec.deserialize(cdr, self.srv_type.Request), header)

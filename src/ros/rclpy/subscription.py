@@ -35,8 +35,8 @@ class Subscription:
         qos_profile: QoSProfile,
         raw: bool,
     ) -> None:
-        self._wire: WireSubscription | TfReader | None = wire
-        self._accepts_info = _accepts_message_info(callback)
+        self.__wire: WireSubscription | TfReader | None = wire
+        self.__accepts_info = _accepts_message_info(callback)
         self.msg_type = msg_type
         self.topic = topic
         self.callback = callback
@@ -51,26 +51,26 @@ class Subscription:
 
     def get_publisher_count(self) -> int:
         """Return the number of matched publishers."""
-        return 0 if self._wire is None else self._wire.matched
+        return 0 if self.__wire is None else self.__wire.matched
 
     def destroy(self) -> None:
         """Destroy the subscription. Prefer `Node.destroy_subscription`."""
-        if self._wire is not None:
-            self._wire.close()
-            self._wire = None
+        if self.__wire is not None:
+            self.__wire.close()
+            self.__wire = None
 
-    def _remaining_ns(self) -> int | None:
-        wire = self._wire
+    def _Coframe__remaining_ns(self) -> int | None:
+        wire = self.__wire
         return 0 if wire is not None and wire.pending() else None
 
-    def _take(self) -> Callable[[], Any] | None:
-        wire = self._wire
+    def _Coframe__take(self) -> Callable[[], Any] | None:
+        wire = self.__wire
         samples = [] if wire is None else wire.take(limit=1)
-        return partial(self._deliver, samples[0], time.time_ns()) if samples else None
+        return partial(self.__deliver, samples[0], time.time_ns()) if samples else None
 
-    def _deliver(self, sample: Sample, received: int) -> Any:
+    def __deliver(self, sample: Sample, received: int) -> Any:
         message = sample.data if self.raw else codec.deserialize(sample.data, self.msg_type)
-        if not self._accepts_info:
+        if not self.__accepts_info:
             return self.callback(message)
         return self.callback(message, {"source_timestamp": sample.source_timestamp, "received_timestamp": received})
 

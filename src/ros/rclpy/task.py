@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Futures and tasks."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Future(Generic[T]):
         self._exception: BaseException | None = None
         self._exception_fetched = False
         self._callbacks: list[Callable[[Future[T]], object]] = []
-        self._waiters: list[Callable[[], object]] = []
+        self._Coframe__waiters: list[Callable[[], object]] = []
         self._executor: Callable[[], Executor | None] = _no_executor
         self._set_executor(executor)
 
@@ -52,7 +52,7 @@ class Future(Generic[T]):
             sys.stderr.write(f"The following exception was never retrieved: {self._exception}\n")
 
     def __await__(self) -> Generator[Any, None, T | None]:
-        while not self._is_complete():
+        while not self._Coframe__is_complete():
             if (loop := _asyncio.awaiting_loop()) is not None:
                 yield from _asyncio.wait_until_complete(self, loop)
             else:
@@ -67,7 +67,7 @@ class Future(Generic[T]):
             if self._done:
                 return
             self._cancelled = True
-        self._notify_complete()
+        self.__notify_complete()
 
     def cancelled(self) -> bool:
         """Return whether the future was cancelled."""
@@ -95,7 +95,7 @@ class Future(Generic[T]):
             self._result = result
             self._done = True
             self._cancelled = False
-        self._notify_complete()
+        self.__notify_complete()
 
     def set_exception(self, exception: BaseException) -> None:
         """Set an exception and complete the future."""
@@ -104,12 +104,12 @@ class Future(Generic[T]):
             self._exception_fetched = False
             self._done = True
             self._cancelled = False
-        self._notify_complete()
+        self.__notify_complete()
 
     def add_done_callback(self, callback: Callable[[Future[T]], object]) -> None:
         """Call `callback` with this future when it is complete, or immediately if it is complete already."""
         with self._lock:
-            if not self._is_complete():
+            if not self._Coframe__is_complete():
                 self._callbacks.append(callback)
                 return
         executor = self._executor()
@@ -118,29 +118,29 @@ class Future(Generic[T]):
         else:
             callback(self)
 
-    def _is_complete(self) -> bool:
+    def _Coframe__is_complete(self) -> bool:
         return self._done or self._cancelled
 
     def _set_executor(self, executor: Executor | None) -> None:
         self._executor = _no_executor if executor is None else weakref.ref(executor)
 
-    def _add_waiter(self, wake: Callable[[], object]) -> None:
+    def _Coframe__add_waiter(self, wake: Callable[[], object]) -> None:
         """Call `wake` when the future is complete, always immediately and in the completing thread."""
         with self._lock:
-            if not self._is_complete():
-                self._waiters.append(wake)
+            if not self._Coframe__is_complete():
+                self._Coframe__waiters.append(wake)
                 return
         wake()
 
-    def _remove_waiter(self, wake: Callable[[], object]) -> None:
+    def _Coframe__remove_waiter(self, wake: Callable[[], object]) -> None:
         """Remove a waiter. A waiter that was called already is ignored."""
         with self._lock, suppress(ValueError):
-            self._waiters.remove(wake)
+            self._Coframe__waiters.remove(wake)
 
-    def _notify_complete(self) -> None:
+    def __notify_complete(self) -> None:
         with self._lock:
             callbacks, self._callbacks = self._callbacks, []
-            waiters, self._waiters = self._waiters, []
+            waiters, self._Coframe__waiters = self._Coframe__waiters, []
         executor = self._executor()
         for callback in callbacks:
             if executor is not None:
@@ -172,27 +172,27 @@ class Task(Future[T]):
         self._args = args or ()
         self._kwargs = kwargs or {}
         self._executing = False
-        self._execution_lock = threading.Lock()
+        self.__execution_lock = threading.Lock()
         if inspect.iscoroutinefunction(handler):
             handler = handler(*self._args, **self._kwargs)
         self._handler: Any = handler
 
     def __call__(self) -> None:
         """Run the task to its end, or to the next future that it must await."""
-        if self._is_complete() or not self._execution_lock.acquire(blocking=False):
+        if self._Coframe__is_complete() or not self.__execution_lock.acquire(blocking=False):
             return
         self._executing = True
         try:
-            awaited = None if self._is_complete() else self._step()
+            awaited = None if self._Coframe__is_complete() else self.__step()
         finally:
             self._executing = False
-            self._execution_lock.release()
+            self.__execution_lock.release()
         if self._cancelled:
-            self._close()
-        if awaited is not None and not self._is_complete():
-            awaited._add_waiter(self._continue)
-        elif not self._is_complete():
-            self._continue()
+            self.__close()
+        if awaited is not None and not self._Coframe__is_complete():
+            awaited._Coframe__add_waiter(self.__continue)
+        elif not self._Coframe__is_complete():
+            self.__continue()
 
     def executing(self) -> bool:
         """Return whether the task is currently running."""
@@ -202,17 +202,17 @@ class Task(Future[T]):
         """Cancel the task. A coroutine is closed."""
         super().cancel()
         if self._cancelled:
-            self._close()
+            self.__close()
 
-    def _close(self) -> None:
+    def __close(self) -> None:
         """Close the coroutine. A running coroutine is closed after its current step by the thread that runs it."""
-        if inspect.iscoroutine(self._handler) and self._execution_lock.acquire(blocking=False):
+        if inspect.iscoroutine(self._handler) and self.__execution_lock.acquire(blocking=False):
             try:
                 self._handler.close()
             finally:
-                self._execution_lock.release()
+                self.__execution_lock.release()
 
-    def _step(self) -> Future[Any] | None:
+    def __step(self) -> Future[Any] | None:
         """Run one step and return the future that a coroutine awaits, if any."""
         try:
             if not inspect.iscoroutine(self._handler):
@@ -230,10 +230,10 @@ class Task(Future[T]):
             self.set_exception(error)
         return None
 
-    def _continue(self) -> None:
+    def __continue(self) -> None:
         executor = self._executor()
         if executor is not None:
-            executor._schedule(self)
+            executor._Coframe__schedule(self)
 
 
 def _no_executor() -> None:

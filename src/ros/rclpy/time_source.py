@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Source of simulated time, which sets the clocks of a node from the topic /clock."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class TimeSource:
             self._subscription = None
         for clock in self._clocks:
             clock._set_ros_time_is_active(enabled)
-        self._node.context._wakeup.set()
+        self._node.context._Coframe__wakeup.set()
 
     def attach_clock(self, clock: Any) -> None:
         """Add a clock that this time source sets.

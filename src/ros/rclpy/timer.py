@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Timers and rates."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -41,103 +41,106 @@ class Timer:
             raise ValueError("timer period must not be negative")
         self.callback = callback
         self.callback_group = callback_group
-        self._clock = clock
-        self._context = context or get_default_context()
-        self._period_ns = int(timer_period_ns)
-        self._is_canceled = False
-        self._is_destroyed = False
-        self._start()
+        self.__clock = clock
+        self.__context = context or get_default_context()
+        self.__period_ns = int(timer_period_ns)
+        self.__is_canceled = False
+        self.__is_destroyed = False
+        self.__start()
 
     @property
     def clock(self) -> Clock:
         """The clock that measures the period."""
-        return self._clock
+        return self.__clock
 
     @property
     def timer_period_ns(self) -> int:
         """The period in nanoseconds. A change takes effect after the next call."""
-        return self._period_ns
+        return self.__period_ns
 
     @timer_period_ns.setter
     def timer_period_ns(self, value: int) -> None:
-        self._period_ns = int(value)
-        self._context._wakeup.set()
+        self.__period_ns = int(value)
+        self.__context._Coframe__wakeup.set()
 
     def destroy(self) -> None:
         """Destroy the timer. Prefer `Node.destroy_timer`."""
-        self._is_destroyed = True
+        self.__is_destroyed = True
 
     def cancel(self) -> None:
         """Stop the callbacks until `reset()`."""
-        self._is_canceled = True
+        self.__is_canceled = True
 
     def is_canceled(self) -> bool:
         """Return whether the timer was cancelled."""
-        return self._is_canceled
+        return self.__is_canceled
 
     def reset(self) -> None:
         """Restart the period from now. This also restarts a cancelled timer."""
-        self._start()
-        self._is_canceled = False
-        self._context._wakeup.set()
+        self.__start()
+        self.__is_canceled = False
+        self.__context._Coframe__wakeup.set()
 
     def is_ready(self) -> bool:
         """Return whether a call is due."""
-        return not self._is_stopped and self.time_until_next_call_ns() <= 0
+        return not self.__is_stopped and self._Coframe__until_next_ns() <= 0
 
     def time_since_last_call(self) -> int:
         """Return the nanoseconds since the last call, or since the start."""
-        self._follow_clock()
-        return self._now_ns() - self._last_ns
+        self.__follow_clock()
+        return self._Coframe__now_ns() - self.__last_ns
 
     def time_until_next_call(self) -> int | None:
         """Return the nanoseconds until the next call, negative if it is late, or None if the timer is cancelled."""
-        return None if self._is_canceled else self.time_until_next_call_ns()
+        return None if self.__is_canceled else self._Coframe__until_next_ns()
 
-    def time_until_next_call_ns(self) -> int:
+    def _Coframe__until_next_ns(self) -> int:
         """Return the nanoseconds until the next call, even if the timer is cancelled."""
-        self._follow_clock()
-        return self._next_ns - self._now_ns()
+        self.__follow_clock()
+        return self.__next_ns - self._Coframe__now_ns()
 
-    def _start(self) -> None:
-        self._is_simulated = self._clock._is_simulated
-        self._last_ns = self._now_ns()
-        self._next_ns = self._last_ns + self._period_ns
+    def __start(self) -> None:
+        self._Coframe__is_simulated = self.__clock._Coframe__is_simulated
+        self.__last_ns = self._Coframe__now_ns()
+        self.__next_ns = self.__last_ns + self.__period_ns
 
     @property
-    def _is_stopped(self) -> bool:
-        return self._is_canceled or self._is_destroyed
+    def __is_stopped(self) -> bool:
+        return self.__is_canceled or self.__is_destroyed
 
-    def _now_ns(self) -> int:
-        return self._clock._now_ns() if self._is_simulated else time.monotonic_ns()
+    def _Coframe__now_ns(self) -> int:
+        return self.__clock._Coframe__now_ns() if self._Coframe__is_simulated else time.monotonic_ns()
 
-    def _follow_clock(self) -> None:
+    def __follow_clock(self) -> None:
         """Restart the period if the time source changed or simulated time jumped back."""
-        if self._is_simulated != self._clock._is_simulated or self._now_ns() < self._last_ns:
-            self._start()
+        if (
+            self._Coframe__is_simulated != self.__clock._Coframe__is_simulated
+            or self._Coframe__now_ns() < self.__last_ns
+        ):
+            self.__start()
 
-    def _remaining_ns(self) -> int | None:
-        if self._is_stopped:
+    def _Coframe__remaining_ns(self) -> int | None:
+        if self.__is_stopped:
             return None
-        remaining = self.time_until_next_call_ns()
+        remaining = self._Coframe__until_next_ns()
         # A simulated clock advances when a message arrives, which also sets the wakeup.
-        return None if self._is_simulated and remaining > 0 else remaining
+        return None if self._Coframe__is_simulated and remaining > 0 else remaining
 
-    def _take(self) -> Callable[[], Any] | None:
+    def _Coframe__take(self) -> Callable[[], Any] | None:
         if not self.is_ready():
             return None
-        self._advance()
+        self._Coframe__advance()
         return self.callback
 
-    def _advance(self) -> None:
+    def _Coframe__advance(self) -> None:
         """Schedule the next call. Missed periods are skipped."""
-        now = self._now_ns()
-        self._last_ns = now
-        self._next_ns += self._period_ns
-        if self._next_ns < now:
-            late = now - self._next_ns
-            self._next_ns = (
-                now if self._period_ns == 0 else self._next_ns + (late // self._period_ns + 1) * self._period_ns
+        now = self._Coframe__now_ns()
+        self.__last_ns = now
+        self.__next_ns += self.__period_ns
+        if self.__next_ns < now:
+            late = now - self.__next_ns
+            self.__next_ns = (
+                now if self.__period_ns == 0 else self.__next_ns + (late // self.__period_ns + 1) * self.__period_ns
             )
 
 
@@ -148,8 +151,8 @@ class Rate:
     """
 
     def __init__(self, timer: Timer, *, context: Context) -> None:
-        self._timer = timer
-        self._context = context
+        self.__timer = timer
+        self.__context = context
 
     def sleep(self) -> None:
         """Sleep until the end of the current period.
@@ -157,14 +160,16 @@ class Rate:
         Raises:
             ROSInterruptException: The context was shut down.
         """
-        while (remaining := self._timer.time_until_next_call_ns()) > 0:
-            if not self._context.ok():
+        while (remaining := self.__timer._Coframe__until_next_ns()) > 0:
+            if not self.__context.ok():
                 raise ROSInterruptException
-            clock = self._timer.clock
+            clock = self.__timer.clock
             # A Time must not be negative, and now + remaining never is.
-            clock._sleep(Time(nanoseconds=clock._now_ns() + remaining, clock_type=clock.clock_type), self._context)
-        self._timer._advance()
+            clock._Coframe__sleep(
+                Time(nanoseconds=clock._Coframe__now_ns() + remaining, clock_type=clock.clock_type), self.__context
+            )
+        self.__timer._Coframe__advance()
 
     def destroy(self) -> None:
         """Destroy the rate."""
-        self._timer.destroy()
+        self.__timer.destroy()

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Function that waits for a single message."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -40,10 +40,12 @@ def wait_for_message(
     """
     deadline = None if time_to_wait < 0 else time.monotonic_ns() + int(time_to_wait * S_TO_NS)
     event = Event()
-    name, qos = node.resolve_topic_name(topic), as_qos_profile(qos_profile)._to_wire()
-    subscription = node._participant.subscription(node._graph_node, name, msg_type, qos, on_data=event)
+    name, qos = node.resolve_topic_name(topic), as_qos_profile(qos_profile)._Coframe__to_wire()
+    subscription = node._Coframe__participant.subscription(
+        node._Coframe__graph_node, name, msg_type, qos, on_data=event
+    )
     try:
-        with node.context._set_on_shutdown(event):
+        with node.context._Coframe__set_on_shutdown(event):
             while node.context.ok():
                 if samples := subscription.take(limit=1):
                     return True, codec.deserialize(samples[0].data, msg_type)

@@ -68,7 +68,7 @@ class BufferCore:
         """
         # Programs subclass BufferCore, so the prefix avoids collisions with their attributes.
         # A Duration, because coframe refuses an int of a few nanoseconds.
-        self._coframe_buffer = coframe.Buffer(Duration(nanoseconds=_convert.nanoseconds(cache_time, "duration")))
+        self._Coframe__buffer = coframe.Buffer(Duration(nanoseconds=_convert.nanoseconds(cache_time, "duration")))
 
     def set_transform(self, transform: Any, authority: str, /) -> None:
         """Insert a dynamic transform. Rejected data are reported on stderr, as in tf2.
@@ -84,7 +84,7 @@ class BufferCore:
         self.__insert(transform, authority, static=True)
 
     def __insert(self, transform: Any, authority: str, *, static: bool) -> None:
-        refused = self._coframe_buffer._set_message(transform, static, authority)
+        refused = self._Coframe__buffer._set_message(transform, static, authority)
         if refused == _STORED:
             return
         authority = _convert.text(authority, 2)
@@ -94,7 +94,7 @@ class BufferCore:
         pose = _convert.values(transform.transform, static=static)
         try:
             if refused is None:
-                refused = self._coframe_buffer._set_values(parent, child, stamp, *pose, static, authority)
+                refused = self._Coframe__buffer._set_values(parent, child, stamp, *pose, static, authority)
         except TypeError:
             raise TypeError(f"translation and rotation must be numbers, but are {pose!r}.") from None
         if refused:
@@ -104,16 +104,16 @@ class BufferCore:
     def can_transform_core(self, target_frame: str, source_frame: str, time: Any) -> tuple[int, str]:
         """Return 1 and an empty string if the lookup would succeed, otherwise 0 and the reason."""
         query = _convert.text(target_frame, 1), _convert.text(source_frame, 2), _convert.nanoseconds(time, "time")
-        if self._coframe_buffer.can_transform(*query):
+        if self._Coframe__buffer.can_transform(*query):
             return 1, ""
-        reason = self._coframe_buffer._why_not(*query)
+        reason = self._Coframe__buffer._why_not(*query)
         return int(not reason), reason
 
     def can_transform_full_core(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> tuple[int, str]:
         """Return 1 and an empty string if `lookup_transform_full_core` would succeed, otherwise 0 and the reason."""
-        reason = self._coframe_buffer._why_not_full(
+        reason = self._Coframe__buffer._why_not_full(
             *_convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         )
         return int(not reason), reason
@@ -124,15 +124,15 @@ class BufferCore:
         Raises:
             TransformException: The transform is not available. The subclass and the text are those of tf2.
         """
-        found: TransformStamped | None = self._coframe_buffer._lookup_message(target_frame, source_frame, time)
+        found: TransformStamped | None = self._Coframe__buffer._lookup_message(target_frame, source_frame, time)
         if found is not None:
             return found
-        return self._coframe_lookup(
+        return self._Coframe__lookup(
             _convert.text(target_frame, 1), _convert.text(source_frame, 2), _convert.nanoseconds(time, "time")
         )
 
-    def _coframe_lookup(self, target: str, source: str, stamp: int, wait: int | None = None) -> TransformStamped:
-        found = self._coframe_buffer.lookup(target, source, stamp, timeout=wait)
+    def _Coframe__lookup(self, target: str, source: str, stamp: int, wait: int | None = None) -> TransformStamped:
+        found = self._Coframe__buffer.lookup(target, source, stamp, timeout=wait)
         return transform_stamped(target, source, found.stamp or 0, found.values)
 
     def lookup_transform_full_core(
@@ -145,12 +145,12 @@ class BufferCore:
         Raises:
             TransformException: The transform is not available. The subclass and the text are those of tf2.
         """
-        return self._coframe_lookup_full(
+        return self._Coframe__lookup_full(
             _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         )
 
-    def _coframe_lookup_full(self, query: tuple[str, int, str, int, str], wait: int | None = None) -> TransformStamped:
-        found = self._coframe_buffer._lookup_full(*query, timeout=wait)
+    def _Coframe__lookup_full(self, query: tuple[str, int, str, int, str], wait: int | None = None) -> TransformStamped:
+        found = self._Coframe__buffer._lookup_full(*query, timeout=wait)
         return transform_stamped(query[0], query[2], found.stamp or 0, found.values)
 
     def get_latest_common_time(self, target_frame: str, source_frame: str, /) -> Time:
@@ -160,7 +160,7 @@ class BufferCore:
             TransformException: The frames are not connected, or a frame does not exist (`LookupException`).
         """
         return any_time(
-            self._coframe_buffer.latest_common_time(_convert.text(target_frame, 1), _convert.text(source_frame, 2))
+            self._Coframe__buffer.latest_common_time(_convert.text(target_frame, 1), _convert.text(source_frame, 2))
         )
 
     def lookupVelocityCore(
@@ -169,7 +169,7 @@ class BufferCore:
         """Return the linear (m/s) and angular (rad/s) velocity of the tracking frame in the observation frame."""
         tracking, observation = _convert.text(tracking_frame, 1), _convert.text(observation_frame, 2)
         return lookup_velocity(
-            self._coframe_buffer,
+            self._Coframe__buffer,
             Tracked(tracking, (0.0, 0.0, 0.0), tracking),
             observation,
             observation,
@@ -192,7 +192,7 @@ class BufferCore:
         x, y, z = reference_point
         point = (float(x), float(y), float(z))
         return lookup_velocity(
-            self._coframe_buffer,
+            self._Coframe__buffer,
             Tracked(_convert.text(tracking_frame, 1), point, _convert.text(reference_point_frame, 5)),
             _convert.text(observation_frame, 2),
             _convert.text(reference_frame, 3),
@@ -202,29 +202,29 @@ class BufferCore:
 
     def all_frames_as_yaml(self, *_ignored: Any) -> str:
         """Return a YAML block per frame with a parent: its broadcaster, rate and time range."""
-        return self._coframe_buffer.all_frames_as_yaml()
+        return self._Coframe__buffer.all_frames_as_yaml()
 
     def all_frames_as_string(self, *_ignored: Any) -> str:
         """Return a line of text per frame with a parent."""
-        return self._coframe_buffer.all_frames_as_string()
+        return self._Coframe__buffer.all_frames_as_string()
 
     def _allFramesAsDot(self, time: Any = _NO_TIME) -> str:
-        return self._coframe_buffer.all_frames_as_dot(_convert.nanoseconds(time, "time"))
+        return self._Coframe__buffer.all_frames_as_dot(_convert.nanoseconds(time, "time"))
 
     def _chain(
         self, target_frame: str, target_time: Any, source_frame: str, source_time: Any, fixed_frame: str
     ) -> list[str]:
-        return self._coframe_buffer.chain(
+        return self._Coframe__buffer.chain(
             *_convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         )
 
     def _frameExists(self, frame: str, /) -> bool:
         # tf2's table of frame names contains the parent of all roots.
-        return _convert.text(frame, 1) == "NO_PARENT" or self._coframe_buffer.frame_exists(frame)
+        return _convert.text(frame, 1) == "NO_PARENT" or self._Coframe__buffer.frame_exists(frame)
 
     def _getFrameStrings(self) -> list[str]:
-        return self._coframe_buffer.frame_names()
+        return self._Coframe__buffer.frame_names()
 
     def clear(self) -> None:
         """Remove all dynamic transforms. Frame names and static transforms are kept."""
-        self._coframe_buffer.clear()
+        self._Coframe__buffer.clear()

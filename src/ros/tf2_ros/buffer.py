@@ -78,7 +78,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             transform: The transform.
             authority: Name of the publisher of the transform.
         """
-        with self._coframe_buffer._dispatcher.inserting():
+        with self._Coframe__buffer._dispatcher.inserting():
             super().set_transform(transform, authority)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
@@ -88,7 +88,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             transform: The transform.
             authority: Name of the publisher of the transform.
         """
-        with self._coframe_buffer._dispatcher.inserting():
+        with self._Coframe__buffer._dispatcher.inserting():
             super().set_transform_static(transform, authority)
 
     def lookup_transform(
@@ -106,7 +106,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             TransformException: The transform is not available. The subclass and the text give the reason.
         """
         target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
-        return self._coframe_lookup(target, source, _convert.nanoseconds(time, "time"), _wait(timeout))
+        return self._Coframe__lookup(target, source, _convert.nanoseconds(time, "time"), _wait(timeout))
 
     def lookup_transform_full(
         self,
@@ -131,7 +131,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
             TransformException: The transform is not available. The subclass and the text give the reason.
         """
         query = _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
-        return self._coframe_lookup_full(query, _wait(timeout))
+        return self._Coframe__lookup_full(query, _wait(timeout))
 
     async def lookup_transform_async(
         self,
@@ -173,7 +173,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         stamp, wait = _convert.nanoseconds(time, "time"), _wait(timeout)
         if wait is not None:
             target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
-            self._coframe_buffer.can_transform(target, source, stamp, timeout=wait)
+            self._Coframe__buffer.can_transform(target, source, stamp, timeout=wait)
         answer = self.can_transform_core(target_frame, source_frame, time)
         return answer if return_debug_tuple else answer[0]
 
@@ -191,7 +191,7 @@ class Buffer(tf2.BufferCore, BufferInterface):
         query = (target_frame, target_time, source_frame, source_time, fixed_frame)
         wait = _wait(timeout)
         if wait is not None:
-            self._coframe_buffer._can_transform_full(*_convert.full_query(*query), timeout=wait)
+            self._Coframe__buffer._can_transform_full(*_convert.full_query(*query), timeout=wait)
         answer = self.can_transform_full_core(*query)
         return answer if return_debug_tuple else answer[0]
 
@@ -207,10 +207,10 @@ class Buffer(tf2.BufferCore, BufferInterface):
         target, source = _convert.text(target_frame, 1), _convert.text(source_frame, 2)
         stamp = _convert.nanoseconds(time, "time")
         return _transform_futures.wait(
-            self._coframe_buffer._dispatcher,
-            lambda mailbox, token: _core.wait(self._coframe_buffer, mailbox, token, target, source, stamp),
+            self._Coframe__buffer._dispatcher,
+            lambda mailbox, token: _core.wait(self._Coframe__buffer, mailbox, token, target, source, stamp),
             lambda found: transform_stamped(target, source, found.stamp or 0, found.values),
-            lambda: self._coframe_lookup(target, source, stamp),
+            lambda: self._Coframe__lookup(target, source, stamp),
             _limit(timeout),
         )
 
@@ -227,10 +227,10 @@ class Buffer(tf2.BufferCore, BufferInterface):
         """Return a future of a transform between two times; otherwise like `wait_for_transform_async`."""
         query = _convert.full_query(target_frame, target_time, source_frame, source_time, fixed_frame)
         return _transform_futures.wait(
-            self._coframe_buffer._dispatcher,
-            lambda mailbox, token: _core.wait_full(self._coframe_buffer, mailbox, token, *query),
+            self._Coframe__buffer._dispatcher,
+            lambda mailbox, token: _core.wait_full(self._Coframe__buffer, mailbox, token, *query),
             lambda found: transform_stamped(query[0], query[2], found.stamp or 0, found.values),
-            lambda: self._coframe_lookup_full(query),
+            lambda: self._Coframe__lookup_full(query),
             _limit(timeout),
         )
 

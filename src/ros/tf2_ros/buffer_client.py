@@ -71,8 +71,8 @@ class BufferClient(BufferInterface):
         )
         self.check_frequency = check_frequency
         self.timeout_padding = timeout_padding
-        self._group = ReentrantCallbackGroup()
-        self._clock = Clock(clock_type=ClockType.STEADY_TIME)
+        self.__group = ReentrantCallbackGroup()
+        self.__clock = Clock(clock_type=ClockType.STEADY_TIME)
 
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage, timeout: Duration = _NO_WAIT
@@ -89,7 +89,7 @@ class BufferClient(BufferInterface):
             TransformException: The transform is not available. The subclass and the text give the reason.
             TimeoutException: No server is available, or it does not respond.
         """
-        return self._process(_goal(target_frame, source_frame, time, timeout))
+        return self.__process(_goal(target_frame, source_frame, time, timeout))
 
     def lookup_transform_full(
         self,
@@ -114,13 +114,13 @@ class BufferClient(BufferInterface):
             TransformException: The transform is not available. The subclass and the text give the reason.
             TimeoutException: No server is available, or it does not respond.
         """
-        return self._process(_full_goal(target_frame, target_time, source_frame, source_time, fixed_frame, timeout))
+        return self.__process(_full_goal(target_frame, target_time, source_frame, source_time, fixed_frame, timeout))
 
     async def lookup_transform_async(
         self, target_frame: str, source_frame: str, time: Time | TimeMessage, timeout: Duration = _NO_WAIT
     ) -> TransformStamped:
         """Look up a transform in a coroutine like `lookup_transform`. The node must spin. Not in upstream."""
-        return await self._process_async(_goal(target_frame, source_frame, time, timeout))
+        return await self.__process_async(_goal(target_frame, source_frame, time, timeout))
 
     async def lookup_transform_full_async(
         self,
@@ -132,7 +132,7 @@ class BufferClient(BufferInterface):
         timeout: Duration = _NO_WAIT,
     ) -> TransformStamped:
         """Look up a transform in a coroutine like `lookup_transform_full`. The node must spin. Not in upstream."""
-        return await self._process_async(
+        return await self.__process_async(
             _full_goal(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
         )
 
@@ -166,30 +166,30 @@ class BufferClient(BufferInterface):
         """Destroy the action client. Repeated calls have no effect."""
         self.action_client.destroy()
 
-    def _process(self, goal: LookupTransform.Goal) -> TransformStamped:
-        deadline = self._deadline(goal)
-        goal_handle = self._wait_for(self.action_client.send_goal_async(goal), deadline)
-        return _transform_in(self._wait_for(_accepted(goal_handle).get_result_async(), deadline))
+    def __process(self, goal: LookupTransform.Goal) -> TransformStamped:
+        deadline = self.__deadline(goal)
+        goal_handle = self.__wait_for(self.action_client.send_goal_async(goal), deadline)
+        return _transform_in(self.__wait_for(_accepted(goal_handle).get_result_async(), deadline))
 
-    async def _process_async(self, goal: LookupTransform.Goal) -> TransformStamped:
-        deadline = self._deadline(goal)
-        goal_handle = await self._within(self.action_client.send_goal_async(goal), deadline)
-        return _transform_in(await self._within(_accepted(goal_handle).get_result_async(), deadline))
+    async def __process_async(self, goal: LookupTransform.Goal) -> TransformStamped:
+        deadline = self.__deadline(goal)
+        goal_handle = await self.__within(self.action_client.send_goal_async(goal), deadline)
+        return _transform_in(await self.__within(_accepted(goal_handle).get_result_async(), deadline))
 
-    def _deadline(self, goal: LookupTransform.Goal) -> float:
+    def __deadline(self, goal: LookupTransform.Goal) -> float:
         if not self.action_client.server_is_ready():
             raise TimeoutException("The BufferServer is not ready.")
         wait = Duration.from_msg(goal.timeout).nanoseconds + self.timeout_padding.nanoseconds
         return monotonic() + wait / SECOND
 
-    def _wait_for(self, future: Future[Any], deadline: float) -> Any:
-        self.action_client._wait_for(future, deadline - monotonic())
+    def __wait_for(self, future: Future[Any], deadline: float) -> Any:
+        self.action_client._Coframe__wait_for(future, deadline - monotonic())
         _time_out(future)
         return future.result()
 
-    async def _within(self, future: Future[Any], deadline: float) -> Any:
+    async def __within(self, future: Future[Any], deadline: float) -> Any:
         remaining = max(deadline - monotonic(), 0.0)
-        timer = self.node.create_timer(remaining, lambda: _time_out(future), self._group, self._clock)
+        timer = self.node.create_timer(remaining, lambda: _time_out(future), self.__group, self.__clock)
         try:
             return await future
         finally:

@@ -39,14 +39,14 @@ class TransformBroadcaster:
             prefix: Prefix of the frame names, such as `robot1/`. No separator is added.
             keep: Frames without prefix, such as `["map"]`.
         """
-        self._renaming = renaming(prefix, keep)
+        self.__renaming = renaming(prefix, keep)
         if qos is None:
             qos = QoSProfile(depth=100)
         self.pub_tf = node.create_publisher(TFMessage, tf_topic, qos)
 
     def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:
         """Publish one or several transforms in one message."""
-        self.pub_tf.publish(TFMessage(transforms=renamed(as_list(transform), self._renaming)))
+        self.pub_tf.publish(TFMessage(transforms=renamed(as_list(transform), self.__renaming)))
 
 
 def as_list(transform: TransformStamped | Iterable[TransformStamped]) -> list[TransformStamped]:

@@ -142,17 +142,19 @@ class TransformListener:
     def __listen_natively(self, *, static: bool) -> Subscription:
         """Create a subscription that inserts transforms into the buffer without Python code."""
         topic, qos = self.node.resolve_topic_name(self.__topics[static]), self.__qos[static]
-        reader = self.node._participant.tf_reader(
-            self.node._graph_node,
+        reader = self.node._Coframe__participant.tf_reader(
+            self.node._Coframe__graph_node,
             topic,
-            self.__buffer._coframe_buffer,
+            self.__buffer._Coframe__buffer,
             static=static,
-            qos=qos._to_wire(),
+            qos=qos._Coframe__to_wire(),
             authority=_AUTHORITY,
             renaming=self.__renaming,
         )
         callback = self.static_callback if static else self.callback
-        return self.node._add_entity(Subscription(reader, TFMessage, topic, callback, self.group, qos, raw=False))
+        return self.node._Coframe__add_entity(
+            Subscription(reader, TFMessage, topic, callback, self.group, qos, raw=False)
+        )
 
     def __destroy(self, subscriptions: tuple[Subscription | None, ...]) -> None:
         for subscription in subscriptions:
@@ -161,9 +163,9 @@ class TransformListener:
 
     def __count_arrivals(self, arrivals: "_Arrivals | None") -> None:
         if self.__arrivals is not None:
-            self.node._polled_subscriptions.remove(self.__arrivals)
+            self.node._Coframe__polled_subscriptions.remove(self.__arrivals)
         if arrivals is not None:
-            self.node._polled_subscriptions.append(arrivals)
+            self.node._Coframe__polled_subscriptions.append(arrivals)
         self.__arrivals = arrivals
 
     def __is_plain(self) -> bool:
@@ -196,7 +198,7 @@ class _Arrivals:
     _DEPTH = 100
 
     def __init__(self, buffer: tf2.BufferCore) -> None:
-        self._buffer = buffer._coframe_buffer
+        self._buffer = buffer._Coframe__buffer
         self._handled = self._count()
 
     def _count(self) -> int:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Goal handles of action servers: the state machine and the result of a goal."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -56,11 +56,11 @@ class ServerGoalHandle:
         self._goal_info = goal_info
         self._goal_request = goal_request
         self._status: int = GoalStatus.STATUS_ACCEPTED
-        self._status_entry = encode_entry(goal_info, self._status)
-        self._is_execution_scheduled = False
-        self._cancel_request: Future[None] = Future()
-        self._result_response: Any = None
-        self._result_requests: list[RequestHeader] = []
+        self._Coframe__status_entry = encode_entry(goal_info, self._status)
+        self.__is_execution_scheduled = False
+        self._Coframe__cancel_request: Future[None] = Future()
+        self._Coframe__result_response: Any = None
+        self._Coframe__result_requests: list[RequestHeader] = []
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, ServerGoalHandle) and self.goal_id == other.goal_id
@@ -105,7 +105,7 @@ class ServerGoalHandle:
         # A goal whose cancellation was accepted keeps its state. The callback finishes it.
         if not self.is_cancel_requested:
             self._update_state(GoalEvent.EXECUTE)
-        self._is_execution_scheduled = True
+        self.__is_execution_scheduled = True
         self._action_server.notify_execute(self, execute_callback)
 
     def publish_feedback(self, feedback: Any) -> None:
@@ -117,7 +117,7 @@ class ServerGoalHandle:
         Raises:
             TypeError: `feedback` is not feedback of the action's type.
         """
-        self._action_server._publish_feedback(self, feedback)
+        self._action_server._Coframe__publish_feedback(self, feedback)
 
     def succeed(self, response: Any = None) -> None:
         """Finish the goal as succeeded.
@@ -129,11 +129,11 @@ class ServerGoalHandle:
             RCLError: The goal is not being executed.
             TypeError: `response` is not a result of the action's type.
         """
-        self._finish(GoalEvent.SUCCEED, response)
+        self.__finish(GoalEvent.SUCCEED, response)
 
     def abort(self, response: Any = None) -> None:
         """Finish the goal as aborted. The argument and the errors are those of `succeed`."""
-        self._finish(GoalEvent.ABORT, response)
+        self.__finish(GoalEvent.ABORT, response)
 
     def canceled(self, response: Any = None) -> None:
         """Finish the goal as cancelled, after an accepted cancel request. The argument is that of `succeed`.
@@ -142,7 +142,7 @@ class ServerGoalHandle:
             RCLError: No cancel request was accepted.
             TypeError: `response` is not a result of the action's type.
         """
-        self._finish(GoalEvent.CANCELED, response)
+        self.__finish(GoalEvent.CANCELED, response)
 
     def destroy(self) -> None:
         """Destroy the handle. Later changes of the goal are not published."""
@@ -153,18 +153,18 @@ class ServerGoalHandle:
             if self._status == GoalStatus.STATUS_UNKNOWN:
                 return
             self._status = _status_after(self._status, event)
-            self._status_entry = encode_entry(self._goal_info, self._status)
-            self._action_server._publish_status()
+            self._Coframe__status_entry = encode_entry(self._goal_info, self._status)
+            self._action_server._Coframe__publish_status()
         if event is GoalEvent.CANCEL_GOAL:
-            self._cancel_request.set_result(None)
+            self._Coframe__cancel_request.set_result(None)
 
-    def _finish(self, event: GoalEvent, response: Any) -> None:
+    def __finish(self, event: GoalEvent, response: Any) -> None:
         result_type = self._action_server.action_type.Result
         if not (response is None or isinstance(response, result_type)):
             raise TypeError(f"Expected {result_type}, got {type(response)}")
         self._update_state(event)
-        if response is not None or not self._is_execution_scheduled:
-            self._action_server._set_result(self, response or result_type())
+        if response is not None or not self.__is_execution_scheduled:
+            self._action_server._Coframe__set_result(self, response or result_type())
 
 
 def _status_after(status: int, event: GoalEvent) -> int:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Action clients, which send goals to action servers."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class ClientGoalHandle:
     def status(self) -> int:
         """The last known status of the goal, a constant of `action_msgs/GoalStatus`."""
         if self._status not in _ENDED:
-            self._status = self._action_client._statuses().get(_key(self._goal_id), self._status)
+            self._status = self._action_client._Coframe__statuses().get(_key(self._goal_id), self._status)
         return self._status
 
     def cancel_goal(self) -> Any:
@@ -126,30 +126,30 @@ class ActionClient:
         self._action_type = action_type
         self._action_name = action_name
         self._feedback_callbacks: dict[bytes, Callable[[Any], Any]] = {}
-        self._ended: list[bytes] = []
-        self._status_cdr: bytes | None = None
-        self._known_statuses: dict[bytes, int] = {}
+        self.__ended: list[bytes] = []
+        self.__status_cdr: bytes | None = None
+        self.__known_statuses: dict[bytes, int] = {}
 
         name, parts = resolve_action_name(node, action_name, "action client"), action_type.Impl
         # Internal callbacks run no user code, so they do not need to wait for callbacks of the user's group.
         internal_group = ReentrantCallbackGroup()
         # The subscriptions come first, so that the server has discovered them when it receives the first goal.
-        self._feedback_subscription = node.create_subscription(
+        self.__feedback_subscription = node.create_subscription(
             parts.FeedbackMessage,
             name + FEEDBACK,
-            self._on_feedback,
+            self.__on_feedback,
             feedback_sub_qos_profile,
             callback_group=callback_group,
         )
-        self._status_subscription = node.create_subscription(
+        self.__status_subscription = node.create_subscription(
             parts.GoalStatusMessage,
             name + STATUS,
-            self._on_status,
+            self.__on_status,
             status_sub_qos_profile,
             callback_group=internal_group,
             raw=True,
         )
-        self._goal_client, self._cancel_client, self._result_client = self._clients = tuple(
+        self.__goal_client, self.__cancel_client, self.__result_client = self.__clients = tuple(
             node.create_client(srv_type, name + suffix, qos_profile=qos, callback_group=internal_group)
             for srv_type, suffix, qos in (
                 (parts.SendGoalService, SEND_GOAL, goal_service_qos_profile),
@@ -171,7 +171,7 @@ class ActionClient:
         Raises:
             TypeError: `goal` is not a goal of the action's type.
         """
-        goal_handle = self._wait_for(self.send_goal_async(goal, **kwargs))
+        goal_handle = self._Coframe__wait_for(self.send_goal_async(goal, **kwargs))
         return None if goal_handle is None else self._get_result(goal_handle)
 
     def send_goal_async(
@@ -197,14 +197,14 @@ class ActionClient:
         if feedback_callback is not None:
             self._feedback_callbacks[_key(goal_id)] = feedback_callback
         request = self._action_type.Impl.SendGoalService.Request(goal_id=goal_id, goal=goal)
-        return self._goal_client._send(request, partial(self._on_goal_response, goal_id))
+        return self.__goal_client._Coframe__send(request, partial(self.__on_goal_response, goal_id))
 
     def server_is_ready(self) -> bool:
         """Return whether a server of the action is available."""
         return (
-            all(client.service_is_ready() for client in self._clients)
-            and self._feedback_subscription.get_publisher_count() > 0
-            and self._status_subscription.get_publisher_count() > 0
+            all(client.service_is_ready() for client in self.__clients)
+            and self.__feedback_subscription.get_publisher_count() > 0
+            and self.__status_subscription.get_publisher_count() > 0
         )
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
@@ -216,76 +216,76 @@ class ActionClient:
         Returns:
             Whether a server is available. False if the context was shut down.
         """
-        return wait_until_ready(self._node.context, self._node._participant, self.server_is_ready, timeout_sec)
+        return wait_until_ready(self._node.context, self._node._Coframe__participant, self.server_is_ready, timeout_sec)
 
     def destroy(self) -> None:
         """Destroy the client. Repeated calls have no effect. Pending futures are never completed."""
-        for client in self._clients:
+        for client in self.__clients:
             self._node.destroy_client(client)
-        self._node.destroy_subscription(self._feedback_subscription)
-        self._node.destroy_subscription(self._status_subscription)
+        self._node.destroy_subscription(self.__feedback_subscription)
+        self._node.destroy_subscription(self.__status_subscription)
         self._feedback_callbacks.clear()
 
     def _cancel_goal(self, goal_handle: ClientGoalHandle) -> Any:
-        return self._wait_for(self._cancel_goal_async(goal_handle))
+        return self._Coframe__wait_for(self._cancel_goal_async(goal_handle))
 
     def _cancel_goal_async(self, goal_handle: ClientGoalHandle) -> Future[Any]:
         _check_is_goal_handle(goal_handle)
         request = CancelGoal.Request()
         request.goal_info.goal_id = goal_handle.goal_id
-        return self._cancel_client.call_async(request)
+        return self.__cancel_client.call_async(request)
 
     def _get_result(self, goal_handle: ClientGoalHandle) -> Any:
-        return self._wait_for(self._get_result_async(goal_handle))
+        return self._Coframe__wait_for(self._get_result_async(goal_handle))
 
     def _get_result_async(self, goal_handle: ClientGoalHandle) -> Future[Any]:
         _check_is_goal_handle(goal_handle)
         request = self._action_type.Impl.GetResultService.Request(goal_id=goal_handle.goal_id)
-        return self._result_client._send(request, partial(self._on_result, goal_handle))
+        return self.__result_client._Coframe__send(request, partial(self.__on_result, goal_handle))
 
-    def _wait_for(self, future: Future[Any], timeout_sec: float | None = None) -> Any:
+    def _Coframe__wait_for(self, future: Future[Any], timeout_sec: float | None = None) -> Any:
         """Wait for a future of this client and return its result, or None after a timeout."""
-        take_responses_until(self._clients, future, timeout_sec)
+        take_responses_until(self.__clients, future, timeout_sec)
         return future.result()
 
-    def _on_goal_response(self, goal_id: UUID, response: Any) -> ClientGoalHandle:
+    def __on_goal_response(self, goal_id: UUID, response: Any) -> ClientGoalHandle:
         goal_handle = ClientGoalHandle(self, goal_id, response)
         if not goal_handle.accepted:
             self._feedback_callbacks.pop(_key(goal_id), None)
         return goal_handle
 
-    def _on_result(self, goal_handle: ClientGoalHandle, response: Any) -> Any:
+    def __on_result(self, goal_handle: ClientGoalHandle, response: Any) -> Any:
         if response.status in _ENDED:
             goal_handle._status = response.status
-        self._ended.append(_key(goal_handle.goal_id))
-        self._forget_ended()
+        self.__ended.append(_key(goal_handle.goal_id))
+        self.__forget_ended()
         return response
 
-    def _on_feedback(self, message: Any) -> Any:
+    def __on_feedback(self, message: Any) -> Any:
         callback = self._feedback_callbacks.get(_key(message.goal_id))
-        self._forget_ended()
+        self.__forget_ended()
         return None if callback is None else callback(message)
 
-    def _forget_ended(self) -> None:
+    def __forget_ended(self) -> None:
         """Remove the feedback callbacks of finished goals once no feedback message is queued."""
-        if self._feedback_subscription._remaining_ns() is None:
-            ended, self._ended = self._ended, []
+        if self.__feedback_subscription._Coframe__remaining_ns() is None:
+            ended, self.__ended = self.__ended, []
             for key in ended:
                 self._feedback_callbacks.pop(key, None)
 
-    def _on_status(self, cdr: bytes) -> None:
-        self._status_cdr = cdr
+    def __on_status(self, cdr: bytes) -> None:
+        self.__status_cdr = cdr
 
-    def _statuses(self) -> dict[bytes, int]:
+    def _Coframe__statuses(self) -> dict[bytes, int]:
         """Return the status of all goals by identifier.
 
         The last message is decoded only on demand, because messages are frequent and contain all goals.
         """
-        cdr, self._status_cdr = self._status_cdr, None
+        cdr, self.__status_cdr = self.__status_cdr, None
         if cdr is not None:
             statuses = codec.deserialize(cdr, GoalStatusArray).status_list
-            self._known_statuses = {_key(goal.goal_info.goal_id): goal.status for goal in statuses}
-        return self._known_statuses
+            self.__known_statuses = {_key(goal.goal_info.goal_id): goal.status for goal in statuses}
+        return self.__known_statuses
 
 
 def _check_is_goal_handle(goal_handle: Any) -> None:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Action servers, which execute the goals of action clients."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -141,39 +141,39 @@ class ActionServer:
         self.register_execute_callback(execute_callback)
         self._node = node
         self._action_type = action_type
-        self._result_timeout = result_timeout
+        self.__result_timeout = result_timeout
         self._lock = threading.RLock()
-        self._is_destroyed = False
-        self._goals: dict[bytes, ServerGoalHandle] = {}
-        self._expiries: deque[tuple[float, bytes]] = deque()
-        self._to_execute: deque[tuple[Callable[[ServerGoalHandle], Any], ServerGoalHandle]] = deque()
+        self.__is_destroyed = False
+        self.__goals: dict[bytes, ServerGoalHandle] = {}
+        self.__expiries: deque[tuple[float, bytes]] = deque()
+        self.__to_execute: deque[tuple[Callable[[ServerGoalHandle], Any], ServerGoalHandle]] = deque()
 
         name, parts = resolve_action_name(node, action_name, "action server"), action_type.Impl
         internal_group = ReentrantCallbackGroup()
-        self._execution = node.create_guard_condition(self._execute_next, internal_group)
+        self.__execution = node.create_guard_condition(self.__execute_next, internal_group)
         # The goal service comes last, so that clients that discover it also find the other endpoints.
-        self._feedback_publisher = node.create_publisher(
+        self.__feedback_publisher = node.create_publisher(
             parts.FeedbackMessage, name + FEEDBACK, feedback_pub_qos_profile
         )
-        self._status_publisher = node.create_publisher(parts.GoalStatusMessage, name + STATUS, status_pub_qos_profile)
-        self._result_service, self._cancel_service, self._goal_service = self._services = tuple(
-            node._create_service(DeferredResponseService, srv_type, name + suffix, callback, qos, group)
+        self.__status_publisher = node.create_publisher(parts.GoalStatusMessage, name + STATUS, status_pub_qos_profile)
+        self.__result_service, self.__cancel_service, self.__goal_service = self.__services = tuple(
+            node._Coframe__create_service(DeferredResponseService, srv_type, name + suffix, callback, qos, group)
             for srv_type, suffix, callback, qos, group in (
                 (
                     parts.GetResultService,
                     GET_RESULT,
-                    self._on_result_request,
+                    self.__on_result_request,
                     result_service_qos_profile,
                     internal_group,
                 ),
                 (
                     parts.CancelGoalService,
                     CANCEL_GOAL,
-                    self._on_cancel_request,
+                    self.__on_cancel_request,
                     cancel_service_qos_profile,
                     callback_group,
                 ),
-                (parts.SendGoalService, SEND_GOAL, self._on_goal_request, goal_service_qos_profile, callback_group),
+                (parts.SendGoalService, SEND_GOAL, self.__on_goal_request, goal_service_qos_profile, callback_group),
             )
         )
 
@@ -186,15 +186,15 @@ class ActionServer:
         self, handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None
     ) -> None:
         """Set the callback for accepted goals. None: goals are executed immediately."""
-        self._handle_accepted_callback = handle_accepted_callback or default_handle_accepted_callback
+        self.__handle_accepted_callback = handle_accepted_callback or default_handle_accepted_callback
 
     def register_goal_callback(self, goal_callback: Callable[[Any], Any] | None) -> None:
         """Set the callback for goal requests. None: all goals are accepted."""
-        self._goal_callback = goal_callback or default_goal_callback
+        self.__goal_callback = goal_callback or default_goal_callback
 
     def register_cancel_callback(self, cancel_callback: Callable[[ServerGoalHandle], Any] | None) -> None:
         """Set the callback for cancel requests. None: all cancel requests are rejected."""
-        self._cancel_callback = cancel_callback or default_cancel_callback
+        self.__cancel_callback = cancel_callback or default_cancel_callback
 
     def register_execute_callback(self, execute_callback: Callable[[ServerGoalHandle], Any]) -> None:
         """Set the callback that executes goals.
@@ -204,51 +204,51 @@ class ActionServer:
         """
         if not callable(execute_callback):
             raise TypeError("Failed to register goal execution callback: not callable")
-        self._execute_callback = execute_callback
+        self.__execute_callback = execute_callback
 
     def notify_execute(
         self, goal_handle: ServerGoalHandle, execute_callback: Callable[[ServerGoalHandle], Any] | None
     ) -> None:
         """Schedule the execute callback of a goal. Prefer `ServerGoalHandle.execute`."""
-        self._to_execute.append((execute_callback or self._execute_callback, goal_handle))
-        self._execution.trigger()
+        self.__to_execute.append((execute_callback or self.__execute_callback, goal_handle))
+        self.__execution.trigger()
 
     def destroy(self) -> None:
         """Destroy the server and its goal handles. Repeated calls have no effect."""
         with self._lock:
-            self._is_destroyed = True
-            for goal_handle in self._goals.values():
+            self.__is_destroyed = True
+            for goal_handle in self.__goals.values():
                 goal_handle.destroy()
-            self._goals.clear()
-        for service in self._services:
+            self.__goals.clear()
+        for service in self.__services:
             self._node.destroy_service(service)
-        self._node.destroy_publisher(self._feedback_publisher)
-        self._node.destroy_publisher(self._status_publisher)
-        self._node.destroy_guard_condition(self._execution)
+        self._node.destroy_publisher(self.__feedback_publisher)
+        self._node.destroy_publisher(self.__status_publisher)
+        self._node.destroy_guard_condition(self.__execution)
 
     # Goals
 
-    async def _on_goal_request(self, request: Any, header: RequestHeader) -> None:
-        self._forget_expired()
+    async def __on_goal_request(self, request: Any, header: RequestHeader) -> None:
+        self.__forget_expired()
         goal_handle = None
-        if _key(request.goal_id) not in self._goals and await self._is_accepted(request.goal):
-            goal_handle = self._add(request)
+        if _key(request.goal_id) not in self.__goals and await self.__is_accepted(request.goal):
+            goal_handle = self.__add(request)
         response = self._action_type.Impl.SendGoalService.Response(accepted=goal_handle is not None)
         if goal_handle is not None:
             response.stamp = goal_handle._goal_info.stamp
-        self._goal_service.send_response(response, header)
+        self.__goal_service.send_response(response, header)
         outcome = "rejected" if goal_handle is None else "accepted"
         self._node.get_logger().debug(f"New goal {outcome}: {request.goal_id.uuid}")
         if goal_handle is not None:
-            await _call(self._handle_accepted_callback, goal_handle)
+            await _call(self.__handle_accepted_callback, goal_handle)
 
-    async def _is_accepted(self, goal: Any) -> bool:
-        response = await _call(self._goal_callback, goal)
+    async def __is_accepted(self, goal: Any) -> bool:
+        response = await _call(self.__goal_callback, goal)
         if not isinstance(response, GoalResponse):
             self._node.get_logger().warning("Goal request callback did not return a GoalResponse type. Rejecting goal.")
         return response is GoalResponse.ACCEPT
 
-    def _add(self, request: Any) -> ServerGoalHandle | None:
+    def __add(self, request: Any) -> ServerGoalHandle | None:
         """Add a goal and return its handle.
 
         Return None if another thread added a goal with the same identifier first, or destroyed the server.
@@ -256,21 +256,21 @@ class ActionServer:
         info = GoalInfo(goal_id=request.goal_id, stamp=self._node.get_clock().now().to_msg())
         goal_handle = ServerGoalHandle(self, info, request.goal)
         with self._lock:
-            if self._is_destroyed or self._goals.setdefault(_key(request.goal_id), goal_handle) is not goal_handle:
+            if self.__is_destroyed or self.__goals.setdefault(_key(request.goal_id), goal_handle) is not goal_handle:
                 return None
-            self._publish_status()
+            self._Coframe__publish_status()
         return goal_handle
 
-    def _execute_next(self) -> Coroutine[Any, Any, None] | None:
+    def __execute_next(self) -> Coroutine[Any, Any, None] | None:
         try:
-            execute_callback, goal_handle = self._to_execute.popleft()
+            execute_callback, goal_handle = self.__to_execute.popleft()
         except IndexError:  # Another thread took the last goal.
             return None
-        if self._to_execute:
-            self._execution.trigger()
-        return self._execute(execute_callback, goal_handle)
+        if self.__to_execute:
+            self.__execution.trigger()
+        return self.__execute(execute_callback, goal_handle)
 
-    async def _execute(
+    async def __execute(
         self, execute_callback: Callable[[ServerGoalHandle], Any], goal_handle: ServerGoalHandle
     ) -> None:
         result_type = self._action_type.Result
@@ -288,26 +288,26 @@ class ActionServer:
             )
             goal_handle.abort()
         if not isinstance(result, result_type):
-            if goal_handle._result_response is None:
+            if goal_handle._Coframe__result_response is None:
                 self._node.get_logger().error(
                     f"The execute callback returned {type(result).__name__} instead of {result_type.__name__}. "
                     "The client receives an empty result."
                 )
             result = result_type()
-        self._set_result(goal_handle, result)
+        self._Coframe__set_result(goal_handle, result)
 
     # Cancel requests
 
-    async def _on_cancel_request(self, request: Any, header: RequestHeader) -> None:
+    async def __on_cancel_request(self, request: Any, header: RequestHeader) -> None:
         response = CancelGoal.Response()
-        response.return_code, goal_handles = self._find_goals_to_cancel(request.goal_info)
-        canceling = [goal_handle for goal_handle in goal_handles if await self._cancel(goal_handle)]
+        response.return_code, goal_handles = self.__find_goals_to_cancel(request.goal_info)
+        canceling = [goal_handle for goal_handle in goal_handles if await self.__cancel(goal_handle)]
         response.goals_canceling = [goal_handle._goal_info for goal_handle in canceling]
         if goal_handles and not canceling:
             response.return_code = CancelGoal.Response.ERROR_REJECTED
-        self._cancel_service.send_response(response, header)
+        self.__cancel_service.send_response(response, header)
 
-    def _find_goals_to_cancel(self, goal_info: GoalInfo) -> tuple[int, list[ServerGoalHandle]]:
+    def __find_goals_to_cancel(self, goal_info: GoalInfo) -> tuple[int, list[ServerGoalHandle]]:
         """Return the goals that a cancel request selects, by the rules of `action_msgs/CancelGoal`.
 
         An identifier selects one goal, a stamp selects all goals accepted up to this time, both together select the
@@ -315,7 +315,7 @@ class ActionServer:
         """
         key, latest_ns = _key(goal_info.goal_id), _nanoseconds(goal_info)
         with self._lock:
-            goals = dict(self._goals)
+            goals = dict(self.__goals)
         if any(key) and latest_ns == 0:
             if key not in goals:
                 return CancelGoal.Response.ERROR_UNKNOWN_GOAL_ID, []
@@ -329,8 +329,8 @@ class ActionServer:
             and (latest_ns == 0 or other_key == key or _nanoseconds(goal_handle._goal_info) <= latest_ns)
         ]
 
-    async def _cancel(self, goal_handle: ServerGoalHandle) -> bool:
-        if await _call(self._cancel_callback, goal_handle) is not CancelResponse.ACCEPT:
+    async def __cancel(self, goal_handle: ServerGoalHandle) -> bool:
+        if await _call(self.__cancel_callback, goal_handle) is not CancelResponse.ACCEPT:
             return False
         try:
             goal_handle._update_state(GoalEvent.CANCEL_GOAL)
@@ -341,47 +341,47 @@ class ActionServer:
 
     # Results
 
-    def _on_result_request(self, request: Any, header: RequestHeader) -> None:
-        self._forget_expired()
+    def __on_result_request(self, request: Any, header: RequestHeader) -> None:
+        self.__forget_expired()
         with self._lock:
-            goal_handle = self._goals.get(_key(request.goal_id))
-            if goal_handle is not None and goal_handle._result_response is None:
-                goal_handle._result_requests.append(header)
+            goal_handle = self.__goals.get(_key(request.goal_id))
+            if goal_handle is not None and goal_handle._Coframe__result_response is None:
+                goal_handle._Coframe__result_requests.append(header)
                 return
         # The default status of a response is UNKNOWN, which is the response for an unknown goal.
         unknown = self._action_type.Impl.GetResultService.Response()
-        response = unknown if goal_handle is None else goal_handle._result_response
-        self._result_service.send_response(response, header)
+        response = unknown if goal_handle is None else goal_handle._Coframe__result_response
+        self.__result_service.send_response(response, header)
 
-    def _set_result(self, goal_handle: ServerGoalHandle, result: Any) -> None:
+    def _Coframe__set_result(self, goal_handle: ServerGoalHandle, result: Any) -> None:
         """Send the result to the waiting clients and keep it for later requests. Only the first result applies."""
         response = self._action_type.Impl.GetResultService.Response(status=goal_handle.status, result=result)
         with self._lock:
-            if goal_handle._result_response is not None:
+            if goal_handle._Coframe__result_response is not None:
                 return
-            goal_handle._result_response = response
-            if self._result_timeout >= 0:
-                self._expiries.append((time.monotonic() + self._result_timeout, _key(goal_handle.goal_id)))
-        for header in goal_handle._result_requests:
-            self._result_service.send_response(response, header)
+            goal_handle._Coframe__result_response = response
+            if self.__result_timeout >= 0:
+                self.__expiries.append((time.monotonic() + self.__result_timeout, _key(goal_handle.goal_id)))
+        for header in goal_handle._Coframe__result_requests:
+            self.__result_service.send_response(response, header)
 
-    def _forget_expired(self) -> None:
+    def __forget_expired(self) -> None:
         with self._lock:
-            while self._expiries and self._expiries[0][0] <= time.monotonic():
-                self._goals.pop(self._expiries.popleft()[1], None)
+            while self.__expiries and self.__expiries[0][0] <= time.monotonic():
+                self.__goals.pop(self.__expiries.popleft()[1], None)
 
     # Topics
 
-    def _publish_status(self) -> None:
-        self._status_publisher.publish(encode_statuses(goal._status_entry for goal in self._goals.values()))
+    def _Coframe__publish_status(self) -> None:
+        self.__status_publisher.publish(encode_statuses(goal._Coframe__status_entry for goal in self.__goals.values()))
 
-    def _publish_feedback(self, goal_handle: ServerGoalHandle, feedback: Any) -> None:
+    def _Coframe__publish_feedback(self, goal_handle: ServerGoalHandle, feedback: Any) -> None:
         if not isinstance(feedback, self._action_type.Feedback):
             raise TypeError(f"Expected {self._action_type.Feedback}, got {type(feedback)}")
         message = self._action_type.Impl.FeedbackMessage(goal_id=goal_handle.goal_id, feedback=feedback)
         with self._lock:
             if goal_handle.status != GoalStatus.STATUS_UNKNOWN:
-                self._feedback_publisher.publish(message)
+                self.__feedback_publisher.publish(message)
 
 
 async def _call(callback: Callable[..., Any], *args: Any) -> Any:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Loggers with the filters `once`, `throttle_duration_sec` and `skip_first`, applied per call site."""
 
-# The modules of rclpy use each other's private members.
+# The modules of rclpy share attributes named `_Coframe__x`, the form of mangled names.
 # ruff: noqa: SLF001
 
 from __future__ import annotations
@@ -60,8 +60,8 @@ class RcutilsLogger:
     def __init__(self, name: str = "") -> None:
         self.name = name
         # Each logger has its own state, because two nodes of the same class log from the same lines.
-        self._call_sites: dict[tuple[str, int, int], _CallSite] = {}
-        self._children: dict[str, RcutilsLogger] = {}
+        self.__call_sites: dict[tuple[str, int, int], _CallSite] = {}
+        self.__children: dict[str, RcutilsLogger] = {}
 
     def get_child(self, name: str) -> RcutilsLogger:
         """Return the child logger `name` of this logger.
@@ -71,7 +71,7 @@ class RcutilsLogger:
         """
         if not name:
             raise ValueError("Child logger name must not be None or empty.")
-        return self._children.setdefault(name, RcutilsLogger(f"{self.name}.{name}" if self.name else name))
+        return self.__children.setdefault(name, RcutilsLogger(f"{self.name}.{name}" if self.name else name))
 
     def set_level(self, level: int) -> None:
         """Set the lowest severity that is logged. UNSET inherits it from the parent again."""
@@ -107,7 +107,7 @@ class RcutilsLogger:
         if console.effective_level(name) > severity:
             return False
         frame = _caller()
-        if kwargs and not self._call_site(frame, severity, name, kwargs).should_log():
+        if kwargs and not self.__call_site(frame, severity, name, kwargs).should_log():
             return False
         console.emit(Record(time.time_ns(), severity, name, str(message), frame.f_code, frame.f_lineno))
         return True
@@ -136,7 +136,7 @@ class RcutilsLogger:
         """Log a message with severity FATAL; see `log`."""
         return self.log(message, LoggingSeverity.FATAL, **kwargs)
 
-    def _call_site(self, frame: FrameType, severity: LoggingSeverity, name: str, options: dict[str, Any]) -> _CallSite:
+    def __call_site(self, frame: FrameType, severity: LoggingSeverity, name: str, options: dict[str, Any]) -> _CallSite:
         for option in options:
             if option not in _OPTIONS:
                 raise TypeError(f'parameter "{option}" is not one of the recognized logging options "{list(_OPTIONS)}"')
@@ -146,7 +146,7 @@ class RcutilsLogger:
                 '"throttle"'
             )
         key = (frame.f_code.co_filename, frame.f_lineno, frame.f_lasti)
-        site = self._call_sites.setdefault(key, _CallSite(severity, name, options))
+        site = self.__call_sites.setdefault(key, _CallSite(severity, name, options))
         if site.severity != severity:
             raise ValueError("Logger severity cannot be changed between calls.")
         if site.name != name:

@@ -43,7 +43,7 @@ class BufferServer:
             node,
             LookupTransform,
             ns,
-            self._execute,
+            self.__execute,
             callback_group=ReentrantCallbackGroup(),
             cancel_callback=lambda _: CancelResponse.ACCEPT,
             goal_service_qos_profile=QOS,
@@ -56,11 +56,11 @@ class BufferServer:
         """Destroy the action server without responding to waiting goals. Repeated calls have no effect."""
         self.action_server.destroy()
 
-    async def _execute(self, goal_handle: ServerGoalHandle) -> Any:
+    async def __execute(self, goal_handle: ServerGoalHandle) -> Any:
         goal, result = goal_handle.request, LookupTransform.Result()
         timeout = Duration.from_msg(goal.timeout)
-        wait = self._wait_for(goal, timeout)
-        goal_handle._cancel_request.add_done_callback(lambda _: wait.cancel())
+        wait = self.__wait_for(goal, timeout)
+        goal_handle._Coframe__cancel_request.add_done_callback(lambda _: wait.cancel())
         try:
             found = await wait
         except TransformException as error:
@@ -72,7 +72,7 @@ class BufferServer:
         finish()
         return result
 
-    def _wait_for(self, goal: Any, timeout: Duration) -> Future[Any]:
+    def __wait_for(self, goal: Any, timeout: Duration) -> Future[Any]:
         if not goal.advanced:
             return self.buffer.wait_for_transform_async(
                 goal.target_frame, goal.source_frame, goal.source_time, timeout=timeout
