@@ -151,6 +151,7 @@ def bag(tmp_path):
         ("lz4", "bags", ["bag", "fix", "run", "new", "--compression", "lz4"]),
         ("pyarrow", "parquet", ["trajectory", "run", "a", "b", "-o", "run.parquet"]),
         ("pydyf", "pdf", ["frames", "run", "-o", "frames.pdf"]),
+        ("matplotlib", "plot", ["frames", "run", "-o", "frames.png"]),
         ("matplotlib", "plot", ["plot", "run", "/tf_static.rate", "-o", "a.svg"]),
         ("websockets", "viewer", ["view", "run", "--no-browser"]),
         ("xacro", "robots", ["robot", "arm.urdf.xacro"]),

@@ -84,6 +84,27 @@ def test_pdf(forest, readable):
     assert float(page.mediabox.height) == pytest.approx(drawing.height * 0.75, abs=1)
 
 
+def test_png(forest, monkeypatch):
+    image = pytest.importorskip("PIL.Image")
+    png = pytest.importorskip("coframe.tree_drawing.png", reason="PNG needs matplotlib")
+    picture = image.open(io.BytesIO(png.as_png(forest, "run $1$"))).convert("RGB")
+    drawing = draw(forest, "run $1$", png._spelled)
+    scale = picture.width / drawing.width
+    assert scale == pytest.approx(2.0, rel=0.01)
+    assert picture.height / drawing.height == pytest.approx(2.0, rel=0.01)
+    for box in (shape for shape in drawing.shapes if isinstance(shape, Box) and shape.title):
+        inside = picture.crop([round(edge * scale) for edge in (box.x, box.y, box.x + box.width, box.y + box.height)])
+        colours = [f"#{red:02x}{green:02x}{blue:02x}" for _, (red, green, blue) in inside.getcolors(1 << 16)]
+        assert box.fill in colours, box.title
+        assert len(colours) > 10, "the name is written in the box"
+        # Texts end inside their boxes, so the pixels just right of the box are white, or those of a line.
+        right = round((box.x + box.width + 2.0) * scale)
+        margin = picture.crop((right, round((box.y + 3.0) * scale), right + 2, round((box.y + 12.0) * scale)))
+        assert margin.getcolors() == [(margin.width * margin.height, (255, 255, 255))], box.title
+    monkeypatch.setattr(png, "_LONGEST", 500.0)
+    assert max(image.open(io.BytesIO(png.as_png(forest, "run"))).size) <= 500
+
+
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")  # of pydot about pyparsing
 def test_graphviz(forest):
     pydot = pytest.importorskip("pydot")

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 from pathlib import Path  # noqa: TC003 - typer reads the annotations
 from typing import TYPE_CHECKING, Annotated, Any
@@ -51,15 +52,24 @@ def _pdf(forest: Forest, title: str) -> bytes:
     return as_pdf(forest, title)
 
 
+def _png(forest: Forest, title: str) -> bytes:
+    from coframe.tree_drawing.png import as_png  # noqa: PLC0415 - needs an extra package
+
+    return as_png(forest, title)
+
+
 _FORMATS: dict[str, Callable[[Forest, str], str | bytes]] = {
     ".gv": as_graphviz,
     ".dot": as_graphviz,
     ".svg": as_svg,
     ".pdf": _pdf,
+    ".png": _png,
     ".json": lambda forest, _: json.dumps(as_data(forest), indent=2) + "\n",
     ".mmd": as_mermaid,
     ".md": as_markdown,
 }
+# The package and the extra that a format needs.
+_PACKAGES = {".pdf": ("pydyf", "pdf"), ".png": ("matplotlib", "plot")}
 
 
 def frames(
@@ -133,15 +143,21 @@ def _checked_output(path: Path) -> Path:
     """Return the path, if its suffix is known and the package for its format is installed."""
     if path.suffix.lower() not in _FORMATS:
         fail(f"--output {path}: unknown suffix {path.suffix!r}. Suffixes: {', '.join(_FORMATS)}", code=2)
-    if path.suffix.lower() == ".pdf":
-        try:
-            import pydyf  # noqa: F401, PLC0415 - an extra
-        except ModuleNotFoundError:
-            fail(
-                "PDF needs the package pydyf: pip install 'coframe[pdf]'",
-                "Or write an .svg file, which needs no package.",
-            )
+    suffix = path.suffix.lower()
+    if suffix in _PACKAGES:
+        _check_package(suffix)
     return path
+
+
+def _check_package(suffix: str) -> None:
+    package, extra = _PACKAGES[suffix]
+    try:
+        importlib.import_module(package)
+    except ModuleNotFoundError:
+        fail(
+            f"{suffix[1:].upper()} needs the package {package}: pip install 'coframe[{extra}]'",
+            "Or write an .svg file, which needs no package.",
+        )
 
 
 def _write_or_print(forests: dict[str, Forest], files: list[Path], as_json: bool, title: str) -> None:

@@ -7,8 +7,8 @@ The package is built in layers:
   edges. `grow` builds it from an observation (`coframe.doctor`), live or recorded; the figures are those of
   `coframe.doctor.figures`.
 - `labels` formats the figures of a frame as short lines, and makes any name printable.
-- Each format has a module: `text` (rows for a terminal), `graphviz`, `mermaid`, `plain` (data for JSON), and `svg` and
-  `pdf`, which write the boxes and lines that `layout` places.
+- Each format has a module: `text` (rows for a terminal), `graphviz`, `mermaid`, `plain` (data for JSON), and `svg`,
+  `pdf` and `png`, which write the boxes and lines that `layout` places.
 - `changes` compares two forests.
 """
 

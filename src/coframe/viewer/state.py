@@ -70,6 +70,7 @@ class ViewerState:
         self.rviz = rviz.with_fixed_frame(fixed) if rviz is not None and fixed else rviz
         self._joint_states = joint_states
         self.fixed = fixed or (rviz.fixed_frame if rviz is not None else "")
+        self.fixed_is_given = bool(self.fixed)
         self.saved_rviz: str | None = None
         self.topics: list[Topic] = []
         self.origin = time.time_ns()

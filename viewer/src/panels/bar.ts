@@ -23,6 +23,8 @@ export class Bar {
   private names = "";
   /** The Fixed Frame of the user's last session, until this frame exists. */
   private remembered = "";
+  /** The Fixed Frame that the user has chosen in this session. */
+  private chosen = "";
 
   constructor(
     root: HTMLElement,
@@ -32,6 +34,7 @@ export class Bar {
   ) {
     this.fixed = select("Fixed Frame", [], "", (frame) => {
       model.setFixed(frame);
+      this.chosen = frame;
       remember("fixed", frame);
     });
     this.fixed.id = "fixed";
@@ -58,8 +61,7 @@ export class Bar {
     model.on("hello", (hello) => {
       setText(this.title, hello.title);
       document.title = hello.title ? `${hello.title} – coframe` : "coframe";
-      const frame = remembered("fixed", "");
-      if (frame && hello.mode !== "replay") this.remembered = frame;
+      this.remembered = this.chosen || (hello.fixed_is_given ? "" : remembered("fixed", ""));
     });
     model.on("tree", () => this.refill());
     model.on("fixed", () => this.refill());

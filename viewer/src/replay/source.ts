@@ -106,6 +106,7 @@ export class ReplaySource implements Source {
       origin: block.origin,
       span,
       fixed: block.fixed,
+      fixed_is_given: true,
       rviz: block.rviz && {
         displays: block.rviz.displays,
         view: block.rviz.view,

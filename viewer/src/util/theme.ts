@@ -12,6 +12,9 @@ export interface Palette {
   measure: string;
 }
 
+/** Black and white text have the same contrast on a background of this luminance. */
+const MIDDLE_LUMINANCE = 0.179;
+
 const RED_GREEN_BLUE: [string, string, string] = ["#e5383b", "#34b53a", "#3f7bf5"];
 /** Okabe and Ito's vermilion, with a yellow and a blue that also differ in brightness. */
 const DISTINCT_DARK: [string, string, string] = ["#e8681a", "#f0e442", "#56b4e9"];
@@ -53,9 +56,15 @@ export class Theme {
     this.apply();
   }
 
+  /** Whether the background of the scene is dark, which that of an .rviz file may be in either theme. */
+  get darkScene(): boolean {
+    return this.background === null ? this.dark : luminance(this.background) < MIDDLE_LUMINANCE;
+  }
+
   palette(): Palette {
-    const axes = this.distinct ? (this.dark ? DISTINCT_DARK : DISTINCT_LIGHT) : RED_GREEN_BLUE;
-    return this.dark
+    const dark = this.darkScene;
+    const axes = this.distinct ? (dark ? DISTINCT_DARK : DISTINCT_LIGHT) : RED_GREEN_BLUE;
+    return dark
       ? {
           background: this.background ?? "#22272c",
           grid: "#4a525b",
@@ -76,7 +85,17 @@ export class Theme {
 
   private apply(): void {
     document.documentElement.dataset.theme = this.dark ? "dark" : "light";
+    document.documentElement.dataset.scene = this.darkScene ? "dark" : "light";
     document.documentElement.dataset.palette = this.distinct ? "distinct" : "default";
     for (const listener of this.listeners) listener();
   }
+}
+
+/** The relative luminance of a colour "#rrggbb", from 0 (black) to 1 (white), as WCAG defines it. */
+export function luminance(colour: string): number {
+  const [r, g, b] = [1, 3, 5].map((at) => {
+    const part = Number.parseInt(colour.slice(at, at + 2), 16) / 255;
+    return part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4;
+  }) as [number, number, number];
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
 }

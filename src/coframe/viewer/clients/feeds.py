@@ -106,6 +106,7 @@ class HelloFeed(_Feed):
                 origin=str(viewer.origin),
                 span=viewer.relative_span(),
                 fixed=client.fixed,
+                fixed_is_given=viewer.fixed_is_given,
                 rviz=None if client.rviz is None else client.rviz.description(),
                 topics=viewer.topics,
                 can_publish=viewer.can_publish,

@@ -98,7 +98,8 @@ RvizConfiguration = TypedDict(
 class Hello(TypedDict):
     """The first message. Sent again when the source or the origin changes: the page then starts from scratch.
 
-    The page compares ``version`` with its own. ``mode`` is "replay" only inside replay files.
+    The page compares ``version`` with its own. ``mode`` is "replay" only inside replay files. ``fixed_is_given`` is
+    true if an option or the .rviz file names the fixed frame, so that the page does not use that of its last session.
     """
 
     type: Literal["hello"]
@@ -108,6 +109,7 @@ class Hello(TypedDict):
     origin: str
     span: Span | None
     fixed: str
+    fixed_is_given: bool
     rviz: RvizConfiguration | None
     topics: list[Topic]
     can_publish: bool

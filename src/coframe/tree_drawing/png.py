@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A drawing as a PNG image by matplotlib, in its own font; characters that this font lacks are written as escapes."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING
+
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties, findfont, get_font
+from matplotlib.lines import Line2D
+from matplotlib.patches import FancyBboxPatch
+from matplotlib.text import Text
+
+from coframe.tree_drawing.layout import Box, Line, draw
+
+if TYPE_CHECKING:
+    from coframe.tree_drawing.forest import Forest
+    from coframe.tree_drawing.layout import Label
+
+__all__ = ["as_png"]
+
+_INCH = 96.0  # pixels of the drawing
+_DENSITY = 192.0  # pixels of the image per inch: sharp on any screen
+_LONGEST = 16_000.0  # Pixels of the image; matplotlib supports 2**16, at a memory of 4 bytes per pixel.
+_MOST_PIXELS = 100e6
+# The texts are laid out for Helvetica; matplotlib's own font, DejaVu Sans, is wider.
+_FONT_SCALE = 0.92
+_CORNER = 4.0
+_FONT = "DejaVu Sans"
+_POINT = 0.75  # points of 1/72 inch per pixel of the drawing
+
+
+def as_png(forest: Forest, title: str) -> bytes:
+    """Return the file as bytes."""
+    drawing = draw(forest, title, _spelled)
+    width, height = drawing.width / _INCH, drawing.height / _INCH
+    density = min(_DENSITY, _LONGEST / max(width, height), (_MOST_PIXELS / (width * height)) ** 0.5)
+    figure = Figure(figsize=(width, height), facecolor="white")
+    axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
+    axes.set_axis_off()
+    axes.set_xlim(0.0, drawing.width)
+    axes.set_ylim(drawing.height, 0.0)
+    for shape in drawing.shapes:
+        axes.add_artist(_artist(shape))
+    stream = io.BytesIO()
+    figure.savefig(stream, format="png", dpi=density)
+    return stream.getvalue()
+
+
+def _artist(shape: Box | Line | Label) -> FancyBboxPatch | Line2D | Text:
+    if isinstance(shape, Box):
+        return FancyBboxPatch(
+            (shape.x, shape.y),
+            shape.width,
+            shape.height,
+            boxstyle=f"round,pad=0,rounding_size={_CORNER}",
+            facecolor=shape.fill,
+            edgecolor=shape.border,
+            linewidth=_POINT,
+        )
+    if isinstance(shape, Line):
+        x, y = zip(*shape.points, strict=True)
+        style = (0, (6, 4)) if shape.dashed else "solid"
+        return Line2D(x, y, color=shape.colour, linewidth=_POINT, linestyle=style)
+    return Text(
+        shape.x,
+        shape.y,
+        shape.text,
+        color=shape.colour,
+        fontfamily=_FONT,
+        fontsize=shape.size * _POINT * _FONT_SCALE,
+        fontweight="bold" if shape.bold else "normal",
+        parse_math=False,  # A name that contains $...$ is not a formula.
+    )
+
+
+def _spelled(text: str) -> str:
+    known = get_font(findfont(FontProperties(family=[_FONT]))).get_charmap()
+    return "".join(c if ord(c) in known else c.encode("ascii", "backslashreplace").decode() for c in text)
